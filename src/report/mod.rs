@@ -1,0 +1,139 @@
+//! One [`Report`]; text, JSON, HTML and every exchange format are views of it.
+
+use crate::diagnostic::Diagnostic;
+use crate::language::Text;
+use serde::{Deserialize, Serialize};
+
+/// The outcome in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Every frame and every probe agrees: full marks.
+    Correct,
+    /// It runs, and something differs.
+    Wrong,
+    /// The compiler or linker refuses it, or the interface is not met.
+    Rejected,
+    /// It exceeded a limit or crashed the renderer.
+    Stopped,
+}
+
+/// What was handed in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SourceInfo {
+    /// File name as handed in.
+    pub name: String,
+    /// SHA-256 of the bytes as handed in, in hexadecimal.
+    pub sha256: String,
+    /// Size in bytes.
+    pub bytes: usize,
+    /// Encoding that the text was read in, such as `utf-8` or `shift_jis`.
+    pub encoding: String,
+}
+
+/// One line of the rubric with what it earned.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RubricLine {
+    /// Its id: `shape`, `ambient`, `diffuse`, `specular`.
+    pub id: String,
+    /// Its name in the lecture's words.
+    pub label: Text,
+    /// Points earned.
+    pub points: f64,
+    /// Points possible.
+    pub max_points: f64,
+    /// The mistake that costs the points, where it is known.
+    pub mistake: Option<String>,
+    /// What is seen, which equation it breaks, where to look.
+    pub message: Text,
+    /// The line of the student's file to look at, from 1.
+    pub line: Option<u32>,
+}
+
+/// How one frame of the animation compares. Differences are in 1/255, over red, green and blue.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameResult {
+    /// Fraction of the animation cycle, in [0, 1).
+    pub t: f64,
+    /// Pixels that one picture covers and the other does not, silhouette rounding left out.
+    pub coverage_mismatches: u32,
+    /// Largest difference of a channel.
+    pub max_difference: f64,
+    /// Mean difference of a channel over the pixels that either picture covers.
+    pub mean_difference: f64,
+    /// Pixels that differ by more than the tolerance.
+    pub mismatched_pixels: u32,
+}
+
+/// How the probes compare.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProbeResult {
+    /// The seed that they come from; `--seed` with it repeats the grading.
+    pub seed: u64,
+    /// How many there are.
+    pub samples: u32,
+    /// How many differ by more than the tolerance.
+    pub mismatched: u32,
+    /// Largest difference of a colour channel (not quantised: 1 is the full range); null when not finite.
+    pub max_difference: Option<f64>,
+}
+
+/// What graded it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Environment {
+    /// Version of ggrade.
+    pub ggrade: String,
+    /// Name of the adapter, such as `llvmpipe (LLVM 15.0.6, 256 bits)`.
+    pub renderer: String,
+    /// Driver and version, such as `llvmpipe Mesa 22.3.6`.
+    pub driver: String,
+}
+
+/// Everything that a grading found out, in both languages.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Id of the assignment.
+    pub assignment: String,
+    /// What was handed in.
+    pub source: SourceInfo,
+    /// The outcome in one word.
+    pub verdict: Verdict,
+    /// Sum of the rubric's points.
+    pub score: f64,
+    /// Sum of the rubric's possible points: 100.
+    pub max_score: f64,
+    /// The rubric, line by line.
+    pub rubric: Vec<RubricLine>,
+    /// Ids of the mistakes found; empty when correct.
+    pub mistakes: Vec<String>,
+    /// What the stages say about places in the file.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The frames, in order of t; empty when nothing was rendered.
+    pub frames: Vec<FrameResult>,
+    /// The probes.
+    pub probes: ProbeResult,
+    /// What graded it.
+    pub environment: Environment,
+    /// Milliseconds that the grading took.
+    pub elapsed_ms: f64,
+}
+
+/// One 8-bit RGBA picture, top row first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width * height * 4` bytes, linear, not sRGB-encoded.
+    pub rgba: Vec<u8>,
+}
+
+/// The pictures of a grading: what was drawn beside what is expected, one pair a pose.
+#[derive(Clone, Debug, Default)]
+pub struct Pictures {
+    /// What the student's shader draws.
+    pub yours: Vec<Picture>,
+    /// What a right answer draws.
+    pub expected: Vec<Picture>,
+}
