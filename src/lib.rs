@@ -6,4 +6,6 @@
 pub mod diagnostic;
 pub mod fault;
 pub mod language;
+pub mod render;
 pub mod report;
+pub mod translate;

@@ -1,0 +1,99 @@
+//! The adapter and device that frames are rendered with.
+
+use crate::fault::Fault;
+use crate::language::Text;
+
+/// Which kind of adapter renders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum AdapterKind {
+    /// Mesa's software driver: the same pictures on every machine.
+    #[default]
+    Software,
+    /// A real graphics card.
+    Gpu,
+}
+
+/// A device and what it is called.
+#[derive(Clone, Debug)]
+pub struct Device {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    /// Name of the adapter.
+    pub renderer: String,
+    /// Driver and its version.
+    pub driver: String,
+}
+
+impl Device {
+    /// Opens the first Vulkan adapter of this kind.
+    pub fn open(kind: AdapterKind) -> Result<Self, Fault> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = wgpu::Backends::VULKAN;
+        descriptor.flags = wgpu::InstanceFlags::empty();
+        let instance = wgpu::Instance::new(descriptor);
+        let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
+        let adapter = adapters
+            .into_iter()
+            .find(|adapter| kind.matches(adapter.get_info().device_type));
+        let adapter = adapter.ok_or_else(|| kind.missing())?;
+        let info = adapter.get_info();
+        let wanted = wgpu::Features::SHADER_F64;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("ggrade"),
+            required_features: wgpu::Features::VERTEX_WRITABLE_STORAGE
+                | (adapter.features() & wanted),
+            required_limits: wgpu::Limits::default(),
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
+            ..Default::default()
+        }))
+        .map_err(|error| unusable(&info.name, &error))?;
+        Ok(Self {
+            device,
+            queue,
+            renderer: info.name,
+            driver: format!("{} {}", info.driver, info.driver_info),
+        })
+    }
+}
+
+impl AdapterKind {
+    fn matches(self, device: wgpu::DeviceType) -> bool {
+        match self {
+            Self::Software => device == wgpu::DeviceType::Cpu,
+            Self::Gpu => device != wgpu::DeviceType::Cpu,
+        }
+    }
+
+    fn missing(self) -> Fault {
+        match self {
+            Self::Software => Fault::new(Text::new(
+                "no software Vulkan driver (lavapipe) was found",
+                "ソフトウェアの Vulkan ドライバ (lavapipe) が見つかりません",
+            ))
+            .remedy(Text::new(
+                "On Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1. `ggrade doctor` tells more.",
+                "Debian / Ubuntu では apt-get install mesa-vulkan-drivers libvulkan1 を実行してください。\
+                 詳しくは `ggrade doctor` で調べられます。",
+            )),
+            Self::Gpu => Fault::new(Text::new(
+                "no graphics card with a Vulkan driver was found",
+                "Vulkan ドライバのあるグラフィックスカードが見つかりません",
+            ))
+            .remedy(Text::new(
+                "Use --adapter software, or install the card's Vulkan driver.",
+                "--adapter software を使うか、グラフィックスカードの Vulkan ドライバを入れてください。",
+            )),
+        }
+    }
+}
+
+fn unusable(name: &str, error: &wgpu::RequestDeviceError) -> Fault {
+    Fault::new(Text::new(
+        format!("the adapter {name} cannot be used: {error}"),
+        format!("アダプタ {name} が使えません: {error}"),
+    ))
+    .remedy(Text::new(
+        "It must let vertex shaders write to storage buffers (vertexPipelineStoresAndAtomics).",
+        "頂点シェーダからストレージバッファへ書ける (vertexPipelineStoresAndAtomics) ことが必要です。",
+    ))
+}

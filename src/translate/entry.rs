@@ -1,0 +1,419 @@
+//! Rebuilds the entry point around the student's `main`: which inputs reach it, what leaves it.
+//!
+//! naga's front end wraps `main` in a function that copies inputs to private variables, calls
+//! `main`, and returns the outputs. Here that wrapper is made to
+//! - feed only the assignment's inputs and `gl_VertexID`; every other input has the value that
+//!   OpenGL gives it when the program sets nothing (0, 0, 0, 1; `gl_InstanceID` = 0);
+//! - write the clip-space position and the colour to a storage buffer, one [`CAPTURE_STRIDE`]-byte
+//!   record a vertex, at `instance_index + vertex_index`;
+//! - return the position with OpenGL's clip range of z, [−w, w], brought to wgpu's [0, w], and the
+//!   colour at location 0.
+
+use naga::{
+    AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function,
+    FunctionArgument, FunctionResult, GlobalVariable, Handle, Interpolation, Literal, Module,
+    ResourceBinding, Sampling, Scalar, Span, Statement, StorageAccess, StructMember, Type,
+    TypeInner, VectorSize, proc::Emitter,
+};
+
+/// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
+pub const CAPTURE_GROUP: u32 = 1;
+/// Bytes of one captured vertex: clip-space position and colour, four f32 each.
+pub const CAPTURE_STRIDE: u64 = 32;
+
+/// A vertex attribute that the shader reads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Attribute {
+    /// Its name in the student's file.
+    pub name: String,
+    /// Its location in the module.
+    pub location: u32,
+}
+
+/// Rebuilds the only entry point of `module`; gives the attributes that it reads.
+///
+/// `inputs` are the names that the assignment's program feeds, `output` is the varying that the
+/// fixed fragment shader reads.
+pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str) -> Vec<Attribute> {
+    let mut entry = module.entry_points.remove(0);
+    let outputs = Outputs::of(module, &entry.function, output);
+    let (attributes, instance) = feed(module, &mut entry.function, inputs);
+    finish(module, &mut entry.function, &outputs, instance);
+    entry.name = "main".into();
+    module.entry_points.push(entry);
+    attributes
+}
+
+/// The values that `main` leaves behind, as expressions of the wrapper; none where never written.
+struct Outputs {
+    position: Option<Handle<Expression>>,
+    colour: Option<Handle<Expression>>,
+}
+
+impl Outputs {
+    fn of(module: &Module, function: &Function, output: &str) -> Self {
+        let returned = function
+            .body
+            .iter()
+            .rev()
+            .find_map(|statement| match statement {
+                Statement::Return { value } => *value,
+                _ => None,
+            });
+        let Some(returned) = returned else {
+            return Self {
+                position: None,
+                colour: None,
+            };
+        };
+        let components = match &function.expressions[returned] {
+            Expression::Compose { components, .. } => components.clone(),
+            _ => vec![returned],
+        };
+        let pointer = |value: Handle<Expression>| match function.expressions[value] {
+            Expression::Load { pointer } => Some(pointer),
+            _ => None,
+        };
+        let position = components.iter().copied().find(|&c| {
+            let Some(Expression::AccessIndex { base, index }) =
+                pointer(c).map(|p| &function.expressions[p])
+            else {
+                return false;
+            };
+            let Expression::GlobalVariable(global) = function.expressions[*base] else {
+                return false;
+            };
+            let TypeInner::Struct { members, .. } =
+                &module.types[module.global_variables[global].ty].inner
+            else {
+                return false;
+            };
+            matches!(
+                members
+                    .get(*index as usize)
+                    .and_then(|m| m.binding.as_ref()),
+                Some(Binding::BuiltIn(BuiltIn::Position { .. }))
+            )
+        });
+        let colour = components.iter().copied().find(|&c| {
+            let Some(Expression::GlobalVariable(global)) =
+                pointer(c).map(|p| &function.expressions[p])
+            else {
+                return false;
+            };
+            module.global_variables[*global].name.as_deref() == Some(output)
+        });
+        Self { position, colour }
+    }
+}
+
+/// Keeps the inputs that the program feeds and takes the others away. Gives the attributes and the
+/// index of the argument that carries `instance_index`.
+fn feed(module: &mut Module, function: &mut Function, inputs: &[&str]) -> (Vec<Attribute>, u32) {
+    let arguments = std::mem::take(&mut function.arguments);
+    let mut attributes = Vec::new();
+    let mut kept = Vec::new();
+    for argument in &arguments {
+        let keep = match (&argument.binding, &argument.name) {
+            (Some(Binding::Location { .. }), Some(name)) if inputs.contains(&name.as_str()) => {
+                attributes.push(Attribute {
+                    name: name.clone(),
+                    location: attributes.len() as u32,
+                });
+                true
+            }
+            (Some(Binding::BuiltIn(BuiltIn::VertexIndex)), _) => true,
+            _ => false,
+        };
+        kept.push(keep.then(|| {
+            let mut argument = argument.clone();
+            if let (Some(Binding::Location { location, .. }), Some(attribute)) =
+                (&mut argument.binding, attributes.last())
+            {
+                // The compiler's automatic locations may collide with the student's own.
+                *location = attribute.location;
+            }
+            function.arguments.push(argument);
+            function.arguments.len() as u32 - 1
+        }));
+    }
+    let u32_type = scalar_type(module, Scalar::U32);
+    let instance = function.arguments.len() as u32;
+    function.arguments.push(FunctionArgument {
+        name: None,
+        ty: u32_type,
+        binding: Some(Binding::BuiltIn(BuiltIn::InstanceIndex)),
+    });
+
+    let mut dropped = Vec::new();
+    for (handle, expression) in function.expressions.iter_mut() {
+        if let Expression::FunctionArgument(index) = expression {
+            let index = *index as usize;
+            match kept[index] {
+                Some(new) => *expression = Expression::FunctionArgument(new),
+                None => {
+                    *expression = Expression::ZeroValue(arguments[index].ty);
+                    dropped.push((handle, index));
+                }
+            }
+        }
+    }
+    drop_stores(module, function, &arguments, &dropped);
+    (attributes, instance)
+}
+
+/// Removes the copies of dropped inputs; a generic attribute that nothing feeds is (0, 0, 0, 1).
+fn drop_stores(
+    module: &mut Module,
+    function: &mut Function,
+    arguments: &[FunctionArgument],
+    dropped: &[(Handle<Expression>, usize)],
+) {
+    let is_dropped = |value: &Handle<Expression>| {
+        let source = match function.expressions[*value] {
+            Expression::As { expr, .. } => expr,
+            _ => *value,
+        };
+        dropped
+            .iter()
+            .find(|(handle, _)| *handle == source)
+            .map(|(_, index)| *index)
+    };
+    let mut body = Block::new();
+    let mut defaults = Vec::new();
+    for (statement, span) in std::mem::take(&mut function.body).span_into_iter() {
+        if let Statement::Store { pointer, value } = &statement
+            && let Some(index) = is_dropped(value)
+        {
+            if let Expression::GlobalVariable(global) = function.expressions[*pointer]
+                && matches!(arguments[index].binding, Some(Binding::Location { .. }))
+            {
+                defaults.push(global);
+            }
+            continue;
+        }
+        body.push(statement, span);
+    }
+    function.body = body;
+    for global in defaults {
+        unset_attribute(module, global);
+    }
+}
+
+fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
+    let ty = module.global_variables[global].ty;
+    let TypeInner::Vector {
+        size: VectorSize::Quad,
+        scalar,
+    } = module.types[ty].inner
+    else {
+        return;
+    };
+    let Some(one) = Literal::one(scalar) else {
+        return;
+    };
+    let Some(zero) = Literal::zero(scalar) else {
+        return;
+    };
+    let components = [zero, zero, zero, one]
+        .map(|literal| {
+            module
+                .global_expressions
+                .append(Expression::Literal(literal), Span::UNDEFINED)
+        })
+        .to_vec();
+    let init = module
+        .global_expressions
+        .append(Expression::Compose { ty, components }, Span::UNDEFINED);
+    module.global_variables[global].init = Some(init);
+}
+
+/// Replaces what follows the call of `main`: capture, clip range, return.
+fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32) {
+    let types = Types::new(module);
+    let capture = module.global_variables.append(
+        GlobalVariable {
+            name: Some("capture".into()),
+            space: AddressSpace::Storage {
+                access: StorageAccess::LOAD | StorageAccess::STORE,
+            },
+            binding: Some(ResourceBinding {
+                group: CAPTURE_GROUP,
+                binding: 0,
+            }),
+            ty: types.records,
+            init: None,
+            memory_decorations: naga::MemoryDecorations::empty(),
+        },
+        Span::UNDEFINED,
+    );
+    let vertex = function
+        .arguments
+        .iter()
+        .position(|a| a.binding == Some(Binding::BuiltIn(BuiltIn::VertexIndex)));
+    let vertex = vertex.unwrap_or_else(|| {
+        function.arguments.push(FunctionArgument {
+            name: None,
+            ty: types.u32,
+            binding: Some(Binding::BuiltIn(BuiltIn::VertexIndex)),
+        });
+        function.arguments.len() - 1
+    });
+
+    let mut statements: Vec<_> = std::mem::take(&mut function.body)
+        .span_into_iter()
+        .collect();
+    if matches!(statements.last(), Some((Statement::Return { .. }, _))) {
+        statements.pop();
+    }
+    let mut body = Block::new();
+    for (statement, span) in statements {
+        body.push(statement, span);
+    }
+
+    let span = Span::UNDEFINED;
+    let expressions = &mut function.expressions;
+    let mut leaf = |expression| expressions.append(expression, span);
+    let records = leaf(Expression::GlobalVariable(capture));
+    let instance = leaf(Expression::FunctionArgument(instance));
+    let vertex = leaf(Expression::FunctionArgument(vertex as u32));
+    let half = leaf(Expression::Literal(Literal::F32(0.5)));
+    let zero = leaf(Expression::ZeroValue(types.vec4));
+    let position = outputs.position.unwrap_or(zero);
+    let colour = outputs.colour.unwrap_or(zero);
+
+    let mut emitter = Emitter::default();
+    emitter.start(expressions);
+    let mut node = |expression| expressions.append(expression, span);
+    let binary = |op, left, right| Expression::Binary { op, left, right };
+    let index = node(binary(BinaryOperator::Add, instance, vertex));
+    let record = node(Expression::Access {
+        base: records,
+        index,
+    });
+    let to_position = node(Expression::AccessIndex {
+        base: record,
+        index: 0,
+    });
+    let to_colour = node(Expression::AccessIndex {
+        base: record,
+        index: 1,
+    });
+    let [x, y, z, w] = [0, 1, 2, 3].map(|index| {
+        node(Expression::AccessIndex {
+            base: position,
+            index,
+        })
+    });
+    let sum = node(binary(BinaryOperator::Add, z, w));
+    let depth = node(binary(BinaryOperator::Multiply, sum, half));
+    let clip = node(Expression::Compose {
+        ty: types.vec4,
+        components: vec![x, y, depth, w],
+    });
+    let result = node(Expression::Compose {
+        ty: types.result,
+        components: vec![clip, colour],
+    });
+    body.extend(emitter.finish(expressions));
+    body.push(
+        Statement::Store {
+            pointer: to_position,
+            value: position,
+        },
+        span,
+    );
+    body.push(
+        Statement::Store {
+            pointer: to_colour,
+            value: colour,
+        },
+        span,
+    );
+    body.push(
+        Statement::Return {
+            value: Some(result),
+        },
+        span,
+    );
+    function.body = body;
+    function.result = Some(FunctionResult {
+        ty: types.result,
+        binding: None,
+    });
+}
+
+struct Types {
+    u32: Handle<Type>,
+    vec4: Handle<Type>,
+    records: Handle<Type>,
+    result: Handle<Type>,
+}
+
+impl Types {
+    fn new(module: &mut Module) -> Self {
+        let u32 = scalar_type(module, Scalar::U32);
+        let vec4 = insert(
+            module,
+            TypeInner::Vector {
+                size: VectorSize::Quad,
+                scalar: Scalar::F32,
+            },
+        );
+        let member = |name: &str, binding, offset| StructMember {
+            name: Some(name.into()),
+            ty: vec4,
+            binding,
+            offset,
+        };
+        let record = insert(
+            module,
+            TypeInner::Struct {
+                members: vec![member("position", None, 0), member("colour", None, 16)],
+                span: 32,
+            },
+        );
+        let records = insert(
+            module,
+            TypeInner::Array {
+                base: record,
+                size: ArraySize::Dynamic,
+                stride: CAPTURE_STRIDE as u32,
+            },
+        );
+        let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
+        let colour = Binding::Location {
+            location: 0,
+            interpolation: Some(Interpolation::Perspective),
+            sampling: Some(Sampling::Center),
+            blend_src: None,
+            per_primitive: false,
+        };
+        let result = insert(
+            module,
+            TypeInner::Struct {
+                members: vec![
+                    member("position", Some(position), 0),
+                    member("colour", Some(colour), 16),
+                ],
+                span: 32,
+            },
+        );
+        Self {
+            u32,
+            vec4,
+            records,
+            result,
+        }
+    }
+}
+
+fn scalar_type(module: &mut Module, scalar: Scalar) -> Handle<Type> {
+    insert(module, TypeInner::Scalar(scalar))
+}
+
+fn insert(module: &mut Module, inner: TypeInner) -> Handle<Type> {
+    module
+        .types
+        .insert(Type { name: None, inner }, Span::UNDEFINED)
+}

@@ -1,0 +1,314 @@
+//! The one place that speaks to the C interface of glslang: a safe function around its objects.
+//!
+//! Source text is handed over as "preprocessed" code: the parser runs the preprocessor itself, so
+//! that line *and* column of a message are those of the student's own text, and one pass is saved.
+#![allow(unsafe_code)]
+
+use glslang_sys as sys;
+use std::ffi::{CStr, CString};
+use std::sync::OnceLock;
+
+/// Under whose rules the text is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rules {
+    /// Desktop OpenGL: these give the verdict.
+    OpenGl,
+    /// Vulkan with OpenGL's default-block uniforms and automatic locations: these give SPIR-V.
+    VulkanRelaxed,
+}
+
+/// A stage of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The student's shader.
+    Vertex,
+    /// The assignment's fixed shader.
+    Fragment,
+}
+
+/// How far the compiler came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reached {
+    /// The vertex shader does not compile.
+    Vertex,
+    /// The fixed fragment shader does not compile.
+    Fragment,
+    /// The two do not link.
+    Link,
+    /// They link, and their interfaces have locations.
+    Done,
+}
+
+/// What the compiler says about a vertex shader and its fragment shader.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// How far it came.
+    pub reached: Reached,
+    /// Its log about the vertex shader, as it wrote it.
+    pub vertex_log: String,
+    /// Its log about linking, as it wrote it.
+    pub link_log: String,
+    /// The stage that was asked for, in SPIR-V; empty under OpenGL's rules.
+    pub spirv: Vec<u32>,
+}
+
+/// How a vertex shader is to be read.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// The student's text.
+    pub vertex: &'a CStr,
+    /// The assignment's fixed fragment shader.
+    pub fragment: &'a CStr,
+    /// Text that stands before the first line of the vertex shader without counting as a line.
+    pub preamble: &'a CStr,
+    /// Whose rules.
+    pub rules: Rules,
+    /// Read the vertex shader as this GLSL version whatever its `#version` says.
+    pub version: Option<i32>,
+    /// The stage to write as SPIR-V under [`Rules::VulkanRelaxed`].
+    pub emit: Stage,
+}
+
+/// Compiles and links the two shaders; under [`Rules::VulkanRelaxed`] also writes SPIR-V.
+pub fn compile(request: &Request<'_>) -> Outcome {
+    static PROCESS: OnceLock<()> = OnceLock::new();
+    PROCESS.get_or_init(|| {
+        // SAFETY: called once, before any other call into glslang; it has no other precondition.
+        unsafe { sys::glslang_initialize_process() };
+    });
+    let mut outcome = Outcome {
+        reached: Reached::Vertex,
+        vertex_log: String::new(),
+        link_log: String::new(),
+        spirv: Vec::new(),
+    };
+    let vertex = Shader::new(request, Stage::Vertex);
+    let parsed = vertex.parse();
+    outcome.vertex_log = vertex.log();
+    if !parsed {
+        return outcome;
+    }
+    outcome.reached = Reached::Fragment;
+    let fragment = Shader::new(request, Stage::Fragment);
+    if !fragment.parse() {
+        outcome.link_log = fragment.log();
+        return outcome;
+    }
+    outcome.reached = Reached::Link;
+    let program = Program::new(&vertex, &fragment);
+    if program.link(request.rules) {
+        outcome.reached = Reached::Done;
+        if request.rules == Rules::VulkanRelaxed {
+            outcome.spirv = program.spirv(request.emit);
+        }
+    }
+    outcome.link_log = program.log();
+    outcome
+}
+
+impl Stage {
+    fn raw(self) -> sys::glslang_stage_t {
+        match self {
+            Stage::Vertex => sys::glslang_stage_t::Vertex,
+            Stage::Fragment => sys::glslang_stage_t::Fragment,
+        }
+    }
+}
+
+impl Rules {
+    fn messages(self) -> sys::glslang_messages_t {
+        use sys::glslang_messages_t as m;
+        let both = m::CASCADING_ERRORS | m::DISPLAY_ERROR_COLUMN | m::VALIDATE_CROSS_STAGE_IO;
+        match self {
+            Rules::OpenGl => both,
+            Rules::VulkanRelaxed => both | m::SPV_RULES | m::VULKAN_RULES,
+        }
+    }
+}
+
+/// Owns a shader object together with the C text that it reads from.
+struct Shader {
+    raw: *mut sys::glslang_shader_t,
+    input: Box<sys::glslang_input_t>,
+    _resource: Box<sys::glslang_resource_t>,
+    _code: CString,
+}
+
+impl Shader {
+    fn new(request: &Request<'_>, stage: Stage) -> Self {
+        let is_vertex = stage == Stage::Vertex;
+        let code: CString = if is_vertex {
+            request.vertex
+        } else {
+            request.fragment
+        }
+        .to_owned();
+        let resource = Box::new(super::limits::desktop());
+        let vulkan = request.rules == Rules::VulkanRelaxed;
+        let input = Box::new(sys::glslang_input_t {
+            language: sys::glslang_source_t::GLSL,
+            stage: stage.raw(),
+            client: if vulkan {
+                sys::glslang_client_t::Vulkan
+            } else {
+                sys::glslang_client_t::OpenGL
+            },
+            client_version: if vulkan {
+                sys::glslang_target_client_version_t::Vulkan1_0
+            } else {
+                sys::glslang_target_client_version_t::OpenGL450
+            },
+            target_language: if vulkan {
+                sys::glslang_target_language_t::SPIRV
+            } else {
+                sys::glslang_target_language_t::None
+            },
+            target_language_version: sys::glslang_target_language_version_t::SPIRV1_0,
+            code: code.as_ptr(),
+            // The version of a file without a `#version` line.
+            default_version: 110,
+            default_profile: sys::glslang_profile_t::None,
+            force_default_version_and_profile: 0,
+            forward_compatible: 0,
+            messages: request.rules.messages(),
+            resource: &*resource,
+            callbacks: sys::glsl_include_callbacks_t {
+                include_system: None,
+                include_local: None,
+                free_include_result: None,
+            },
+            callbacks_ctx: std::ptr::null_mut(),
+        });
+        // SAFETY: `input` is fully initialised, and what it points to (code, resource) lives in boxes
+        // that this object owns, so longer than the shader.
+        let raw = unsafe { sys::glslang_shader_create(&*input) };
+        assert!(!raw.is_null(), "glslang_shader_create rejects its input");
+        use sys::glslang_shader_options_t as o;
+        let options = o::AUTO_MAP_BINDINGS
+            | o::AUTO_MAP_LOCATIONS
+            | if vulkan {
+                o::VULKAN_RULES_RELAXED
+            } else {
+                o::DEFAULT
+            };
+        // SAFETY: `raw` is live; the texts are NUL-terminated and copied by the callee.
+        unsafe {
+            sys::glslang_shader_set_options(raw, options.0 as i32);
+            if is_vertex {
+                sys::glslang_shader_set_preamble(raw, request.preamble.as_ptr());
+                if let Some(version) = request.version {
+                    sys::glslang_shader_set_glsl_version(raw, version);
+                }
+            }
+            sys::glslang_shader_set_preprocessed_code(raw, code.as_ptr());
+        }
+        Self {
+            raw,
+            input,
+            _resource: resource,
+            _code: code,
+        }
+    }
+
+    fn parse(&self) -> bool {
+        // SAFETY: `raw` is live and `input` is the one it was created with.
+        unsafe { sys::glslang_shader_parse(self.raw, &*self.input) != 0 }
+    }
+
+    fn log(&self) -> String {
+        // SAFETY: `raw` is live; the log is a NUL-terminated text that it owns.
+        unsafe { text(sys::glslang_shader_get_info_log(self.raw)) }
+    }
+}
+
+impl Drop for Shader {
+    fn drop(&mut self) {
+        // SAFETY: created in `new`, deleted once, after every program that refers to it.
+        unsafe { sys::glslang_shader_delete(self.raw) }
+    }
+}
+
+/// A program of two shaders that outlive it.
+struct Program<'a> {
+    raw: *mut sys::glslang_program_t,
+    _shaders: (&'a Shader, &'a Shader),
+}
+
+impl<'a> Program<'a> {
+    fn new(vertex: &'a Shader, fragment: &'a Shader) -> Self {
+        // SAFETY: no precondition; both shaders are parsed and outlive the program by the lifetime.
+        let raw = unsafe {
+            let raw = sys::glslang_program_create();
+            sys::glslang_program_add_shader(raw, vertex.raw);
+            sys::glslang_program_add_shader(raw, fragment.raw);
+            raw
+        };
+        Self {
+            raw,
+            _shaders: (vertex, fragment),
+        }
+    }
+
+    fn link(&self, rules: Rules) -> bool {
+        // SAFETY: `raw` is live and has two parsed shaders; map_io follows a successful link.
+        unsafe {
+            sys::glslang_program_link(self.raw, rules.messages().0 as i32) != 0
+                && (rules == Rules::OpenGl || sys::glslang_program_map_io(self.raw) != 0)
+        }
+    }
+
+    fn spirv(&self, stage: Stage) -> Vec<u32> {
+        let mut options = sys::glslang_spv_options_t {
+            generate_debug_info: true,
+            strip_debug_info: false,
+            disable_optimizer: true,
+            optimize_size: false,
+            optimize_performance: false,
+            disassemble: false,
+            validate: false,
+            emit_nonsemantic_shader_debug_info: false,
+            emit_nonsemantic_shader_debug_source: false,
+            compile_only: false,
+            optimize_allow_expanded_id_bound: false,
+            compiler_signature: std::ptr::null(),
+            command_line_arguments: std::ptr::null(),
+            current_working_directory: std::ptr::null(),
+        };
+        // SAFETY: the program is linked and mapped; the pointer is valid for `size` words until the
+        // program is deleted or generates again, and the words are copied at once.
+        unsafe {
+            sys::glslang_program_SPIRV_generate_with_options(self.raw, stage.raw(), &mut options);
+            let size = sys::glslang_program_SPIRV_get_size(self.raw);
+            if size == 0 {
+                return Vec::new();
+            }
+            std::slice::from_raw_parts(sys::glslang_program_SPIRV_get_ptr(self.raw), size).to_vec()
+        }
+    }
+
+    fn log(&self) -> String {
+        // SAFETY: `raw` is live; the log is a NUL-terminated text that it owns.
+        unsafe { text(sys::glslang_program_get_info_log(self.raw)) }
+    }
+}
+
+impl Drop for Program<'_> {
+    fn drop(&mut self) {
+        // SAFETY: created in `new`, deleted once.
+        unsafe { sys::glslang_program_delete(self.raw) }
+    }
+}
+
+/// Copies a text of glslang's; bytes that are not UTF-8 (a student's) are replaced.
+///
+/// # Safety
+/// `raw` is null or a NUL-terminated text that stays valid during the call.
+unsafe fn text(raw: *const std::ffi::c_char) -> String {
+    if raw.is_null() {
+        return String::new();
+    }
+    // SAFETY: by the contract of this function.
+    unsafe { CStr::from_ptr(raw) }
+        .to_string_lossy()
+        .into_owned()
+}
