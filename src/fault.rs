@@ -1,11 +1,12 @@
 //! What is *our* failure: never a verdict on a student.
 
 use crate::language::Text;
+use serde::{Deserialize, Serialize};
 
 /// Something of ours failed: a missing driver, a full disk, valid GLSL that we cannot take.
 ///
 /// A fault ends a grading without a score (exit code 3, HTTP 5xx).
-#[derive(Clone, Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 #[error("{}", .message.en)]
 pub struct Fault {
     /// What failed.

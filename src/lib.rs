@@ -2,10 +2,22 @@
 //!
 //! The modules stand in the order in which a submission flows through them:
 //! bytes → [`source`] → [`translate`] → [`render`] → [`compare`] → [`diagnose`] → [`report`].
+//! [`grade`] is the pipeline, [`sandbox`] the processes that it runs in, and [`command`] what a person calls.
+
+pub mod source;
+pub mod translate;
+pub mod render;
+pub mod compare;
+pub mod diagnose;
+pub mod report;
+
+pub mod grade;
+pub mod sandbox;
+
+pub mod cli;
+pub mod command;
+pub mod excerpt;
 
 pub mod diagnostic;
 pub mod fault;
 pub mod language;
-pub mod render;
-pub mod report;
-pub mod translate;

@@ -57,6 +57,14 @@ impl Device {
 }
 
 impl AdapterKind {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Software => "software",
+            Self::Gpu => "gpu",
+        }
+    }
+
     fn matches(self, device: wgpu::DeviceType) -> bool {
         match self {
             Self::Software => device == wgpu::DeviceType::Cpu,

@@ -12,6 +12,14 @@ pub struct Sample {
     pub colour: [f32; 4],
 }
 
+impl Sample {
+    /// Red, green and blue.
+    pub fn colour_f64(&self) -> [f64; 3] {
+        let [r, g, b, _] = self.colour;
+        [r, g, b].map(f64::from)
+    }
+}
+
 /// Tiles of one texture: frame k stands in column k mod `columns` of row k div `columns`.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
@@ -21,6 +29,8 @@ pub struct Frames {
     pub height: u32,
     /// How many frames there are.
     pub count: u32,
+    /// The colour that each is cleared to, RGBA8.
+    pub background: [u8; 4],
     pub(super) columns: u32,
     pub(super) bytes_per_row: u32,
     pub(super) bytes: Vec<u8>,

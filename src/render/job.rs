@@ -30,8 +30,8 @@ pub struct Scene {
     pub width: u32,
     /// Rows of a frame.
     pub height: u32,
-    /// Colour that a frame is cleared to.
-    pub background: [f64; 4],
+    /// Colour that a frame is cleared to, RGBA8.
+    pub background: [u8; 4],
     /// One batch a frame.
     pub frames: Vec<Batch>,
     /// The probes.
@@ -137,7 +137,7 @@ impl Job {
     }
 
     fn draw(&self, encoder: &mut wgpu::CommandEncoder, target: &Target, scene: &Scene) {
-        let [r, g, b, a] = scene.background;
+        let [r, g, b, a] = scene.background.map(|channel| f64::from(channel) / 255.0);
         let view = target
             .texture
             .create_view(&wgpu::TextureViewDescriptor::default());

@@ -65,6 +65,7 @@ impl Renderer {
             width: tiles.width,
             height: tiles.height,
             count: tiles.count,
+            background: scene.background,
             columns: tiles.columns,
             bytes_per_row: tiles.bytes_per_row(),
             bytes: Vec::new(),

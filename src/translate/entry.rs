@@ -28,6 +28,12 @@ pub struct Attribute {
     pub name: String,
     /// Its location in the module.
     pub location: u32,
+    /// Its GLSL type, such as `vec4`.
+    pub ty: String,
+    /// What its components are, where it is a scalar or vector.
+    pub kind: Option<naga::ScalarKind>,
+    /// Bytes of a component.
+    pub width: u8,
 }
 
 /// Rebuilds the only entry point of `module`; gives the attributes that it reads.
@@ -116,9 +122,13 @@ fn feed(module: &mut Module, function: &mut Function, inputs: &[&str]) -> (Vec<A
     for argument in &arguments {
         let keep = match (&argument.binding, &argument.name) {
             (Some(Binding::Location { .. }), Some(name)) if inputs.contains(&name.as_str()) => {
+                let inner = &module.types[argument.ty].inner;
                 attributes.push(Attribute {
                     name: name.clone(),
                     location: attributes.len() as u32,
+                    ty: super::interface::type_name(inner),
+                    kind: inner.scalar_kind(),
+                    width: inner.scalar().map_or(0, |scalar| scalar.width),
                 });
                 true
             }

@@ -1,5 +1,10 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
+use super::{Refusal, Shader};
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::source::Source;
+use naga::{Scalar, ScalarKind, TypeInner};
 use std::ffi::CString;
 
 /// A variable of the interface.
@@ -24,4 +29,107 @@ pub struct Interface {
     pub constants: Vec<String>,
     /// The fixed fragment shader.
     pub fragment: CString,
+}
+
+/// Holds what the shader declares against what the program feeds.
+///
+/// # Errors
+/// A uniform or attribute of the program's that the shader declares with a type it cannot be fed with.
+pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> Result<Vec<Diagnostic>, Refusal> {
+    let mut errors = Vec::new();
+    let mut notes = Vec::new();
+    for member in shader.uniforms.iter().filter(|block| block.is_default).flat_map(|block| &block.members) {
+        let declared = type_name(&member.ty);
+        match interface.uniforms.iter().find(|uniform| uniform.name == member.name) {
+            Some(expected) if expected.ty == declared => {}
+            Some(expected) => errors.push(wrong_type(source, "uniform", expected, &declared)),
+            None => notes.push(unset_uniform(source, &member.name, interface)),
+        }
+    }
+    for attribute in &shader.attributes {
+        let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
+        // A program feeds floats; a shader may take fewer of them than there are.
+        if attribute.kind != Some(naga::ScalarKind::Float) || attribute.width != 4 {
+            errors.push(wrong_type(source, "in", expected, &attribute.ty));
+        }
+    }
+    if errors.is_empty() { Ok(notes) } else { Err(Refusal::Rejected(errors)) }
+}
+
+fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &str) -> Diagnostic {
+    let Variable { name, ty } = expected;
+    let diagnostic = Diagnostic::error(
+        Stage::Interface,
+        Text::new(
+            format!("`{name}` is declared as `{declared}`, but the program passes a `{ty}`"),
+            format!("`{name}` が `{declared}` と宣言されていますが、プログラムが渡すのは `{ty}` です"),
+        ),
+    )
+    .hint(Text::new(
+        format!("The handed-out file declares it as `{qualifier} {ty} {name};`."),
+        format!("配布されたファイルの宣言は `{qualifier} {ty} {name};` です。"),
+    ));
+    place(diagnostic, source, name)
+}
+
+fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnostic {
+    let known: Vec<_> = interface.uniforms.iter().map(|uniform| format!("`{}`", uniform.name)).collect();
+    let diagnostic = Diagnostic::warning(
+        Stage::Interface,
+        Text::new(
+            format!("the program never sets the uniform `{name}`: it keeps its initial value, 0 where there is none"),
+            format!("uniform 変数 `{name}` にはプログラムから値が渡されません。初期値 (なければ 0) のままになります"),
+        ),
+    )
+    .hint(Text::new(
+        format!("The program sets {}.", known.join(", ")),
+        format!("プログラムが値を渡すのは {} です。", known.join("、")),
+    ));
+    place(diagnostic, source, name)
+}
+
+/// Puts the diagnostic at the first place where the code has `name` as a word: its declaration.
+fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    for number in 1..=source.line_count() {
+        let line = source.code_line(number);
+        for (at, _) in line.match_indices(name) {
+            let before = line[..at].chars().next_back().is_some_and(is_word);
+            let after = line[at + name.len()..].chars().next().is_some_and(is_word);
+            if !before && !after {
+                let column = line[..at].chars().count() as u32 + 1;
+                return diagnostic.at(number, Some(column)).spanning(name.len());
+            }
+        }
+    }
+    diagnostic
+}
+
+/// The name that GLSL gives to a type of the module.
+pub(super) fn type_name(ty: &TypeInner) -> String {
+    let prefix = |scalar: &Scalar| match (scalar.kind, scalar.width) {
+        (ScalarKind::Float, 8) => "d",
+        (ScalarKind::Sint, _) => "i",
+        (ScalarKind::Uint, _) => "u",
+        (ScalarKind::Bool, _) => "b",
+        _ => "",
+    };
+    match ty {
+        TypeInner::Scalar(scalar) => match (scalar.kind, scalar.width) {
+            (ScalarKind::Float, 8) => "double".into(),
+            (ScalarKind::Sint, _) => "int".into(),
+            (ScalarKind::Uint, _) => "uint".into(),
+            (ScalarKind::Bool, _) => "bool".into(),
+            _ => "float".into(),
+        },
+        TypeInner::Vector { size, scalar } => format!("{}vec{}", prefix(scalar), *size as u8),
+        TypeInner::Matrix { columns, rows, scalar } if columns == rows => {
+            format!("{}mat{}", prefix(scalar), *columns as u8)
+        }
+        TypeInner::Matrix { columns, rows, scalar } => {
+            format!("{}mat{}x{}", prefix(scalar), *columns as u8, *rows as u8)
+        }
+        TypeInner::Array { .. } => "array".into(),
+        _ => "struct".into(),
+    }
 }

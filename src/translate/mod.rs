@@ -1,24 +1,132 @@
 //! Source → [`Shader`]: the compiler's verdict, the interface, and the module that wgpu runs.
+//!
+//! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
+//! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
 mod entry;
 pub mod glslang;
 mod interface;
 mod limits;
+mod log;
+mod module;
+mod rework;
 mod spirv;
 
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
 pub use interface::{Interface, Variable};
+pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
 
-mod module;
-pub use module::{Shader, Uniform, UniformBlock};
+use crate::diagnostic::Diagnostic;
+use crate::fault::Fault;
+use crate::source::Source;
+use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
 
-/// Experimental entry.
-pub fn module_of(words: &[u32]) -> Result<Shader, crate::fault::Fault> {
-    module::build(words, &["pv", "cv"], "vc")
+/// Why there is no shader.
+#[derive(Clone, Debug)]
+pub enum Refusal {
+    /// The student's file is at fault.
+    Rejected(Vec<Diagnostic>),
+    /// ggrade is.
+    Fault(Fault),
 }
-pub use module::unsupported;
-/// Experimental entry.
-pub fn fixed_of(words: &[u32]) -> Result<naga::Module, crate::fault::Fault> {
-    module::build_fixed_stage(words, "vc")
+
+impl From<Fault> for Refusal {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
+/// A shader that runs, and what there is to say about it.
+#[derive(Clone, Debug)]
+pub struct Translation {
+    /// The shader.
+    pub shader: Shader,
+    /// Warnings and notes.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Compiles, links and translates a vertex shader.
+pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
+    let text = rework::c_text(&source.text);
+    let verdict = compile(&Request {
+        vertex: &text,
+        fragment: &interface.fragment,
+        preamble: c"",
+        rules: Rules::OpenGl,
+        version: None,
+        emit: Stage::Vertex,
+    });
+    if verdict.reached != Reached::Done {
+        return Err(rejected(&verdict, source, interface));
+    }
+    let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
+    let spirv = second_pass(source, interface)?;
+    let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
+    let shader = module::build(&spirv, &inputs, &interface.output.name)?;
+    diagnostics.extend(interface::check(&shader, source, interface)?);
+    Ok(Translation { shader, diagnostics })
+}
+
+fn rejected(verdict: &Outcome, source: &Source, interface: &Interface) -> Refusal {
+    match verdict.reached {
+        Reached::Vertex => Refusal::Rejected(log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface)),
+        Reached::Link => Refusal::Rejected(log::link_diagnostics(&verdict.link_log, &source.text, interface)),
+        Reached::Fragment | Reached::Done => Refusal::Fault(Fault::new(crate::language::Text::verbatim(format!(
+            "the assignment's fixed fragment shader does not compile: {}",
+            verdict.link_log
+        )))),
+    }
+}
+
+/// SPIR-V of a text that the first pass accepts.
+fn second_pass(source: &Source, interface: &Interface) -> Result<Vec<u32>, Fault> {
+    let version = rework::version(source.code());
+    let reworked = rework::rework(&source.text, source.code(), version);
+    let request = Request {
+        vertex: &reworked.text,
+        fragment: &interface.fragment,
+        preamble: &reworked.preamble,
+        rules: Rules::VulkanRelaxed,
+        version: reworked.version,
+        emit: Stage::Vertex,
+    };
+    let mut outcome = compile(&request);
+    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
+    if let Some(text) = rework::initialised_uniforms(&source.text, source.code(), &outcome.vertex_log, &set) {
+        outcome = compile(&Request { vertex: &text, ..request });
+    }
+    if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
+        return Ok(outcome.spirv);
+    }
+    let log = [outcome.vertex_log, outcome.link_log].concat();
+    Err(unsupported(log.lines().find(|line| line.starts_with("ERROR")).unwrap_or(log.trim())))
+}
+
+/// The module of the assignment's fixed fragment stage, linked with a vertex shader that fits it.
+pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, Fault> {
+    let outcome = compile(&Request {
+        vertex: &rework::c_text(vertex),
+        fragment: &interface.fragment,
+        preamble: c"",
+        rules: Rules::VulkanRelaxed,
+        version: None,
+        emit: Stage::Fragment,
+    });
+    if outcome.reached != Reached::Done {
+        return Err(unsupported(&[outcome.vertex_log, outcome.link_log].concat()));
+    }
+    module::build_fixed_stage(&outcome.spirv, &interface.output.name)
+}
+
+/// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
+pub fn warm(interface: &Interface, vertex: &str) {
+    compile(&Request {
+        vertex: &rework::c_text(vertex),
+        fragment: &interface.fragment,
+        preamble: c"",
+        rules: Rules::OpenGl,
+        version: None,
+        emit: Stage::Vertex,
+    });
 }

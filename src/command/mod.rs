@@ -1,0 +1,72 @@
+//! What each command of the command line does.
+
+pub mod corpus;
+pub mod doctor;
+pub mod grade;
+pub mod worker;
+
+use crate::fault::Fault;
+use crate::language::{Language, Text};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// How a run of ggrade ends; the codes are a contract.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Graded, all full marks.
+    FullMarks,
+    /// Graded, something is not.
+    Graded,
+    /// The command line cannot be carried out as it stands.
+    Usage,
+    /// Our fault.
+    Fault,
+    /// There was nothing to grade.
+    Nothing,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        Self::from(match outcome {
+            Outcome::FullMarks => 0,
+            Outcome::Graded => 1,
+            Outcome::Usage => 2,
+            Outcome::Fault => 3,
+            Outcome::Nothing => 4,
+        })
+    }
+}
+
+/// Tells a person at the terminal what failed, and gives the outcome that stands for it.
+pub fn report_fault(fault: &Fault) -> Outcome {
+    let language = language(None);
+    let word = Text::new("ggrade failed (this costs no points)", "ggrade の側の障害です (減点にはなりません)");
+    anstream::eprintln!("{}: {}", word.get(language), fault.message.get(language));
+    if let Some(remedy) = &fault.remedy {
+        anstream::eprintln!("  {}", remedy.get(language));
+    }
+    Outcome::Fault
+}
+
+/// The language asked for, or the terminal's own.
+pub fn language(asked: Option<Language>) -> Language {
+    let locale = || {
+        ["LC_ALL", "LC_MESSAGES", "LANG"]
+            .iter()
+            .filter_map(|name| std::env::var(name).ok())
+            .find(|value| !value.is_empty())
+    };
+    asked.unwrap_or_else(|| if locale().is_some_and(|l| l.starts_with("ja")) { Language::Ja } else { Language::En })
+}
+
+/// The fault of a file or folder of the command line's that cannot be read or written.
+fn file_fault(action: &Text, path: &Path, error: &std::io::Error) -> Fault {
+    Fault::new(Text::new(
+        format!("cannot {} {}: {error}", action.en, path.display()),
+        format!("{} を{}できません: {error}", path.display(), action.ja),
+    ))
+}
+
+fn writing() -> Text {
+    Text::new("write", "書き込みが")
+}

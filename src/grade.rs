@@ -1,0 +1,273 @@
+//! The pipeline: the only module that knows all the stages.
+
+use crate::compare::{self, ExpectedFrame};
+use crate::diagnose::{self, Evidence};
+use crate::diagnostic::Diagnostic;
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Scene};
+use crate::report::{Environment, Picture, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use crate::source::{self, Facts, Source};
+use crate::translate::{self, Interface, Refusal, Translation, Variable};
+use reference::Assignment;
+use reference::probes::ProbeSet;
+use reference::scene::{Matrices, Vertex};
+use std::ffi::CString;
+use std::time::Instant;
+
+/// A graded file.
+#[derive(Clone, Debug)]
+pub struct Graded {
+    /// The report.
+    pub report: Report,
+    /// What the shader drew, where it drew.
+    pub frames: Option<Frames>,
+}
+
+/// Grades files for one assignment on one device. It meets untrusted bytes: run it in a worker process.
+#[derive(Debug)]
+pub struct Grader {
+    assignment: &'static Assignment,
+    interface: Interface,
+    renderer: Renderer,
+    expected: Vec<ExpectedFrame>,
+    environment: Environment,
+}
+
+impl Grader {
+    /// Opens the device, and warms the compiler and the reference meanwhile.
+    pub fn new(assignment: &'static Assignment, adapter: AdapterKind) -> Result<Self, Fault> {
+        let interface = interface(assignment)?;
+        let starter = &assignment.files[0].starter;
+        let (device, fixed, expected) = std::thread::scope(|scope| {
+            let device = scope.spawn(|| Device::open(adapter));
+            let expected = scope.spawn(|| expected_frames(assignment));
+            translate::warm(&interface, starter);
+            let fixed = translate::fixed_stage(&interface, starter);
+            (device.join(), fixed, expected.join())
+        });
+        let panicked = |_| Fault::new(Text::new("start-up panicked", "起動処理が異常終了しました"));
+        let device = device.map_err(panicked)??;
+        let environment = Environment {
+            ggrade: env!("CARGO_PKG_VERSION").into(),
+            renderer: device.renderer.clone(),
+            driver: device.driver.clone(),
+        };
+        let renderer = Renderer::new(device, fixed?)?;
+        Ok(Self { assignment, interface, renderer, expected: expected.map_err(panicked)?, environment })
+    }
+
+    /// What grades.
+    pub fn environment(&self) -> &Environment {
+        &self.environment
+    }
+
+    /// Grades one file; the same seed gives the same probes.
+    pub fn grade(&mut self, name: &str, bytes: &[u8], seed: u64) -> Result<Graded, Fault> {
+        let start = Instant::now();
+        let mut graded = self.judge(name, bytes, seed)?;
+        graded.report.elapsed_ms = start.elapsed().as_secs_f64() * 1e3;
+        Ok(graded)
+    }
+
+    fn judge(&mut self, name: &str, bytes: &[u8], seed: u64) -> Result<Graded, Fault> {
+        let source = match source::read(name, bytes) {
+            Ok(source) => source,
+            Err(refusal) => return Ok(self.rejected(&refusal.facts, refusal.diagnostics)),
+        };
+        let Translation { shader, mut diagnostics } = match translate::translate(&source, &self.interface) {
+            Ok(translation) => translation,
+            Err(Refusal::Rejected(mut diagnostics)) => {
+                diagnostics.extend(source.notes);
+                return Ok(self.rejected(&source.facts, diagnostics));
+            }
+            Err(Refusal::Fault(fault)) => return Err(fault),
+        };
+        diagnostics.extend(source.notes.iter().cloned());
+        let probes = self.assignment.probes(seed);
+        let rendering = self.renderer.render(&shader, &scene(self.assignment, &probes))?;
+        let report = self.report(&source, &probes, &rendering, diagnostics);
+        Ok(Graded { report, frames: Some(rendering.frames) })
+    }
+
+    fn rejected(&self, facts: &Facts, diagnostics: Vec<Diagnostic>) -> Graded {
+        let environment = self.environment.clone();
+        let report = unfinished(self.assignment, info(facts), Verdict::Rejected, diagnostics, environment);
+        Graded { report, frames: None }
+    }
+
+    fn report(
+        &self,
+        source: &Source,
+        probes: &ProbeSet,
+        rendering: &Rendering,
+        diagnostics: Vec<Diagnostic>,
+    ) -> Report {
+        let frames: Vec<_> = self
+            .expected
+            .iter()
+            .zip(0..)
+            .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
+            .collect();
+        let samples: Vec<_> = rendering.probe_samples.concat();
+        let evidence = Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples };
+        let diagnosis = diagnose::diagnose(&evidence);
+        let score = diagnosis.rubric.iter().map(|line| line.points).sum();
+        let max_score = self.assignment.max_score();
+        Report {
+            assignment: self.assignment.id.clone(),
+            source: info(&source.facts),
+            verdict: if diagnosis.is_right { Verdict::Correct } else { Verdict::Wrong },
+            score,
+            max_score,
+            rubric: diagnosis.rubric,
+            mistakes: diagnosis.mistakes,
+            diagnostics,
+            frames,
+            probes: diagnosis.probes,
+            environment: self.environment.clone(),
+            elapsed_ms: 0.0,
+        }
+    }
+}
+
+/// The report of a file that was not rendered to the end: no points, and the diagnostics say why.
+pub fn unfinished(
+    assignment: &Assignment,
+    source: SourceInfo,
+    verdict: Verdict,
+    diagnostics: Vec<Diagnostic>,
+    environment: Environment,
+) -> Report {
+    let message = match verdict {
+        Verdict::Stopped => Text::new("not judged: the shader was stopped", "処理が打ち切られたため、採点していません"),
+        _ => Text::new("not judged: the file was rejected", "ファイルを受け付けられなかったため、採点していません"),
+    };
+    let rubric = assignment
+        .rubric
+        .iter()
+        .map(|line| RubricLine {
+            id: line.id.clone(),
+            label: Text::new(&line.label.en, &line.label.ja),
+            points: 0.0,
+            max_points: line.points,
+            mistake: None,
+            message: message.clone(),
+            line: None,
+        })
+        .collect();
+    Report {
+        assignment: assignment.id.clone(),
+        source,
+        verdict,
+        score: 0.0,
+        max_score: assignment.max_score(),
+        rubric,
+        mistakes: Vec::new(),
+        diagnostics,
+        frames: Vec::new(),
+        probes: ProbeResult::default(),
+        environment,
+        elapsed_ms: 0.0,
+    }
+}
+
+/// What is known of a file without reading it as text.
+pub fn source_info(name: &str, bytes: &[u8]) -> SourceInfo {
+    match source::read(name, bytes) {
+        Ok(source) => info(&source.facts),
+        Err(refusal) => info(&refusal.facts),
+    }
+}
+
+/// The built-in assignment with this id.
+pub fn assignment(id: &str) -> Result<&'static Assignment, Fault> {
+    reference::assignment(id).ok_or_else(|| {
+        let known: Vec<_> = reference::assignments().iter().map(|assignment| assignment.id.as_str()).collect();
+        Fault::new(Text::new(
+            format!("there is no assignment `{id}` (there is: {})", known.join(", ")),
+            format!("課題 `{id}` はありません (あるもの: {})", known.join(", ")),
+        ))
+    })
+}
+
+fn info(facts: &Facts) -> SourceInfo {
+    SourceInfo {
+        name: facts.name.clone(),
+        sha256: facts.sha256.clone(),
+        bytes: facts.bytes,
+        encoding: facts.encoding.map_or_else(|| "binary".into(), |encoding| encoding.to_string()),
+    }
+}
+
+/// The interface of the assignment's only file.
+pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
+    let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
+    let variable = |name: &str, kind: reference::Type| Variable { name: name.into(), ty: kind.glsl().into() };
+    let file = assignment.files.first().ok_or_else(|| broken("no file is handed in"))?;
+    let fixed = file.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
+    let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
+    Ok(Interface {
+        inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, input.kind)).collect(),
+        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.name, uniform.kind)).collect(),
+        output: variable(&output.name, output.kind),
+        constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
+        fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
+    })
+}
+
+/// The reference's frames of all poses.
+pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
+    let background = assignment.scene.background;
+    let poses = assignment.scene.all_poses();
+    poses.iter().zip(assignment.frames()).map(|(pose, frame)| ExpectedFrame::new(pose.t, frame, background)).collect()
+}
+
+/// What is drawn for a submission: the course's animation and the probes.
+pub fn scene(assignment: &Assignment, probes: &ProbeSet) -> Scene {
+    let scene = &assignment.scene;
+    let frames =
+        scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
+    let probes = (0..probes.groups.len())
+        .map(|group| {
+            let vertices: Vec<Vertex> = probes.of_group(group).iter().map(|probe| probe.vertex).collect();
+            batch(assignment, &probes.groups[group].matrices, &vertices)
+        })
+        .collect();
+    Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes }
+}
+
+/// One draw with the program's own names, in f32.
+pub fn batch(assignment: &Assignment, matrices: &Matrices, vertices: &[Vertex]) -> Batch {
+    let interface = &assignment.interface;
+    let uniforms = interface
+        .uniforms
+        .iter()
+        .map(|uniform| (uniform.name.clone(), uniform.carries.of(matrices).as_mat4().to_cols_array()))
+        .collect();
+    let attributes = interface
+        .inputs
+        .iter()
+        .map(|input| {
+            let xyz = |vertex: &Vertex| input.carries.of(vertex).as_vec4().truncate().to_array();
+            (input.name.clone(), vertices.iter().map(xyz).collect())
+        })
+        .collect();
+    Batch { uniforms, attributes }
+}
+
+/// The reference's frames as pictures.
+pub fn expected_pictures(assignment: &Assignment) -> Vec<Picture> {
+    let picture = |frame: reference::rasteriser::Frame| Picture {
+        width: frame.width,
+        height: frame.height,
+        rgba: frame.pixels.concat(),
+    };
+    assignment.frames().into_iter().map(picture).collect()
+}
+
+/// A seed that nobody knows beforehand, small enough to be typed and to be exact in every JSON reader.
+pub fn random_seed() -> u64 {
+    use std::hash::{BuildHasher, RandomState};
+    RandomState::new().hash_one(std::process::id()) % 1_000_000_000
+}
