@@ -7,3 +7,4 @@ pub mod diagnostic;
 pub mod fault;
 pub mod language;
 pub mod report;
+pub mod source;
