@@ -4,6 +4,7 @@
 //! bytes → [`source`] → [`translate`] → [`render`] → [`compare`] → [`diagnose`] → [`report`].
 
 pub mod diagnostic;
+pub mod excerpt;
 pub mod fault;
 pub mod language;
 pub mod report;

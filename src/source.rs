@@ -8,7 +8,7 @@ mod comments;
 mod directives;
 mod encoding;
 mod kind;
-mod lookalikes;
+pub(crate) mod lookalikes;
 mod odd;
 #[cfg(test)]
 mod tests;

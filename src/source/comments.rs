@@ -18,11 +18,12 @@ pub(super) fn find(text: &str) -> Vec<Comment> {
     let bytes = text.as_bytes();
     let mut found = Vec::new();
     let mut at = 0;
-    while at < bytes.len() {
+    while let Some(slash) = text[at..].find('/') {
+        at += slash;
         let second = after_splices(bytes, at + 1);
-        let end = match (bytes[at], bytes.get(second)) {
-            (b'/', Some(b'/')) => line_end(bytes, second + 1),
-            (b'/', Some(b'*')) => block_end(bytes, second + 1),
+        let end = match bytes.get(second) {
+            Some(b'/') => line_end(bytes, second + 1),
+            Some(b'*') => block_end(bytes, second + 1),
             _ => {
                 at += 1;
                 continue;

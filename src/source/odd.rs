@@ -1,16 +1,16 @@
 //! Characters that do not belong into GLSL, told by their name before a compiler complains of what comes after them.
 
+mod wording;
+
 use super::Source;
 use super::directives::{Standing, standings};
 use super::encoding::Encoding;
-use super::lookalikes::{ascii_for, is_bidi, is_invisible, is_space, name};
-use crate::diagnostic::{Diagnostic, Severity, Stage};
-use crate::language::Text;
+use super::lookalikes::{ascii_for, is_bidi, is_invisible, is_space};
+use crate::diagnostic::{Diagnostic, Severity};
+use wording::{skipped, told};
 
 /// How many places are told one by one.
 const MAX_PLACES: usize = 20;
-/// How many characters of one place are told by name.
-const MAX_NAMES: usize = 4;
 
 /// Neighbouring odd characters of one kind on one line.
 struct Run<'a> {
@@ -34,7 +34,7 @@ pub(super) fn in_code(source: &Source) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
         .partition(|run| standing(run) == Standing::Compiled);
     // One word a line is enough where nothing is wrong.
     warnings.dedup_by(|next, run| standing(run) == Standing::Skipped && next.line == run.line);
-    let errors = bounded(Severity::Error, &errors, |run| told(run));
+    let errors = bounded(Severity::Error, &errors, told);
     let warnings = bounded(Severity::Warning, &warnings, |run| match standing(run) {
         Standing::Skipped => skipped(run),
         _ => told(run),
@@ -82,13 +82,13 @@ pub(super) fn in_comments(source: &Source) -> Vec<Diagnostic> {
         );
     }
     let turning = characters().filter(|&(_, c)| is_bidi(c)).take(MAX_PLACES);
-    notes.extend(turning.map(|(offset, c)| at(source, offset, turned(c))));
+    notes.extend(turning.map(|(offset, c)| at(source, offset, wording::turned(c))));
     let mut unreadable = characters().filter(|&(_, c)| c == '\u{FFFD}');
     if let Some((offset, _)) = unreadable.next() {
         notes.push(at(
             source,
             offset,
-            unreadable_comment(1 + unreadable.count()),
+            wording::unreadable_comment(1 + unreadable.count()),
         ));
     }
     notes
@@ -143,240 +143,13 @@ fn kind(c: char) -> Kind {
     }
 }
 
-/// The error for a run in code.
-fn told(run: &Run) -> Diagnostic {
-    let (message, hint) = match run.text.chars().next().map_or(Kind::Foreign, kind) {
-        Kind::Space => (
-            space(run),
-            Text::new(
-                "Type an ordinary space instead.",
-                "半角スペースに直してください。",
-            ),
-        ),
-        Kind::Unseen => (
-            unseen(run),
-            Text::new(
-                "Delete it: where nothing is to be seen, retype the characters around it.",
-                "削除してください。見つけにくいときは、前後の文字ごと打ち直すと消えます。",
-            ),
-        ),
-        Kind::Unreadable => (
-            unreadable(),
-            Text::new(
-                "Retype this place and save the file as UTF-8.",
-                "この部分を打ち直し、UTF-8 で保存してください。",
-            ),
-        ),
-        Kind::LookAlike => (look_alike(run), instead(run.text)),
-        Kind::Foreign => (foreign(run), foreign_hint(run.text)),
-    };
-    Diagnostic::error(Stage::Source, message)
-        .spanning(run.text.chars().count())
-        .hint(hint)
-}
-
-/// The characters of a run with code point and name: `「；」(U+FF1B FULLWIDTH SEMICOLON)`.
-fn listing(text: &str) -> Text {
-    let mut different: Vec<char> = Vec::new();
-    for c in text.chars() {
-        if different.len() <= MAX_NAMES && !different.contains(&c) {
-            different.push(c);
-        }
-    }
-    let seen = different
-        .iter()
-        .all(|&c| !matches!(kind(c), Kind::Space | Kind::Unseen | Kind::Unreadable));
-    let mut names: Vec<_> = different
-        .iter()
-        .map(|&c| format!("U+{:04X} {}", u32::from(c), name(c)))
-        .collect();
-    if names.len() > MAX_NAMES {
-        names[MAX_NAMES] = "…".to_owned();
-    }
-    let names = names.join(", ");
-    if seen {
-        let shown: String = text.chars().take(MAX_PLACES).collect();
-        let more = if shown.len() < text.len() { "…" } else { "" };
-        return Text::new(
-            format!("“{shown}{more}” ({names})"),
-            format!("「{shown}{more}」（{names}）"),
-        );
-    }
-    Text::verbatim(names)
-}
-
-fn space(run: &Run) -> Text {
-    let names = listing(run.text);
-    let (width_en, width_ja) = match run.text.contains('\u{3000}') {
-        true => ("A full-width space", "全角スペース"),
-        false => (
-            "A blank that is no ordinary space",
-            "半角スペースではない空白文字",
-        ),
-    };
-    Text::new(
-        format!(
-            "{width_en} stands in the code: {}. GLSL does not take it for a space.",
-            names.en
-        ),
-        format!(
-            "プログラムの中に{width_ja}（{}）があります。GLSL では空白として扱われません。",
-            names.ja
-        ),
-    )
-}
-
-fn unseen(run: &Run) -> Text {
-    let names = listing(run.text);
-    Text::new(
-        format!("An invisible character stands in the code: {}.", names.en),
-        format!(
-            "プログラムの中に目に見えない文字（{}）があります。",
-            names.ja
-        ),
-    )
-}
-
-fn unreadable() -> Text {
-    Text::new(
-        "Bytes in the code cannot be read as characters: they are valid in none of the encodings that this file may have.",
-        "プログラムの中に文字として読み取れないバイトがあります。文字コードが壊れているようです。",
-    )
-}
-
-fn look_alike(run: &Run) -> Text {
-    let names = listing(run.text);
-    let full_width = run
-        .text
-        .chars()
-        .all(|c| matches!(c, '\u{FF01}'..='\u{FF5E}'));
-    let (kind_en, kind_ja) = if full_width {
-        ("Full-width", "全角文字")
-    } else {
-        ("Non-ASCII", "半角英数字・記号ではない文字")
-    };
-    Text::new(
-        format!("{kind_en} {} in the code: GLSL does not know it.", names.en),
-        format!(
-            "プログラムの中に{kind_ja}{}があります。GLSL では使えません。",
-            names.ja
-        ),
-    )
-}
-
-fn foreign(run: &Run) -> Text {
-    let names = listing(run.text);
-    Text::new(
-        format!(
-            "{} in the code: outside comments, GLSL consists of ASCII characters only.",
-            names.en
-        ),
-        format!(
-            "プログラムの中に{}があります。コメントの外では半角の英数字と記号しか使えません。",
-            names.ja
-        ),
-    )
-}
-
-/// What to type for a run of look-alikes.
-fn instead(text: &str) -> Text {
-    let typed: String = text.chars().filter_map(ascii_for).collect();
-    if typed.contains(['"', '\'']) {
-        return Text::new(
-            "GLSL has no quotation marks: delete it.",
-            "GLSL に引用符はありません。削除してください。",
-        );
-    }
-    Text::new(
-        format!("Type `{typed}` in ASCII (half-width)."),
-        format!("半角の `{typed}` に直してください。"),
-    )
-}
-
-fn foreign_hint(text: &str) -> Text {
-    let typed: Option<String> = text.chars().map(ascii_for).collect();
-    match typed {
-        Some(typed) if text.chars().count() == 1 => Text::new(
-            format!("If `{typed}` is meant, type it in ASCII (half-width)."),
-            format!("`{typed}` のつもりなら、半角で打ち直してください。"),
-        ),
-        _ if text.chars().count() > 1 => Text::new(
-            "If this is a comment, put // before it. Names consist of a–z, A–Z, 0–9 and _.",
-            "コメントなら前に // を付けてください。変数名に使えるのは半角の a–z、A–Z、0–9、_ だけです。",
-        ),
-        _ => Text::new(
-            "Names consist of a–z, A–Z, 0–9 and _.",
-            "変数名に使えるのは半角の a–z、A–Z、0–9、_ だけです。",
-        ),
-    }
-}
-
-/// The warning for a run where no compiler looks.
-fn skipped(run: &Run) -> Diagnostic {
-    let names = listing(run.text);
-    let message = Text::new(
-        format!(
-            "{} stands outside a comment, in a line that the compiler skips.",
-            names.en
-        ),
-        format!(
-            "コメントの外に{}があります。コンパイラが読み飛ばす行なので採点には影響しません。",
-            names.ja
-        ),
-    );
-    Diagnostic::warning(Stage::Source, message).spanning(run.text.chars().count())
-}
-
-fn turned(c: char) -> Diagnostic {
-    let name = format!("U+{:04X} {}", u32::from(c), name(c));
-    let message = Text::new(
-        format!("A comment holds {name}, which changes the order in which the text is shown."),
-        format!("コメントの中に、文字の表示順を変える制御文字（{name}）があります。"),
-    );
-    Diagnostic::warning(Stage::Source, message).hint(Text::new(
-        "Delete it: the code may not read as it runs.",
-        "削除してください。見た目と実際のプログラムの順序が食い違うことがあります。",
-    ))
-}
-
-fn unreadable_comment(count: usize) -> Diagnostic {
-    let message = Text::new(
-        format!(
-            "{count} place(s) in comments cannot be read as characters. Comments are not compiled, so this changes nothing."
-        ),
-        format!(
-            "コメントの中に文字として読み取れないところが {count} か所あります。コメントなので採点には影響しません。"
-        ),
-    );
-    Diagnostic::warning(Stage::Source, message)
-}
-
-/// A `//` comment whose last character ends, in Shift_JIS, with the byte of a backslash: a driver that gets these bytes
-/// joins the next line to the comment.
+/// A `//` comment that ends at `end` with a character whose second byte, in Shift_JIS, is that of a backslash: a driver
+/// that gets these bytes joins the next line to the comment.
 fn hidden_backslash(source: &Source, end: usize) -> Option<Diagnostic> {
     let last = source.text[..end].chars().next_back()?;
     let mut buffer = [0; 4];
     let (bytes, _, _) = encoding_rs::SHIFT_JIS.encode(last.encode_utf8(&mut buffer));
-    if !matches!(*bytes, [_, b'\\']) {
-        return None;
-    }
-    let message = Text::new(
-        format!(
-            "In Shift_JIS, “{last}” ends with the byte of a backslash. An OpenGL driver that reads this file takes the next line for a part of the comment."
-        ),
-        format!(
-            "Shift_JIS の「{last}」は 2 バイト目が `\\` と同じです。このファイルをそのまま読む OpenGL ドライバでは、次の行までコメントとして扱われます。"
-        ),
-    );
-    let hint = Text::new(
-        "Save the file as UTF-8, or end the comment with another character.",
-        "UTF-8 で保存し直すか、コメントの最後に句点などを付けてください。",
-    );
-    Some(at(
-        source,
-        end - last.len_utf8(),
-        Diagnostic::warning(Stage::Source, message).hint(hint),
-    ))
+    matches!(*bytes, [_, b'\\']).then(|| at(source, end - last.len_utf8(), wording::joined(last)))
 }
 
 /// What `tell` says of the first places, each with its offset, and how many more there are.
@@ -399,15 +172,11 @@ fn bounded(
         .collect();
     let more = runs.len() - told.len();
     if more > 0 {
-        let message = Text::new(
-            format!("And {more} more places of this kind."),
-            format!("同じような箇所がほかに {more} か所あります。"),
-        );
         told.push((
             None,
             Diagnostic {
                 severity,
-                ..Diagnostic::error(Stage::Source, message)
+                ..wording::more(more)
             },
         ));
     }

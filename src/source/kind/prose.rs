@@ -40,13 +40,13 @@ pub(in crate::source) fn wrong_text(source: &Source) -> Option<Diagnostic> {
     if source.code().trim().is_empty() {
         return Some(empty(source));
     }
-    markup(source).or_else(|| wrapped(source)).or_else(|| {
-        if has_word(source, "gl_Position") {
-            None
-        } else {
-            other_program(source)
-        }
-    })
+    let found = markup(source)
+        .or_else(|| wrapped(source))
+        .or_else(|| cpp_with_main(source));
+    if found.is_some() || has_word(source, "gl_Position") {
+        return found;
+    }
+    other_program(source)
 }
 
 /// The refusal of a fragment shader: one that takes in the variable that the vertex shader has to write, `varying`,
@@ -195,8 +195,11 @@ fn other_program(source: &Source) -> Option<Diagnostic> {
             );
         }
     }
+    let is_cpp = |line: &str| {
+        is_include(line) || line.contains("std::") || line.starts_with("using namespace ")
+    };
     if let Some(line) = line_where(source, is_cpp) {
-        return Some(looks_like("a C++ program", "C++ のプログラム").at(line, None));
+        return Some(cpp(line));
     }
     let python = line_where(source, |line| {
         line.starts_with("def ") && line.ends_with(':')
@@ -204,13 +207,21 @@ fn other_program(source: &Source) -> Option<Diagnostic> {
     python.map(|line| looks_like("a Python program", "Python のプログラム").at(line, None))
 }
 
-/// Whether a line is C or C++ beyond doubt.
-fn is_cpp(line: &str) -> bool {
-    let include = line
-        .strip_prefix('#')
-        .is_some_and(|rest| rest.trim_start().starts_with("include"));
-    let main = line.split_once("main").is_some_and(|(before, after)| {
-        before.trim() == "int" && after.trim_start().starts_with('(')
-    });
-    include || main || line.contains("std::") || line.starts_with("using namespace ")
+/// A C++ program that has the text of a shader inside of it: no GLSL has both an `#include` and an `int main`.
+fn cpp_with_main(source: &Source) -> Option<Diagnostic> {
+    let include = line_where(source, is_include)?;
+    let words: Vec<_> = source.words().map(|(_, word)| word).collect();
+    words
+        .windows(2)
+        .any(|pair| pair == ["int", "main"])
+        .then(|| cpp(include))
+}
+
+fn is_include(line: &str) -> bool {
+    line.strip_prefix('#')
+        .is_some_and(|rest| rest.trim_start().starts_with("include"))
+}
+
+fn cpp(line: u32) -> Diagnostic {
+    looks_like("a C++ program", "C++ のプログラム").at(line, None)
 }

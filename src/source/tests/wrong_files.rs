@@ -17,6 +17,10 @@ fn wrong_files_are_told_what_they_seem_to_be() {
         ("// TODO\n/* nothing */\n", "nothing but comments"),
         (cpp, "C++"),
         ("using namespace std;\nclass A {};\n", "C++"),
+        (
+            &format!("{cpp}const char *s = R\"(\ngl_Position = pv;\n)\";\n"),
+            "C++",
+        ),
         (fragment, "the fragment shader"),
         (
             "layout(points) in;\nvoid main() { EmitVertex(); }\n",
@@ -75,6 +79,7 @@ fn vertex_shaders_are_not_refused_for_what_they_mention() {
         // Wrong, but the compiler says it better.
         shader("", "#include <iostream>", ""),
         "int main() { gl_Position = vec4(0); }".to_owned(),
+        "#version 410 core\nint main() { return 0; }".to_owned(),
         "// 光\nfloat f;".to_owned(),
     ] {
         accept(text);
