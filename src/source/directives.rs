@@ -1,7 +1,7 @@
 //! Which lines a compiler reads: what a real driver skips must not refuse a file.
 
 use super::words;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// What a compiler makes of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,8 +23,8 @@ struct Conditional {
 
 /// The preprocessor's state, as far as a glance at the file tells.
 struct Preprocessor<'a> {
-    /// How often each word stands anywhere but in conditions: a macro's own definition is one of them.
-    uses: HashMap<&'a str, usize>,
+    /// The words that stand anywhere but in conditions and as the name that is defined.
+    uses: HashSet<&'a str>,
     standing: Standing,
     open: Vec<Conditional>,
     /// Macros of the file: whether they are defined here, `None` where a condition decides.
@@ -55,20 +55,16 @@ pub(super) fn standings(code: &str) -> Vec<Standing> {
     standings
 }
 
-fn uses(code: &str) -> HashMap<&str, usize> {
-    let asks = |line: &&str| {
-        let directive = line
-            .trim_start()
-            .strip_prefix('#')
-            .unwrap_or_default()
-            .trim_start();
-        ["if", "elif", "undef"]
-            .iter()
-            .any(|word| directive.starts_with(word))
-    };
-    let mut uses = HashMap::new();
-    for (_, word) in code.lines().filter(|line| !asks(line)).flat_map(words) {
-        *uses.entry(word).or_default() += 1;
+fn uses(code: &str) -> HashSet<&str> {
+    let mut uses = HashSet::new();
+    for line in code.lines() {
+        let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
+        let begins = |word: &str| directive.is_some_and(|directive| directive.starts_with(word));
+        if begins("if") || begins("elif") || begins("undef") {
+            continue;
+        }
+        let own_name = if begins("define") { 2 } else { 0 };
+        uses.extend(words(line).skip(own_name).map(|(_, word)| word));
     }
     uses
 }
@@ -145,7 +141,7 @@ impl Preprocessor<'_> {
         let certain = self.standing == Standing::Compiled;
         self.macros
             .insert(name.to_owned(), certain.then_some(defined));
-        if self.uses.get(name).is_some_and(|&count| count > 1) {
+        if self.uses.contains(name) {
             self.standing
         } else {
             Standing::Skipped
@@ -261,6 +257,7 @@ mod tests {
         assert_eq!(letters("#error a\n#pragma b\n#define unused c\n"), "SSS");
         assert_eq!(letters("#define used \\\nc\nused\n"), "CCC");
         assert_eq!(letters("#define unused \\\nc\nd\n"), "SSC");
+        assert_eq!(letters("#define twice a\n#define twice a\n"), "SS");
         assert_eq!(letters("#define asked c\n#ifdef asked\n#endif\n"), "SCC");
     }
 
