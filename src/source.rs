@@ -1,0 +1,251 @@
+//! Untrusted bytes → [`Source`]: size, encoding, line ends, and what a compiler would only stumble over.
+//!
+//! The text keeps the student's own lines: CRLF, CR and LF each end one line, as in an editor, so that every line
+//! number of a later stage is theirs. What can be named better here than by a compiler is named here: a file that is
+//! no vertex shader at all, and characters that look like GLSL and are not.
+
+mod comments;
+mod directives;
+mod encoding;
+mod kind;
+pub(crate) mod lookalikes;
+mod odd;
+#[cfg(test)]
+mod tests;
+
+pub use encoding::Encoding;
+pub use kind::fragment_shader;
+
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use comments::Comment;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// The largest file that is read, in bytes. Real answers to a shading homework have two to five kilobytes.
+pub const MAX_BYTES: usize = 64 * 1024;
+
+/// What is known of a file whatever becomes of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Facts {
+    /// File name as handed in.
+    pub name: String,
+    /// Size in bytes.
+    pub bytes: usize,
+    /// SHA-256 of the bytes as handed in, in hexadecimal.
+    pub sha256: String,
+    /// The encoding that the text was read in; `None` where it was never read as text.
+    pub encoding: Option<Encoding>,
+}
+
+/// A file that is not graded, and why.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refusal {
+    /// The file.
+    pub facts: Facts,
+    /// Its text, where it has one, for excerpts.
+    pub source: Option<Source>,
+    /// At least one error, in the order of the file; then the warnings.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A file read as text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Source {
+    /// The file.
+    pub facts: Facts,
+    /// Its text without a byte-order mark, every line ended by `\n`, the last one too. Never a NUL.
+    pub text: String,
+    /// Warnings and notes: nothing that keeps the file from being graded.
+    pub notes: Vec<Diagnostic>,
+    code: String,
+    comments: Vec<Comment>,
+    line_starts: Vec<usize>,
+}
+
+/// Reads the file `name`, whose content is `bytes`.
+///
+/// # Errors
+/// A [`Refusal`] for what is no vertex shader, and for characters in code that no GLSL compiler takes.
+pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
+    let mut facts = Facts {
+        name: name.to_owned(),
+        bytes: bytes.len(),
+        sha256: Sha256::digest(bytes)
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect(),
+        encoding: None,
+    };
+    let refuse = |facts, error| {
+        Box::new(Refusal {
+            facts,
+            source: None,
+            diagnostics: vec![error],
+        })
+    };
+    if bytes.len() > MAX_BYTES {
+        return Err(refuse(facts, too_large(bytes.len())));
+    }
+    if let Some(error) = kind::binary(bytes) {
+        return Err(refuse(facts, error));
+    }
+    let decoded = encoding::decode(bytes);
+    facts.encoding = Some(decoded.encoding);
+    if let Some(error) = kind::control_characters(&decoded.text) {
+        return Err(refuse(facts, error));
+    }
+    let mut source = Source::new(facts, &decoded.text);
+    source.notes = decoded.notes;
+    source.notes.extend(odd::in_comments(&source));
+    let mut diagnostics: Vec<_> = kind::wrong_text(&source).into_iter().collect();
+    if diagnostics.is_empty() {
+        let (errors, warnings) = odd::in_code(&source);
+        source.notes.splice(0..0, warnings);
+        diagnostics = errors;
+    }
+    if diagnostics.is_empty() {
+        return Ok(source);
+    }
+    diagnostics.extend(source.notes.iter().cloned());
+    Err(Box::new(Refusal {
+        facts: source.facts.clone(),
+        source: Some(source),
+        diagnostics,
+    }))
+}
+
+impl Source {
+    /// `text` with its lines and comments found.
+    fn new(facts: Facts, text: &str) -> Self {
+        let mut text = text.replace("\r\n", "\n").replace('\r', "\n");
+        if !text.ends_with('\n') {
+            text.push('\n');
+        }
+        let comments = comments::find(&text);
+        let code = comments::blank(&text, &comments);
+        let line_ends = text.match_indices('\n').map(|(end, _)| end + 1);
+        let line_starts = std::iter::once(0)
+            .chain(line_ends)
+            .filter(|&start| start < text.len())
+            .collect();
+        Self {
+            facts,
+            text,
+            notes: Vec::new(),
+            code,
+            comments,
+            line_starts,
+        }
+    }
+
+    /// The text with comments blanked: each of their bytes is a space, line ends stay, so that byte offsets, lines and
+    /// everything outside comments are those of [`Source::text`].
+    ///
+    /// It is for looking things up. It is not always the same program: a block comment that spans lines inside a
+    /// preprocessor directive holds the directive together.
+    pub fn code(&self) -> &str {
+        &self.code
+    }
+
+    /// How many lines there are.
+    pub fn line_count(&self) -> u32 {
+        u32::try_from(self.line_starts.len()).unwrap_or(u32::MAX)
+    }
+
+    /// Line `number`, from 1, without its end; empty where there is no such line.
+    pub fn line(&self, number: u32) -> &str {
+        self.line_of(&self.text, number)
+    }
+
+    /// Line `number`, from 1, of [`Source::code`].
+    pub fn code_line(&self, number: u32) -> &str {
+        self.line_of(&self.code, number)
+    }
+
+    fn line_of<'a>(&self, text: &'a str, number: u32) -> &'a str {
+        let Some(index) = (number as usize).checked_sub(1) else {
+            return "";
+        };
+        let Some(&start) = self.line_starts.get(index) else {
+            return "";
+        };
+        let end = self
+            .line_starts
+            .get(index + 1)
+            .copied()
+            .unwrap_or(text.len());
+        text[start..end].trim_end_matches('\n')
+    }
+
+    /// Line and column, both from 1, of a byte offset into the text; the column counts characters. An offset inside a
+    /// character is that character's; one past the end is the end of the last line.
+    pub fn position(&self, offset: usize) -> (u32, u32) {
+        let line = self
+            .line_starts
+            .partition_point(|&start| start <= offset)
+            .max(1);
+        let start = self.line_starts.get(line - 1).copied().unwrap_or(0);
+        let line = u32::try_from(line).unwrap_or(u32::MAX);
+        let before = self
+            .line(line)
+            .char_indices()
+            .skip(1)
+            .take_while(|&(at, _)| start + at <= offset)
+            .count();
+        let past_end =
+            usize::from(offset >= start + self.line(line).len() && !self.line(line).is_empty());
+        (
+            line,
+            u32::try_from(before + past_end + 1).unwrap_or(u32::MAX),
+        )
+    }
+
+    /// The byte offset of a line and column, both from 1; the column may be the one after the line's last character.
+    pub fn offset(&self, line: u32, column: u32) -> Option<usize> {
+        let start = *self.line_starts.get((line as usize).checked_sub(1)?)?;
+        let text = self.line(line);
+        let ends = std::iter::once(text.len());
+        text.char_indices()
+            .map(|(at, _)| at)
+            .chain(ends)
+            .nth((column as usize).checked_sub(1)?)
+            .map(|at| start + at)
+    }
+
+    /// The names, keywords and numbers of the code, in order, each with its byte offset.
+    pub fn words(&self) -> impl Iterator<Item = (usize, &str)> {
+        words(&self.code)
+    }
+}
+
+/// The words of `code` with their byte offsets.
+fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut rest = 0;
+    std::iter::from_fn(move || {
+        let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let start = rest + code[rest..].find(is_word)?;
+        let end = code[start..]
+            .find(|c| !is_word(c))
+            .map_or(code.len(), |length| start + length);
+        rest = end;
+        Some((start, &code[start..end]))
+    })
+}
+
+fn too_large(bytes: usize) -> Diagnostic {
+    let (kib, limit) = (bytes.div_ceil(1024), MAX_BYTES / 1024);
+    Diagnostic::error(
+        Stage::Source,
+        Text::new(
+            format!("The file has {kib} KiB; at most {limit} KiB are read."),
+            format!(
+                "ファイルの大きさが {kib} KiB あります。受け付けられるのは {limit} KiB までです。"
+            ),
+        ),
+    )
+    .hint(Text::new(
+        "A vertex shader has a few kilobytes. Is this the right file?",
+        "頂点シェーダのソースは数 KiB ほどです。別のファイルを選んでいないか確かめてください。",
+    ))
+}

@@ -1,0 +1,222 @@
+//! Files that are no text, told by their first bytes.
+
+use super::looks_like;
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+
+/// First bytes that the crate `infer` does not know, with what they mean in English and Japanese.
+const SIGNATURES: [(&[u8], &str, &str); 9] = [
+    (b"%PDF-", "a PDF document", "PDF 文書"),
+    (
+        b"{\\rtf",
+        "a Rich Text (RTF) document",
+        "リッチテキスト（RTF）文書",
+    ),
+    (
+        b"\x03\x02\x23\x07",
+        "a compiled shader (SPIR-V)",
+        "コンパイル済みのシェーダ（SPIR-V）",
+    ),
+    (
+        b"\x07\x23\x02\x03",
+        "a compiled shader (SPIR-V)",
+        "コンパイル済みのシェーダ（SPIR-V）",
+    ),
+    (
+        b"\x00\x05\x16\x07",
+        "a “._” file that macOS adds to archives",
+        "macOS が作る「._」で始まる付属ファイル",
+    ),
+    (
+        b"\x00\x00\x00\x01Bud1",
+        "a .DS_Store file of macOS",
+        "macOS の .DS_Store ファイル",
+    ),
+    (
+        b"L\0\0\0\x01\x14\x02\0",
+        "a Windows shortcut",
+        "Windows のショートカット",
+    ),
+    (
+        b"bplist00",
+        "a property list of macOS",
+        "macOS のプロパティリスト",
+    ),
+    (b"\xFF\xFE\0\0", "text in UTF-32", "UTF-32 のテキスト"),
+];
+
+/// Why `bytes` are no text, where they are not.
+pub(in crate::source) fn binary(bytes: &[u8]) -> Option<Diagnostic> {
+    if let Some((_, en, ja)) = SIGNATURES
+        .iter()
+        .find(|(signature, ..)| bytes.starts_with(signature))
+    {
+        return Some(looks_like(en, ja));
+    }
+    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+        return None;
+    }
+    // Text is full of pairs of letters that open some binary format, so the guess needs a byte that text never has.
+    let nul = bytes.iter().position(|&byte| byte == 0)?;
+    if let Some((en, ja)) = infer::get(bytes).map(describe) {
+        return Some(looks_like(&en, &ja));
+    }
+    if is_utf16(bytes) {
+        return Some(utf16_without_mark());
+    }
+    Some(with_nul(bytes, nul))
+}
+
+/// The refusal of text in which control characters abound: a binary format that nobody knows, without a NUL.
+pub(in crate::source) fn control_characters(text: &str) -> Option<Diagnostic> {
+    if let Some(at) = text.find('\0') {
+        return Some(with_nul(text.as_bytes(), at));
+    }
+    let is_strange =
+        |c: &char| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}');
+    let strange = text.chars().filter(is_strange).count();
+    // A stray escape or end-of-file character is told at its place; one in sixteen is no text.
+    (strange > 8 && strange * 16 > text.chars().count())
+        .then(|| looks_like("binary data", "バイナリファイル"))
+}
+
+/// The kind that `infer` found, in words.
+fn describe(kind: infer::Type) -> (String, String) {
+    let by_extension = match kind.extension() {
+        "docx" | "doc" | "odt" => {
+            Some(("a word processor's document", "ワープロの文書（Word など）"))
+        }
+        "zip" => Some(("a ZIP archive", "ZIP ファイル")),
+        "exe" | "dll" | "elf" | "mach" | "obj" => Some(("a compiled program", "実行ファイル")),
+        _ => None,
+    };
+    if let Some((en, ja)) = by_extension {
+        return (en.to_owned(), ja.to_owned());
+    }
+    let format = kind.extension().to_uppercase();
+    let (en, ja) = match kind.matcher_type() {
+        infer::MatcherType::Image => ("picture", "画像"),
+        infer::MatcherType::Video => ("film", "動画ファイル"),
+        infer::MatcherType::Audio => ("sound file", "音声ファイル"),
+        infer::MatcherType::Archive => ("archive", "圧縮ファイル"),
+        infer::MatcherType::Doc | infer::MatcherType::Book => ("document", "文書ファイル"),
+        _ => ("binary file", "バイナリファイル"),
+    };
+    (format!("a {en} ({format})"), format!("{ja}（{format}）"))
+}
+
+/// Whether at least half of the characters are ASCII in UTF-16: a NUL in every second byte, always on the same side.
+fn is_utf16(bytes: &[u8]) -> bool {
+    let nuls = |side: usize| {
+        bytes
+            .iter()
+            .skip(side)
+            .step_by(2)
+            .filter(|&&byte| byte == 0)
+            .count()
+    };
+    let (even, odd) = (nuls(0), nuls(1));
+    even.min(odd) == 0 && even.max(odd) * 4 >= bytes.len()
+}
+
+fn utf16_without_mark() -> Diagnostic {
+    Diagnostic::error(
+        Stage::Source,
+        Text::new(
+            "The file seems to be text in UTF-16 without a byte-order mark. OpenGL drivers cannot compile that.",
+            "BOM のない UTF-16 で書かれたテキストのようです。OpenGL ドライバではコンパイルできません。",
+        ),
+    )
+    .hint(Text::new("Save the file as UTF-8.", "UTF-8 で保存し直してください。"))
+}
+
+fn with_nul(bytes: &[u8], at: usize) -> Diagnostic {
+    let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
+    Diagnostic::error(
+        Stage::Source,
+        Text::new(
+            format!("Line {line} holds a NUL byte (00). Text never does: the file is binary or damaged."),
+            format!("{line} 行目に NUL バイト（00）があります。バイナリファイルか、壊れたファイルのようです。"),
+        ),
+    )
+    .hint(Text::new(
+        "Open it in a text editor, check that it is your vertex shader, and save it as UTF-8.",
+        "テキストエディタで開いて頂点シェーダであることを確かめ、UTF-8 で保存し直してください。",
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn english(bytes: &[u8]) -> Option<String> {
+        binary(bytes).map(|refusal| refusal.message.en)
+    }
+
+    #[test]
+    fn common_files_are_told_by_name() {
+        let png = b"\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR\0\0\0\x01";
+        let jpeg = b"\xFF\xD8\xFF\xE0\0\x10JFIF\0\x01";
+        let gif = b"GIF89a\x01\0\x01\0\x80\0\0";
+        let zip = b"PK\x03\x04\x14\0\0\0\x08\0";
+        let elf = b"\x7FELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x03\0\x3E\0\x01\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
+        let gzip = b"\x1F\x8B\x08\0\0\0\0\0\0\x03";
+        for (bytes, word) in [
+            (&png[..], "a picture (PNG)"),
+            (jpeg, "a picture (JPG)"),
+            (gif, "a picture (GIF)"),
+            (zip, "a ZIP archive"),
+            (elf, "a compiled program"),
+            (gzip, "an archive"),
+            (b"%PDF-1.7\n", "a PDF document"),
+            (b"{\\rtf1\\ansi", "a Rich Text"),
+            (b"\x03\x02\x23\x07\0\0\x01\0", "SPIR-V"),
+            (b"\0\x05\x16\x07\0\x02\0\0", "macOS"),
+            (b"\xFF\xFE\0\0v\0\0\0", "UTF-32"),
+        ] {
+            let message = english(bytes).unwrap_or_default();
+            assert!(
+                message.contains(&word.replace("an archive", "archive (GZ)")),
+                "{word}: {message}"
+            );
+        }
+    }
+
+    #[test]
+    fn utf16_without_a_mark_is_told_as_such() {
+        let bytes: Vec<u8> = "void main() {}\n"
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect();
+        assert!(english(&bytes).is_some_and(|message| message.contains("UTF-16")));
+    }
+
+    #[test]
+    fn a_nul_in_text_is_told_with_its_line() {
+        assert!(english(b"a\nb\0\n").is_some_and(|message| message.starts_with("Line 2 ")));
+        assert!(control_characters("a\0").is_some());
+    }
+
+    #[test]
+    fn text_that_opens_like_a_binary_format_is_text() {
+        for text in [
+            "BM",
+            "MZ = 1;",
+            "ID3",
+            "GIF89a",
+            "II*",
+            "PK",
+            "Rar!",
+            "OTTO",
+            "#version 410 core",
+        ] {
+            assert_eq!(english(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn noise_is_binary_and_one_escape_is_not() {
+        assert!(control_characters(&"\u{1}\u{2}a".repeat(20)).is_some());
+        assert!(control_characters("void main() {}\u{1A}").is_none());
+    }
+}
