@@ -1,0 +1,48 @@
+#version 410 core
+
+// Light
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+
+// Material
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+
+// Vertex attributes
+in vec4 pv;
+in vec4 cv;
+
+// Matrices
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+// Output
+out vec4 vc;
+
+// #define DEBUG_NORMAL
+#define USE_BLINN 1
+
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w);
+    vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+    vec3 n = normalize((mg * cv).xyz);
+#ifdef DEBUG_NORMAL
+    vc = vec4(n * 0.5 + 0.5, 1.0);
+#else
+    vc = kamb * lamb + kdiff * ldiff * max(dot(n, l), 0.0);
+#if USE_BLINN
+    vec3 h = normalize(l + v);
+    vc += kspec * lspec * pow(max(dot(n, h), 0.0), kshi);
+#else
+    vec3 r = reflect(-l, n);
+    vc += kspec * lspec * pow(max(dot(r, v), 0.0), kshi);
+#endif
+#endif
+    gl_Position = mc * pv;
+}

@@ -1,0 +1,33 @@
+#version 410 core
+/*
+	課題6  Gouraud shading
+*/
+in	vec4	pv;
+in	vec4	cv;
+out	vec4	vc;
+uniform	mat4	mw;
+uniform	mat4	mc;
+uniform	mat4	mg;
+
+const	vec4	pl	= vec4(0.0, 0.0, 1.0, 0.0);
+const	vec4	lamb	= vec4(0.2, 0.2, 0.2, 1.0);
+const	vec4	ldiff	= vec4(1.0, 1.0, 1.0, 0.0);
+const	vec4	lspec	= vec4(1.0, 1.0, 1.0, 0.0);
+const	vec4	kamb	= vec4(0.6, 0.0, 0.0, 1.0);
+const	vec4	kdiff	= vec4(0.6, 0.0, 0.0, 1.0);
+const	vec4	kspec	= vec4(0.4, 0.4, 0.4, 1.0);
+const	float	kshi	= 80.0;
+
+void main(void)
+{
+	vec4 p = mw * pv;
+	vec4 n4 = mg * cv;
+	n4.w = 0.0;
+	n4 = normalize(n4);
+	vec4 v4 = vec4(-normalize(p.xyz), 0.0);
+	vec4 l4 = normalize(pl);
+	vec4 h4 = normalize(l4 + v4);
+
+	vc = kamb * lamb + max(dot(n4, l4), 0.0) * kdiff * ldiff + pow(max(dot(n4, h4), 0.0), kshi) * kspec * lspec;
+	gl_Position = mc * pv;
+}

@@ -1,0 +1,2 @@
+#version 410 core
+in vec4 pv,cv;uniform mat4 mw,mc,mg;out vec4 vc;void main(){vec3 v=-normalize((mw*pv).xyz),n=normalize((mg*cv).xyz),h=normalize(v+vec3(0,0,1));vc=vec4(.12+.6*max(n.z,0),0,0,1)+.4*pow(max(dot(n,h),0),80);gl_Position=mc*pv;}

@@ -1,0 +1,32 @@
+#version 410 core
+
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+const vec4  pl    = vec4(0, 0, 1, 0);
+const vec4  lamb  = vec4(vec3(0.2), 1);
+const vec4  ldiff = vec4(1, 1, 1, 0);
+const vec4  lspec = vec4(1, 1, 1, 0);
+const vec4  kamb  = vec4(0.6, 0, 0, 1);
+const vec4  kdiff = vec4(0.6, 0, 0, 1);
+const vec4  kspec = vec4(vec3(0.4), 1);
+const float kshi  = 80;
+
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+
+  vec3 ia = vec3(kamb * lamb);
+  vec3 id = vec3(kdiff * ldiff) * max(dot(n, l), 0.0);
+  vec3 is = vec3(kspec * lspec) * pow(max(dot(n, h), 0.0), kshi);
+  vc = vec4(ia + id + is, 1);
+  gl_Position = mc * pv;
+}
