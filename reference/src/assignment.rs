@@ -1,0 +1,276 @@
+//! An assignment: its folder, read and checked.
+
+mod check;
+
+use crate::equation::{Equation, Variant};
+use crate::expression::Value;
+pub use crate::manifest::{Attribute, Matrix, RubricLine, Stage};
+use crate::mistake::{Found, Mistake};
+use crate::scene::{Matrices, Scene, Vertex};
+use crate::{Text, Type, manifest};
+use glam::DMat4;
+use std::path::Path;
+use std::sync::OnceLock;
+use std::{fmt, fs};
+
+/// A homework as data.
+#[derive(Clone, Debug)]
+pub struct Assignment {
+    /// Its name, as in `ggsample06`.
+    pub id: String,
+    /// Its title.
+    pub title: Text,
+    /// The files that are handed in.
+    pub files: Vec<HandedIn>,
+    /// What the shader is given and what it writes.
+    pub interface: Interface,
+    /// What the handed-out file defines.
+    pub constants: Vec<Constant>,
+    /// What is drawn.
+    pub scene: Scene,
+    /// What a right answer computes.
+    pub equation: Equation,
+    /// What it is worth.
+    pub rubric: Vec<RubricLine>,
+    /// What goes wrong.
+    pub mistakes: Vec<Mistake>,
+    pub(crate) probing: manifest::Probes,
+}
+
+/// A file that is handed in.
+#[derive(Clone, Debug)]
+pub struct HandedIn {
+    /// Its name.
+    pub name: String,
+    /// Its stage.
+    pub stage: Stage,
+    /// The text of the file that is handed out.
+    pub starter: String,
+    /// The stages that it is linked with, each with its text.
+    pub fixed: Vec<(Stage, String)>,
+}
+
+/// What the handed-in stage is given and what it writes, by name.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    /// Vertex attributes.
+    pub inputs: Vec<Input>,
+    /// Uniforms of the default block.
+    pub uniforms: Vec<Uniform>,
+    /// Outputs, `gl_Position` aside.
+    pub outputs: Vec<Output>,
+}
+
+/// A vertex attribute.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+    /// What it holds.
+    pub carries: Attribute,
+}
+
+/// A uniform.
+#[derive(Clone, Debug)]
+pub struct Uniform {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+    /// Which matrix it holds.
+    pub carries: Matrix,
+}
+
+/// An output of the handed-in stage.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+    /// The definition that it must hold.
+    pub carries: String,
+}
+
+/// A constant of the handed-out file.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+    /// Its value.
+    pub value: Value,
+    /// What it means.
+    pub means: Text,
+    /// The rubric line that suffers when it is changed.
+    pub line: String,
+}
+
+/// Why a folder is not an assignment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AssignmentError {
+    /// Where: a file, an entry of `assignment.toml`.
+    pub place: String,
+    /// What is wrong there.
+    pub message: String,
+}
+
+impl fmt::Display for AssignmentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.message)
+    }
+}
+
+impl std::error::Error for AssignmentError {}
+
+/// Name of the file that describes an assignment.
+pub const MANIFEST: &str = "assignment.toml";
+
+/// A built-in folder: its files by name.
+type Folder = &'static [(&'static str, &'static str)];
+
+const BUILT_IN: &[Folder] = &[&[
+    (
+        MANIFEST,
+        include_str!("../assignments/ggsample06/assignment.toml"),
+    ),
+    (
+        "starter.vert",
+        include_str!("../assignments/ggsample06/starter.vert"),
+    ),
+    (
+        "fixed.frag",
+        include_str!("../assignments/ggsample06/fixed.frag"),
+    ),
+]];
+
+/// The assignments that are built in.
+///
+/// # Panics
+/// If a built-in folder is not an assignment, which the tests of this crate rule out.
+pub fn assignments() -> &'static [Assignment] {
+    static ALL: OnceLock<Vec<Assignment>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let load = |folder: &Folder| {
+            Assignment::load(|name| {
+                let file = folder.iter().find(|(n, _)| *n == name);
+                file.map(|(_, text)| (*text).to_owned())
+                    .ok_or_else(|| "is not in the folder".to_owned())
+            })
+        };
+        let all: Result<Vec<_>, _> = BUILT_IN.iter().map(load).collect();
+        all.expect("a built-in assignment is broken")
+    })
+}
+
+/// The built-in assignment with this id.
+pub fn assignment(id: &str) -> Option<&'static Assignment> {
+    assignments().iter().find(|a| a.id == id)
+}
+
+impl Assignment {
+    /// Reads and checks the assignment in a folder.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or whatever in it contradicts itself, with its place.
+    pub fn from_folder(folder: &Path) -> Result<Self, AssignmentError> {
+        Self::load(|name| fs::read_to_string(folder.join(name)).map_err(|e| e.to_string()))
+    }
+
+    /// Reads and checks an assignment whose files `read` gives by name.
+    ///
+    /// # Errors
+    /// See [`Assignment::from_folder`].
+    pub fn load(read: impl Fn(&str) -> Result<String, String>) -> Result<Self, AssignmentError> {
+        let read = |name: &str| read(name).map_err(|message| error(name, message));
+        let manifest: manifest::Manifest =
+            toml::from_str(&read(MANIFEST)?).map_err(|e| error(MANIFEST, e.to_string()))?;
+        check::assignment(manifest, read)
+    }
+
+    /// The mistake with this id.
+    pub fn mistake(&self, id: &str) -> Option<&Mistake> {
+        self.mistakes.iter().find(|m| m.id == id)
+    }
+
+    /// Points of the whole rubric.
+    pub fn max_score(&self) -> f64 {
+        self.rubric.iter().map(|line| line.points).sum()
+    }
+
+    /// The values of the uniforms, in the interface's order.
+    pub fn uniform_values(&self, matrices: &Matrices) -> Vec<Value> {
+        let value = |u: &Uniform| Value::Mat4(u.carries.of(matrices));
+        self.interface.uniforms.iter().map(value).collect()
+    }
+
+    /// The values of the vertex attributes, in the interface's order.
+    pub fn attribute_values(&self, vertex: &Vertex) -> Vec<Value> {
+        let value = |i: &Input| Value::Vec4(i.carries.of(vertex));
+        self.interface.inputs.iter().map(value).collect()
+    }
+
+    /// The equation with these mistakes in it; `None` if one is not known or has no such form.
+    pub fn variant(&self, mistakes: &[Found]) -> Option<Variant<'_>> {
+        let mut variant = self.equation.right();
+        for found in mistakes {
+            let form = self.mistake(&found.id)?.forms.get(found.form)?;
+            for replaced in &form.overrides {
+                *variant.expressions.get_mut(replaced.definition)? = &replaced.expression;
+            }
+            if let Some(parameter) = found.parameter {
+                variant.parameter = parameter;
+            }
+        }
+        Some(variant)
+    }
+
+    /// The same assignment with other values of some constants, as a student's file may define them.
+    ///
+    /// # Errors
+    /// A constant that is not known, or a value of another type.
+    pub fn with_constants(&self, changed: &[(&str, Value)]) -> Result<Self, AssignmentError> {
+        let mut other = self.clone();
+        for (name, value) in changed {
+            let found = other.constants.iter().position(|c| c.name == *name);
+            let place = found.ok_or_else(|| error(*name, "is not a constant of the assignment"))?;
+            if other.constants[place].kind != value.kind() {
+                return Err(error(*name, "has another type"));
+            }
+            other.constants[place].value = *value;
+            other.equation.constants[place] = *value;
+        }
+        Ok(other)
+    }
+}
+
+impl Matrix {
+    /// The matrix itself.
+    pub const fn of(self, matrices: &Matrices) -> DMat4 {
+        match self {
+            Self::ModelView => matrices.model_view,
+            Self::ModelViewProjection => matrices.model_view_projection,
+            Self::NormalMatrix => matrices.normal,
+        }
+    }
+}
+
+impl Attribute {
+    /// The attribute's value at a vertex.
+    pub const fn of(self, vertex: &Vertex) -> glam::DVec4 {
+        match self {
+            Self::Position => vertex.position,
+            Self::Normal => vertex.normal,
+        }
+    }
+}
+
+fn error(place: impl Into<String>, message: impl Into<String>) -> AssignmentError {
+    AssignmentError {
+        place: place.into(),
+        message: message.into(),
+    }
+}

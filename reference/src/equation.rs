@@ -1,0 +1,157 @@
+//! The illumination equation as an ordered list of definitions.
+
+use crate::expression::{Expression, Scope, Type, Value};
+use glam::{DVec3, DVec4};
+
+/// Definition that holds the vertex colour. The one fixed name, beside [`POSITION`].
+pub const COLOUR: &str = "colour";
+
+/// Definition that holds the position in clip space.
+pub const POSITION: &str = "position";
+
+/// A name and what it is.
+#[derive(Clone, Debug)]
+pub struct Definition {
+    /// Its name in later definitions.
+    pub name: String,
+    /// What it is in a right answer.
+    pub expression: Expression,
+    /// The slide of the lecture that defines it.
+    pub slide: Option<u32>,
+}
+
+/// Constants, uniforms, vertex attributes, and what is computed from them, in slots of that order.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    pub(crate) scope: Scope,
+    pub(crate) constants: Vec<Value>,
+    pub(crate) uniforms: usize,
+    pub(crate) attributes: usize,
+    pub(crate) definitions: Vec<Definition>,
+    pub(crate) colour: usize,
+    pub(crate) position: usize,
+}
+
+/// The equation with some definitions replaced.
+#[derive(Clone, Debug)]
+pub struct Variant<'a> {
+    pub(crate) equation: &'a Equation,
+    pub(crate) expressions: Vec<&'a Expression>,
+    pub(crate) parameter: f64,
+}
+
+/// What a variant computes for one vertex.
+#[derive(Clone, Debug)]
+pub struct Outcome<'a> {
+    equation: &'a Equation,
+    values: Vec<Value>,
+}
+
+impl Equation {
+    /// The definitions in the order in which they are computed.
+    pub fn definitions(&self) -> &[Definition] {
+        &self.definitions
+    }
+
+    /// The place of a definition in that order.
+    pub fn index(&self, name: &str) -> Option<usize> {
+        self.definitions.iter().position(|d| d.name == name)
+    }
+
+    /// The slot of a definition's value.
+    pub(crate) fn slot(&self, definition: usize) -> usize {
+        self.constants.len() + self.uniforms + self.attributes + definition
+    }
+
+    /// The definition whose value is in `slot`, if it is one.
+    pub(crate) fn definition_in(&self, slot: usize) -> Option<usize> {
+        let definition = slot.checked_sub(self.slot(0))?;
+        (definition < self.definitions.len()).then_some(definition)
+    }
+
+    /// The slot of a form's free parameter.
+    pub(crate) fn parameter_slot(&self) -> usize {
+        self.slot(self.definitions.len())
+    }
+
+    /// The value in a slot that is not a definition's.
+    pub(crate) fn given(
+        &self,
+        slot: usize,
+        uniforms: &[Value],
+        attributes: &[Value],
+    ) -> Option<Value> {
+        if let Some(constant) = self.constants.get(slot) {
+            return Some(*constant);
+        }
+        let slot = slot - self.constants.len();
+        uniforms
+            .get(slot)
+            .or_else(|| attributes.get(slot.checked_sub(self.uniforms)?))
+            .copied()
+    }
+
+    /// The equation as it stands.
+    pub fn right(&self) -> Variant<'_> {
+        Variant {
+            equation: self,
+            expressions: self.definitions.iter().map(|d| &d.expression).collect(),
+            parameter: f64::NAN,
+        }
+    }
+}
+
+impl<'a> Variant<'a> {
+    /// The expression of each definition, in the equation's order.
+    pub fn expressions(&self) -> &[&'a Expression] {
+        &self.expressions
+    }
+
+    /// The value of the free parameter; NaN if there is none.
+    pub const fn parameter(&self) -> f64 {
+        self.parameter
+    }
+
+    /// Computes every definition for one vertex. `uniforms` and `attributes` stand in the interface's order.
+    pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Outcome<'a> {
+        let mut values: Vec<Value> = Vec::with_capacity(self.expressions.len());
+        for expression in &self.expressions {
+            let value = expression.evaluate(&|slot| match self.equation.definition_in(slot) {
+                Some(d) => values.get(d).copied().unwrap_or(Value::Float(f64::NAN)),
+                None => self
+                    .equation
+                    .given(slot, uniforms, attributes)
+                    .unwrap_or(Value::Float(self.parameter)),
+            });
+            values.push(value);
+        }
+        Outcome {
+            equation: self.equation,
+            values,
+        }
+    }
+}
+
+impl Outcome<'_> {
+    /// Value of the definition called `name`.
+    pub fn get(&self, name: &str) -> Option<Value> {
+        self.values.get(self.equation.index(name)?).copied()
+    }
+
+    /// Red, green and blue of the vertex colour, not clamped; alpha is not seen.
+    pub fn colour(&self) -> DVec3 {
+        self.values[self.equation.colour].vec3()
+    }
+
+    /// Position in clip space.
+    pub fn position(&self) -> DVec4 {
+        self.values[self.equation.position].vec4()
+    }
+}
+
+impl Definition {
+    /// The type of the definition's value.
+    pub const fn kind(&self) -> Type {
+        self.expression.kind()
+    }
+}

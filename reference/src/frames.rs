@@ -1,0 +1,41 @@
+//! Pictures of the animation, as a right answer or a known mistake draws them.
+
+use crate::Assignment;
+use crate::equation::Variant;
+use crate::rasteriser::{ClipVertex, Frame};
+use crate::scene::Pose;
+
+impl Assignment {
+    /// The picture that `variant` of the equation draws at `pose`.
+    pub fn frame(&self, pose: &Pose, variant: &Variant<'_>) -> Frame {
+        self.picture(pose, variant, crate::equation::COLOUR)
+    }
+
+    /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition.
+    pub fn term_frame(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Frame> {
+        self.equation.index(term)?;
+        Some(self.picture(pose, variant, term))
+    }
+
+    /// The right pictures of all poses.
+    pub fn frames(&self) -> Vec<Frame> {
+        let right = self.equation.right();
+        let poses = self.scene.all_poses();
+        poses.iter().map(|pose| self.frame(pose, &right)).collect()
+    }
+
+    fn picture(&self, pose: &Pose, variant: &Variant<'_>, shown: &str) -> Frame {
+        let uniforms = self.uniform_values(&pose.matrices);
+        let triangle = self.scene.triangle.map(|vertex| {
+            let outcome = variant.evaluate(&uniforms, &self.attribute_values(&vertex));
+            ClipVertex {
+                position: outcome.position(),
+                colour: outcome.get(shown).map_or(glam::DVec3::NAN, |v| v.vec3()),
+            }
+        });
+        let scene = &self.scene;
+        let mut frame = Frame::cleared(scene.width, scene.height, scene.background);
+        frame.draw(&triangle);
+        frame
+    }
+}

@@ -1,0 +1,250 @@
+//! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
+
+use crate::Text;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// The whole file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Name of the assignment, as in `ggsample06`.
+    pub id: String,
+    /// Title of the homework.
+    pub title: Text,
+    /// The files that are handed in.
+    pub file: Vec<File>,
+    /// Vertex attributes.
+    pub input: Vec<Input>,
+    /// Uniforms of the default block.
+    pub uniform: Vec<Uniform>,
+    /// What the handed-in stage writes.
+    pub output: Vec<Output>,
+    /// What the handed-out file defines.
+    pub constant: Vec<Constant>,
+    /// Geometry, camera, animation.
+    pub scene: Scene,
+    /// The illumination equation, in order.
+    pub definition: Vec<Definition>,
+    /// How probes are chosen.
+    pub probes: Probes,
+    /// Lines of the rubric.
+    pub rubric: Vec<RubricLine>,
+    /// The known mistakes.
+    pub mistake: Vec<Mistake>,
+}
+
+/// A file that is handed in.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    /// Its name.
+    pub name: String,
+    /// Its stage.
+    pub stage: Stage,
+    /// The file that is handed out, in the assignment's folder.
+    pub starter: String,
+    /// The stages that are not handed in.
+    pub fixed: Vec<Fixed>,
+}
+
+/// A stage that every submission is linked with.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fixed {
+    /// Its stage.
+    pub stage: Stage,
+    /// The file, in the assignment's folder.
+    pub file: String,
+}
+
+/// A stage of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// The vertex shader.
+    Vertex,
+    /// The fragment shader.
+    Fragment,
+}
+
+/// A vertex attribute.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its GLSL type.
+    pub r#type: String,
+    /// What it holds.
+    pub carries: Attribute,
+}
+
+/// What a vertex attribute holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Attribute {
+    /// Position in object space, w = 1.
+    Position,
+    /// Normal in object space, w = 1.
+    Normal,
+}
+
+/// A uniform.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Uniform {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its GLSL type.
+    pub r#type: String,
+    /// Which matrix it holds.
+    pub carries: Matrix,
+}
+
+/// Which matrix a uniform holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Matrix {
+    /// From object space to eye space.
+    ModelView,
+    /// From object space to clip space.
+    ModelViewProjection,
+    /// From normals in object space to normals in eye space.
+    NormalMatrix,
+}
+
+/// An output of the handed-in stage.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its GLSL type.
+    pub r#type: String,
+    /// The definition that it must hold.
+    pub carries: String,
+}
+
+/// A constant of the handed-out file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Constant {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its GLSL type.
+    pub r#type: String,
+    /// Its value, component by component.
+    pub value: Vec<f64>,
+    /// What it means.
+    pub means: Text,
+    /// The rubric line that suffers when it is changed.
+    pub line: String,
+}
+
+/// Geometry, camera, animation; lengths in world units, angles in radians.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Vertices of the triangle.
+    pub triangle: [[f64; 3]; 3],
+    /// Their normals.
+    pub normals: [[f64; 3]; 3],
+    /// Where the eye is.
+    pub eye: [f64; 3],
+    /// What it looks at.
+    pub target: [f64; 3],
+    /// Which way is up.
+    pub up: [f64; 3],
+    /// Vertical field of view.
+    pub fovy: f64,
+    /// Near clipping plane.
+    pub near: f64,
+    /// Far clipping plane.
+    pub far: f64,
+    /// Turn about y in one cycle.
+    pub turn: f64,
+    /// Seconds in a cycle.
+    pub cycle: f64,
+    /// Width and height in pixels.
+    pub window: [u32; 2],
+    /// Clear colour, RGBA.
+    pub background: [u8; 4],
+    /// Number of poses that are looked at.
+    pub poses: u32,
+}
+
+/// A definition of the equation.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    /// Its name.
+    pub name: String,
+    /// Its expression.
+    pub is: String,
+    /// The slide of the lecture that defines it.
+    pub slide: Option<u32>,
+}
+
+/// How probes are chosen.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Probes {
+    /// Number of cameras.
+    pub groups: usize,
+    /// Vertices for each of them.
+    pub per_group: usize,
+    /// Constant that holds the light's position in eye space, homogeneous.
+    pub light: String,
+    /// Constant that holds the shininess.
+    pub shininess: String,
+}
+
+/// A line of the rubric.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RubricLine {
+    /// Its id in reports.
+    pub id: String,
+    /// Its points.
+    pub points: f64,
+    /// What it is called.
+    pub label: Text,
+    /// The definition that it judges.
+    pub judges: String,
+}
+
+/// A known mistake.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mistake {
+    /// Its id in reports.
+    pub id: String,
+    /// Fraction of the points that is kept, by rubric line.
+    pub keeps: BTreeMap<String, f64>,
+    /// The ways in which it is written: definition → expression.
+    #[serde(default)]
+    pub forms: Vec<BTreeMap<String, String>>,
+    /// The free parameter of its forms.
+    pub fit: Option<Fit>,
+    /// What is seen in the picture.
+    pub seen: Text,
+    /// Which equation of the lecture it breaks.
+    pub equation: Text,
+    /// Where to look.
+    pub look: Text,
+}
+
+/// A free parameter.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fit {
+    /// Its name.
+    pub name: String,
+    /// Least value.
+    pub from: f64,
+    /// Greatest value.
+    pub to: f64,
+    /// A likely value.
+    pub example: f64,
+}

@@ -1,0 +1,73 @@
+//! The known mistakes: what the equation becomes, what it costs, and what is said about it.
+
+use crate::Text;
+use crate::expression::Expression;
+
+/// A mistake that students make, as one hypothesis about the equation.
+#[derive(Clone, Debug)]
+pub struct Mistake {
+    /// Its name in reports; stable.
+    pub id: String,
+    /// Fraction of a rubric line's points that is kept, for each line that the mistake touches.
+    pub keeps: Vec<(String, f64)>,
+    /// The ways in which it is written. Empty for a mistake that is not seen in the equation.
+    pub forms: Vec<Form>,
+    /// The number in the forms that is not known beforehand.
+    pub fit: Option<FreeParameter>,
+    /// What is seen in the picture.
+    pub seen: Text,
+    /// Which equation of the lecture it breaks.
+    pub equation: Text,
+    /// Where to look and what to try. Placeholders: `{line}`, `{name}`, `{expected}`, `{found}`.
+    pub look: Text,
+}
+
+/// One way of writing a mistake: definitions of the equation, replaced.
+#[derive(Clone, Debug)]
+pub struct Form {
+    /// What is replaced, in the equation's order.
+    pub overrides: Vec<Override>,
+    /// Whether the mistake's free parameter occurs in it.
+    pub free: bool,
+}
+
+/// A definition with another expression.
+#[derive(Clone, Debug)]
+pub struct Override {
+    /// The definition's place in the equation.
+    pub definition: usize,
+    /// What it is here.
+    pub expression: Expression,
+}
+
+/// A number that is found from the samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeParameter {
+    /// Its name in the forms.
+    pub name: String,
+    /// The least value that it may have; above 0.
+    pub from: f64,
+    /// The greatest.
+    pub to: f64,
+    /// A value that a student may well have written.
+    pub example: f64,
+}
+
+/// A mistake that was found, in the form in which it was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The mistake's id.
+    pub id: String,
+    /// Which of its forms.
+    pub form: usize,
+    /// The value of the free parameter, if the form has one.
+    pub parameter: Option<f64>,
+}
+
+impl Mistake {
+    /// Fraction of the line's points that is kept; 1 for a line that the mistake does not touch.
+    pub fn keeps(&self, line: &str) -> f64 {
+        let kept = self.keeps.iter().find(|(l, _)| l == line);
+        kept.map_or(1.0, |(_, fraction)| *fraction)
+    }
+}

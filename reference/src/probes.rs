@@ -1,0 +1,178 @@
+//! Samples in which every term, every clamp and every known mistake of the equation shows.
+//!
+//! The animation hardly shows the specular term. Probes are vertices of their own, drawn once with random rigid cameras: each
+//! is designed in eye space by the angles between normal, light and half vector, then carried back to object space.
+
+mod design;
+
+use crate::Assignment;
+use crate::expression::Value;
+use crate::scene::{Matrices, Vertex, perspective};
+use design::Light;
+use glam::{DMat4, DQuat, DVec3, DVec4};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// Which terms of a right answer show at a probe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Region {
+    /// The light is behind the surface and there is no highlight: only the ambient term.
+    AmbientOnly,
+    /// As [`Region::AmbientOnly`], and the half vector lies far behind the surface: a highlight without clamp shows.
+    FacingAway,
+    /// Ambient and diffuse term, no highlight.
+    DiffuseOnly,
+    /// All terms; the highlight is at least a fiftieth of its greatest.
+    Highlight,
+    /// A highlight where the light is behind the surface, so that there is no diffuse term.
+    HighlightBehind,
+    /// Between the others.
+    Between,
+}
+
+/// One vertex and what a right answer computes for it.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    /// Which of the groups it belongs to: its uniforms.
+    pub group: usize,
+    /// The attributes, exact in f32.
+    pub vertex: Vertex,
+    /// The attributes in the interface's order.
+    pub attributes: Vec<Value>,
+    /// Which terms show.
+    pub region: Region,
+    /// The right colour, not clamped.
+    pub colour: DVec3,
+    /// The right position in clip space.
+    pub position: DVec4,
+}
+
+/// Probes with the same uniforms.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// The matrices, exact in f32.
+    pub matrices: Matrices,
+    /// The uniforms in the interface's order.
+    pub uniforms: Vec<Value>,
+}
+
+/// All probes of one grading.
+#[derive(Clone, Debug)]
+pub struct ProbeSet {
+    /// What they were chosen from; the same seed gives the same probes.
+    pub seed: u64,
+    /// The cameras.
+    pub groups: Vec<Group>,
+    /// The vertices, group after group, the same number for each.
+    pub probes: Vec<Probe>,
+}
+
+impl ProbeSet {
+    /// The probes in the order in which samples are expected.
+    pub fn iter(&self) -> std::slice::Iter<'_, Probe> {
+        self.probes.iter()
+    }
+
+    /// The uniforms of a probe, in the interface's order.
+    pub fn uniforms(&self, probe: &Probe) -> &[Value] {
+        &self.groups[probe.group].uniforms
+    }
+
+    /// The probes of one group.
+    pub fn of_group(&self, group: usize) -> &[Probe] {
+        let each = self.probes.len() / self.groups.len().max(1);
+        self.probes
+            .get(group * each..(group + 1) * each)
+            .unwrap_or_default()
+    }
+}
+
+impl<'a> IntoIterator for &'a ProbeSet {
+    type Item = &'a Probe;
+    type IntoIter = std::slice::Iter<'a, Probe>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl Assignment {
+    /// The probes for a seed.
+    pub fn probes(&self, seed: u64) -> ProbeSet {
+        let mut random = Random(ChaCha8Rng::seed_from_u64(seed));
+        let light = Light::of(self);
+        let right = self.equation.right();
+        let mut groups = Vec::new();
+        let mut probes = Vec::new();
+        for group in 0..self.probing.groups {
+            let matrices = random_camera(&mut random);
+            let uniforms = self.uniform_values(&matrices);
+            for place in 0..self.probing.per_group {
+                let vertex = design::vertex(&mut random, place, &light, &matrices);
+                let attributes = self.attribute_values(&vertex);
+                let outcome = right.evaluate(&uniforms, &attributes);
+                probes.push(Probe {
+                    group,
+                    region: light.region(&vertex, &matrices),
+                    colour: outcome.colour(),
+                    position: outcome.position(),
+                    vertex,
+                    attributes,
+                });
+            }
+            groups.push(Group { matrices, uniforms });
+        }
+        ProbeSet {
+            seed,
+            groups,
+            probes,
+        }
+    }
+}
+
+/// A camera that turns and shifts but, like the course's own, never stretches.
+///
+/// The shift is large: a normal that is moved as if it were a position ends up somewhere else altogether.
+fn random_camera(random: &mut Random) -> Matrices {
+    let axis = random.direction();
+    let rotation = DQuat::from_axis_angle(axis, random.between(0.4, 2.7));
+    let shift = random.direction() * random.between(3.0, 8.0);
+    let near = random.between(0.5, 2.0);
+    let projection = perspective(
+        random.between(0.4, 1.2),
+        random.between(0.8, 1.8),
+        near,
+        near + random.between(10.0, 20.0),
+    );
+    Matrices::new(
+        DMat4::from_rotation_translation(rotation, shift),
+        projection,
+    )
+}
+
+/// Random numbers that are the same on every machine.
+struct Random(ChaCha8Rng);
+
+impl Random {
+    /// Uniform in [from, to).
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        // The upper 53 bits fill the significand of an f64.
+        let unit = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        from + (to - from) * unit
+    }
+
+    /// Uniform on the unit sphere: height and longitude are independent (Archimedes).
+    fn direction(&mut self) -> DVec3 {
+        let z = self.between(-1.0, 1.0);
+        let (s, c) = self.between(0.0, std::f64::consts::TAU).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * c, r * s, z)
+    }
+
+    /// A unit vector at `angle` from `axis`, in a random direction around it.
+    fn at_angle(&mut self, axis: DVec3, angle: f64) -> DVec3 {
+        let aside = axis.any_orthonormal_vector();
+        let around = DQuat::from_axis_angle(axis, self.between(0.0, std::f64::consts::TAU));
+        axis * angle.cos() + around * aside * angle.sin()
+    }
+}
