@@ -1,5 +1,17 @@
 //! One [`Report`]; text, JSON, HTML and every exchange format are views of it.
 
+mod difference;
+mod equation;
+pub mod json;
+mod labels;
+pub mod pictures;
+#[cfg(test)]
+mod samples;
+pub mod text;
+mod wrap;
+
+pub use equation::{Definition, Equation, Term};
+
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
@@ -63,6 +75,13 @@ pub struct FrameResult {
     pub mean_difference: f64,
     /// Pixels that differ by more than the tolerance.
     pub mismatched_pixels: u32,
+}
+
+impl FrameResult {
+    /// Whether the frame is the expected one, within the tolerances.
+    pub fn agrees(&self) -> bool {
+        self.coverage_mismatches == 0 && self.mismatched_pixels == 0
+    }
 }
 
 /// How the probes compare.
@@ -136,4 +155,19 @@ pub struct Pictures {
     pub yours: Vec<Picture>,
     /// What a right answer draws.
     pub expected: Vec<Picture>,
+    /// One term of the equation at a time, where that is known.
+    pub terms: Vec<TermPictures>,
+}
+
+/// One term of the equation on its own, at the pose where it shows best.
+#[derive(Clone, Debug)]
+pub struct TermPictures {
+    /// Id of the rubric line that judges the term.
+    pub id: String,
+    /// Fraction of the animation cycle, in [0, 1).
+    pub t: f64,
+    /// The term as the student's shader computes it, where a known mistake explains it.
+    pub yours: Option<Picture>,
+    /// The term as a right answer computes it.
+    pub expected: Picture,
 }

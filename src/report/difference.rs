@@ -1,0 +1,158 @@
+//! The picture of a difference: one ramp of bands, shared by every view.
+//!
+//! A difference of 1/255 is as good as invisible on its own, and the bands double from there, so
+//! that the smallest mistake and the largest one both show. The lightness rises with the band: the
+//! ramp reads without colour.
+
+use super::Picture;
+
+/// One step of the ramp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Band {
+    /// Smallest difference in it, in 1/255.
+    pub low: u8,
+    /// Largest difference in it, in 1/255.
+    pub high: u8,
+    /// Its colour in the difference picture.
+    pub colour: [u8; 3],
+    /// Its character in a terminal; two neighbours share one.
+    pub shade: char,
+}
+
+impl Band {
+    /// The differences in it, such as `4–7`.
+    pub fn range(&self) -> String {
+        range(self.low, self.high)
+    }
+}
+
+const fn band(low: u8, high: u8, colour: [u8; 3], shade: char) -> Band {
+    Band {
+        low,
+        high,
+        colour,
+        shade,
+    }
+}
+
+/// The ramp, from the smallest difference up.
+pub(super) const BANDS: [Band; 8] = [
+    band(1, 1, [0x7b, 0x2c, 0xa8], '░'),
+    band(2, 3, [0xa0, 0x2c, 0x9a], '░'),
+    band(4, 7, [0xc9, 0x3a, 0x7c], '▒'),
+    band(8, 15, [0xe5, 0x53, 0x4f], '▒'),
+    band(16, 31, [0xf3, 0x74, 0x2b], '▓'),
+    band(32, 63, [0xfb, 0x9b, 0x06], '▓'),
+    band(64, 127, [0xf7, 0xd1, 0x3d], '█'),
+    band(128, 255, [0xfc, 0xff, 0xa4], '█'),
+];
+
+/// The shades of a terminal with the differences that each stands for.
+pub(super) fn shades() -> impl Iterator<Item = (char, String)> {
+    BANDS
+        .chunks(2)
+        .map(|pair| (pair[0].shade, range(pair[0].low, pair[1].high)))
+}
+
+/// The band of a difference in 1/255; none for zero. What is not finite counts as the largest.
+pub(super) fn band_of(difference: f64) -> Option<Band> {
+    if difference <= 0.0 {
+        return None;
+    }
+    // f64::min returns the other operand for NaN, and so the largest difference.
+    let level = difference.ceil().min(255.0) as u8;
+    Some(BANDS[level.ilog2() as usize])
+}
+
+/// Where two pictures differ, by the largest of the three colour channels; alpha is not seen.
+///
+/// Where they agree, the expected picture shows through as a faint negative in four steps, so that
+/// a difference can be placed. Both pictures have one size.
+pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
+    let pairs = yours
+        .rgba
+        .chunks_exact(4)
+        .zip(expected.rgba.chunks_exact(4));
+    pairs
+        .map(|(yours, expected)| pixel(yours, expected))
+        .collect()
+}
+
+fn pixel(yours: &[u8], expected: &[u8]) -> [u8; 3] {
+    let channels = yours[..3].iter().zip(&expected[..3]);
+    let largest = channels.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+    band_of(f64::from(largest)).map_or_else(|| ghost(expected), |band| band.colour)
+}
+
+fn ghost(expected: &[u8]) -> [u8; 3] {
+    let sum: u32 = expected[..3].iter().copied().map(u32::from).sum();
+    let darkness = 3 - (sum * 3 / (3 * 255)).min(3);
+    [0x12 + 0x0b * darkness as u8; 3]
+}
+
+fn range(low: u8, high: u8) -> String {
+    if low == high {
+        low.to_string()
+    } else {
+        format!("{low}–{high}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dot(rgba: [u8; 4]) -> Picture {
+        Picture {
+            width: 1,
+            height: 1,
+            rgba: rgba.to_vec(),
+        }
+    }
+
+    #[test]
+    fn bands_cover_every_difference_once() {
+        let mut next = 1;
+        for band in BANDS {
+            assert_eq!(u32::from(band.low), next);
+            next = u32::from(band.high) + 1;
+            for level in band.low..=band.high {
+                assert_eq!(band_of(f64::from(level)), Some(band));
+            }
+        }
+        assert_eq!(next, 256);
+    }
+
+    #[test]
+    fn ramp_gets_lighter_band_by_band() {
+        // Rec. 709 luma, without its scale.
+        let luma =
+            |[r, g, b]: [u8; 3]| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
+        let faintest_ghost = luma(ghost(&[0, 0, 0]));
+        assert!(luma(BANDS[0].colour) > faintest_ghost);
+        assert!(
+            BANDS
+                .windows(2)
+                .all(|pair| luma(pair[1].colour) > luma(pair[0].colour))
+        );
+    }
+
+    #[test]
+    fn zero_has_no_band_and_what_is_not_finite_has_the_last() {
+        assert_eq!(band_of(0.0), None);
+        assert_eq!(band_of(f64::NAN), Some(BANDS[7]));
+        assert_eq!(band_of(f64::INFINITY), Some(BANDS[7]));
+        // A mean such as 0.3 is still a difference.
+        assert_eq!(band_of(0.3), Some(BANDS[0]));
+    }
+
+    #[test]
+    fn one_step_in_any_colour_channel_shows_and_alpha_does_not() {
+        let expected = dot([30, 0, 0, 255]);
+        for rgba in [[31, 0, 0, 255], [30, 1, 0, 255], [30, 0, 1, 255]] {
+            assert_eq!(difference(&dot(rgba), &expected), [BANDS[0].colour]);
+        }
+        let same = difference(&dot([30, 0, 0, 0]), &expected);
+        assert_eq!(same, [ghost(&[30, 0, 0])]);
+    }
+}

@@ -1,0 +1,293 @@
+//! Every word of our own in the views, in one table.
+
+use super::text::number;
+use super::{Report, Verdict};
+use crate::diagnostic::{Severity, Stage};
+use crate::language::Language;
+
+/// The words of one language.
+#[derive(Debug)]
+pub(super) struct Labels {
+    /// The language as a BCP 47 tag.
+    pub tag: &'static str,
+    pub report: &'static str,
+    pub verdicts: [&'static str; 4],
+    pub headlines: [&'static str; 4],
+    pub score: &'static str,
+    pub rubric: &'static str,
+    pub full: &'static str,
+    pub partial: &'static str,
+    pub none: &'static str,
+    pub pictures: &'static str,
+    pub yours: &'static str,
+    pub expected: &'static str,
+    pub difference: &'static str,
+    pub agrees: &'static str,
+    pub differs: &'static str,
+    pub legend: &'static str,
+    pub frame: &'static str,
+    pub frames: &'static str,
+    pub each_frame: &'static str,
+    pub max_difference: &'static str,
+    pub mean_difference: &'static str,
+    pub mismatched_pixels: &'static str,
+    pub coverage_mismatches: &'static str,
+    pub unit: &'static str,
+    pub play: &'static str,
+    pub pause: &'static str,
+    pub position: &'static str,
+    pub reduced: &'static str,
+    pub probes: &'static str,
+    pub seed: &'static str,
+    pub equation: &'static str,
+    pub terms: &'static str,
+    pub unknown: &'static str,
+    pub source: &'static str,
+    pub diagnostics: &'static str,
+    pub hint: &'static str,
+    pub next: &'static str,
+    pub environment: &'static str,
+    pub elapsed: &'static str,
+    pub bytes: &'static str,
+}
+
+pub(super) const EN: Labels = Labels {
+    tag: "en",
+    report: "Grading report",
+    verdicts: ["Correct", "Not right yet", "Not accepted", "Stopped"],
+    headlines: [
+        "Every frame and every probe agrees.",
+        "It runs, and something differs from a right answer.",
+        "The shader could not be accepted, so nothing was drawn.",
+        "The shader ran into a limit and was stopped.",
+    ],
+    score: "Score",
+    rubric: "Points",
+    full: "all points",
+    partial: "some points",
+    none: "no points",
+    pictures: "Pictures",
+    yours: "Yours",
+    expected: "Expected",
+    difference: "Difference",
+    agrees: "agrees",
+    differs: "differs",
+    legend: "Largest difference of red, green and blue, in 1/255",
+    frame: "Frame",
+    frames: "Frames",
+    each_frame: "Each frame in numbers",
+    max_difference: "Largest difference",
+    mean_difference: "Mean difference",
+    mismatched_pixels: "Differing pixels",
+    coverage_mismatches: "Shape pixels",
+    unit: "Differences are in 1/255, over red, green and blue. Shape pixels are covered in one picture only.",
+    play: "Play",
+    pause: "Pause",
+    position: "Position in the animation",
+    reduced: "Shown at a reduced resolution.",
+    probes: "Probes",
+    seed: "seed",
+    equation: "Equation",
+    terms: "Term by term",
+    unknown: "No known mistake explains this term, so it cannot be drawn on its own.",
+    source: "Source",
+    diagnostics: "Messages",
+    hint: "Hint",
+    next: "Next",
+    environment: "Graded by",
+    elapsed: "Time",
+    bytes: "bytes",
+};
+
+pub(super) const JA: Labels = Labels {
+    tag: "ja",
+    report: "採点結果",
+    verdicts: [
+        "正解",
+        "修正が必要です",
+        "受理できません",
+        "実行を中断しました",
+    ],
+    headlines: [
+        "すべてのフレームとすべての検査点が正解と一致しました。",
+        "シェーダは動作しますが、正解と異なるところがあります。",
+        "シェーダを受理できなかったため、描画は行っていません。",
+        "シェーダが制限に達したため、実行を中断しました。",
+    ],
+    score: "得点",
+    rubric: "採点の内訳",
+    full: "満点",
+    partial: "部分点",
+    none: "得点なし",
+    pictures: "画像の比較",
+    yours: "提出",
+    expected: "正解",
+    difference: "差",
+    agrees: "一致",
+    differs: "相違",
+    legend: "RGB の差の最大値（単位 1/255）",
+    frame: "フレーム",
+    frames: "フレーム",
+    each_frame: "フレームごとの数値",
+    max_difference: "最大の差",
+    mean_difference: "平均の差",
+    mismatched_pixels: "異なる画素",
+    coverage_mismatches: "形の異なる画素",
+    unit: "差は RGB について 1/255 を単位とします。「形の異なる画素」は、一方の画像だけで塗られている画素です。",
+    play: "再生",
+    pause: "一時停止",
+    position: "アニメーションの位置",
+    reduced: "解像度を下げて表示しています。",
+    probes: "検査点",
+    seed: "シード",
+    equation: "式",
+    terms: "項ごとの比較",
+    unknown: "この項は既知の間違いでは説明できないため、単独では表示できません。",
+    source: "ソース",
+    diagnostics: "メッセージ",
+    hint: "ヒント",
+    next: "次の一歩",
+    environment: "採点環境",
+    elapsed: "所要時間",
+    bytes: "バイト",
+};
+
+impl Labels {
+    /// The words of `language`.
+    pub fn of(language: Language) -> &'static Self {
+        match language {
+            Language::En => &EN,
+            Language::Ja => &JA,
+        }
+    }
+
+    pub fn verdict(&self, verdict: Verdict) -> &'static str {
+        self.verdicts[verdict as usize]
+    }
+
+    pub fn headline(&self, verdict: Verdict) -> &'static str {
+        self.headlines[verdict as usize]
+    }
+
+    fn japanese(&self) -> bool {
+        self.tag == JA.tag
+    }
+
+    pub fn line(&self, line: u32) -> String {
+        if self.japanese() {
+            format!("{line} 行目")
+        } else {
+            format!("line {line}")
+        }
+    }
+
+    /// Line, and column where it is known.
+    pub fn place(&self, line: u32, column: Option<u32>) -> String {
+        match (column, self.japanese()) {
+            (None, _) => self.line(line),
+            (Some(column), true) => format!("{line} 行目 {column} 文字目"),
+            (Some(column), false) => format!("line {line}, column {column}"),
+        }
+    }
+
+    pub fn severity(&self, severity: Severity) -> &'static str {
+        match (severity, self.japanese()) {
+            (Severity::Error, false) => "error",
+            (Severity::Error, true) => "エラー",
+            (Severity::Warning, false) => "warning",
+            (Severity::Warning, true) => "警告",
+            (Severity::Note, false) => "note",
+            (Severity::Note, true) => "補足",
+        }
+    }
+
+    pub fn stage(&self, stage: Stage) -> &'static str {
+        match (stage, self.japanese()) {
+            (Stage::Source, false) => "reading the file",
+            (Stage::Source, true) => "ファイルの読み込み",
+            (Stage::Compile, false) => "compiling",
+            (Stage::Compile, true) => "コンパイル",
+            (Stage::Link, false) => "linking",
+            (Stage::Link, true) => "リンク",
+            (Stage::Interface, false) => "checking the interface",
+            (Stage::Interface, true) => "入出力の確認",
+            (Stage::Run, false) => "running",
+            (Stage::Run, true) => "実行",
+        }
+    }
+
+    pub fn frames_agree(&self, agree: usize, total: usize) -> String {
+        if self.japanese() {
+            format!("{total} 枚のうち {agree} 枚が一致")
+        } else {
+            format!("{agree} of {total} agree")
+        }
+    }
+
+    pub fn probes_agree(&self, agree: u32, total: u32) -> String {
+        if self.japanese() {
+            format!("{total} 点のうち {agree} 点が一致")
+        } else {
+            format!("{agree} of {total} agree")
+        }
+    }
+
+    /// What to do first; none when nothing is left to do.
+    pub fn next_step(&self, report: &Report, language: Language) -> Option<String> {
+        match report.verdict {
+            Verdict::Correct => None,
+            Verdict::Wrong => {
+                let line = report
+                    .rubric
+                    .iter()
+                    .find(|line| line.points < line.max_points)?;
+                let points = number(line.max_points - line.points);
+                Some(self.start_with(line.label.get(language), line.line, &points))
+            }
+            Verdict::Rejected => {
+                let errors = report
+                    .diagnostics
+                    .iter()
+                    .filter(|d| d.severity == Severity::Error);
+                Some(self.fix_first(errors.count() > 1).to_owned())
+            }
+            Verdict::Stopped => Some(self.unstop().to_owned()),
+        }
+    }
+
+    fn start_with(&self, label: &str, line: Option<u32>, points: &str) -> String {
+        match (line, self.japanese()) {
+            (Some(line), true) => {
+                format!("まず {line} 行目を見てみましょう。{label}であと {points} 点取れます。")
+            }
+            (None, true) => {
+                format!("まず{label}から見直してみましょう。あと {points} 点取れます。")
+            }
+            (Some(line), false) => {
+                format!("Look at line {line} first: {label} has {points} more points to give.")
+            }
+            (None, false) => format!("Start with {label}: it has {points} more points to give."),
+        }
+    }
+
+    fn fix_first(&self, several: bool) -> &'static str {
+        match (several, self.japanese()) {
+            (true, true) => {
+                "最初のエラーを直して、もう一度採点してください。後のエラーは最初のエラーが原因であることがよくあります。"
+            }
+            (false, true) => "エラーを直して、もう一度採点してください。",
+            (true, false) => {
+                "Mend the first error and grade the file again: later errors often follow from the first."
+            }
+            (false, false) => "Mend the error and grade the file again.",
+        }
+    }
+
+    fn unstop(&self) -> &'static str {
+        if self.japanese() {
+            "繰り返しの条件や計算量を見直して、もう一度採点してください。"
+        } else {
+            "Check the conditions of your loops and how much they compute, and grade the file again."
+        }
+    }
+}
