@@ -1,0 +1,92 @@
+//! Constants of the handed-out file that the student changed, read from their own text.
+
+use crate::source::Source;
+use reference::expression::{Expression, Scope};
+use reference::{Assignment, Value};
+
+/// A constant with another value than the handed-out one.
+#[derive(Clone, Debug)]
+pub struct ChangedConstant {
+    /// Its name.
+    pub name: String,
+    /// What the handed-out file says.
+    pub expected: Value,
+    /// What the student's file says.
+    pub found: Value,
+    /// The line that says so, from 1.
+    pub line: u32,
+}
+
+/// The constants whose declaration or `#define` in `source` has another value.
+///
+/// A value that is not written as a constant expression of plain GLSL is not found; the samples show what it does.
+pub fn changed(source: &Source, assignment: &Assignment) -> Vec<ChangedConstant> {
+    let code = source.code();
+    assignment
+        .constants
+        .iter()
+        .filter_map(|constant| {
+            let (at, text) = initialiser(code, &constant.name).or_else(|| defined(code, &constant.name))?;
+            let expression = Expression::parse(text, &Scope::default()).ok()?;
+            let found = expression.evaluate(&|_| Value::Float(f64::NAN));
+            (found.kind() == constant.kind && !same(&found, &constant.value)).then(|| ChangedConstant {
+                name: constant.name.clone(),
+                expected: constant.value,
+                found,
+                line: source.position(at).0,
+            })
+        })
+        .collect()
+}
+
+/// Whether two values draw the same: alpha is not seen, but a light's w is.
+fn same(a: &Value, b: &Value) -> bool {
+    // Literals are read in f32 by a compiler; a change that small is none.
+    const RELATIVE: f64 = 1e-6;
+    let close = |(x, y): (f64, f64)| (x - y).abs() <= RELATIVE * y.abs().max(1e-3);
+    a.numbers().into_iter().zip(b.numbers()).all(close)
+}
+
+/// The text after `name =` up to the comma or semicolon that ends it, and where the name stands.
+fn initialiser<'a>(code: &'a str, name: &str) -> Option<(usize, &'a str)> {
+    for at in occurrences(code, name) {
+        let rest = code[at + name.len()..].trim_start();
+        let Some(value) = rest.strip_prefix('=').filter(|value| !value.starts_with('=')) else { continue };
+        return Some((at, value[..end(value)].trim()));
+    }
+    None
+}
+
+/// The text of `#define name …`, and where the name stands.
+fn defined<'a>(code: &'a str, name: &str) -> Option<(usize, &'a str)> {
+    occurrences(code, name).find_map(|at| {
+        let line_start = code[..at].rfind('\n').map_or(0, |newline| newline + 1);
+        let before = code[line_start..at].trim();
+        let is_define = before.strip_prefix('#').is_some_and(|word| word.trim() == "define");
+        let value = code[at + name.len()..].lines().next().unwrap_or_default().trim();
+        (is_define && !value.is_empty()).then_some((at, value))
+    })
+}
+
+fn occurrences<'a>(code: &'a str, name: &'a str) -> impl Iterator<Item = usize> + 'a {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    code.match_indices(name).map(|(at, _)| at).filter(move |&at| {
+        let before = code[..at].chars().next_back().is_some_and(|c| is_word(c) || c == '.');
+        let after = code[at + name.len()..].chars().next().is_some_and(is_word);
+        !before && !after
+    })
+}
+
+/// Where an initialiser ends: at the first comma or semicolon outside parentheses.
+fn end(value: &str) -> usize {
+    let mut depth = 0;
+    for (at, c) in value.char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            ',' | ';' if depth <= 0 => return at,
+            _ => {}
+        }
+    }
+    value.len()
+}

@@ -1,0 +1,215 @@
+//! Samples → which terms are right, which known mistakes explain the rest, and what that is worth. Pure.
+
+mod constants;
+mod hard_coded;
+mod message;
+
+use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
+use crate::language::Text;
+use crate::render::Sample;
+use crate::report::{FrameResult, ProbeResult, RubricLine};
+use crate::source::Source;
+use constants::ChangedConstant;
+use reference::Assignment;
+use reference::fit::{Fit, TermJudgement, explain};
+use reference::mistake::Found;
+use reference::probes::ProbeSet;
+
+/// The rubric line that is judged by where things are drawn, not by their colour.
+const SHAPE: &str = "shape";
+
+/// What a rendering showed.
+#[derive(Clone, Copy, Debug)]
+pub struct Evidence<'a> {
+    /// The homework.
+    pub assignment: &'a Assignment,
+    /// The student's text.
+    pub source: &'a Source,
+    /// The frames, compared.
+    pub frames: &'a [FrameResult],
+    /// The probes.
+    pub probes: &'a ProbeSet,
+    /// What the shader computed at each probe, in their order.
+    pub samples: &'a [Sample],
+}
+
+/// What is to be said and credited.
+#[derive(Clone, Debug)]
+pub struct Diagnosis {
+    /// Whether all frames and all probes agree.
+    pub is_right: bool,
+    /// The rubric, judged.
+    pub rubric: Vec<RubricLine>,
+    /// Ids of the mistakes found.
+    pub mistakes: Vec<String>,
+    /// The probes in figures.
+    pub probes: ProbeResult,
+}
+
+/// Why the colours are as they are.
+enum Cause {
+    Right,
+    /// Known mistakes explain every sample, perhaps on top of changed constants.
+    Known {
+        constants: Vec<ChangedConstant>,
+        found: Vec<Found>,
+    },
+    /// The colour does not come from the equation at all.
+    HardCoded,
+    /// Nothing known explains it; each term as far as it stands alone.
+    Unexplained(Vec<TermJudgement>),
+}
+
+/// Judges the evidence.
+pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
+    let probes = compare_probes(evidence);
+    let shape = shape_agrees(evidence, &probes);
+    let cause = cause(evidence, shape);
+    let mut mistakes = cause.ids();
+    if !shape && !mistakes.iter().any(|id| costs(evidence.assignment, id, SHAPE)) {
+        mistakes.push("position-changed".into());
+    }
+    let lines = &evidence.assignment.rubric;
+    let rubric: Vec<RubricLine> = lines.iter().map(|line| judge(evidence, line, shape, &cause, &mistakes)).collect();
+    Diagnosis { is_right: mistakes.is_empty(), rubric, mistakes, probes: probes.result }
+}
+
+fn costs(assignment: &Assignment, id: &str, line: &str) -> bool {
+    assignment.mistake(id).is_some_and(|mistake| mistake.keeps(line) < 1.0)
+}
+
+struct ComparedProbes {
+    result: ProbeResult,
+    positions_agree: bool,
+}
+
+fn compare_probes(evidence: &Evidence<'_>) -> ComparedProbes {
+    let scale = position_scale(evidence);
+    let mut mismatched = 0;
+    let mut largest: f64 = 0.0;
+    let mut positions_agree = true;
+    for (probe, sample) in evidence.probes.iter().zip(evidence.samples) {
+        let colour = colour_difference(probe.colour, sample);
+        let position = position_difference(probe.position, sample, scale);
+        largest = largest.max(colour);
+        positions_agree &= position <= POSITION_TOLERANCE;
+        mismatched += u32::from(colour > COLOUR_TOLERANCE || position > POSITION_TOLERANCE);
+    }
+    let result = ProbeResult {
+        seed: evidence.probes.seed,
+        samples: evidence.probes.probes.len() as u32,
+        mismatched,
+        max_difference: largest.is_finite().then_some(largest),
+    };
+    ComparedProbes { result, positions_agree }
+}
+
+/// The factor that all positions have in common; 1 where there is none that keeps the picture.
+fn position_scale(evidence: &Evidence<'_>) -> f64 {
+    let first = evidence.probes.iter().zip(evidence.samples).next();
+    let scale = first.map_or(1.0, |(probe, sample)| {
+        let found = glam::DVec4::from_array(sample.position.map(f64::from));
+        found.dot(probe.position) / probe.position.length_squared()
+    });
+    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+}
+
+/// Whether everything stands where it should, in the pictures and at the probes.
+fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
+    probes.positions_agree && evidence.frames.iter().all(FrameResult::shape_agrees)
+}
+
+fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
+    let Evidence { assignment, probes, .. } = *evidence;
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
+    let fit = explain(assignment, probes, &samples, COLOUR_TOLERANCE);
+    if fit.is_right() {
+        // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
+        return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
+    }
+    let constants = constants::changed(evidence.source, assignment);
+    if let Some(found) = explained_by(&constants, evidence, &samples) {
+        return Cause::Known { constants, found };
+    }
+    match fit {
+        Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
+        Fit::Unexplained(_) if frames_agree || hard_coded::is_lookup(probes, evidence.samples) => Cause::HardCoded,
+        Fit::Unexplained(terms) => Cause::Unexplained(terms),
+    }
+}
+
+/// The mistakes that explain the samples when the equation has the student's own constants.
+fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Vec<Found>> {
+    if constants.is_empty() {
+        return None;
+    }
+    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found)).collect();
+    let changed = evidence.assignment.with_constants(&changes).ok()?;
+    match explain(&changed, evidence.probes, samples, COLOUR_TOLERANCE) {
+        Fit::Explained(found) => Some(found),
+        Fit::Unexplained(_) => None,
+    }
+}
+
+impl Cause {
+    fn ids(&self) -> Vec<String> {
+        match self {
+            Self::Right => Vec::new(),
+            Self::Known { constants, found } => {
+                let changed = (!constants.is_empty()).then(|| "constants-changed".to_owned());
+                changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
+            }
+            Self::HardCoded => vec!["hard-coded".into()],
+            Self::Unexplained(_) => vec!["unexplained".into()],
+        }
+    }
+}
+
+/// Judges one line of the rubric.
+fn judge(
+    evidence: &Evidence<'_>,
+    line: &reference::assignment::RubricLine,
+    shape: bool,
+    cause: &Cause,
+    mistakes: &[String],
+) -> RubricLine {
+    let culprit = mistakes.iter().find(|id| is_touched(evidence.assignment, line, shape, cause, id));
+    let kept = mistakes
+        .iter()
+        .filter(|id| is_touched(evidence.assignment, line, shape, cause, id))
+        .filter_map(|id| evidence.assignment.mistake(id))
+        .map(|mistake| mistake.keeps(&line.id))
+        .product::<f64>();
+    let told = message::tell(evidence, line, cause, culprit.map(String::as_str));
+    RubricLine {
+        id: line.id.clone(),
+        label: Text::new(&line.label.en, &line.label.ja),
+        // Half points are the finest that a rubric shows.
+        points: (line.points * kept * 2.0).round() / 2.0,
+        max_points: line.points,
+        mistake: culprit.cloned(),
+        message: told.text,
+        line: told.line,
+    }
+}
+
+/// Whether the mistake costs the line points in this answer.
+fn is_touched(
+    assignment: &Assignment,
+    line: &reference::assignment::RubricLine,
+    shape: bool,
+    cause: &Cause,
+    id: &str,
+) -> bool {
+    match (cause, id) {
+        (_, "position-changed") => !shape && line.id == SHAPE,
+        (Cause::Unexplained(terms), "unexplained") => {
+            terms.iter().any(|term| term.line == line.id && !term.is_right())
+        }
+        (Cause::Known { constants, .. }, "constants-changed") => {
+            constants.iter().any(|changed| assignment.constants.iter().any(|c| c.name == changed.name && c.line == line.id))
+        }
+        _ => costs(assignment, id, &line.id),
+    }
+}
