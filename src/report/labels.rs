@@ -1,7 +1,6 @@
 //! Every word of our own in the views, in one table.
 
-use super::text::number;
-use super::{Report, Verdict};
+use super::Verdict;
 use crate::diagnostic::{Severity, Stage};
 use crate::language::Language;
 
@@ -49,6 +48,12 @@ pub(super) struct Labels {
     pub environment: &'static str,
     pub elapsed: &'static str,
     pub bytes: &'static str,
+    pub see_above: &'static str,
+    pub measured: &'static str,
+    pub assignment: &'static str,
+    pub renderer: &'static str,
+    pub driver: &'static str,
+    pub file: &'static str,
 }
 
 pub(super) const EN: Labels = Labels {
@@ -72,7 +77,7 @@ pub(super) const EN: Labels = Labels {
     difference: "Difference",
     agrees: "agrees",
     differs: "differs",
-    legend: "Largest difference of red, green and blue, in 1/255",
+    legend: "Largest difference of red, green and blue, in 1/255; within the tolerance a frame agrees",
     frame: "Frame",
     frames: "Frames",
     each_frame: "Each frame in numbers",
@@ -97,6 +102,12 @@ pub(super) const EN: Labels = Labels {
     environment: "Graded by",
     elapsed: "Time",
     bytes: "bytes",
+    see_above: "costs points here; the rubric above says why.",
+    measured: "Measurements",
+    assignment: "Assignment",
+    renderer: "Renderer",
+    driver: "Driver",
+    file: "File",
 };
 
 pub(super) const JA: Labels = Labels {
@@ -125,7 +136,7 @@ pub(super) const JA: Labels = Labels {
     difference: "差",
     agrees: "一致",
     differs: "相違",
-    legend: "RGB の差の最大値（単位 1/255）",
+    legend: "RGB の差の最大値（単位 1/255）。許容範囲内なら一致とします",
     frame: "フレーム",
     frames: "フレーム",
     each_frame: "フレームごとの数値",
@@ -150,6 +161,12 @@ pub(super) const JA: Labels = Labels {
     environment: "採点環境",
     elapsed: "所要時間",
     bytes: "バイト",
+    see_above: "この行で減点があります。上の採点の内訳をご覧ください。",
+    measured: "測定値",
+    assignment: "課題",
+    renderer: "レンダラー",
+    driver: "ドライバ",
+    file: "ファイル",
 };
 
 impl Labels {
@@ -169,7 +186,7 @@ impl Labels {
         self.headlines[verdict as usize]
     }
 
-    fn japanese(&self) -> bool {
+    pub fn japanese(&self) -> bool {
         self.tag == JA.tag
     }
 
@@ -229,65 +246,6 @@ impl Labels {
             format!("{total} 点のうち {agree} 点が一致")
         } else {
             format!("{agree} of {total} agree")
-        }
-    }
-
-    /// What to do first; none when nothing is left to do.
-    pub fn next_step(&self, report: &Report, language: Language) -> Option<String> {
-        match report.verdict {
-            Verdict::Correct => None,
-            Verdict::Wrong => {
-                let line = report
-                    .rubric
-                    .iter()
-                    .find(|line| line.points < line.max_points)?;
-                let points = number(line.max_points - line.points);
-                Some(self.start_with(line.label.get(language), line.line, &points))
-            }
-            Verdict::Rejected => {
-                let errors = report
-                    .diagnostics
-                    .iter()
-                    .filter(|d| d.severity == Severity::Error);
-                Some(self.fix_first(errors.count() > 1).to_owned())
-            }
-            Verdict::Stopped => Some(self.unstop().to_owned()),
-        }
-    }
-
-    fn start_with(&self, label: &str, line: Option<u32>, points: &str) -> String {
-        match (line, self.japanese()) {
-            (Some(line), true) => {
-                format!("まず {line} 行目を見てみましょう。{label}であと {points} 点取れます。")
-            }
-            (None, true) => {
-                format!("まず{label}から見直してみましょう。あと {points} 点取れます。")
-            }
-            (Some(line), false) => {
-                format!("Look at line {line} first: {label} has {points} more points to give.")
-            }
-            (None, false) => format!("Start with {label}: it has {points} more points to give."),
-        }
-    }
-
-    fn fix_first(&self, several: bool) -> &'static str {
-        match (several, self.japanese()) {
-            (true, true) => {
-                "最初のエラーを直して、もう一度採点してください。後のエラーは最初のエラーが原因であることがよくあります。"
-            }
-            (false, true) => "エラーを直して、もう一度採点してください。",
-            (true, false) => {
-                "Mend the first error and grade the file again: later errors often follow from the first."
-            }
-            (false, false) => "Mend the error and grade the file again.",
-        }
-    }
-
-    fn unstop(&self) -> &'static str {
-        if self.japanese() {
-            "繰り返しの条件や計算量を見直して、もう一度採点してください。"
-        } else {
-            "Check the conditions of your loops and how much they compute, and grade the file again."
         }
     }
 }

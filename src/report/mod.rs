@@ -1,9 +1,12 @@
 //! One [`Report`]; text, JSON, HTML and every exchange format are views of it.
 
 mod difference;
+mod encode;
 mod equation;
+pub mod html;
 pub mod json;
 mod labels;
+mod next;
 pub mod pictures;
 #[cfg(test)]
 mod samples;

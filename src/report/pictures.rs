@@ -3,29 +3,16 @@
 //! Alpha is not seen in the course's window: every file is opaque.
 
 use super::difference::difference;
+use super::encode::{Raster, encode, mismatched};
 use super::{Picture, Pictures};
 use crate::fault::Fault;
 use crate::language::Text;
-use png::{BitDepth, ColorType, Compression, Encoder, Filter};
-use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Seconds that the animation takes, as in the course's program.
-pub const CYCLE_SECONDS: f64 = 5.0;
 /// Pixels between the pictures of the animation, and their colour.
 const GAP: usize = 8;
-const GAP_COLOUR: Rgb = [0x80; 3];
-
-type Rgb = [u8; 3];
-
-/// An opaque picture, top row first.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Raster {
-    pub width: usize,
-    pub height: usize,
-    pub pixels: Vec<Rgb>,
-}
+const GAP_COLOUR: [u8; 3] = [0x80; 3];
 
 /// One pose: what was drawn, what is expected, and where they differ.
 #[derive(Clone, Debug)]
@@ -35,32 +22,9 @@ pub(super) struct Pose {
     pub difference: Raster,
 }
 
-impl Raster {
-    /// The picture without its alpha; a fault when its size and its bytes do not go together.
-    pub fn opaque(picture: &Picture) -> Result<Self, Fault> {
-        let (width, height) = (picture.width as usize, picture.height as usize);
-        if width == 0 || height == 0 || picture.rgba.len() != width * height * 4 {
-            return Err(mismatched());
-        }
-        let pixels = picture.rgba.chunks_exact(4).map(|p| [p[0], p[1], p[2]]);
-        Ok(Self {
-            width,
-            height,
-            pixels: pixels.collect(),
-        })
-    }
-
-    fn rows(&self) -> impl Iterator<Item = &[Rgb]> {
-        self.pixels.chunks_exact(self.width)
-    }
-}
-
 impl Pose {
-    /// The pose drawn from two pictures of one size.
-    pub fn of(yours: &Picture, expected: &Picture) -> Result<Self, Fault> {
-        if (yours.width, yours.height) != (expected.width, expected.height) {
-            return Err(mismatched());
-        }
+    /// The pose of two pictures of one size.
+    fn of(yours: &Picture, expected: &Picture) -> Result<Self, Fault> {
         let (yours_raster, expected_raster) = (Raster::opaque(yours)?, Raster::opaque(expected)?);
         Ok(Self {
             difference: Raster {
@@ -72,9 +36,15 @@ impl Pose {
         })
     }
 
-    /// Every pose of a grading, in order.
+    /// Every pose of a grading, in order; a fault unless all pictures have one size.
     pub fn all(pictures: &Pictures) -> Result<Vec<Self>, Fault> {
         if pictures.yours.len() != pictures.expected.len() {
+            return Err(mismatched());
+        }
+        let mut all = pictures.yours.iter().chain(&pictures.expected);
+        let size = |picture: &Picture| (picture.width, picture.height);
+        let first = all.next().map(size);
+        if all.any(|picture| Some(size(picture)) != first) {
             return Err(mismatched());
         }
         let pairs = pictures.yours.iter().zip(&pictures.expected);
@@ -145,108 +115,6 @@ pub fn png(picture: &Picture) -> Result<Vec<u8>, Fault> {
 fn animate(poses: &[Pose]) -> Result<Vec<u8>, Fault> {
     let frames: Vec<Raster> = poses.iter().map(Pose::side_by_side).collect();
     encode(&frames.iter().collect::<Vec<_>>())
-}
-
-/// One frame as a PNG, or several of one size as an animated PNG.
-///
-/// Up to 256 colours go into a palette: a third of the size, and of the time.
-pub(super) fn encode(frames: &[&Raster]) -> Result<Vec<u8>, Fault> {
-    let palette = Palette::of(frames);
-    let mut bytes = Vec::new();
-    write_frames(frames, palette.as_ref(), &mut bytes).map_err(|error| {
-        Fault::new(Text::new(
-            format!("A picture could not be encoded: {error}."),
-            format!("画像を PNG にできませんでした（{error}）。"),
-        ))
-    })?;
-    Ok(bytes)
-}
-
-fn write_frames(
-    frames: &[&Raster],
-    palette: Option<&Palette>,
-    out: &mut Vec<u8>,
-) -> Result<(), png::EncodingError> {
-    let (width, height) = frames
-        .first()
-        .map_or((0, 0), |frame| (frame.width, frame.height));
-    let mut encoder = Encoder::new(out, width as u32, height as u32);
-    encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::Balanced);
-    match palette {
-        Some(palette) => {
-            encoder.set_color(ColorType::Indexed);
-            encoder.set_palette(palette.colours.as_flattened().to_vec());
-            encoder.set_filter(Filter::NoFilter);
-        }
-        None => {
-            encoder.set_color(ColorType::Rgb);
-            encoder.set_filter(Filter::Up);
-        }
-    }
-    if frames.len() > 1 {
-        let delay = CYCLE_SECONDS * 1000.0 / frames.len() as f64;
-        encoder.set_animated(frames.len() as u32, 0)?;
-        encoder.set_frame_delay(delay.round() as u16, 1000)?;
-    }
-    let mut writer = encoder.write_header()?;
-    for frame in frames {
-        match palette {
-            Some(palette) => writer.write_image_data(&palette.indices(frame))?,
-            None => writer.write_image_data(frame.pixels.as_flattened())?,
-        }
-    }
-    writer.finish()
-}
-
-/// The colours of some pictures, where there are at most 256 of them.
-struct Palette {
-    colours: Vec<Rgb>,
-    index: HashMap<Rgb, u8>,
-}
-
-impl Palette {
-    fn of(frames: &[&Raster]) -> Option<Self> {
-        let mut palette = Self {
-            colours: Vec::new(),
-            index: HashMap::new(),
-        };
-        let mut last = None;
-        for &colour in frames.iter().flat_map(|frame| &frame.pixels) {
-            if last != Some(colour) {
-                palette.add(colour)?;
-                last = Some(colour);
-            }
-        }
-        Some(palette)
-    }
-
-    fn add(&mut self, colour: Rgb) -> Option<()> {
-        if !self.index.contains_key(&colour) {
-            let next = u8::try_from(self.colours.len()).ok()?;
-            self.colours.push(colour);
-            self.index.insert(colour, next);
-        }
-        Some(())
-    }
-
-    fn indices(&self, frame: &Raster) -> Vec<u8> {
-        let mut last = ([0; 3], self.index.get(&[0; 3]).copied().unwrap_or(0));
-        let index = |&colour: &Rgb| {
-            if last.0 != colour {
-                last = (colour, self.index.get(&colour).copied().unwrap_or(0));
-            }
-            last.1
-        };
-        frame.pixels.iter().map(index).collect()
-    }
-}
-
-fn mismatched() -> Fault {
-    Fault::new(Text::new(
-        "The pictures of the grading do not go together.",
-        "採点の画像の大きさまたは枚数が一致していません。",
-    ))
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Fault {

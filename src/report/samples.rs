@@ -104,7 +104,7 @@ pub(super) fn wrong() -> Report {
                 "この書き方を受け付けないドライバがあります <b>。",
             ),
         )
-        .at(11, Some(8))
+        .at(12, Some(9))
         .spanning(1)
         .hint(Text::new(
             "Write `h` in another way.",
