@@ -141,11 +141,6 @@ impl FrameResult {
     pub fn shape_agrees(&self) -> bool {
         self.coverage_mismatches == 0
     }
-
-    /// Whether shape and colour agree.
-    pub fn agrees(&self) -> bool {
-        self.shape_agrees() && self.mismatched_pixels == 0
-    }
 }
 
 /// The largest difference of a channel; infinite where the candidate is not a number.

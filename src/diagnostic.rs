@@ -53,23 +53,12 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error without a place.
     pub fn error(stage: Stage, message: Text) -> Self {
-        Self {
-            severity: Severity::Error,
-            stage,
-            line: None,
-            column: None,
-            length: 1,
-            message,
-            hint: None,
-        }
+        Self { severity: Severity::Error, stage, line: None, column: None, length: 1, message, hint: None }
     }
 
     /// A warning without a place.
     pub fn warning(stage: Stage, message: Text) -> Self {
-        Self {
-            severity: Severity::Warning,
-            ..Self::error(stage, message)
-        }
+        Self { severity: Severity::Warning, ..Self::error(stage, message) }
     }
 
     /// The same at a line and column, both from 1.

@@ -22,18 +22,8 @@ const MAX_AROUND: usize = 200;
 ///
 /// One without a place is a line of its own, and so is every one of them where there is no `source` to quote. The
 /// result ends with a line end, or is empty.
-pub fn excerpt(
-    source: Option<&Source>,
-    diagnostics: &[Diagnostic],
-    language: Language,
-    colour: bool,
-) -> String {
-    let renderer = if colour {
-        Renderer::styled()
-    } else {
-        Renderer::plain()
-    }
-    .term_width(WIDTH);
+pub fn excerpt(source: Option<&Source>, diagnostics: &[Diagnostic], language: Language, colour: bool) -> String {
+    let renderer = if colour { Renderer::styled() } else { Renderer::plain() }.term_width(WIDTH);
     let mut text = String::new();
     for diagnostic in diagnostics {
         // An empty line after each that quotes the file; those of one line stay together.
@@ -49,35 +39,23 @@ pub fn excerpt(
 }
 
 /// What is printed for one diagnostic: one group around a quotation, or a plain line each for message and hint.
-fn groups<'a>(
-    source: Option<&Source>,
-    diagnostic: &Diagnostic,
-    language: Language,
-) -> Vec<Group<'a>> {
-    let title = level(diagnostic.severity, language)
-        .primary_title(visible(diagnostic.message.get(language)));
+fn groups<'a>(source: Option<&Source>, diagnostic: &Diagnostic, language: Language) -> Vec<Group<'a>> {
+    let title = level(diagnostic.severity, language).primary_title(visible(diagnostic.message.get(language)));
     let help = Level::HELP.with_name(match language {
         Language::Ja => "ヒント",
         Language::En => "hint",
     });
-    let hint = diagnostic
-        .hint
-        .as_ref()
-        .map(|hint| visible(hint.get(language)));
+    let hint = diagnostic.hint.as_ref().map(|hint| visible(hint.get(language)));
     let (Some(source), Some(line)) = (source, diagnostic.line) else {
         let hint = hint.map(|hint| Group::with_title(help.primary_title(hint)));
-        return std::iter::once(Group::with_title(title))
-            .chain(hint)
-            .collect();
+        return std::iter::once(Group::with_title(title)).chain(hint).collect();
     };
     let quoted = if line <= source.line_count() {
         title.element(quotation(source, line, diagnostic))
     } else {
         title.element(place(source, line, diagnostic))
     };
-    vec![hint.into_iter().fold(quoted, |group, hint| {
-        group.element(help.clone().message(hint))
-    })]
+    vec![hint.into_iter().fold(quoted, |group, hint| group.element(help.clone().message(hint)))]
 }
 
 /// A place outside the file: the line after the last is where a compiler misses what was never written.
@@ -101,11 +79,7 @@ fn level<'a>(severity: Severity, language: Language) -> Level<'a> {
     })
 }
 
-fn quotation<'a>(
-    source: &Source,
-    number: u32,
-    diagnostic: &Diagnostic,
-) -> Snippet<'a, Annotation<'a>> {
+fn quotation<'a>(source: &Source, number: u32, diagnostic: &Diagnostic) -> Snippet<'a, Annotation<'a>> {
     let line: Vec<char> = pictured(source.line(number));
     let mark = marked(&line, diagnostic);
     // A line without end would only be cut by the terminal; the columns before the cut stay in place.
@@ -121,14 +95,8 @@ fn quotation<'a>(
 /// The characters of `line` that are marked, as indices; without a column the whole line but its indentation.
 fn marked(line: &[char], diagnostic: &Diagnostic) -> Range<usize> {
     let (start, length) = match diagnostic.column {
-        Some(column) => (
-            (column as usize).saturating_sub(1),
-            diagnostic.length.max(1) as usize,
-        ),
-        None => (
-            line.iter().take_while(|c| c.is_whitespace()).count(),
-            line.len(),
-        ),
+        Some(column) => ((column as usize).saturating_sub(1), diagnostic.length.max(1) as usize),
+        None => (line.iter().take_while(|c| c.is_whitespace()).count(), line.len()),
     };
     let start = start.min(line.len());
     start..line.len().min(start + length.min(MAX_MARK))
@@ -136,10 +104,7 @@ fn marked(line: &[char], diagnostic: &Diagnostic) -> Range<usize> {
 
 /// A message with everything pictured that a terminal would act on; its line ends stay.
 fn visible(text: &str) -> String {
-    text.split('\n')
-        .map(|line| pictured(line).into_iter().collect::<String>())
-        .collect::<Vec<_>>()
-        .join("\n")
+    text.split('\n').map(|line| pictured(line).into_iter().collect::<String>()).collect::<Vec<_>>().join("\n")
 }
 
 /// The characters of `line`, one for one, each of them harmless and, but for one accent a letter, of some width.

@@ -18,10 +18,7 @@ pub struct Fault {
 impl Fault {
     /// A fault that needs no advice.
     pub fn new(message: Text) -> Self {
-        Self {
-            message,
-            remedy: None,
-        }
+        Self { message, remedy: None }
     }
 
     /// The same with advice.

@@ -196,7 +196,7 @@ fn info(facts: &Facts) -> SourceInfo {
         name: facts.name.clone(),
         sha256: facts.sha256.clone(),
         bytes: facts.bytes,
-        encoding: facts.encoding.map_or_else(|| "binary".into(), |encoding| encoding.to_string()),
+        encoding: facts.encoding.map_or_else(|| "binary".into(), |encoding| encoding.label().to_owned()),
     }
 }
 
@@ -226,8 +226,7 @@ pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
 /// What is drawn for a submission: the course's animation and the probes.
 pub fn scene(assignment: &Assignment, probes: &ProbeSet) -> Scene {
     let scene = &assignment.scene;
-    let frames =
-        scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
+    let frames = scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
     let probes = (0..probes.groups.len())
         .map(|group| {
             let vertices: Vec<Vertex> = probes.of_group(group).iter().map(|probe| probe.vertex).collect();

@@ -25,10 +25,7 @@ pub struct Text {
 impl Text {
     /// Both wordings at once.
     pub fn new(en: impl Into<String>, ja: impl Into<String>) -> Self {
-        Self {
-            en: en.into(),
-            ja: ja.into(),
-        }
+        Self { en: en.into(), ja: ja.into() }
     }
 
     /// A text that is the same in both languages, such as a compiler's own words.

@@ -4,15 +4,17 @@
 //! bytes → [`source`] → [`translate`] → [`render`] → [`compare`] → [`diagnose`] → [`report`].
 //! [`grade`] is the pipeline, [`sandbox`] the processes that it runs in, and [`command`] what a person calls.
 
-pub mod source;
-pub mod translate;
-pub mod render;
 pub mod compare;
 pub mod diagnose;
+pub mod render;
 pub mod report;
+pub mod source;
+pub mod translate;
 
 pub mod grade;
 pub mod sandbox;
+
+pub mod corpus;
 
 pub mod cli;
 pub mod command;

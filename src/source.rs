@@ -71,19 +71,10 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     let mut facts = Facts {
         name: name.to_owned(),
         bytes: bytes.len(),
-        sha256: Sha256::digest(bytes)
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect(),
+        sha256: Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
         encoding: None,
     };
-    let refuse = |facts, error| {
-        Box::new(Refusal {
-            facts,
-            source: None,
-            diagnostics: vec![error],
-        })
-    };
+    let refuse = |facts, error| Box::new(Refusal { facts, source: None, diagnostics: vec![error] });
     if bytes.len() > MAX_BYTES {
         return Err(refuse(facts, too_large(bytes.len())));
     }
@@ -108,11 +99,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
         return Ok(source);
     }
     diagnostics.extend(source.notes.iter().cloned());
-    Err(Box::new(Refusal {
-        facts: source.facts.clone(),
-        source: Some(source),
-        diagnostics,
-    }))
+    Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
 }
 
 impl Source {
@@ -125,18 +112,8 @@ impl Source {
         let comments = comments::find(&text);
         let code = comments::blank(&text, &comments);
         let line_ends = text.match_indices('\n').map(|(end, _)| end + 1);
-        let line_starts = std::iter::once(0)
-            .chain(line_ends)
-            .filter(|&start| start < text.len())
-            .collect();
-        Self {
-            facts,
-            text,
-            notes: Vec::new(),
-            code,
-            comments,
-            line_starts,
-        }
+        let line_starts = std::iter::once(0).chain(line_ends).filter(|&start| start < text.len()).collect();
+        Self { facts, text, notes: Vec::new(), code, comments, line_starts }
     }
 
     /// The text with comments blanked: each of their bytes is a space, line ends stay, so that byte offsets, lines and
@@ -170,35 +147,19 @@ impl Source {
         let Some(&start) = self.line_starts.get(index) else {
             return "";
         };
-        let end = self
-            .line_starts
-            .get(index + 1)
-            .copied()
-            .unwrap_or(text.len());
+        let end = self.line_starts.get(index + 1).copied().unwrap_or(text.len());
         text[start..end].trim_end_matches('\n')
     }
 
     /// Line and column, both from 1, of a byte offset into the text; the column counts characters. An offset inside a
     /// character is that character's; one past the end is the end of the last line.
     pub fn position(&self, offset: usize) -> (u32, u32) {
-        let line = self
-            .line_starts
-            .partition_point(|&start| start <= offset)
-            .max(1);
+        let line = self.line_starts.partition_point(|&start| start <= offset).max(1);
         let start = self.line_starts.get(line - 1).copied().unwrap_or(0);
         let line = u32::try_from(line).unwrap_or(u32::MAX);
-        let before = self
-            .line(line)
-            .char_indices()
-            .skip(1)
-            .take_while(|&(at, _)| start + at <= offset)
-            .count();
-        let past_end =
-            usize::from(offset >= start + self.line(line).len() && !self.line(line).is_empty());
-        (
-            line,
-            u32::try_from(before + past_end + 1).unwrap_or(u32::MAX),
-        )
+        let before = self.line(line).char_indices().skip(1).take_while(|&(at, _)| start + at <= offset).count();
+        let past_end = usize::from(offset >= start + self.line(line).len() && !self.line(line).is_empty());
+        (line, u32::try_from(before + past_end + 1).unwrap_or(u32::MAX))
     }
 
     /// The byte offset of a line and column, both from 1; the column may be the one after the line's last character.
@@ -206,11 +167,7 @@ impl Source {
         let start = *self.line_starts.get((line as usize).checked_sub(1)?)?;
         let text = self.line(line);
         let ends = std::iter::once(text.len());
-        text.char_indices()
-            .map(|(at, _)| at)
-            .chain(ends)
-            .nth((column as usize).checked_sub(1)?)
-            .map(|at| start + at)
+        text.char_indices().map(|(at, _)| at).chain(ends).nth((column as usize).checked_sub(1)?).map(|at| start + at)
     }
 
     /// The names, keywords and numbers of the code, in order, each with its byte offset.
@@ -225,9 +182,7 @@ fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
     std::iter::from_fn(move || {
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let start = rest + code[rest..].find(is_word)?;
-        let end = code[start..]
-            .find(|c| !is_word(c))
-            .map_or(code.len(), |length| start + length);
+        let end = code[start..].find(|c| !is_word(c)).map_or(code.len(), |length| start + length);
         rest = end;
         Some((start, &code[start..end]))
     })
@@ -239,9 +194,7 @@ fn too_large(bytes: usize) -> Diagnostic {
         Stage::Source,
         Text::new(
             format!("The file has {kib} KiB; at most {limit} KiB are read."),
-            format!(
-                "ファイルの大きさが {kib} KiB あります。受け付けられるのは {limit} KiB までです。"
-            ),
+            format!("ファイルの大きさが {kib} KiB あります。受け付けられるのは {limit} KiB までです。"),
         ),
     )
     .hint(Text::new(

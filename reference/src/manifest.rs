@@ -1,6 +1,7 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
 use crate::Text;
+use crate::probes::Region;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -212,6 +213,12 @@ pub struct RubricLine {
     pub label: Text,
     /// The definition that it judges.
     pub judges: String,
+    /// Where its term stands alone, beside those of earlier lines.
+    #[serde(default)]
+    pub alone_in: Vec<Region>,
+    /// Where it can be judged if all earlier lines are right.
+    #[serde(default)]
+    pub also_in: Vec<Region>,
 }
 
 /// A known mistake.

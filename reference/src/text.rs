@@ -15,9 +15,6 @@ pub struct Text {
 impl Text {
     /// Both wordings, each with `change` applied: how placeholders are filled in.
     pub fn map(&self, change: impl Fn(&str) -> String) -> Self {
-        Self {
-            en: change(&self.en),
-            ja: change(&self.ja),
-        }
+        Self { en: change(&self.en), ja: change(&self.ja) }
     }
 }

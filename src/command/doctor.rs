@@ -22,7 +22,9 @@ pub fn run(arguments: &Doctor) -> Result<Outcome, Fault> {
             format!("graphics card: {} ({}), used with --adapter gpu", device.renderer, device.driver),
             format!("グラフィックスカード: {} ({})。--adapter gpu で使えます", device.renderer, device.driver),
         ),
-        Err(_) => Text::new("graphics card: none (none is needed)", "グラフィックスカード: なし (なくても採点できます)"),
+        Err(_) => {
+            Text::new("graphics card: none (none is needed)", "グラフィックスカード: なし (なくても採点できます)")
+        }
     };
     say(true, &gpu, language);
     Ok(if healthy { Outcome::FullMarks } else { Outcome::Fault })
@@ -37,18 +39,19 @@ fn check_assignment(assignment: &reference::Assignment, language: Language) -> b
     };
     let warm = start.elapsed();
     let file = &assignment.files[0];
-    let submission =
-        Submission { name: &file.name, bytes: file.starter.as_bytes(), seed: 1, wants_frames: false };
+    let submission = Submission { name: &file.name, bytes: file.starter.as_bytes(), seed: 1, wants_frames: false };
     let start = Instant::now();
     match pool.grade(submission) {
         Ok(answer) if answer.report.verdict == Verdict::Wrong => {
             let environment = &answer.report.environment;
-            let driver =
-                Text::verbatim(format!("Vulkan: {} ({})", environment.renderer, environment.driver));
+            let driver = Text::verbatim(format!("Vulkan: {} ({})", environment.renderer, environment.driver));
             say(true, &driver, language);
             let (warm, graded) = (warm.as_millis(), start.elapsed().as_millis());
             let text = Text::new(
-                format!("{}: a worker is ready in {warm} ms and grades the handed-out file in {graded} ms", assignment.id),
+                format!(
+                    "{}: a worker is ready in {warm} ms and grades the handed-out file in {graded} ms",
+                    assignment.id
+                ),
                 format!("{}: ワーカの準備に {warm} ms、配布ファイルの採点に {graded} ms", assignment.id),
             );
             say(true, &text, language);

@@ -5,7 +5,7 @@ use crate::cli::{Format, Grade};
 use crate::excerpt;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
-use crate::report::equation::Equation;
+use crate::report::Equation;
 use crate::report::html::Page;
 use crate::report::{Pictures, Report, Verdict, json, pictures, text};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
@@ -36,8 +36,11 @@ pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     drop(pool);
 
     let Answer { report, frames } = answer;
-    let pictures = (!frames.is_empty())
-        .then(|| Pictures { expected: crate::grade::expected_pictures(assignment), yours: frames, ..Pictures::default() });
+    let pictures = (!frames.is_empty()).then(|| Pictures {
+        expected: crate::grade::expected_pictures(assignment),
+        yours: frames,
+        ..Pictures::default()
+    });
     if let (Some(folder), Some(pictures)) = (&arguments.frames, &pictures) {
         pictures::write(pictures, folder)?;
     }
@@ -125,12 +128,10 @@ impl View<'_> {
             }
             .render(),
             Format::Text => {
-                let excerpts = self
-                    .source
-                    .map(|source| excerpt::excerpt(source, &self.report.diagnostics, self.language, colour));
+                let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
-                    &text::Options { language: self.language, width: width(), colour, excerpts: excerpts.as_deref() },
+                    &text::Options { language: self.language, width: width(), colour, excerpts: Some(&excerpts) },
                 ))
             }
         }

@@ -204,12 +204,10 @@ fn is_touched(
 ) -> bool {
     match (cause, id) {
         (_, "position-changed") => !shape && line.id == SHAPE,
-        (Cause::Unexplained(terms), "unexplained") => {
-            terms.iter().any(|term| term.line == line.id && !term.is_right())
-        }
-        (Cause::Known { constants, .. }, "constants-changed") => {
-            constants.iter().any(|changed| assignment.constants.iter().any(|c| c.name == changed.name && c.line == line.id))
-        }
+        (Cause::Unexplained(terms), "unexplained") => terms.iter().any(|term| term.line == line.id && !term.is_right()),
+        (Cause::Known { constants, .. }, "constants-changed") => constants
+            .iter()
+            .any(|changed| assignment.constants.iter().any(|c| c.name == changed.name && c.line == line.id)),
         _ => costs(assignment, id, &line.id),
     }
 }

@@ -32,53 +32,28 @@ error: wrong
   = hint: look here
 ";
     assert_eq!(shown("a;\n  b = c;\nd;\n", diagnostic.clone()), expected);
-    let japanese = excerpt(
-        Some(&source("a;\n  b = c;\nd;\n")),
-        &[diagnostic],
-        Language::Ja,
-        false,
-    );
-    assert!(
-        japanese.starts_with("エラー: 間違い\n --> a.vert:2:3\n"),
-        "{japanese}"
-    );
+    let japanese = excerpt(Some(&source("a;\n  b = c;\nd;\n")), &[diagnostic], Language::Ja, false);
+    assert!(japanese.starts_with("エラー: 間違い\n --> a.vert:2:3\n"), "{japanese}");
     assert!(japanese.ends_with("= ヒント: ここを見る\n"), "{japanese}");
 }
 
 #[test]
 fn severities_have_their_words() {
-    for (severity, en, ja) in [
-        (Severity::Error, "error", "エラー"),
-        (Severity::Warning, "warning", "警告"),
-        (Severity::Note, "note", "注意"),
-    ] {
-        let diagnostic = Diagnostic {
-            severity,
-            ..error()
-        };
-        assert_eq!(
-            excerpt(None, std::slice::from_ref(&diagnostic), Language::En, false),
-            format!("{en}: wrong\n")
-        );
-        assert_eq!(
-            excerpt(None, &[diagnostic], Language::Ja, false),
-            format!("{ja}: 間違い\n")
-        );
+    for (severity, en, ja) in
+        [(Severity::Error, "error", "エラー"), (Severity::Warning, "warning", "警告"), (Severity::Note, "note", "注意")]
+    {
+        let diagnostic = Diagnostic { severity, ..error() };
+        assert_eq!(excerpt(None, std::slice::from_ref(&diagnostic), Language::En, false), format!("{en}: wrong\n"));
+        assert_eq!(excerpt(None, &[diagnostic], Language::Ja, false), format!("{ja}: 間違い\n"));
     }
 }
 
 /// Columns of the terminal before the mark, and in it; both from the start of the quoted line.
 fn mark(text: &str, line: u32, column: u32, length: usize) -> (usize, usize) {
     let shown = shown(text, error().at(line, Some(column)).spanning(length));
-    let marked = shown
-        .lines()
-        .find(|line| line.contains('^'))
-        .expect("a mark");
+    let marked = shown.lines().find(|line| line.contains('^')).expect("a mark");
     let marked = marked.strip_prefix("  | ").expect("a margin");
-    (
-        marked.find('^').expect("a mark"),
-        marked.matches('^').count(),
-    )
+    (marked.find('^').expect("a mark"), marked.matches('^').count())
 }
 
 #[test]
@@ -100,10 +75,7 @@ fn without_a_column_the_whole_line_is_marked() {
 
 #[test]
 fn a_place_after_the_end_is_told_without_a_quotation() {
-    assert_eq!(
-        shown("a;\n", error().at(2, Some(1))),
-        "error: wrong\n--> a.vert:2:1\n"
-    );
+    assert_eq!(shown("a;\n", error().at(2, Some(1))), "error: wrong\n--> a.vert:2:1\n");
     // After the last character of a line is still in it.
     assert!(shown("a;\n", error().at(1, Some(3))).contains("\n1 | a;\n  |   ^\n"));
     assert!(shown("a;\n", error().at(1, Some(500))).contains("\n1 | a;\n  |   ^\n"));
@@ -112,14 +84,8 @@ fn a_place_after_the_end_is_told_without_a_quotation() {
 #[test]
 fn without_a_place_there_are_plain_lines() {
     let hint = Text::verbatim("again");
-    assert_eq!(
-        shown("a;\n", error().hint(hint)),
-        "error: wrong\nhint: again\n"
-    );
-    assert_eq!(
-        excerpt(None, &[error().at(3, Some(1))], Language::En, false),
-        "error: wrong\n"
-    );
+    assert_eq!(shown("a;\n", error().hint(hint)), "error: wrong\nhint: again\n");
+    assert_eq!(excerpt(None, &[error().at(3, Some(1))], Language::En, false), "error: wrong\n");
     assert_eq!(excerpt(None, &[], Language::En, false), "");
 }
 
@@ -136,28 +102,16 @@ fn nothing_of_the_student_reaches_the_terminal_as_a_command() {
     let mut source = source(&format!("// {hostile}\n"));
     source.facts.name = format!("a{hostile}\n.vert");
     let text = Text::verbatim(format!("bad {hostile}"));
-    let diagnostic = Diagnostic::error(Stage::Compile, text.clone())
-        .at(1, Some(4))
-        .hint(text);
+    let diagnostic = Diagnostic::error(Stage::Compile, text.clone()).at(1, Some(4)).hint(text);
     for colour in [false, true] {
-        let shown = excerpt(
-            Some(&source),
-            std::slice::from_ref(&diagnostic),
-            Language::En,
-            colour,
-        );
+        let shown = excerpt(Some(&source), std::slice::from_ref(&diagnostic), Language::En, colour);
         let plain = shown
             .replace("\x1B[0m", "")
             .replace("\x1B[1m", "")
             .replace("\x1B[94m", "")
             .replace("\x1B[91m", "")
             .replace("\x1B[96m", "");
-        assert!(
-            plain
-                .chars()
-                .all(|c| c == '\n' || !(c.is_control() || is_bidi(c) || is_invisible(c))),
-            "{plain:?}"
-        );
+        assert!(plain.chars().all(|c| c == '\n' || !(c.is_control() || is_bidi(c) || is_invisible(c))), "{plain:?}");
         assert!(plain.contains("␛[31m␇␈␡\u{FFFD}31m"), "{plain}");
         assert_eq!(shown != plain, colour);
     }
@@ -165,21 +119,10 @@ fn nothing_of_the_student_reaches_the_terminal_as_a_command() {
 
 #[test]
 fn pictures_replace_one_character_by_one() {
-    assert_eq!(
-        pictured("a\x1Bb\u{202E}c").into_iter().collect::<String>(),
-        "a␛b\u{FFFD}c"
-    );
+    assert_eq!(pictured("a\x1Bb\u{202E}c").into_iter().collect::<String>(), "a␛b\u{FFFD}c");
     // One accent on a letter is text; a pile of them is not.
-    assert_eq!(
-        pictured("e\u{301}\u{301}\u{301}")
-            .into_iter()
-            .collect::<String>(),
-        "e\u{301}\u{FFFD}\u{FFFD}"
-    );
-    assert_eq!(
-        pictured("\u{301}").into_iter().collect::<String>(),
-        "\u{FFFD}"
-    );
+    assert_eq!(pictured("e\u{301}\u{301}\u{301}").into_iter().collect::<String>(), "e\u{301}\u{FFFD}\u{FFFD}");
+    assert_eq!(pictured("\u{301}").into_iter().collect::<String>(), "\u{FFFD}");
 }
 
 #[test]
@@ -187,9 +130,6 @@ fn a_line_without_end_is_cut_around_the_place() {
     let text = format!("{} ； {}\n", "a+".repeat(9000), "b+".repeat(9000));
     let shown = shown(&text, error().at(1, Some(18_002)).spanning(30_000));
     assert!(shown.contains("a.vert:1:18002\n"), "{shown}");
-    assert!(
-        shown.lines().all(|line| line.chars().count() < WIDTH + 20),
-        "{shown}"
-    );
+    assert!(shown.lines().all(|line| line.chars().count() < WIDTH + 20), "{shown}");
     assert!(shown.contains('；') && shown.contains("^^"));
 }

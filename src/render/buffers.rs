@@ -15,10 +15,7 @@ pub(super) struct Uniforms {
 impl Uniforms {
     pub fn new(device: &wgpu::Device, blocks: &[UniformBlock], batches: &[&Batch]) -> Self {
         let alignment = device.limits().min_uniform_buffer_offset_alignment;
-        let strides: Vec<u32> = blocks
-            .iter()
-            .map(|block| block.size.max(16).next_multiple_of(alignment))
-            .collect();
+        let strides: Vec<u32> = blocks.iter().map(|block| block.size.max(16).next_multiple_of(alignment)).collect();
         let buffers: Vec<wgpu::Buffer> = blocks
             .iter()
             .zip(&strides)
@@ -30,14 +27,10 @@ impl Uniforms {
                 })
             })
             .collect();
-        let entries: Vec<_> = blocks
-            .iter()
-            .map(|block| layout_entry(block.binding, wgpu::BufferBindingType::Uniform, true))
-            .collect();
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("uniforms"),
-            entries: &entries,
-        });
+        let entries: Vec<_> =
+            blocks.iter().map(|block| layout_entry(block.binding, wgpu::BufferBindingType::Uniform, true)).collect();
+        let layout = device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("uniforms"), entries: &entries });
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("uniforms"),
             layout: &layout,
@@ -54,11 +47,7 @@ impl Uniforms {
                 })
                 .collect::<Vec<_>>(),
         });
-        Self {
-            layout,
-            group,
-            strides,
-        }
+        Self { layout, group, strides }
     }
 }
 
@@ -85,14 +74,11 @@ fn fill(block: &UniformBlock, stride: usize, batches: &[&Batch]) -> Vec<u8> {
 pub(super) fn vertex_buffer(device: &wgpu::Device, name: &str, batches: &[&Batch]) -> wgpu::Buffer {
     let mut values: Vec<[f32; 3]> = Vec::new();
     for batch in batches {
-        match batch
-            .attributes
-            .iter()
-            .find(|(attribute, _)| attribute == name)
-        {
-            Some((_, these)) => values.extend(these),
-            None => values.resize(values.len() + batch.vertices() as usize, [0.0; 3]),
+        let end = values.len() + batch.drawn() as usize;
+        if let Some((_, these)) = batch.attributes.iter().find(|(attribute, _)| attribute == name) {
+            values.extend(these);
         }
+        values.resize(end, values.last().copied().unwrap_or_default());
     }
     if values.is_empty() {
         values.push([0.0; 3]);
@@ -114,11 +100,7 @@ pub(super) fn layout_entry(
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::VERTEX,
-        ty: wgpu::BindingType::Buffer {
-            ty,
-            has_dynamic_offset,
-            min_binding_size: None,
-        },
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
         count: None,
     }
 }

@@ -32,27 +32,19 @@ impl Device {
         descriptor.flags = wgpu::InstanceFlags::empty();
         let instance = wgpu::Instance::new(descriptor);
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
-        let adapter = adapters
-            .into_iter()
-            .find(|adapter| kind.matches(adapter.get_info().device_type));
+        let adapter = adapters.into_iter().find(|adapter| kind.matches(adapter.get_info().device_type));
         let adapter = adapter.ok_or_else(|| kind.missing())?;
         let info = adapter.get_info();
         let wanted = wgpu::Features::SHADER_F64;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("ggrade"),
-            required_features: wgpu::Features::VERTEX_WRITABLE_STORAGE
-                | (adapter.features() & wanted),
+            required_features: wgpu::Features::VERTEX_WRITABLE_STORAGE | (adapter.features() & wanted),
             required_limits: wgpu::Limits::default(),
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         }))
         .map_err(|error| unusable(&info.name, &error))?;
-        Ok(Self {
-            device,
-            queue,
-            renderer: info.name,
-            driver: format!("{} {}", info.driver, info.driver_info),
-        })
+        Ok(Self { device, queue, renderer: info.name, driver: format!("{} {}", info.driver, info.driver_info) })
     }
 }
 

@@ -40,22 +40,14 @@ impl Frames {
     /// Row `y` (from the top) of frame `index`: `width` pixels of RGBA8.
     pub fn row(&self, index: u32, y: u32) -> &[u8] {
         let (column, row) = (index % self.columns, index / self.columns);
-        let start =
-            ((row * self.height + y) * self.bytes_per_row + column * self.width * 4) as usize;
+        let start = ((row * self.height + y) * self.bytes_per_row + column * self.width * 4) as usize;
         &self.bytes[start..start + self.width as usize * 4]
     }
 
     /// A copy of frame `index`.
     pub fn picture(&self, index: u32) -> Picture {
-        let rgba = (0..self.height)
-            .flat_map(|y| self.row(index, y))
-            .copied()
-            .collect();
-        Picture {
-            width: self.width,
-            height: self.height,
-            rgba,
-        }
+        let rgba = (0..self.height).flat_map(|y| self.row(index, y)).copied().collect();
+        Picture { width: self.width, height: self.height, rgba }
     }
 }
 

@@ -17,9 +17,13 @@ pub struct Batch {
 
 impl Batch {
     pub(super) fn vertices(&self) -> u32 {
-        self.attributes
-            .first()
-            .map_or(0, |(_, values)| values.len() as u32)
+        self.attributes.first().map_or(0, |(_, values)| values.len() as u32)
+    }
+
+    /// How many are drawn: a driver leaves out the vertices of a triangle that is not complete, so the last one is
+    /// repeated until it is.
+    pub(super) fn drawn(&self) -> u32 {
+        self.vertices().next_multiple_of(3)
     }
 }
 
@@ -53,62 +57,30 @@ pub(super) struct Job {
 }
 
 impl Job {
-    pub fn new(
-        device: &wgpu::Device,
-        fragment: &wgpu::ShaderModule,
-        shader: &Shader,
-        scene: &Scene,
-    ) -> Self {
+    pub fn new(device: &wgpu::Device, fragment: &wgpu::ShaderModule, shader: &Shader, scene: &Scene) -> Self {
         let batches: Vec<&Batch> = scene.frames.iter().chain(&scene.probes).collect();
-        let vertices: u32 = batches.iter().map(|batch| batch.vertices()).sum();
+        let vertices: u32 = batches.iter().map(|batch| batch.drawn()).sum();
         let uniforms = Uniforms::new(device, &shader.uniforms, &batches);
         let size = u64::from(vertices.max(1)) * CAPTURE_STRIDE;
         let buffer = |label, usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
+            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
         };
-        let capture = buffer(
-            "capture",
-            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        );
-        let readback = buffer(
-            "capture, read back",
-            wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        );
+        let capture = buffer("capture", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let readback = buffer("capture, read back", wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
         let capture_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("capture"),
-            entries: &[layout_entry(
-                0,
-                wgpu::BufferBindingType::Storage { read_only: false },
-                false,
-            )],
+            entries: &[layout_entry(0, wgpu::BufferBindingType::Storage { read_only: false }, false)],
         });
         let capture_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("capture"),
             layout: &capture_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: capture.as_entire_binding(),
-            }],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: capture.as_entire_binding() }],
         });
-        let pipeline = pipeline(
-            device,
-            fragment,
-            shader,
-            [&uniforms.layout, &capture_layout],
-        );
+        let pipeline = pipeline(device, fragment, shader, [&uniforms.layout, &capture_layout]);
         Self {
             pipeline,
             bind_groups: [uniforms.group, capture_group],
-            vertices: shader
-                .attributes
-                .iter()
-                .map(|a| vertex_buffer(device, &a.name, &batches))
-                .collect(),
+            vertices: shader.attributes.iter().map(|a| vertex_buffer(device, &a.name, &batches)).collect(),
             capture,
             readback,
             strides: uniforms.strides,
@@ -116,9 +88,7 @@ impl Job {
     }
 
     pub fn submit(&self, device: &Device, target: &Target, scene: &Scene) {
-        let mut encoder = device
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw(&mut encoder, target, scene);
         encoder.copy_texture_to_buffer(
             target.texture.as_image_copy(),
@@ -138,9 +108,7 @@ impl Job {
 
     fn draw(&self, encoder: &mut wgpu::CommandEncoder, target: &Target, scene: &Scene) {
         let [r, g, b, a] = scene.background.map(|channel| f64::from(channel) / 255.0);
-        let view = target
-            .texture
-            .create_view(&wgpu::TextureViewDescriptor::default());
+        let view = target.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("frames and probes"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -160,17 +128,10 @@ impl Job {
         let mut first = 0;
         for (index, batch) in scene.frames.iter().chain(&scene.probes).enumerate() {
             let index = index as u32;
-            let count = batch.vertices();
+            let count = batch.drawn();
             if index < tiles.count {
                 let (x, y) = tiles.origin(index);
-                pass.set_viewport(
-                    x as f32,
-                    y as f32,
-                    tiles.width as f32,
-                    tiles.height as f32,
-                    0.0,
-                    1.0,
-                );
+                pass.set_viewport(x as f32, y as f32, tiles.width as f32, tiles.height as f32, 0.0, 1.0);
                 pass.set_scissor_rect(x, y, tiles.width, tiles.height);
             } else {
                 // Probes are captured, not seen.
@@ -179,10 +140,7 @@ impl Job {
             let offsets: Vec<u32> = self.strides.iter().map(|stride| stride * index).collect();
             pass.set_bind_group(0, &self.bind_groups[0], &offsets);
             for (slot, buffer) in self.vertices.iter().enumerate() {
-                pass.set_vertex_buffer(
-                    slot as u32,
-                    buffer.slice(u64::from(first) * ATTRIBUTE_STRIDE..),
-                );
+                pass.set_vertex_buffer(slot as u32, buffer.slice(u64::from(first) * ATTRIBUTE_STRIDE..));
             }
             // The instance index tells the shader where its records go; see translate::entry.
             pass.draw(0..count, first..first + 1);
@@ -210,11 +168,7 @@ fn pipeline(
         .attributes
         .iter()
         .map(|a| {
-            [wgpu::VertexAttribute {
-                format: wgpu::VertexFormat::Float32x3,
-                offset: 0,
-                shader_location: a.location,
-            }]
+            [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x3, offset: 0, shader_location: a.location }]
         })
         .collect();
     let buffers: Vec<_> = attributes

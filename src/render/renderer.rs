@@ -20,21 +20,13 @@ pub struct Renderer {
 impl Renderer {
     /// A renderer that runs this fixed fragment stage.
     pub fn new(device: Device, fragment: naga::Module) -> Result<Self, Fault> {
-        let scope = device
-            .device
-            .push_error_scope(wgpu::ErrorFilter::Validation);
-        let module = device
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("fixed fragment stage"),
-                source: wgpu::ShaderSource::Naga(Cow::Owned(fragment)),
-            });
+        let scope = device.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let module = device.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("fixed fragment stage"),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(fragment)),
+        });
         match pollster::block_on(scope.pop()) {
-            None => Ok(Self {
-                device,
-                fragment: module,
-                target: None,
-            }),
+            None => Ok(Self { device, fragment: module, target: None }),
             Some(error) => Err(render_fault(&error)),
         }
     }
@@ -47,10 +39,7 @@ impl Renderer {
     /// Draws the scene with the shader. An error is ours: the shader was found valid before.
     pub fn render(&mut self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
         let tiles = Tiles::new(scene)?;
-        let scope = self
-            .device
-            .device
-            .push_error_scope(wgpu::ErrorFilter::Validation);
+        let scope = self.device.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let job = Job::new(&self.device.device, &self.fragment, shader, scene);
         if let Some(error) = pollster::block_on(scope.pop()) {
             return Err(render_fault(&error));
@@ -84,21 +73,12 @@ fn read_back(device: &Device, target: &Target, job: &Job) -> Result<(Vec<u8>, Ve
             let _ = sender.send(result);
         });
     }
-    device
-        .device
-        .poll(wgpu::PollType::wait_indefinitely())
-        .map_err(|error| lost(&error.to_string()))?;
+    device.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| lost(&error.to_string()))?;
     for _ in 0..2 {
-        receiver
-            .recv()
-            .map_err(|e| lost(&e.to_string()))?
-            .map_err(|e| lost(&e.to_string()))?;
+        receiver.recv().map_err(|e| lost(&e.to_string()))?.map_err(|e| lost(&e.to_string()))?;
     }
     let copy = |buffer: &wgpu::Buffer| -> Result<Vec<u8>, Fault> {
-        let bytes = buffer
-            .get_mapped_range(..)
-            .map_err(|error| lost(&error.to_string()))?
-            .to_vec();
+        let bytes = buffer.get_mapped_range(..).map_err(|error| lost(&error.to_string()))?.to_vec();
         buffer.unmap();
         Ok(bytes)
     };
@@ -112,19 +92,15 @@ fn split(frames: Frames, samples: &[Sample], scene: &Scene) -> Rendering {
     let mut take = |batches: &[Batch]| {
         let mut all = Vec::with_capacity(batches.len());
         for batch in batches {
-            let (these, others) = rest.split_at((batch.vertices() as usize).min(rest.len()));
+            let (these, others) = rest.split_at((batch.drawn() as usize).min(rest.len()));
             rest = others;
-            all.push(these.to_vec());
+            all.push(these[..(batch.vertices() as usize).min(these.len())].to_vec());
         }
         all
     };
     let frame_samples = take(&scene.frames);
     let probe_samples = take(&scene.probes);
-    Rendering {
-        frames,
-        frame_samples,
-        probe_samples,
-    }
+    Rendering { frames, frame_samples, probe_samples }
 }
 
 fn render_fault(error: &wgpu::Error) -> Fault {

@@ -24,35 +24,19 @@ impl Tiles {
         let count = scene.frames.len() as u32;
         let (width, height) = (scene.width.max(1), scene.height.max(1));
         // Near a square: no side grows past the limit before it must.
-        let columns = (1..=count.max(1))
-            .find(|c| c * width >= count.div_ceil(*c) * height)
-            .unwrap_or(1);
+        let columns = (1..=count.max(1)).find(|c| c * width >= count.div_ceil(*c) * height).unwrap_or(1);
         let rows = count.div_ceil(columns).max(1);
         if columns * width > MAX_TEXTURE_SIDE || rows * height > MAX_TEXTURE_SIDE {
             return Err(Fault::new(Text::new(
-                format!(
-                    "{count} frames of {width} × {height} do not fit a texture of {MAX_TEXTURE_SIDE}²"
-                ),
-                format!(
-                    "{width} × {height} の画像 {count} 枚は {MAX_TEXTURE_SIDE}² のテクスチャに収まりません"
-                ),
+                format!("{count} frames of {width} × {height} do not fit a texture of {MAX_TEXTURE_SIDE}²"),
+                format!("{width} × {height} の画像 {count} 枚は {MAX_TEXTURE_SIDE}² のテクスチャに収まりません"),
             )));
         }
-        Ok(Self {
-            width,
-            height,
-            count,
-            columns,
-            rows,
-        })
+        Ok(Self { width, height, count, columns, rows })
     }
 
     pub fn size(&self) -> wgpu::Extent3d {
-        wgpu::Extent3d {
-            width: self.columns * self.width,
-            height: self.rows * self.height,
-            depth_or_array_layers: 1,
-        }
+        wgpu::Extent3d { width: self.columns * self.width, height: self.rows * self.height, depth_or_array_layers: 1 }
     }
 
     pub fn bytes_per_row(&self) -> u32 {
@@ -60,10 +44,7 @@ impl Tiles {
     }
 
     pub fn origin(&self, index: u32) -> (u32, u32) {
-        (
-            index % self.columns * self.width,
-            index / self.columns * self.height,
-        )
+        (index % self.columns * self.width, index / self.columns * self.height)
     }
 }
 
@@ -93,10 +74,6 @@ impl Target {
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
-        Self {
-            layout,
-            texture,
-            readback,
-        }
+        Self { layout, texture, readback }
     }
 }

@@ -27,12 +27,7 @@ impl Band {
 }
 
 const fn band(low: u8, high: u8, colour: [u8; 3], shade: char) -> Band {
-    Band {
-        low,
-        high,
-        colour,
-        shade,
-    }
+    Band { low, high, colour, shade }
 }
 
 /// The ramp, from the smallest difference up.
@@ -49,9 +44,7 @@ pub(super) const BANDS: [Band; 8] = [
 
 /// The shades of a terminal with the differences that each stands for.
 pub(super) fn shades() -> impl Iterator<Item = (char, String)> {
-    BANDS
-        .chunks(2)
-        .map(|pair| (pair[0].shade, range(pair[0].low, pair[1].high)))
+    BANDS.chunks(2).map(|pair| (pair[0].shade, range(pair[0].low, pair[1].high)))
 }
 
 /// The band of a difference in 1/255; none for zero. What is not finite counts as the largest.
@@ -69,13 +62,8 @@ pub(super) fn band_of(difference: f64) -> Option<Band> {
 /// Where they agree, the expected picture shows through as a faint negative in four steps, so that
 /// a difference can be placed. Both pictures have one size.
 pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
-    let pairs = yours
-        .rgba
-        .chunks_exact(4)
-        .zip(expected.rgba.chunks_exact(4));
-    pairs
-        .map(|(yours, expected)| pixel(yours, expected))
-        .collect()
+    let pairs = yours.rgba.chunks_exact(4).zip(expected.rgba.chunks_exact(4));
+    pairs.map(|(yours, expected)| pixel(yours, expected)).collect()
 }
 
 fn pixel(yours: &[u8], expected: &[u8]) -> [u8; 3] {
@@ -91,11 +79,7 @@ fn ghost(expected: &[u8]) -> [u8; 3] {
 }
 
 fn range(low: u8, high: u8) -> String {
-    if low == high {
-        low.to_string()
-    } else {
-        format!("{low}–{high}")
-    }
+    if low == high { low.to_string() } else { format!("{low}–{high}") }
 }
 
 #[cfg(test)]
@@ -103,11 +87,7 @@ mod tests {
     use super::*;
 
     fn dot(rgba: [u8; 4]) -> Picture {
-        Picture {
-            width: 1,
-            height: 1,
-            rgba: rgba.to_vec(),
-        }
+        Picture { width: 1, height: 1, rgba: rgba.to_vec() }
     }
 
     #[test]
@@ -126,15 +106,10 @@ mod tests {
     #[test]
     fn ramp_gets_lighter_band_by_band() {
         // Rec. 709 luma, without its scale.
-        let luma =
-            |[r, g, b]: [u8; 3]| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
+        let luma = |[r, g, b]: [u8; 3]| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
         let faintest_ghost = luma(ghost(&[0, 0, 0]));
         assert!(luma(BANDS[0].colour) > faintest_ghost);
-        assert!(
-            BANDS
-                .windows(2)
-                .all(|pair| luma(pair[1].colour) > luma(pair[0].colour))
-        );
+        assert!(BANDS.windows(2).all(|pair| luma(pair[1].colour) > luma(pair[0].colour)));
     }
 
     #[test]

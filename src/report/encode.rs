@@ -27,11 +27,7 @@ impl Raster {
             return Err(mismatched());
         }
         let pixels = picture.rgba.chunks_exact(4).map(|p| [p[0], p[1], p[2]]);
-        Ok(Self {
-            width,
-            height,
-            pixels: pixels.collect(),
-        })
+        Ok(Self { width, height, pixels: pixels.collect() })
     }
 
     /// Row by row, from the top.
@@ -55,14 +51,8 @@ pub(super) fn encode(frames: &[&Raster]) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
-fn write_frames(
-    frames: &[&Raster],
-    palette: Option<&Palette>,
-    out: &mut Vec<u8>,
-) -> Result<(), png::EncodingError> {
-    let (width, height) = frames
-        .first()
-        .map_or((0, 0), |frame| (frame.width, frame.height));
+fn write_frames(frames: &[&Raster], palette: Option<&Palette>, out: &mut Vec<u8>) -> Result<(), png::EncodingError> {
+    let (width, height) = frames.first().map_or((0, 0), |frame| (frame.width, frame.height));
     let mut encoder = Encoder::new(out, width as u32, height as u32);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Balanced);
@@ -100,10 +90,7 @@ struct Palette {
 
 impl Palette {
     fn of(frames: &[&Raster]) -> Option<Self> {
-        let mut palette = Self {
-            colours: Vec::new(),
-            index: HashMap::new(),
-        };
+        let mut palette = Self { colours: Vec::new(), index: HashMap::new() };
         let mut last = None;
         for &colour in frames.iter().flat_map(|frame| &frame.pixels) {
             if last != Some(colour) {

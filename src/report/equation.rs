@@ -39,13 +39,7 @@ pub struct Definition {
 
 macro_rules! sub {
     ($base:literal, $index:literal) => {
-        concat!(
-            "<msub><mi>",
-            $base,
-            "</mi><mtext>",
-            $index,
-            "</mtext></msub>"
-        )
+        concat!("<msub><mi>", $base, "</mi><mtext>", $index, "</mtext></msub>")
     };
 }
 
@@ -64,12 +58,8 @@ macro_rules! clamped_dot {
 impl Equation {
     /// The illumination equation (lecture 6, slide 31) with the Blinn half vector (slide 21).
     pub fn illumination() -> Self {
-        let slide = |number: u32| {
-            Text::new(
-                format!("lecture 6, slide {number}"),
-                format!("講義第 6 回 スライド {number}"),
-            )
-        };
+        let slide =
+            |number: u32| Text::new(format!("lecture 6, slide {number}"), format!("講義第 6 回 スライド {number}"));
         Self {
             source: slide(31),
             total: sub!("I", "tot"),

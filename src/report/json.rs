@@ -25,17 +25,9 @@ pub fn view(report: &Report, language: Language) -> View<'_> {
         verdict: report.verdict,
         score: Number(report.score),
         max_score: Number(report.max_score),
-        rubric: report
-            .rubric
-            .iter()
-            .map(|line| Rubric::of(line, language))
-            .collect(),
+        rubric: report.rubric.iter().map(|line| Rubric::of(line, language)).collect(),
         mistakes: &report.mistakes,
-        diagnostics: report
-            .diagnostics
-            .iter()
-            .map(|d| Message::of(d, language))
-            .collect(),
+        diagnostics: report.diagnostics.iter().map(|d| Message::of(d, language)).collect(),
         frames: report.frames.iter().map(Frame::of).collect(),
         probes: Probes::of(&report.probes),
         environment: &report.environment,
@@ -188,35 +180,15 @@ mod tests {
         let top = "schema assignment source verdict score max_score rubric mistakes diagnostics \
                    frames probes environment elapsed_ms";
         assert_eq!(keys(&value), top.split_whitespace().collect::<Vec<_>>());
-        assert_eq!(
-            keys(&value["source"]),
-            ["name", "sha256", "bytes", "encoding"]
-        );
-        let rubric = [
-            "id",
-            "points",
-            "max_points",
-            "mistake",
-            "message",
-            "label",
-            "line",
-        ];
+        assert_eq!(keys(&value["source"]), ["name", "sha256", "bytes", "encoding"]);
+        let rubric = ["id", "points", "max_points", "mistake", "message", "label", "line"];
         assert_eq!(keys(&value["rubric"][3]), rubric);
         let diagnostic = ["severity", "stage", "line", "column", "message", "hint"];
         assert_eq!(keys(&value["diagnostics"][0]), diagnostic);
         let frame = "t coverage_mismatches max_difference mean_difference mismatched_pixels";
-        assert_eq!(
-            keys(&value["frames"][0]),
-            frame.split_whitespace().collect::<Vec<_>>()
-        );
-        assert_eq!(
-            keys(&value["probes"]),
-            ["seed", "samples", "mismatched", "max_difference"]
-        );
-        assert_eq!(
-            keys(&value["environment"]),
-            ["ggrade", "renderer", "driver"]
-        );
+        assert_eq!(keys(&value["frames"][0]), frame.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(keys(&value["probes"]), ["seed", "samples", "mismatched", "max_difference"]);
+        assert_eq!(keys(&value["environment"]), ["ggrade", "renderer", "driver"]);
     }
 
     #[test]
@@ -224,10 +196,7 @@ mod tests {
         let value = parsed(&samples::wrong(), Language::En);
         assert_eq!(value["schema"], "ggrade/report/v1");
         assert_eq!(value["verdict"], "wrong");
-        assert_eq!(
-            (&value["score"], &value["max_score"]),
-            (&json!(80), &json!(100))
-        );
+        assert_eq!((&value["score"], &value["max_score"]), (&json!(80), &json!(100)));
         assert_eq!(value["rubric"][3]["mistake"], "specular-half-unnormalized");
         assert_eq!(value["rubric"][0]["mistake"], Value::Null);
         assert_eq!(value["mistakes"], json!(["specular-half-unnormalized"]));
@@ -240,10 +209,7 @@ mod tests {
     #[test]
     fn every_verdict_has_its_word() {
         let words = samples::all().map(|report| parsed(&report, Language::En)["verdict"].clone());
-        assert_eq!(
-            words,
-            ["correct", "wrong", "rejected", "stopped"].map(Value::from)
-        );
+        assert_eq!(words, ["correct", "wrong", "rejected", "stopped"].map(Value::from));
     }
 
     #[test]
@@ -253,14 +219,8 @@ mod tests {
         let japanese = parsed(&report, Language::Ja);
         assert_eq!(english["rubric"][3]["label"], "Specular");
         assert_eq!(japanese["rubric"][3]["label"], "鏡面反射光");
-        assert_eq!(
-            japanese["rubric"][3]["message"],
-            report.rubric[3].message.ja.as_str()
-        );
-        assert_eq!(
-            japanese["diagnostics"][0]["message"],
-            report.diagnostics[0].message.ja.as_str()
-        );
+        assert_eq!(japanese["rubric"][3]["message"], report.rubric[3].message.ja.as_str());
+        assert_eq!(japanese["diagnostics"][0]["message"], report.diagnostics[0].message.ja.as_str());
     }
 
     #[test]

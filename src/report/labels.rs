@@ -113,12 +113,7 @@ pub(super) const EN: Labels = Labels {
 pub(super) const JA: Labels = Labels {
     tag: "ja",
     report: "採点結果",
-    verdicts: [
-        "正解",
-        "修正が必要です",
-        "受理できません",
-        "実行を中断しました",
-    ],
+    verdicts: ["正解", "修正が必要です", "受理できません", "実行を中断しました"],
     headlines: [
         "すべてのフレームとすべての検査点が正解と一致しました。",
         "シェーダは動作しますが、正解と異なるところがあります。",
@@ -191,11 +186,7 @@ impl Labels {
     }
 
     pub fn line(&self, line: u32) -> String {
-        if self.japanese() {
-            format!("{line} 行目")
-        } else {
-            format!("line {line}")
-        }
+        if self.japanese() { format!("{line} 行目") } else { format!("line {line}") }
     }
 
     /// Line, and column where it is known.

@@ -12,18 +12,12 @@ impl Labels {
         match report.verdict {
             Verdict::Correct => None,
             Verdict::Wrong => {
-                let line = report
-                    .rubric
-                    .iter()
-                    .find(|line| line.points < line.max_points)?;
+                let line = report.rubric.iter().find(|line| line.points < line.max_points)?;
                 let points = number(line.max_points - line.points);
                 Some(self.start_with(line.label.get(language), line.line, &points))
             }
             Verdict::Rejected => {
-                let errors = report
-                    .diagnostics
-                    .iter()
-                    .filter(|d| d.severity == Severity::Error);
+                let errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
                 Some(self.fix_first(errors.count() > 1).to_owned())
             }
             Verdict::Stopped => Some(self.unstop().to_owned()),
@@ -51,9 +45,7 @@ impl Labels {
                 "最初のエラーを直して、もう一度採点してください。後のエラーは最初のエラーが原因であることがよくあります。"
             }
             (false, true) => "エラーを直して、もう一度採点してください。",
-            (true, false) => {
-                "Mend the first error and grade the file again: later errors often follow from the first."
-            }
+            (true, false) => "Mend the first error and grade the file again: later errors often follow from the first.",
             (false, false) => "Mend the error and grade the file again.",
         }
     }

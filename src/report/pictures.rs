@@ -27,10 +27,7 @@ impl Pose {
     fn of(yours: &Picture, expected: &Picture) -> Result<Self, Fault> {
         let (yours_raster, expected_raster) = (Raster::opaque(yours)?, Raster::opaque(expected)?);
         Ok(Self {
-            difference: Raster {
-                pixels: difference(yours, expected),
-                ..expected_raster
-            },
+            difference: Raster { pixels: difference(yours, expected), ..expected_raster },
             expected: Raster::opaque(expected)?,
             yours: yours_raster,
         })
@@ -48,26 +45,14 @@ impl Pose {
             return Err(mismatched());
         }
         let pairs = pictures.yours.iter().zip(&pictures.expected);
-        pairs
-            .map(|(yours, expected)| Self::of(yours, expected))
-            .collect()
+        pairs.map(|(yours, expected)| Self::of(yours, expected)).collect()
     }
 
     fn side_by_side(&self) -> Raster {
-        let rows = self
-            .yours
-            .rows()
-            .zip(self.expected.rows())
-            .zip(self.difference.rows());
+        let rows = self.yours.rows().zip(self.expected.rows()).zip(self.difference.rows());
         let gap = [GAP_COLOUR; GAP];
-        let pixels = rows
-            .flat_map(|((a, b), c)| [a, &gap, b, &gap, c].concat())
-            .collect();
-        Raster {
-            width: 3 * self.yours.width + 2 * GAP,
-            height: self.yours.height,
-            pixels,
-        }
+        let pixels = rows.flat_map(|((a, b), c)| [a, &gap, b, &gap, c].concat()).collect();
+        Raster { width: 3 * self.yours.width + 2 * GAP, height: self.yours.height, pixels }
     }
 }
 
@@ -87,14 +72,8 @@ pub fn write(pictures: &Pictures, directory: &Path) -> Result<Vec<PathBuf>, Faul
     };
     for (index, pose) in poses.iter().enumerate() {
         save(format!("yours-{index:02}.png"), encode(&[&pose.yours])?)?;
-        save(
-            format!("expected-{index:02}.png"),
-            encode(&[&pose.expected])?,
-        )?;
-        save(
-            format!("difference-{index:02}.png"),
-            encode(&[&pose.difference])?,
-        )?;
+        save(format!("expected-{index:02}.png"), encode(&[&pose.expected])?)?;
+        save(format!("difference-{index:02}.png"), encode(&[&pose.difference])?)?;
     }
     if !poses.is_empty() {
         save("animation.png".into(), animate(&poses)?)?;
@@ -119,14 +98,11 @@ fn animate(poses: &[Pose]) -> Result<Vec<u8>, Fault> {
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Fault {
     let path = path.display();
-    Fault::new(Text::new(
-        format!("Cannot write {path}: {error}."),
-        format!("{path} に書き込めません（{error}）。"),
-    ))
-    .remedy(Text::new(
-        "Name a directory that you may write to, on a disk with room.",
-        "書き込みができ、空き容量のあるディレクトリを指定してください。",
-    ))
+    Fault::new(Text::new(format!("Cannot write {path}: {error}."), format!("{path} に書き込めません（{error}）。")))
+        .remedy(Text::new(
+            "Name a directory that you may write to, on a disk with room.",
+            "書き込みができ、空き容量のあるディレクトリを指定してください。",
+        ))
 }
 
 #[cfg(test)]
@@ -148,11 +124,7 @@ mod tests {
     /// Every pixel another colour: too many for a palette.
     fn colourful() -> Picture {
         let rgba = (0..400u32).flat_map(|i| [(i % 256) as u8, (i / 256) as u8, 9, 0]);
-        Picture {
-            width: 20,
-            height: 20,
-            rgba: rgba.collect(),
-        }
+        Picture { width: 20, height: 20, rgba: rgba.collect() }
     }
 
     #[test]
@@ -202,10 +174,7 @@ mod tests {
     #[test]
     fn nothing_drawn_writes_nothing() {
         let directory = tempfile::tempdir().expect("a directory");
-        assert_eq!(
-            write(&Pictures::default(), directory.path()).expect("no fault"),
-            [] as [PathBuf; 0]
-        );
+        assert_eq!(write(&Pictures::default(), directory.path()).expect("no fault"), [] as [PathBuf; 0]);
         assert!(animation(&Pictures::default()).is_err());
     }
 

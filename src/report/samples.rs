@@ -28,12 +28,7 @@ pub(super) fn all() -> [Report; 4] {
 }
 
 pub(super) fn correct() -> Report {
-    let fine = || {
-        Text::new(
-            "Right in every frame and probe.",
-            "すべてのフレームと検査点で正しい結果です。",
-        )
-    };
+    let fine = || Text::new("Right in every frame and probe.", "すべてのフレームと検査点で正しい結果です。");
     let line = |id: &str, en: &str, ja: &str, points: f64| RubricLine {
         id: id.into(),
         label: Text::new(en, ja),
@@ -63,12 +58,7 @@ pub(super) fn correct() -> Report {
         mistakes: vec![],
         diagnostics: vec![],
         frames: (0..POSES).map(|k| frame(k, 0.0)).collect(),
-        probes: ProbeResult {
-            seed: 20_240_613,
-            samples: 640,
-            mismatched: 0,
-            max_difference: Some(4.1e-7),
-        },
+        probes: ProbeResult { seed: 20_240_613, samples: 640, mismatched: 0, max_difference: Some(4.1e-7) },
         environment: Environment {
             ggrade: "0.1.0".into(),
             renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".into(),
@@ -99,17 +89,11 @@ pub(super) fn wrong() -> Report {
     report.diagnostics = vec![
         Diagnostic::warning(
             Stage::Compile,
-            Text::new(
-                "This drivers' extension <b>differs</b>.",
-                "この書き方を受け付けないドライバがあります <b>。",
-            ),
+            Text::new("This drivers' extension <b>differs</b>.", "この書き方を受け付けないドライバがあります <b>。"),
         )
         .at(12, Some(9))
         .spanning(1)
-        .hint(Text::new(
-            "Write `h` in another way.",
-            "`h` を別の書き方にしてみましょう。",
-        )),
+        .hint(Text::new("Write `h` in another way.", "`h` を別の書き方にしてみましょう。")),
     ];
     let level = |k: u32| f64::from([0, 1, 5, 20, 90, 255][(k % 6) as usize]);
     report.frames = (0..POSES).map(|k| frame(k, level(k))).collect();
@@ -121,23 +105,14 @@ pub(super) fn wrong() -> Report {
 pub(super) fn rejected() -> Report {
     let mut report = nothing_drawn(Verdict::Rejected);
     report.diagnostics = vec![
-        Diagnostic::error(
-            Stage::Compile,
-            Text::new("`Max` is not declared.", "`Max` は宣言されていません。"),
-        )
-        .at(11, Some(12))
-        .spanning(3)
-        .hint(Text::new(
-            "GLSL tells capital letters from small ones: look at `max`.",
-            "GLSL は大文字と小文字を区別します。`max` と比べてみましょう。",
-        )),
-        Diagnostic::error(
-            Stage::Link,
-            Text::new(
-                "The output `vc` is missing.",
-                "出力変数 `vc` がありません。",
-            ),
-        ),
+        Diagnostic::error(Stage::Compile, Text::new("`Max` is not declared.", "`Max` は宣言されていません。"))
+            .at(11, Some(12))
+            .spanning(3)
+            .hint(Text::new(
+                "GLSL tells capital letters from small ones: look at `max`.",
+                "GLSL は大文字と小文字を区別します。`max` と比べてみましょう。",
+            )),
+        Diagnostic::error(Stage::Link, Text::new("The output `vc` is missing.", "出力変数 `vc` がありません。")),
     ];
     report
 }
@@ -147,10 +122,7 @@ pub(super) fn stopped() -> Report {
     report.diagnostics = vec![
         Diagnostic::error(
             Stage::Run,
-            Text::new(
-                "A loop ran more than 65536 times.",
-                "ループが 65536 回を超えて繰り返されました。",
-            ),
+            Text::new("A loop ran more than 65536 times.", "ループが 65536 回を超えて繰り返されました。"),
         )
         .at(10, None),
     ];
@@ -196,25 +168,15 @@ pub(super) fn pictures() -> Pictures {
 }
 
 fn triangle(pose: u32, shine: u32) -> Picture {
-    let turn = (f64::from(pose) / f64::from(POSES) * std::f64::consts::TAU)
-        .cos()
-        .abs();
+    let turn = (f64::from(pose) / f64::from(POSES) * std::f64::consts::TAU).cos().abs();
     let mut rgba = Vec::new();
     for y in 0..HEIGHT {
         for x in 0..WIDTH {
             let half = f64::from(y) * 0.5 * turn;
             let inside = (f64::from(x) - 40.0).abs() <= half && y > 8;
             let glow = (shine * y / HEIGHT) as u8;
-            rgba.extend(if inside {
-                [100 + glow, glow, glow, 255]
-            } else {
-                [255, 255, 255, 0]
-            });
+            rgba.extend(if inside { [100 + glow, glow, glow, 255] } else { [255, 255, 255, 0] });
         }
     }
-    Picture {
-        width: WIDTH,
-        height: HEIGHT,
-        rgba,
-    }
+    Picture { width: WIDTH, height: HEIGHT, rgba }
 }

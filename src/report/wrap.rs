@@ -3,8 +3,7 @@
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Must not begin a line (kinsoku shori, JIS X 4051).
-const CLOSING: &str =
-    "、。，．・：；！？）」』】〕］｝〉》ー々…ぁぃぅぇぉっゃゅょァィゥェォッャュョ)]},.:;!?";
+const CLOSING: &str = "、。，．・：；！？）」』】〕］｝〉》ー々…ぁぃぅぇぉっゃゅょァィゥェォッャュョ)]},.:;!?";
 /// Must not end a line.
 const OPENING: &str = "（「『【〔［｛〈《([{";
 
@@ -23,8 +22,7 @@ pub(super) fn pad(text: &str, width: usize) -> String {
 /// Line feeds stay, and tabs become spaces.
 pub(super) fn plain(text: &str) -> String {
     let steers = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+        c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
     };
     let show = |c: char| match c {
         '\n' => '\n',
@@ -40,9 +38,7 @@ pub(super) fn plain(text: &str) -> String {
 /// A word that is wider than a line is broken where the line ends.
 pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(2);
-    text.lines()
-        .flat_map(|line| wrap_line(line, width))
-        .collect()
+    text.lines().flat_map(|line| wrap_line(line, width)).collect()
 }
 
 fn wrap_line(text: &str, width: usize) -> Vec<String> {
@@ -98,10 +94,7 @@ fn units(text: &str) -> Vec<Unit> {
         let joined = after.is_some_and(|after| !after.may_break(Edge::of(c, !in_code)));
         match units.last_mut() {
             Some(unit) if joined => unit.text.push(c),
-            _ => units.push(Unit {
-                text: c.to_string(),
-                spaced: previous.is_none(),
-            }),
+            _ => units.push(Unit { text: c.to_string(), spaced: previous.is_none() }),
         }
         previous = Some(c);
     }
@@ -136,10 +129,7 @@ mod tests {
 
     #[test]
     fn latin_breaks_at_spaces() {
-        assert_eq!(
-            wrap("the half vector is not", 10),
-            ["the half", "vector is", "not"]
-        );
+        assert_eq!(wrap("the half vector is not", 10), ["the half", "vector is", "not"]);
     }
 
     #[test]
@@ -160,10 +150,7 @@ mod tests {
         let text = "37 行目の中間ベクトル `normalize(l+v)*0.5000000000000000000000000001` の長さ。";
         for width in 2..60 {
             let lines = wrap(text, width);
-            assert!(
-                lines.iter().all(|line| columns(line) <= width),
-                "{width}: {lines:?}"
-            );
+            assert!(lines.iter().all(|line| columns(line) <= width), "{width}: {lines:?}");
             let joined: String = lines.concat().chars().filter(|c| *c != ' ').collect();
             assert_eq!(joined, text.replace(' ', ""), "{width}");
         }

@@ -82,7 +82,7 @@ impl Pool {
 
     /// The whole frames of which `tiles` are the painted parts.
     fn paste(&self, tiles: &[Tile], body: &[u8]) -> Vec<Picture> {
-        let scene = self.assignment.scene();
+        let scene = &self.assignment.scene;
         let (width, height) = (scene.width, scene.height);
         let mut rest = body;
         let mut pictures = Vec::new();

@@ -78,5 +78,10 @@ fn painted(frames: &Frames, index: u32) -> Tile {
         top = top.min(y);
         bottom = y + 1;
     }
-    Tile { x: left.min(right), y: top.min(bottom), width: right.saturating_sub(left), height: bottom.saturating_sub(top) }
+    Tile {
+        x: left.min(right),
+        y: top.min(bottom),
+        width: right.saturating_sub(left),
+        height: bottom.saturating_sub(top),
+    }
 }

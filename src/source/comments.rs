@@ -29,10 +29,7 @@ pub(super) fn find(text: &str) -> Vec<Comment> {
                 continue;
             }
         };
-        found.push(Comment {
-            range: at..end,
-            to_line_end: bytes[second] == b'/',
-        });
+        found.push(Comment { range: at..end, to_line_end: bytes[second] == b'/' });
         at = end;
     }
     found
@@ -44,11 +41,7 @@ pub(super) fn blank(text: &str, comments: &[Comment]) -> String {
     let mut done = 0;
     for Comment { range, .. } in comments {
         code.push_str(&text[done..range.start]);
-        code.extend(
-            text[range.clone()]
-                .bytes()
-                .map(|byte| if byte == b'\n' { '\n' } else { ' ' }),
-        );
+        code.extend(text[range.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
         done = range.end;
     }
     code.push_str(&text[done..]);

@@ -33,12 +33,8 @@ struct Preprocessor<'a> {
 
 /// The standing of each line of `code`, which has no comments.
 pub(super) fn standings(code: &str) -> Vec<Standing> {
-    let mut preprocessor = Preprocessor {
-        uses: uses(code),
-        standing: Standing::Compiled,
-        open: Vec::new(),
-        macros: HashMap::new(),
-    };
+    let mut preprocessor =
+        Preprocessor { uses: uses(code), standing: Standing::Compiled, open: Vec::new(), macros: HashMap::new() };
     let mut standings = Vec::new();
     let mut lines = code.lines().peekable();
     while let Some(first) = lines.next() {
@@ -77,27 +73,16 @@ impl Preprocessor<'_> {
             return self.standing;
         };
         let directive = directive.trim_start_matches(blank);
-        let end = directive
-            .find(|c: char| !c.is_ascii_alphanumeric())
-            .unwrap_or(directive.len());
+        let end = directive.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(directive.len());
         let (name, rest) = directive.split_at(end);
         let here = self.standing;
         match name {
             "if" => self.open(decide(rest, &self.macros)),
             "ifdef" => self.open(first_word(rest).and_then(|macro_| self.is_defined(macro_))),
-            "ifndef" => self.open(
-                first_word(rest)
-                    .and_then(|macro_| self.is_defined(macro_))
-                    .map(|known| !known),
-            ),
+            "ifndef" => self.open(first_word(rest).and_then(|macro_| self.is_defined(macro_)).map(|known| !known)),
             "elif" => return self.branch(decide(rest, &self.macros)),
             "else" => return self.branch(Some(true)),
-            "endif" => {
-                self.standing = self
-                    .open
-                    .pop()
-                    .map_or(self.standing, |conditional| conditional.outside)
-            }
+            "endif" => self.standing = self.open.pop().map_or(self.standing, |conditional| conditional.outside),
             "define" | "undef" if here != Standing::Skipped => {
                 return self.define(name == "define", rest);
             }
@@ -108,10 +93,7 @@ impl Preprocessor<'_> {
     }
 
     fn open(&mut self, condition: Option<bool>) {
-        self.open.push(Conditional {
-            outside: self.standing,
-            taken: condition,
-        });
+        self.open.push(Conditional { outside: self.standing, taken: condition });
         self.standing = inside(self.standing, condition);
     }
 
@@ -139,13 +121,8 @@ impl Preprocessor<'_> {
             return self.standing;
         };
         let certain = self.standing == Standing::Compiled;
-        self.macros
-            .insert(name.to_owned(), certain.then_some(defined));
-        if self.uses.contains(name) {
-            self.standing
-        } else {
-            Standing::Skipped
-        }
+        self.macros.insert(name.to_owned(), certain.then_some(defined));
+        if self.uses.contains(name) { self.standing } else { Standing::Skipped }
     }
 
     fn is_defined(&self, name: &str) -> Option<bool> {
@@ -181,13 +158,9 @@ fn decide(condition: &str, macros: &HashMap<String, Option<bool>>) -> Option<boo
         None => (condition, true),
     };
     let mut names = words(asked).map(|(_, word)| word);
-    let only_a_name = asked
-        .chars()
-        .all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | ' ' | '(' | ')'));
+    let only_a_name = asked.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | ' ' | '(' | ')'));
     match (names.next(), names.next(), names.next()) {
-        (Some("defined"), Some(name), None) if only_a_name => {
-            is_defined(macros, name).map(|defined| defined == wanted)
-        }
+        (Some("defined"), Some(name), None) if only_a_name => is_defined(macros, name).map(|defined| defined == wanted),
         _ => None,
     }
 }
@@ -195,10 +168,7 @@ fn decide(condition: &str, macros: &HashMap<String, Option<bool>>) -> Option<boo
 /// The name that a directive begins with, where it does.
 fn first_word(text: &str) -> Option<&str> {
     let text = text.trim_start_matches([' ', '\t']);
-    words(text)
-        .next()
-        .filter(|&(start, _)| start == 0)
-        .map(|(_, word)| word)
+    words(text).next().filter(|&(start, _)| start == 0).map(|(_, word)| word)
 }
 
 #[cfg(test)]
@@ -218,36 +188,21 @@ mod tests {
     #[test]
     fn a_constant_condition_decides() {
         assert_eq!(letters("a\n#if 0\nb\n#else\nc\n#endif\nd\n"), "CCSCCCC");
-        assert_eq!(
-            letters("#if 1\nb\n#elif x\nc\n#else\nd\n#endif\n"),
-            "CCCSCSC"
-        );
-        assert_eq!(
-            letters("#if 0\n#if 1\nb\n#endif\nc\n#endif\nd\n"),
-            "CSSSSCC"
-        );
+        assert_eq!(letters("#if 1\nb\n#elif x\nc\n#else\nd\n#endif\n"), "CCCSCSC");
+        assert_eq!(letters("#if 0\n#if 1\nb\n#endif\nc\n#endif\nd\n"), "CSSSSCC");
     }
 
     #[test]
     fn macros_of_the_file_decide() {
         assert_eq!(letters("#ifdef X\na\n#endif\n"), "CSC");
-        assert_eq!(
-            letters("#define X 1\n#ifdef X\na\n#else\nb\n#endif\n"),
-            "SCCCSC"
-        );
-        assert_eq!(
-            letters("#define X\n#undef X\n#if defined(X)\na\n#endif\n"),
-            "SSCSC"
-        );
+        assert_eq!(letters("#define X 1\n#ifdef X\na\n#else\nb\n#endif\n"), "SCCCSC");
+        assert_eq!(letters("#define X\n#undef X\n#if defined(X)\na\n#endif\n"), "SSCSC");
         assert_eq!(letters("#if !defined X\na\n#endif\n"), "CCC");
     }
 
     #[test]
     fn what_the_driver_knows_stays_open() {
-        assert_eq!(
-            letters("#ifdef GL_core_profile\na\n#else\nb\n#endif\nc\n"),
-            "CUCUCC"
-        );
+        assert_eq!(letters("#ifdef GL_core_profile\na\n#else\nb\n#endif\nc\n"), "CUCUCC");
         assert_eq!(letters("#if __VERSION__ >= 410\na\n#endif\n"), "CUC");
         assert_eq!(letters("#if X > 1 && defined(Y)\na\n#endif\n"), "CUC");
     }

@@ -66,10 +66,7 @@ impl Encoding {
 
     /// The text of `bytes`, U+FFFD where they mean nothing.
     fn read(self, bytes: &[u8]) -> String {
-        self.codec()
-            .decode_without_bom_handling(bytes)
-            .0
-            .into_owned()
+        self.codec().decode_without_bom_handling(bytes).0.into_owned()
     }
 }
 
@@ -92,31 +89,16 @@ pub(super) fn decode(bytes: &[u8]) -> Decoded {
         _ => None,
     };
     if let Some((encoding, rest, note)) = marked {
-        return Decoded {
-            text: encoding.read(rest),
-            encoding,
-            notes: vec![note],
-        };
+        return Decoded { text: encoding.read(rest), encoding, notes: vec![note] };
     }
     let encoding = detect(bytes);
-    let notes = if encoding == Encoding::Windows1252 {
-        vec![western()]
-    } else {
-        Vec::new()
-    };
-    Decoded {
-        text: encoding.read(bytes),
-        encoding,
-        notes,
-    }
+    let notes = if encoding == Encoding::Windows1252 { vec![western()] } else { Vec::new() };
+    Decoded { text: encoding.read(bytes), encoding, notes }
 }
 
 /// The most plausible encoding of bytes without a mark.
 fn detect(bytes: &[u8]) -> Encoding {
-    if bytes.is_ascii()
-        && has_jis_escape(bytes)
-        && !ISO_2022_JP.decode_without_bom_handling(bytes).1
-    {
+    if bytes.is_ascii() && has_jis_escape(bytes) && !ISO_2022_JP.decode_without_bom_handling(bytes).1 {
         return Encoding::Iso2022Jp;
     }
     match std::str::from_utf8(bytes) {
@@ -128,9 +110,7 @@ fn detect(bytes: &[u8]) -> Encoding {
 
 /// Whether there is an escape sequence that opens JIS X 0208, the one thing every ISO-2022-JP text has.
 fn has_jis_escape(bytes: &[u8]) -> bool {
-    bytes
-        .windows(3)
-        .any(|three| matches!(three, [0x1B, b'$', b'B' | b'@']))
+    bytes.windows(3).any(|three| matches!(three, [0x1B, b'$', b'B' | b'@']))
 }
 
 fn utf8_mark() -> Diagnostic {
@@ -165,8 +145,5 @@ fn western() -> Diagnostic {
         "The file is neither UTF-8 nor a Japanese encoding; it is read as Windows-1252 (western European).",
         "ファイルが UTF-8 でも日本語の文字コードでもないため、Windows-1252（西欧）として読み取りました。",
     );
-    Diagnostic {
-        severity: Severity::Note,
-        ..Diagnostic::warning(Stage::Source, message)
-    }
+    Diagnostic { severity: Severity::Note, ..Diagnostic::warning(Stage::Source, message) }
 }

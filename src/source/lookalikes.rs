@@ -36,9 +36,7 @@ pub(crate) fn is_bidi(c: char) -> bool {
 
 fn punctuation(c: char) -> Option<&'static str> {
     Some(match c {
-        '−' | '‐' | '‑' | '‒' | '–' | '—' | '―' | '─' | '﹣' | 'ー' | 'ｰ' => {
-            "-"
-        }
+        '−' | '‐' | '‑' | '‒' | '–' | '—' | '―' | '─' | '﹣' | 'ー' | 'ｰ' => "-",
         '×' | '✕' | '✖' | '∗' | '⋅' | '·' | '・' | '•' | '･' => "*",
         '÷' | '∕' | '⁄' => "/",
         '≤' | '≦' | '⩽' => "<=",
@@ -121,10 +119,7 @@ mod tests {
 
     #[test]
     fn full_width_forms_become_their_ascii() {
-        let typed: String = "ｖｅｃ４（＋－＊／＝；，．｛｝［］＜＞～"
-            .chars()
-            .filter_map(ascii_for)
-            .collect();
+        let typed: String = "ｖｅｃ４（＋－＊／＝；，．｛｝［］＜＞～".chars().filter_map(ascii_for).collect();
         assert_eq!(typed, "vec4(+-*/=;,.{}[]<>~");
     }
 
@@ -133,9 +128,7 @@ mod tests {
         for c in ['\u{3000}', '\u{A0}', '\u{2003}', '\u{202F}'] {
             assert_eq!(ascii_for(c).as_deref(), Some(" "), "{c:?}");
         }
-        for c in [
-            '\u{200B}', '\u{FEFF}', '\u{AD}', '\u{202E}', '\u{2066}', '\u{1A}',
-        ] {
+        for c in ['\u{200B}', '\u{FEFF}', '\u{AD}', '\u{202E}', '\u{2066}', '\u{1A}'] {
             assert_eq!(ascii_for(c).as_deref(), Some(""), "{c:?}");
         }
     }

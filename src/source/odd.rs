@@ -23,15 +23,9 @@ struct Run<'a> {
 /// Errors and warnings about the code of `source`.
 pub(super) fn in_code(source: &Source) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let standings = standings(source.code());
-    let standing = |run: &Run| {
-        standings
-            .get(run.line as usize - 1)
-            .copied()
-            .unwrap_or(Standing::Compiled)
-    };
-    let (errors, mut warnings): (Vec<_>, Vec<_>) = runs(source)
-        .into_iter()
-        .partition(|run| standing(run) == Standing::Compiled);
+    let standing = |run: &Run| standings.get(run.line as usize - 1).copied().unwrap_or(Standing::Compiled);
+    let (errors, mut warnings): (Vec<_>, Vec<_>) =
+        runs(source).into_iter().partition(|run| standing(run) == Standing::Compiled);
     // One word a line is enough where nothing is wrong.
     warnings.dedup_by(|next, run| standing(run) == Standing::Skipped && next.line == run.line);
     let errors = bounded(Severity::Error, &errors, told);
@@ -40,12 +34,10 @@ pub(super) fn in_code(source: &Source) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
         _ => told(run),
     });
     let place = |diagnostics: Vec<(Option<usize>, Diagnostic)>| {
-        let placed = diagnostics
-            .into_iter()
-            .map(|(offset, diagnostic)| match offset {
-                Some(offset) => at(source, offset, diagnostic),
-                None => diagnostic,
-            });
+        let placed = diagnostics.into_iter().map(|(offset, diagnostic)| match offset {
+            Some(offset) => at(source, offset, diagnostic),
+            None => diagnostic,
+        });
         placed.collect()
     };
     (place(errors), place(warnings))
@@ -59,37 +51,19 @@ fn at(source: &Source, offset: usize, diagnostic: Diagnostic) -> Diagnostic {
 
 /// Warnings about the comments of `source`: what cannot be read, what misleads the eye, what a driver reads otherwise.
 pub(super) fn in_comments(source: &Source) -> Vec<Diagnostic> {
-    let comments = || {
-        source
-            .comments
-            .iter()
-            .map(|comment| (comment, &source.text[comment.range.clone()]))
-    };
-    let characters = || {
-        comments().flat_map(|(comment, text)| {
-            text.char_indices()
-                .map(|(at, c)| (comment.range.start + at, c))
-        })
-    };
+    let comments = || source.comments.iter().map(|comment| (comment, &source.text[comment.range.clone()]));
+    let characters =
+        || comments().flat_map(|(comment, text)| text.char_indices().map(|(at, c)| (comment.range.start + at, c)));
     let mut notes = Vec::new();
     if source.facts.encoding == Some(Encoding::ShiftJis) {
-        let ends = comments()
-            .filter(|(comment, _)| comment.to_line_end)
-            .map(|(comment, _)| comment.range.end);
-        notes.extend(
-            ends.filter_map(|end| hidden_backslash(source, end))
-                .take(MAX_PLACES),
-        );
+        let ends = comments().filter(|(comment, _)| comment.to_line_end).map(|(comment, _)| comment.range.end);
+        notes.extend(ends.filter_map(|end| hidden_backslash(source, end)).take(MAX_PLACES));
     }
     let turning = characters().filter(|&(_, c)| is_bidi(c)).take(MAX_PLACES);
     notes.extend(turning.map(|(offset, c)| at(source, offset, wording::turned(c))));
     let mut unreadable = characters().filter(|&(_, c)| c == '\u{FFFD}');
     if let Some((offset, _)) = unreadable.next() {
-        notes.push(at(
-            source,
-            offset,
-            wording::unreadable_comment(1 + unreadable.count()),
-        ));
+        notes.push(at(source, offset, wording::unreadable_comment(1 + unreadable.count())));
     }
     notes
 }
@@ -103,14 +77,8 @@ fn runs(source: &Source) -> Vec<Run<'_>> {
             let begin = at + found;
             let first = code[begin..].chars().next().map_or(Kind::Foreign, kind);
             let ends = |c: char| !is_odd(c) || kind(c) != first;
-            at = code[begin..]
-                .find(ends)
-                .map_or(code.len(), |length| begin + length);
-            runs.push(Run {
-                line,
-                offset: start + begin,
-                text: &code[begin..at],
-            });
+            at = code[begin..].find(ends).map_or(code.len(), |length| begin + length);
+            runs.push(Run { line, offset: start + begin, text: &code[begin..at] });
         }
     }
     runs
@@ -153,32 +121,12 @@ fn hidden_backslash(source: &Source, end: usize) -> Option<Diagnostic> {
 }
 
 /// What `tell` says of the first places, each with its offset, and how many more there are.
-fn bounded(
-    severity: Severity,
-    runs: &[Run],
-    tell: impl Fn(&Run) -> Diagnostic,
-) -> Vec<(Option<usize>, Diagnostic)> {
+fn bounded(severity: Severity, runs: &[Run], tell: impl Fn(&Run) -> Diagnostic) -> Vec<(Option<usize>, Diagnostic)> {
     let first = runs.iter().take(MAX_PLACES);
-    let mut told: Vec<_> = first
-        .map(|run| {
-            (
-                Some(run.offset),
-                Diagnostic {
-                    severity,
-                    ..tell(run)
-                },
-            )
-        })
-        .collect();
+    let mut told: Vec<_> = first.map(|run| (Some(run.offset), Diagnostic { severity, ..tell(run) })).collect();
     let more = runs.len() - told.len();
     if more > 0 {
-        told.push((
-            None,
-            Diagnostic {
-                severity,
-                ..wording::more(more)
-            },
-        ));
+        told.push((None, Diagnostic { severity, ..wording::more(more) }));
     }
     told
 }

@@ -25,10 +25,7 @@ fn refuse(bytes: impl AsRef<[u8]>) -> Refusal {
 
 /// Line, column and length of each diagnostic.
 fn places(diagnostics: &[Diagnostic]) -> Vec<(u32, u32, u32)> {
-    diagnostics
-        .iter()
-        .map(|d| (d.line.unwrap_or(0), d.column.unwrap_or(0), d.length))
-        .collect()
+    diagnostics.iter().map(|d| (d.line.unwrap_or(0), d.column.unwrap_or(0), d.length)).collect()
 }
 
 #[test]
@@ -37,10 +34,7 @@ fn the_facts_are_those_of_the_bytes() {
     // printf 'void main() {}' | sha256sum
     let sha256 = "340c8ac2b0e649293267ee27410a6ec6904b9e6244717604f851f1191dab59c5";
     assert_eq!(source.facts.sha256, sha256);
-    assert_eq!(
-        (source.facts.name.as_str(), source.facts.bytes),
-        ("a.vert", 14)
-    );
+    assert_eq!((source.facts.name.as_str(), source.facts.bytes), ("a.vert", 14));
     assert_eq!(source.facts.encoding, Some(Encoding::Utf8));
     assert_eq!(source.text, "void main() {}\n");
     assert_eq!(source.notes, []);
@@ -69,17 +63,9 @@ fn every_line_end_counts_once() {
 #[test]
 fn lines_that_are_not_there_are_empty() {
     let source = accept("a\n");
+    assert_eq!((source.line(0), source.line(2), source.line(u32::MAX)), ("", "", ""));
     assert_eq!(
-        (source.line(0), source.line(2), source.line(u32::MAX)),
-        ("", "", "")
-    );
-    assert_eq!(
-        (
-            source.offset(0, 1),
-            source.offset(1, 0),
-            source.offset(2, 1),
-            source.offset(1, 3)
-        ),
+        (source.offset(0, 1), source.offset(1, 0), source.offset(2, 1), source.offset(1, 3)),
         (None, None, None, None)
     );
 }
@@ -88,16 +74,9 @@ fn lines_that_are_not_there_are_empty() {
 fn positions_count_characters() {
     let source = accept("ab\n/*光*/ x\n");
     // Line 2 begins at byte 3; 光 is bytes 5 to 7, the x is byte 11 and the seventh character.
-    for (offset, line, column) in [
-        (0, 1, 1),
-        (1, 1, 2),
-        (2, 1, 3),
-        (3, 2, 1),
-        (5, 2, 3),
-        (8, 2, 4),
-        (11, 2, 7),
-        (12, 2, 8),
-    ] {
+    for (offset, line, column) in
+        [(0, 1, 1), (1, 1, 2), (2, 1, 3), (3, 2, 1), (5, 2, 3), (8, 2, 4), (11, 2, 7), (12, 2, 8)]
+    {
         assert_eq!(source.position(offset), (line, column), "byte {offset}");
         assert_eq!(source.offset(line, column), Some(offset), "{line}:{column}");
     }
@@ -116,24 +95,15 @@ fn code_is_the_text_without_comments_in_the_same_places() {
     let source = accept("a /* 光 */ b // c\nd\n");
     assert_eq!(source.code().len(), source.text.len());
     assert_eq!(source.code().find('b'), source.text.find('b'));
-    assert_eq!(
-        source.code_line(1).trim_end(),
-        format!("a{}b", " ".repeat(" /* 光 */ ".len()))
-    );
-    assert_eq!(
-        source.words().map(|(_, word)| word).collect::<Vec<_>>(),
-        ["a", "b", "d"]
-    );
+    assert_eq!(source.code_line(1).trim_end(), format!("a{}b", " ".repeat(" /* 光 */ ".len())));
+    assert_eq!(source.words().map(|(_, word)| word).collect::<Vec<_>>(), ["a", "b", "d"]);
 }
 
 #[test]
 fn a_right_shader_is_accepted_in_every_encoding() {
     let text = shader("環境光 ＋ 拡散反射光；", "", "");
     let utf16 = |to_bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
-        format!("\u{FEFF}{text}")
-            .encode_utf16()
-            .flat_map(to_bytes)
-            .collect()
+        format!("\u{FEFF}{text}").encode_utf16().flat_map(to_bytes).collect()
     };
     for (bytes, encoding) in [
         (text.clone().into_bytes(), Encoding::Utf8),
@@ -143,10 +113,7 @@ fn a_right_shader_is_accepted_in_every_encoding() {
         (utf16(u16::to_be_bytes), Encoding::Utf16Be),
     ] {
         let source = accept(bytes);
-        assert_eq!(
-            (source.facts.encoding, &source.text),
-            (Some(encoding), &text)
-        );
+        assert_eq!((source.facts.encoding, &source.text), (Some(encoding), &text));
     }
 }
 
@@ -160,22 +127,11 @@ fn a_byte_order_mark_is_left_out_with_a_warning() {
 
 #[test]
 fn bytes_in_comments_never_refuse_a_file() {
-    for comment in [
-        &b"caf\xE9"[..],
-        b"\xFF\xFE\x80",
-        b"\x93",
-        b"\xC3(",
-        b"\xF0\x9F",
-        b"\x1B[31m",
-    ] {
+    for comment in [&b"caf\xE9"[..], b"\xFF\xFE\x80", b"\x93", b"\xC3(", b"\xF0\x9F", b"\x1B[31m"] {
         let mut bytes = b"void main() { gl_Position = vec4(0); } // ".to_vec();
         bytes.extend_from_slice(comment);
         let source = accept(&bytes);
-        assert_eq!(
-            source.code().trim_end(),
-            "void main() { gl_Position = vec4(0); }",
-            "{comment:?}"
-        );
+        assert_eq!(source.code().trim_end(), "void main() { gl_Position = vec4(0); }", "{comment:?}");
         // Also where code follows.
         bytes.extend_from_slice(b"\nvoid f() {}\n");
         assert_eq!(accept(&bytes).code_line(2), "void f() {}", "{comment:?}");
@@ -201,16 +157,10 @@ fn what_cannot_be_read_in_code_is_refused_at_its_place() {
 #[test]
 fn the_backslash_inside_a_shift_jis_character_is_told() {
     // 表 is 95 5C in Shift_JIS, and 5C is the backslash.
-    let bytes = SHIFT_JIS
-        .encode(&shader("光源の色の表", "", ""))
-        .0
-        .into_owned();
+    let bytes = SHIFT_JIS.encode(&shader("光源の色の表", "", "")).0.into_owned();
     let notes = accept(bytes).notes;
     // "#version 410 core // 光源の色の" are 26 characters.
     assert_eq!(places(&notes), [(1, 27, 1)]);
     assert_eq!(accept(shader("光源の色の表", "", "")).notes, []);
-    assert_eq!(
-        accept(SHIFT_JIS.encode(&shader("光源の表。", "", "")).0).notes,
-        []
-    );
+    assert_eq!(accept(SHIFT_JIS.encode(&shader("光源の表。", "", "")).0).notes, []);
 }

@@ -10,10 +10,9 @@
 //!   colour at location 0.
 
 use naga::{
-    AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function,
-    FunctionArgument, FunctionResult, GlobalVariable, Handle, Interpolation, Literal, Module,
-    ResourceBinding, Sampling, Scalar, Span, Statement, StorageAccess, StructMember, Type,
-    TypeInner, VectorSize, proc::Emitter,
+    AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function, FunctionArgument,
+    FunctionResult, GlobalVariable, Handle, Interpolation, Literal, Module, ResourceBinding, Sampling, Scalar, Span,
+    Statement, StorageAccess, StructMember, Type, TypeInner, VectorSize, proc::Emitter,
 };
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
@@ -58,19 +57,12 @@ struct Outputs {
 
 impl Outputs {
     fn of(module: &Module, function: &Function, output: &str) -> Self {
-        let returned = function
-            .body
-            .iter()
-            .rev()
-            .find_map(|statement| match statement {
-                Statement::Return { value } => *value,
-                _ => None,
-            });
+        let returned = function.body.iter().rev().find_map(|statement| match statement {
+            Statement::Return { value } => *value,
+            _ => None,
+        });
         let Some(returned) = returned else {
-            return Self {
-                position: None,
-                colour: None,
-            };
+            return Self { position: None, colour: None };
         };
         let components = match &function.expressions[returned] {
             Expression::Compose { components, .. } => components.clone(),
@@ -81,30 +73,22 @@ impl Outputs {
             _ => None,
         };
         let position = components.iter().copied().find(|&c| {
-            let Some(Expression::AccessIndex { base, index }) =
-                pointer(c).map(|p| &function.expressions[p])
-            else {
+            let Some(Expression::AccessIndex { base, index }) = pointer(c).map(|p| &function.expressions[p]) else {
                 return false;
             };
             let Expression::GlobalVariable(global) = function.expressions[*base] else {
                 return false;
             };
-            let TypeInner::Struct { members, .. } =
-                &module.types[module.global_variables[global].ty].inner
-            else {
+            let TypeInner::Struct { members, .. } = &module.types[module.global_variables[global].ty].inner else {
                 return false;
             };
             matches!(
-                members
-                    .get(*index as usize)
-                    .and_then(|m| m.binding.as_ref()),
+                members.get(*index as usize).and_then(|m| m.binding.as_ref()),
                 Some(Binding::BuiltIn(BuiltIn::Position { .. }))
             )
         });
         let colour = components.iter().copied().find(|&c| {
-            let Some(Expression::GlobalVariable(global)) =
-                pointer(c).map(|p| &function.expressions[p])
-            else {
+            let Some(Expression::GlobalVariable(global)) = pointer(c).map(|p| &function.expressions[p]) else {
                 return false;
             };
             module.global_variables[*global].name.as_deref() == Some(output)
@@ -184,10 +168,7 @@ fn drop_stores(
             Expression::As { expr, .. } => expr,
             _ => *value,
         };
-        dropped
-            .iter()
-            .find(|(handle, _)| *handle == source)
-            .map(|(_, index)| *index)
+        dropped.iter().find(|(handle, _)| *handle == source).map(|(_, index)| *index)
     };
     let mut body = Block::new();
     let mut defaults = Vec::new();
@@ -212,11 +193,7 @@ fn drop_stores(
 
 fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
     let ty = module.global_variables[global].ty;
-    let TypeInner::Vector {
-        size: VectorSize::Quad,
-        scalar,
-    } = module.types[ty].inner
-    else {
+    let TypeInner::Vector { size: VectorSize::Quad, scalar } = module.types[ty].inner else {
         return;
     };
     let Some(one) = Literal::one(scalar) else {
@@ -226,15 +203,9 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
         return;
     };
     let components = [zero, zero, zero, one]
-        .map(|literal| {
-            module
-                .global_expressions
-                .append(Expression::Literal(literal), Span::UNDEFINED)
-        })
+        .map(|literal| module.global_expressions.append(Expression::Literal(literal), Span::UNDEFINED))
         .to_vec();
-    let init = module
-        .global_expressions
-        .append(Expression::Compose { ty, components }, Span::UNDEFINED);
+    let init = module.global_expressions.append(Expression::Compose { ty, components }, Span::UNDEFINED);
     module.global_variables[global].init = Some(init);
 }
 
@@ -244,23 +215,15 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     let capture = module.global_variables.append(
         GlobalVariable {
             name: Some("capture".into()),
-            space: AddressSpace::Storage {
-                access: StorageAccess::LOAD | StorageAccess::STORE,
-            },
-            binding: Some(ResourceBinding {
-                group: CAPTURE_GROUP,
-                binding: 0,
-            }),
+            space: AddressSpace::Storage { access: StorageAccess::LOAD | StorageAccess::STORE },
+            binding: Some(ResourceBinding { group: CAPTURE_GROUP, binding: 0 }),
             ty: types.records,
             init: None,
             memory_decorations: naga::MemoryDecorations::empty(),
         },
         Span::UNDEFINED,
     );
-    let vertex = function
-        .arguments
-        .iter()
-        .position(|a| a.binding == Some(Binding::BuiltIn(BuiltIn::VertexIndex)));
+    let vertex = function.arguments.iter().position(|a| a.binding == Some(Binding::BuiltIn(BuiltIn::VertexIndex)));
     let vertex = vertex.unwrap_or_else(|| {
         function.arguments.push(FunctionArgument {
             name: None,
@@ -270,9 +233,7 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
         function.arguments.len() - 1
     });
 
-    let mut statements: Vec<_> = std::mem::take(&mut function.body)
-        .span_into_iter()
-        .collect();
+    let mut statements: Vec<_> = std::mem::take(&mut function.body).span_into_iter().collect();
     if matches!(statements.last(), Some((Statement::Return { .. }, _))) {
         statements.pop();
     }
@@ -297,60 +258,20 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     let mut node = |expression| expressions.append(expression, span);
     let binary = |op, left, right| Expression::Binary { op, left, right };
     let index = node(binary(BinaryOperator::Add, instance, vertex));
-    let record = node(Expression::Access {
-        base: records,
-        index,
-    });
-    let to_position = node(Expression::AccessIndex {
-        base: record,
-        index: 0,
-    });
-    let to_colour = node(Expression::AccessIndex {
-        base: record,
-        index: 1,
-    });
-    let [x, y, z, w] = [0, 1, 2, 3].map(|index| {
-        node(Expression::AccessIndex {
-            base: position,
-            index,
-        })
-    });
+    let record = node(Expression::Access { base: records, index });
+    let to_position = node(Expression::AccessIndex { base: record, index: 0 });
+    let to_colour = node(Expression::AccessIndex { base: record, index: 1 });
+    let [x, y, z, w] = [0, 1, 2, 3].map(|index| node(Expression::AccessIndex { base: position, index }));
     let sum = node(binary(BinaryOperator::Add, z, w));
     let depth = node(binary(BinaryOperator::Multiply, sum, half));
-    let clip = node(Expression::Compose {
-        ty: types.vec4,
-        components: vec![x, y, depth, w],
-    });
-    let result = node(Expression::Compose {
-        ty: types.result,
-        components: vec![clip, colour],
-    });
+    let clip = node(Expression::Compose { ty: types.vec4, components: vec![x, y, depth, w] });
+    let result = node(Expression::Compose { ty: types.result, components: vec![clip, colour] });
     body.extend(emitter.finish(expressions));
-    body.push(
-        Statement::Store {
-            pointer: to_position,
-            value: position,
-        },
-        span,
-    );
-    body.push(
-        Statement::Store {
-            pointer: to_colour,
-            value: colour,
-        },
-        span,
-    );
-    body.push(
-        Statement::Return {
-            value: Some(result),
-        },
-        span,
-    );
+    body.push(Statement::Store { pointer: to_position, value: position }, span);
+    body.push(Statement::Store { pointer: to_colour, value: colour }, span);
+    body.push(Statement::Return { value: Some(result) }, span);
     function.body = body;
-    function.result = Some(FunctionResult {
-        ty: types.result,
-        binding: None,
-    });
+    function.result = Some(FunctionResult { ty: types.result, binding: None });
 }
 
 struct Types {
@@ -363,34 +284,14 @@ struct Types {
 impl Types {
     fn new(module: &mut Module) -> Self {
         let u32 = scalar_type(module, Scalar::U32);
-        let vec4 = insert(
-            module,
-            TypeInner::Vector {
-                size: VectorSize::Quad,
-                scalar: Scalar::F32,
-            },
-        );
-        let member = |name: &str, binding, offset| StructMember {
-            name: Some(name.into()),
-            ty: vec4,
-            binding,
-            offset,
-        };
+        let vec4 = insert(module, TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 });
+        let member = |name: &str, binding, offset| StructMember { name: Some(name.into()), ty: vec4, binding, offset };
         let record = insert(
             module,
-            TypeInner::Struct {
-                members: vec![member("position", None, 0), member("colour", None, 16)],
-                span: 32,
-            },
+            TypeInner::Struct { members: vec![member("position", None, 0), member("colour", None, 16)], span: 32 },
         );
-        let records = insert(
-            module,
-            TypeInner::Array {
-                base: record,
-                size: ArraySize::Dynamic,
-                stride: CAPTURE_STRIDE as u32,
-            },
-        );
+        let records =
+            insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
         let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
         let colour = Binding::Location {
             location: 0,
@@ -402,19 +303,11 @@ impl Types {
         let result = insert(
             module,
             TypeInner::Struct {
-                members: vec![
-                    member("position", Some(position), 0),
-                    member("colour", Some(colour), 16),
-                ],
+                members: vec![member("position", Some(position), 0), member("colour", Some(colour), 16)],
                 span: 32,
             },
         );
-        Self {
-            u32,
-            vec4,
-            records,
-            result,
-        }
+        Self { u32, vec4, records, result }
     }
 }
 
@@ -423,7 +316,5 @@ fn scalar_type(module: &mut Module, scalar: Scalar) -> Handle<Type> {
 }
 
 fn insert(module: &mut Module, inner: TypeInner) -> Handle<Type> {
-    module
-        .types
-        .insert(Type { name: None, inner }, Span::UNDEFINED)
+    module.types.insert(Type { name: None, inner }, Span::UNDEFINED)
 }

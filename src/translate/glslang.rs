@@ -76,12 +76,8 @@ pub fn compile(request: &Request<'_>) -> Outcome {
         // SAFETY: called once, before any other call into glslang; it has no other precondition.
         unsafe { sys::glslang_initialize_process() };
     });
-    let mut outcome = Outcome {
-        reached: Reached::Vertex,
-        vertex_log: String::new(),
-        link_log: String::new(),
-        spirv: Vec::new(),
-    };
+    let mut outcome =
+        Outcome { reached: Reached::Vertex, vertex_log: String::new(), link_log: String::new(), spirv: Vec::new() };
     let vertex = Shader::new(request, Stage::Vertex);
     let parsed = vertex.parse();
     outcome.vertex_log = vertex.log();
@@ -137,22 +133,13 @@ struct Shader {
 impl Shader {
     fn new(request: &Request<'_>, stage: Stage) -> Self {
         let is_vertex = stage == Stage::Vertex;
-        let code: CString = if is_vertex {
-            request.vertex
-        } else {
-            request.fragment
-        }
-        .to_owned();
+        let code: CString = if is_vertex { request.vertex } else { request.fragment }.to_owned();
         let resource = Box::new(super::limits::desktop());
         let vulkan = request.rules == Rules::VulkanRelaxed;
         let input = Box::new(sys::glslang_input_t {
             language: sys::glslang_source_t::GLSL,
             stage: stage.raw(),
-            client: if vulkan {
-                sys::glslang_client_t::Vulkan
-            } else {
-                sys::glslang_client_t::OpenGL
-            },
+            client: if vulkan { sys::glslang_client_t::Vulkan } else { sys::glslang_client_t::OpenGL },
             client_version: if vulkan {
                 sys::glslang_target_client_version_t::Vulkan1_0
             } else {
@@ -184,13 +171,8 @@ impl Shader {
         let raw = unsafe { sys::glslang_shader_create(&*input) };
         assert!(!raw.is_null(), "glslang_shader_create rejects its input");
         use sys::glslang_shader_options_t as o;
-        let options = o::AUTO_MAP_BINDINGS
-            | o::AUTO_MAP_LOCATIONS
-            | if vulkan {
-                o::VULKAN_RULES_RELAXED
-            } else {
-                o::DEFAULT
-            };
+        let options =
+            o::AUTO_MAP_BINDINGS | o::AUTO_MAP_LOCATIONS | if vulkan { o::VULKAN_RULES_RELAXED } else { o::DEFAULT };
         // SAFETY: `raw` is live; the texts are NUL-terminated and copied by the callee.
         unsafe {
             sys::glslang_shader_set_options(raw, options.0 as i32);
@@ -202,12 +184,7 @@ impl Shader {
             }
             sys::glslang_shader_set_preprocessed_code(raw, code.as_ptr());
         }
-        Self {
-            raw,
-            input,
-            _resource: resource,
-            _code: code,
-        }
+        Self { raw, input, _resource: resource, _code: code }
     }
 
     fn parse(&self) -> bool {
@@ -243,10 +220,7 @@ impl<'a> Program<'a> {
             sys::glslang_program_add_shader(raw, fragment.raw);
             raw
         };
-        Self {
-            raw,
-            _shaders: (vertex, fragment),
-        }
+        Self { raw, _shaders: (vertex, fragment) }
     }
 
     fn link(&self, rules: Rules) -> bool {
@@ -308,7 +282,5 @@ unsafe fn text(raw: *const std::ffi::c_char) -> String {
         return String::new();
     }
     // SAFETY: by the contract of this function.
-    unsafe { CStr::from_ptr(raw) }
-        .to_string_lossy()
-        .into_owned()
+    unsafe { CStr::from_ptr(raw) }.to_string_lossy().into_owned()
 }

@@ -107,9 +107,7 @@ pub(super) const fn desktop() -> glslang_resource_s {
         max_task_work_group_size_y_ext: 128,
         max_task_work_group_size_z_ext: 128,
         max_mesh_view_count_ext: 4,
-        __bindgen_anon_1: glslang_resource_s__bindgen_ty_1 {
-            maxDualSourceDrawBuffersEXT: 1,
-        },
+        __bindgen_anon_1: glslang_resource_s__bindgen_ty_1 { maxDualSourceDrawBuffersEXT: 1 },
         limits: glslang_limits_s::default(),
     }
 }

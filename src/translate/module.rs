@@ -52,12 +52,7 @@ pub(super) fn build(words: &[u32], inputs: &[&str], output: &str) -> Result<Shad
     let mut module = parse(&words)?;
     let attributes = entry::rebuild(&mut module, inputs, output);
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader {
-        module,
-        attributes,
-        uniforms,
-        lines,
-    })
+    Ok(Shader { module, attributes, uniforms, lines })
 }
 
 fn parse(words: &[u32]) -> Result<Module, Fault> {
@@ -106,12 +101,7 @@ fn bind_uniforms(module: &mut Module) -> Vec<UniformBlock> {
 
 fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> UniformBlock {
     let TypeInner::Struct { members, span } = &types[ty].inner else {
-        return UniformBlock {
-            binding,
-            size: 16,
-            is_default: false,
-            members: Vec::new(),
-        };
+        return UniformBlock { binding, size: 16, is_default: false, members: Vec::new() };
     };
     UniformBlock {
         binding,

@@ -89,13 +89,11 @@ pub(super) fn words(code: &str) -> impl Iterator<Item = &str> + Clone {
 
 /// The version that `#version` names; 110 where there is none (GLSL 4.10, section 3.3).
 pub(super) fn version(code: &str) -> i32 {
-    let directive = code.lines().map(str::trim_start).find_map(|line| {
-        line.strip_prefix('#').map(str::trim_start).and_then(|line| line.strip_prefix("version"))
-    });
-    directive
-        .and_then(|rest| rest.split_whitespace().next())
-        .and_then(|number| number.parse().ok())
-        .unwrap_or(110)
+    let directive = code
+        .lines()
+        .map(str::trim_start)
+        .find_map(|line| line.strip_prefix('#').map(str::trim_start).and_then(|line| line.strip_prefix("version")));
+    directive.and_then(|rest| rest.split_whitespace().next()).and_then(|number| number.parse().ok()).unwrap_or(110)
 }
 
 /// Keywords of Vulkan's GLSL that are free names in OpenGL's.

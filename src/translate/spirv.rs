@@ -25,10 +25,7 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
         let first = *words.get(at)?;
         let length = (first >> 16) as usize;
         let slice = words.get(at..at + length.max(1))?;
-        let instruction = Instruction {
-            opcode: first as u16,
-            words: slice,
-        };
+        let instruction = Instruction { opcode: first as u16, words: slice };
         at += length.max(1);
         Some(instruction)
     })
@@ -50,13 +47,7 @@ pub(super) struct Reworked {
 pub(super) fn rework(words: &[u32]) -> Reworked {
     let nulls: Vec<u32> = instructions(words)
         .filter(|i| i.opcode == op::UNDEF)
-        .flat_map(|i| {
-            [
-                3 << 16 | u32::from(op::CONSTANT_NULL),
-                i.words[1],
-                i.words[2],
-            ]
-        })
+        .flat_map(|i| [3 << 16 | u32::from(op::CONSTANT_NULL), i.words[1], i.words[2]])
         .collect();
     let mut out = words[..HEADER_WORDS.min(words.len())].to_vec();
     let mut lines = BTreeMap::new();
@@ -80,10 +71,7 @@ pub(super) fn rework(words: &[u32]) -> Reworked {
         }
         out.extend_from_slice(instruction.words);
     }
-    Reworked {
-        words: out,
-        lines: Lines(lines),
-    }
+    Reworked { words: out, lines: Lines(lines) }
 }
 
 /// From a byte of the words to the line of the source.
@@ -94,9 +82,6 @@ impl Lines {
     /// The line, from 1, of what stands at `span` of a module made from these words.
     pub fn line(&self, span: naga::Span) -> Option<u32> {
         let range = span.to_range()?;
-        self.0
-            .range(..=range.start as u32)
-            .next_back()
-            .and_then(|(_, line)| *line)
+        self.0.range(..=range.start as u32).next_back().and_then(|(_, line)| *line)
     }
 }

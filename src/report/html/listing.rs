@@ -30,12 +30,7 @@ pub(super) struct Note {
 }
 
 /// The source in lines, each with the rubric lines and the messages that point at it.
-pub(super) fn listing(
-    source: &str,
-    report: &Report,
-    messages: &[Message],
-    language: Language,
-) -> Vec<Line> {
+pub(super) fn listing(source: &str, report: &Report, messages: &[Message], language: Language) -> Vec<Line> {
     let source = source.replace("\r\n", "\n").replace('\r', "\n");
     let mut in_comment = false;
     let line = |(number, text): (u32, &str)| Line {
@@ -47,9 +42,7 @@ pub(super) fn listing(
 }
 
 fn notes(number: u32, report: &Report, messages: &[Message], language: Language) -> Vec<Note> {
-    let messages = messages
-        .iter()
-        .filter(|message| message.line == Some(number));
+    let messages = messages.iter().filter(|message| message.line == Some(number));
     let mut notes: Vec<Note> = messages
         .map(|message| Note {
             kind: message.kind,
@@ -58,10 +51,7 @@ fn notes(number: u32, report: &Report, messages: &[Message], language: Language)
             target: None,
         })
         .collect();
-    let lines = report
-        .rubric
-        .iter()
-        .filter(|line| line.line == Some(number) && line.points < line.max_points);
+    let lines = report.rubric.iter().filter(|line| line.line == Some(number) && line.points < line.max_points);
     notes.extend(lines.map(|line| Note {
         kind: "rubric",
         heading: line.label.get(language).to_owned(),
@@ -87,11 +77,7 @@ fn spans(text: &str, marks: &[std::ops::Range<usize>], in_comment: &mut bool) ->
         let marked = marks.iter().any(|mark| mark.contains(&column));
         match spans.last_mut() {
             Some(span) if (span.marked, span.comment) == (marked, comment) => span.text.push(c),
-            _ => spans.push(Span {
-                text: c.into(),
-                marked,
-                comment,
-            }),
+            _ => spans.push(Span { text: c.into(), marked, comment }),
         }
     }
     spans
@@ -135,19 +121,13 @@ mod tests {
 
     fn of(text: &str, mark: std::ops::Range<usize>) -> Vec<(String, bool, bool)> {
         let spans = spans(text, &[mark], &mut false);
-        spans
-            .into_iter()
-            .map(|span| (span.text, span.marked, span.comment))
-            .collect()
+        spans.into_iter().map(|span| (span.text, span.marked, span.comment)).collect()
     }
 
     #[test]
     fn a_mark_counts_characters_not_bytes() {
         let expected = [("あい", false), ("うえ", true), ("お", false)];
-        assert_eq!(
-            of("あいうえお", 2..4),
-            expected.map(|(text, marked)| (text.to_owned(), marked, false))
-        );
+        assert_eq!(of("あいうえお", 2..4), expected.map(|(text, marked)| (text.to_owned(), marked, false)));
     }
 
     #[test]
@@ -159,10 +139,7 @@ mod tests {
     fn comments_reach_over_lines() {
         let mut in_block = false;
         assert_eq!(comments("a/*b", &mut in_block), [false, true, true, true]);
-        assert_eq!(
-            comments("//*/c", &mut in_block),
-            [true, true, true, true, false]
-        );
+        assert_eq!(comments("//*/c", &mut in_block), [true, true, true, true, false]);
         assert!(!in_block);
         assert_eq!(comments("a//*", &mut in_block), [false, true, true, true]);
         assert!(!in_block);

@@ -106,11 +106,7 @@ struct Rubric {
 
 impl Rubric {
     fn of(line: &RubricLine, labels: &Labels, language: Language) -> Self {
-        let share = if line.max_points > 0.0 {
-            line.points / line.max_points
-        } else {
-            1.0
-        };
+        let share = if line.max_points > 0.0 { line.points / line.max_points } else { 1.0 };
         Self {
             id: line.id.clone(),
             mark: Mark::of(line.points, line.max_points),
@@ -140,9 +136,7 @@ struct Message {
 
 impl Message {
     fn of(diagnostic: &Diagnostic, labels: &Labels, language: Language) -> Self {
-        let place = diagnostic
-            .line
-            .map(|line| labels.place(line, diagnostic.column));
+        let place = diagnostic.line.map(|line| labels.place(line, diagnostic.column));
         Self {
             kind: match diagnostic.severity {
                 Severity::Error => "error",
@@ -154,10 +148,7 @@ impl Message {
             line: diagnostic.line,
             place: place.unwrap_or_default(),
             text: pieces(diagnostic.message.get(language)),
-            hint: diagnostic
-                .hint
-                .as_ref()
-                .map(|hint| pieces(hint.get(language))),
+            hint: diagnostic.hint.as_ref().map(|hint| pieces(hint.get(language))),
         }
     }
 }
@@ -195,9 +186,7 @@ impl EquationView {
             source: equation.source.get(language).to_owned(),
             total: equation.total,
             terms: terms.collect(),
-            definitions: definitions
-                .map(|d| (d.symbol, d.value, d.source.get(language).to_owned()))
-                .collect(),
+            definitions: definitions.map(|d| (d.symbol, d.value, d.source.get(language).to_owned())).collect(),
         }
     }
 }
@@ -231,21 +220,13 @@ struct View<'a> {
 
 impl<'a> View<'a> {
     fn of(page: &Page<'a>) -> Result<Self, Fault> {
-        let Page {
-            report, language, ..
-        } = *page;
+        let Page { report, language, .. } = *page;
         let labels = Labels::of(language);
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let pictures = page.pictures.filter(|_| is_drawn);
-        let rubric = report
-            .rubric
-            .iter()
-            .map(|line| Rubric::of(line, labels, language));
+        let rubric = report.rubric.iter().map(|line| Rubric::of(line, labels, language));
         let rubric: Vec<Rubric> = rubric.collect();
-        let messages = report
-            .diagnostics
-            .iter()
-            .map(|d| Message::of(d, labels, language));
+        let messages = report.diagnostics.iter().map(|d| Message::of(d, labels, language));
         let messages: Vec<Message> = messages.collect();
         let agree = report.frames.iter().filter(|frame| frame.agrees()).count();
         let probes = &report.probes;
@@ -265,25 +246,13 @@ impl<'a> View<'a> {
             score: number(report.score),
             max_score: number(report.max_score),
             next: labels.next_step(report, language),
-            equation: page
-                .equation
-                .filter(|_| is_drawn)
-                .map(|equation| EquationView::of(equation, &rubric, language)),
-            player: pictures
-                .map(|p| Player::of(p, labels))
-                .transpose()?
-                .flatten(),
-            terms: pictures
-                .map(|p| player::terms(p, report, language))
-                .transpose()?
-                .unwrap_or_default(),
+            equation: page.equation.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),
+            player: pictures.map(|p| Player::of(p, labels)).transpose()?.flatten(),
+            terms: pictures.map(|p| player::terms(p, report, language)).transpose()?.unwrap_or_default(),
             frames: player::frames(report, labels),
             frames_agree: labels.frames_agree(agree, report.frames.len()),
             legend: player::legend(),
-            probes_agree: labels.probes_agree(
-                probes.samples.saturating_sub(probes.mismatched),
-                probes.samples,
-            ),
+            probes_agree: labels.probes_agree(probes.samples.saturating_sub(probes.mismatched), probes.samples),
             listing: page
                 .source
                 .map(|source| listing::listing(source, report, &messages, language))

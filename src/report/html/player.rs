@@ -63,12 +63,7 @@ impl Player {
     }
 }
 
-fn panels(
-    poses: &[Pose],
-    grid: Grid,
-    factor: usize,
-    labels: &'static Labels,
-) -> Result<[Panel; 3], Fault> {
+fn panels(poses: &[Pose], grid: Grid, factor: usize, labels: &'static Labels) -> Result<[Panel; 3], Fault> {
     let panel = |id, label, part: fn(&Pose) -> &Raster| {
         let sheet = grid.sheet(&poses.iter().map(part).collect::<Vec<_>>(), factor);
         Ok(Panel {
@@ -104,22 +99,15 @@ pub(super) struct FrameView {
 /// The frames of a report.
 pub(super) fn frames(report: &Report, labels: &Labels) -> Vec<FrameView> {
     let frames = report.frames.iter().enumerate();
-    frames
-        .map(|(index, frame)| view(index, frame, report.frames.len(), labels))
-        .collect()
+    frames.map(|(index, frame)| view(index, frame, report.frames.len(), labels)).collect()
 }
 
 fn view(index: usize, frame: &FrameResult, count: usize, labels: &Labels) -> FrameView {
     let agrees = frame.agrees();
-    let band = band_of(frame.max_difference).map_or(0, |band| {
-        BANDS.iter().position(|other| *other == band).unwrap_or(0)
-    });
+    let band =
+        band_of(frame.max_difference).map_or(0, |band| BANDS.iter().position(|other| *other == band).unwrap_or(0));
     let max_difference = number(frame.max_difference);
-    let word = if agrees {
-        labels.agrees
-    } else {
-        labels.differs
-    };
+    let word = if agrees { labels.agrees } else { labels.differs };
     let mut caption = format!("t = {} · {}/{count} · {word}", number(frame.t), index + 1);
     if !agrees {
         caption += &format!(" · {} {max_difference}/255", labels.max_difference);
@@ -128,11 +116,7 @@ fn view(index: usize, frame: &FrameResult, count: usize, labels: &Labels) -> Fra
         number: index + 1,
         t: number(frame.t),
         agrees,
-        height: if agrees {
-            0
-        } else {
-            (band + 1) * 100 / BANDS.len()
-        },
+        height: if agrees { 0 } else { (band + 1) * 100 / BANDS.len() },
         max_difference,
         mean_difference: number(frame.mean_difference),
         mismatched_pixels: frame.mismatched_pixels,
@@ -151,10 +135,7 @@ pub(super) struct Swatch {
 pub(super) fn legend() -> Vec<Swatch> {
     let swatch = |band: &crate::report::difference::Band| {
         let [r, g, b] = band.colour;
-        Swatch {
-            colour: format!("#{r:02x}{g:02x}{b:02x}"),
-            range: band.range(),
-        }
+        Swatch { colour: format!("#{r:02x}{g:02x}{b:02x}"), range: band.range() }
     };
     BANDS.iter().map(swatch).collect()
 }
@@ -170,21 +151,12 @@ pub(super) struct TermView {
 }
 
 /// The terms that have pictures, under the names of their rubric lines.
-pub(super) fn terms(
-    pictures: &Pictures,
-    report: &Report,
-    language: Language,
-) -> Result<Vec<TermView>, Fault> {
+pub(super) fn terms(pictures: &Pictures, report: &Report, language: Language) -> Result<Vec<TermView>, Fault> {
     let view = |term: &TermPictures| {
         let line = report.rubric.iter().find(|line| line.id == term.id);
-        let yours = term
-            .yours
-            .as_ref()
-            .map(|picture| address(&Raster::opaque(picture)?));
+        let yours = term.yours.as_ref().map(|picture| address(&Raster::opaque(picture)?));
         Ok(TermView {
-            label: line
-                .map_or(term.id.as_str(), |line| line.label.get(language))
-                .to_owned(),
+            label: line.map_or(term.id.as_str(), |line| line.label.get(language)).to_owned(),
             t: number(term.t),
             yours: yours.transpose()?,
             expected: address(&Raster::opaque(&term.expected)?)?,

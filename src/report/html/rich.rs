@@ -13,11 +13,7 @@ pub(super) fn pieces(text: &str) -> Vec<Piece> {
     let lonely = parts.len().is_multiple_of(2);
     let mut pieces: Vec<Piece> = Vec::new();
     for (index, part) in parts.iter().enumerate() {
-        let text = if lonely && index == parts.len() - 1 {
-            format!("`{part}")
-        } else {
-            (*part).to_owned()
-        };
+        let text = if lonely && index == parts.len() - 1 { format!("`{part}") } else { (*part).to_owned() };
         let code = index % 2 == 1 && !text.starts_with('`');
         if !text.is_empty() {
             pieces.push(Piece { text, code });
@@ -32,22 +28,9 @@ mod tests {
 
     #[test]
     fn back_quotes_part_code_from_words() {
-        let parts = |text| {
-            pieces(text)
-                .into_iter()
-                .map(|piece| (piece.text, piece.code))
-                .collect::<Vec<_>>()
-        };
-        let expected = |parts: &[(&str, bool)]| {
-            parts
-                .iter()
-                .map(|(t, c)| ((*t).to_owned(), *c))
-                .collect::<Vec<_>>()
-        };
-        assert_eq!(
-            parts("`h` is `v`."),
-            expected(&[("h", true), (" is ", false), ("v", true), (".", false)])
-        );
+        let parts = |text| pieces(text).into_iter().map(|piece| (piece.text, piece.code)).collect::<Vec<_>>();
+        let expected = |parts: &[(&str, bool)]| parts.iter().map(|(t, c)| ((*t).to_owned(), *c)).collect::<Vec<_>>();
+        assert_eq!(parts("`h` is `v`."), expected(&[("h", true), (" is ", false), ("v", true), (".", false)]));
         assert_eq!(parts("a ` b"), expected(&[("a ", false), ("` b", false)]));
     }
 }

@@ -18,11 +18,7 @@ impl Grid {
     /// The grid for `count` poses, at least one.
     pub fn of(count: usize) -> Self {
         let columns = (1..).find(|side| side * side >= count).unwrap_or(1);
-        Self {
-            count,
-            columns,
-            rows: count.div_ceil(columns),
-        }
+        Self { count, columns, rows: count.div_ceil(columns) }
     }
 
     /// The steps of the animation: percentage of the cycle, and how far the sheet moves, in
@@ -53,9 +49,7 @@ impl Grid {
             for (y, row) in picture.rows().step_by(factor).enumerate() {
                 let start = corner + y * sheet.width;
                 let cells = sheet.pixels[start..start + width].iter_mut();
-                cells
-                    .zip(row.iter().step_by(factor))
-                    .for_each(|(cell, pixel)| *cell = *pixel);
+                cells.zip(row.iter().step_by(factor)).for_each(|(cell, pixel)| *cell = *pixel);
             }
         }
         sheet
@@ -81,20 +75,13 @@ mod tests {
     use super::*;
 
     fn dot(level: u8) -> Raster {
-        Raster {
-            width: 1,
-            height: 1,
-            pixels: vec![[level; 3]],
-        }
+        Raster { width: 1, height: 1, pixels: vec![[level; 3]] }
     }
 
     #[test]
     fn the_grid_has_room_for_every_pose() {
         let grid = |count| (Grid::of(count).columns, Grid::of(count).rows);
-        assert_eq!(
-            [1, 2, 7, 12, 25, 26].map(grid),
-            [(1, 1), (2, 1), (3, 3), (4, 3), (5, 5), (6, 5)]
-        );
+        assert_eq!([1, 2, 7, 12, 25, 26].map(grid), [(1, 1), (2, 1), (3, 3), (4, 3), (5, 5), (6, 5)]);
     }
 
     #[test]
@@ -113,11 +100,7 @@ mod tests {
 
     #[test]
     fn a_reduced_picture_keeps_its_corner_and_its_odd_edge() {
-        let picture = Raster {
-            width: 3,
-            height: 3,
-            pixels: (0..9).map(|i| [i; 3]).collect(),
-        };
+        let picture = Raster { width: 3, height: 3, pixels: (0..9).map(|i| [i; 3]).collect() };
         let half = Grid::of(1).sheet(&[&picture], 2);
         assert_eq!((half.width, half.height), (2, 2));
         assert_eq!(half.pixels, [[0; 3], [2; 3], [6; 3], [8; 3]]);

@@ -5,13 +5,8 @@ use crate::report::{Picture, TermPictures};
 fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
     let equation = Equation::illumination();
-    let page = Page {
-        report,
-        source: Some(samples::SOURCE),
-        pictures: Some(&pictures),
-        equation: Some(&equation),
-        language,
-    };
+    let page =
+        Page { report, source: Some(samples::SOURCE), pictures: Some(&pictures), equation: Some(&equation), language };
     page.render().expect("a page")
 }
 
@@ -19,45 +14,21 @@ fn page(report: &Report, language: Language) -> String {
 fn visible(html: &str) -> String {
     let body = html.split_once("<body>").expect("a body").1;
     let body = body.split("<script>").next().unwrap_or_default();
-    let text: String = body
-        .split('<')
-        .filter_map(|part| part.split_once('>'))
-        .map(|(_, text)| text)
-        .collect();
-    let entities = [
-        ("&#60;", "<"),
-        ("&#62;", ">"),
-        ("&#34;", "\""),
-        ("&#39;", "'"),
-        ("&#38;", "&"),
-    ];
-    entities
-        .iter()
-        .fold(text, |text, (entity, c)| text.replace(entity, c))
+    let text: String = body.split('<').filter_map(|part| part.split_once('>')).map(|(_, text)| text).collect();
+    let entities = [("&#60;", "<"), ("&#62;", ">"), ("&#34;", "\""), ("&#39;", "'"), ("&#38;", "&")];
+    entities.iter().fold(text, |text, (entity, c)| text.replace(entity, c))
 }
 
 #[test]
 fn a_page_refers_to_nothing_outside_itself() {
     for report in samples::all() {
         let html = page(&report, Language::Ja);
-        for reference in [
-            "http:",
-            "https:",
-            "src=\"//",
-            "href=\"//",
-            "url(",
-            "@import",
-            "<link",
-            "<iframe",
-        ] {
+        for reference in ["http:", "https:", "src=\"//", "href=\"//", "url(", "@import", "<link", "<iframe"] {
             assert!(!html.contains(reference), "{reference}");
         }
         for attribute in ["src=\"", "href=\""] {
             for target in html.split(attribute).skip(1) {
-                assert!(
-                    target.starts_with('#') || target.starts_with("data:image/png;base64,"),
-                    "{attribute}"
-                );
+                assert!(target.starts_with('#') || target.starts_with("data:image/png;base64,"), "{attribute}");
             }
         }
     }
@@ -80,10 +51,7 @@ fn what_a_student_writes_stays_text() {
     report.source.name = "<script>alert('x')</script>\".vert".into();
     report.diagnostics[0].message = Text::verbatim("undeclared `<img src=x onerror=y>`");
     let html = page(&report, Language::En);
-    assert!(
-        !html.contains("<script>"),
-        "neither the name nor line 2 of the source opens a script"
-    );
+    assert!(!html.contains("<script>"), "neither the name nor line 2 of the source opens a script");
     assert!(!html.contains("<img src=x"));
     let text = visible(&html);
     assert!(text.contains("<script>alert('x')</script>\".vert"));
@@ -99,11 +67,7 @@ fn every_message_is_there_in_the_chosen_language() {
         assert!(html.contains(&format!("<html lang=\"{}\">", Labels::of(language).tag)));
         let text = visible(&html);
         for line in &report.rubric {
-            assert!(
-                text.contains(&line.message.get(language).replace('`', "")),
-                "{}",
-                line.id
-            );
+            assert!(text.contains(&line.message.get(language).replace('`', "")), "{}", line.id);
             assert!(text.contains(line.label.get(language)));
         }
         for diagnostic in &report.diagnostics {
@@ -121,10 +85,7 @@ fn the_wrong_term_is_marked_in_words_and_not_by_colour_alone() {
     assert_eq!(html.matches("<munder class=\"term partial\">").count(), 1);
     assert_eq!(html.matches("<munder class=\"term full\">").count(), 2);
     assert!(html.contains("<mtext>△</mtext>"));
-    let specular = html
-        .split("<div class=\"row partial\">")
-        .nth(1)
-        .expect("the specular row");
+    let specular = html.split("<div class=\"row partial\">").nth(1).expect("the specular row");
     let specular = specular.split("</div>").next().unwrap_or_default();
     assert!(specular.contains("some points:") && specular.contains("20 / 40"));
 }
@@ -166,28 +127,15 @@ fn the_moving_pictures_have_a_step_for_every_pose() {
 #[test]
 fn terms_are_shown_when_there_are_pictures_of_them() {
     let html = page(&samples::wrong(), Language::En);
-    assert!(
-        html.contains("alt=\"Yours: Specular\"") && html.contains("alt=\"Expected: Specular\"")
-    );
+    assert!(html.contains("alt=\"Yours: Specular\"") && html.contains("alt=\"Expected: Specular\""));
     let mut pictures = samples::pictures();
-    pictures.terms[0] = TermPictures {
-        yours: None,
-        ..pictures.terms[0].clone()
-    };
+    pictures.terms[0] = TermPictures { yours: None, ..pictures.terms[0].clone() };
     let report = samples::wrong();
-    let page = Page {
-        report: &report,
-        source: None,
-        pictures: Some(&pictures),
-        equation: None,
-        language: Language::En,
-    };
+    let page =
+        Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };
     let html = page.render().expect("a page");
     assert!(html.contains(Labels::of(Language::En).unknown));
-    assert!(
-        !html.contains("href=\"#L"),
-        "without a source there is no line to go to"
-    );
+    assert!(!html.contains("href=\"#L"), "without a source there is no line to go to");
 }
 
 #[test]
@@ -198,26 +146,13 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 24) as u8
         };
-        Picture {
-            width: 640,
-            height: 480,
-            rgba: (0..640 * 480 * 4).map(|_| byte()).collect(),
-        }
+        Picture { width: 640, height: 480, rgba: (0..640 * 480 * 4).map(|_| byte()).collect() }
     };
     // Two poses of 0.9 MB a picture: 3 bytes for each of 307,200 pixels, which do not compress.
-    let pictures = Pictures {
-        yours: vec![noise(), noise()],
-        expected: vec![noise(), noise()],
-        terms: vec![],
-    };
+    let pictures = Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()], terms: vec![] };
     let report = samples::wrong();
-    let page = Page {
-        report: &report,
-        source: None,
-        pictures: Some(&pictures),
-        equation: None,
-        language: Language::En,
-    };
+    let page =
+        Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };
     let html = page.render().expect("a page");
     assert!(html.len() < 1_000_000, "{} bytes", html.len());
     assert!(html.contains(Labels::of(Language::En).reduced));

@@ -76,11 +76,7 @@ struct Writer {
 
 impl Writer {
     fn paint(&self, style: Style, text: &str) -> String {
-        if self.colour {
-            format!("{style}{text}{style:#}")
-        } else {
-            text.to_owned()
-        }
+        if self.colour { format!("{style}{text}{style:#}") } else { text.to_owned() }
     }
 
     fn line(&mut self, text: &str) {
@@ -141,10 +137,7 @@ impl Writer {
     }
 
     fn rubric(&mut self, report: &Report) {
-        let labels = report
-            .rubric
-            .iter()
-            .map(|line| columns(line.label.get(self.language)));
+        let labels = report.rubric.iter().map(|line| columns(line.label.get(self.language)));
         let column = labels.max().unwrap_or(0);
         let full = report.verdict == Verdict::Correct;
         self.gap();
@@ -214,9 +207,7 @@ impl Writer {
     }
 
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {
-        let place = diagnostic
-            .line
-            .map(|line| self.labels.place(line, diagnostic.column));
+        let place = diagnostic.line.map(|line| self.labels.place(line, diagnostic.column));
         let place = place.unwrap_or_else(|| self.labels.stage(diagnostic.stage).to_owned());
         let style = match diagnostic.severity {
             Severity::Error => BAD,

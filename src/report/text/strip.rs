@@ -14,10 +14,7 @@ impl Writer {
         let cell = if frames.len() * 2 <= room { 2 } else { 1 };
         let agree = frames.iter().filter(|frame| frame.agrees()).count();
         let heading = self.paint(BOLD, &pad(labels.frames, column));
-        self.line(&format!(
-            "{heading}  {}",
-            labels.frames_agree(agree, frames.len())
-        ));
+        self.line(&format!("{heading}  {}", labels.frames_agree(agree, frames.len())));
         for row in frames.chunks(room / cell) {
             let cells: String = row.iter().map(|frame| self.cell(frame, cell)).collect();
             self.line(&format!("{indent}{cells}"));
@@ -25,9 +22,7 @@ impl Writer {
             self.line(&format!("{indent}{axis}"));
         }
         if agree < frames.len() {
-            let ramp: Vec<String> = shades()
-                .map(|(shade, range)| format!("{shade} {range}"))
-                .collect();
+            let ramp: Vec<String> = shades().map(|(shade, range)| format!("{shade} {range}")).collect();
             let legend = format!("· {}  {}", labels.agrees, ramp.join("  "));
             self.legend(column + 2, &legend);
             self.legend(column + 2, labels.legend);
@@ -36,17 +31,9 @@ impl Writer {
     }
 
     fn legend(&mut self, indent: usize, text: &str) {
-        let indent = if indent + columns(text) > self.width {
-            2
-        } else {
-            indent
-        };
+        let indent = if indent + columns(text) > self.width { 2 } else { indent };
         let room = self.width - indent;
-        let lines = if columns(text) <= room {
-            vec![text.to_owned()]
-        } else {
-            wrap(text, room)
-        };
+        let lines = if columns(text) <= room { vec![text.to_owned()] } else { wrap(text, room) };
         for line in lines {
             let line = self.paint(DIM, &line);
             self.line(&format!("{}{line}", " ".repeat(indent)));
@@ -67,11 +54,7 @@ impl Writer {
 fn axis(frames: &[FrameResult], cell: usize, room: usize) -> String {
     let mut axis = String::new();
     for (index, frame) in frames.iter().enumerate() {
-        let label = if index == 0 {
-            format!("t = {}", number(frame.t))
-        } else {
-            number(frame.t)
-        };
+        let label = if index == 0 { format!("t = {}", number(frame.t)) } else { number(frame.t) };
         let start = index * cell;
         let due = index == 0 || index % 5 == 0 && start >= columns(&axis) + 2;
         if due && start + columns(&label) <= room {

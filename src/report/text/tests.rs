@@ -2,15 +2,7 @@ use super::*;
 use crate::report::samples;
 
 fn text(report: &Report, language: Language, width: usize) -> String {
-    render(
-        report,
-        &Options {
-            language,
-            width,
-            colour: false,
-            excerpts: None,
-        },
-    )
+    render(report, &Options { language, width, colour: false, excerpts: None })
 }
 
 /// Without the line breaks and indents that the width decides.
@@ -38,21 +30,12 @@ fn wrong_says_what_where_and_how_much() {
         for width in [40, 80] {
             let text = unwrapped(&text(&report, language, width));
             for line in &report.rubric {
-                assert!(
-                    text.contains(&unwrapped(line.message.get(language))),
-                    "{text}"
-                );
-                assert!(
-                    text.contains(&unwrapped(line.label.get(language))),
-                    "{text}"
-                );
+                assert!(text.contains(&unwrapped(line.message.get(language))), "{text}");
+                assert!(text.contains(&unwrapped(line.label.get(language))), "{text}");
             }
             assert!(text.contains("80/100") && text.contains("20/40"), "{text}");
             assert!(text.contains("specular-half-unnormalized"), "{text}");
-            assert!(
-                text.contains("seed20240613") || text.contains("シード20240613"),
-                "{text}"
-            );
+            assert!(text.contains("seed20240613") || text.contains("シード20240613"), "{text}");
             assert!(text.contains("412ms"), "{text}");
         }
     }
@@ -88,10 +71,7 @@ fn correct_says_that_everything_agrees() {
     assert!(english.contains("Every frame and every probe agrees."));
     assert!(english.contains("25 of 25 agree") && english.contains("640 of 640 agree"));
     assert!(!english.contains("Next"));
-    assert!(
-        text(&report, Language::Ja, 80)
-            .contains("すべてのフレームとすべての検査点が正解と一致しました。")
-    );
+    assert!(text(&report, Language::Ja, 80).contains("すべてのフレームとすべての検査点が正解と一致しました。"));
 }
 
 #[test]
@@ -101,22 +81,14 @@ fn rejected_and_stopped_show_their_diagnostics_and_no_empty_tables() {
         for diagnostic in &report.diagnostics {
             assert!(text.contains(&diagnostic.message.ja), "{text}");
         }
-        assert!(
-            !text.contains("フレーム") && !text.contains("検査点") && !text.contains("形状"),
-            "{text}"
-        );
+        assert!(!text.contains("フレーム") && !text.contains("検査点") && !text.contains("形状"), "{text}");
     }
     assert!(text(&samples::rejected(), Language::En, 80).contains("error · line 11, column 12"));
 }
 
 #[test]
 fn excerpts_take_the_place_of_the_bare_diagnostics() {
-    let options = Options {
-        language: Language::En,
-        width: 80,
-        colour: false,
-        excerpts: Some("EXCERPT\n"),
-    };
+    let options = Options { language: Language::En, width: 80, colour: false, excerpts: Some("EXCERPT\n") };
     let text = render(&samples::rejected(), &options);
     assert!(text.contains("\nEXCERPT\n") && !text.contains("not declared"));
 }
@@ -124,31 +96,15 @@ fn excerpts_take_the_place_of_the_bare_diagnostics() {
 #[test]
 fn colour_adds_nothing_but_colour() {
     for report in samples::all() {
-        let options = Options {
-            language: Language::Ja,
-            width: 80,
-            colour: true,
-            excerpts: None,
-        };
+        let options = Options { language: Language::Ja, width: 80, colour: true, excerpts: None };
         let coloured = render(&report, &options);
         assert!(coloured.contains('\u{1b}'));
         let bare: String = coloured
             .split('\u{1b}')
             .enumerate()
-            .map(|(i, part)| {
-                if i == 0 {
-                    part
-                } else {
-                    part.split_once('m').expect("an SGR sequence").1
-                }
-            })
+            .map(|(i, part)| if i == 0 { part } else { part.split_once('m').expect("an SGR sequence").1 })
             .collect();
-        let trimmed = |text: &str| {
-            text.lines()
-                .map(str::trim_end)
-                .collect::<Vec<_>>()
-                .join("\n")
-        };
+        let trimmed = |text: &str| text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n");
         assert_eq!(trimmed(&bare), trimmed(&text(&report, Language::Ja, 80)));
     }
 }
@@ -163,23 +119,12 @@ fn a_name_cannot_steer_the_terminal() {
 
 #[test]
 fn a_bar_is_full_or_empty_only_when_it_says_so() {
-    assert_eq!(
-        [
-            filled(0.0, 10),
-            filled(0.001, 10),
-            filled(0.999, 10),
-            filled(1.0, 10)
-        ],
-        [0, 1, 9, 10]
-    );
+    assert_eq!([filled(0.0, 10), filled(0.001, 10), filled(0.999, 10), filled(1.0, 10)], [0, 1, 9, 10]);
     assert_eq!(filled(f64::NAN, 10), 0);
     assert_eq!(filled(0.5, 10), 5);
 }
 
 #[test]
 fn numbers_are_short() {
-    assert_eq!(
-        [80.0, 62.5, 33.333, f64::NAN].map(number),
-        ["80", "62.5", "33.33", "–"]
-    );
+    assert_eq!([80.0, 62.5, 33.333, f64::NAN].map(number), ["80", "62.5", "33.33", "–"]);
 }

@@ -32,10 +32,7 @@ pub(super) fn best(bytes: &[u8]) -> Encoding {
         let text = encoding.read(bytes);
         (encoding, score_japanese(encoding, &text))
     });
-    let western = (
-        Encoding::Windows1252,
-        score_western(&Encoding::Windows1252.read(bytes)),
-    );
+    let western = (Encoding::Windows1252, score_western(&Encoding::Windows1252.read(bytes)));
     let mut best = western;
     for candidate in japanese {
         if candidate.1 > best.1 {
@@ -50,16 +47,12 @@ pub(super) fn best(bytes: &[u8]) -> Encoding {
 /// Only two-byte characters can be both, and of those only letters that nobody writes alone count as chance: not
 /// Latin with accents, Greek and Cyrillic.
 pub(super) fn is_utf8_by_chance(text: &str) -> bool {
-    let by_chance =
-        |c: char| c.is_ascii() || matches!(c, '\u{180}'..='\u{2FF}' | '\u{500}'..='\u{7FF}');
+    let by_chance = |c: char| c.is_ascii() || matches!(c, '\u{180}'..='\u{2FF}' | '\u{500}'..='\u{7FF}');
     if text.is_ascii() || !text.chars().all(by_chance) {
         return false;
     }
     let japanese = Encoding::EucJp.read(text.as_bytes());
-    japanese
-        .chars()
-        .filter(|c| !c.is_ascii())
-        .all(|c| full_width(Encoding::EucJp, c) == EVERYDAY)
+    japanese.chars().filter(|c| !c.is_ascii()).all(|c| full_width(Encoding::EucJp, c) == EVERYDAY)
 }
 
 fn score_japanese(encoding: Encoding, text: &str) -> i32 {
@@ -116,8 +109,7 @@ fn full_width(encoding: Encoding, c: char) -> i32 {
 fn is_level_one(c: char) -> bool {
     let mut buffer = [0; 4];
     let (bytes, _, unmappable) = encoding_rs::SHIFT_JIS.encode(c.encode_utf8(&mut buffer));
-    !unmappable
-        && matches!(*bytes, [high, low] if (0x889F..=0x9872).contains(&u16::from_be_bytes([high, low])))
+    !unmappable && matches!(*bytes, [high, low] if (0x889F..=0x9872).contains(&u16::from_be_bytes([high, low])))
 }
 
 /// Whether the second byte of `c` is an ASCII letter.
@@ -129,11 +121,7 @@ fn swallows(encoding: Encoding, c: char) -> bool {
 
 fn score_western(text: &str) -> i32 {
     let characters: Vec<char> = text.chars().collect();
-    let is_letter = |index: usize| {
-        characters
-            .get(index)
-            .is_some_and(|c| c.is_ascii_alphabetic())
-    };
+    let is_letter = |index: usize| characters.get(index).is_some_and(|c| c.is_ascii_alphabetic());
     let points = |(index, &c): (usize, &char)| match c {
         'À'..='ÿ' if is_letter(index.wrapping_sub(1)) || is_letter(index + 1) => ACCENT,
         // Bytes that Windows-1252 leaves free.

@@ -48,35 +48,17 @@ fn half_width_katakana_is_shift_jis() {
     {
         let text = shader(word);
         let decoded = decode(&SHIFT_JIS.encode(&text).0);
-        assert_eq!(
-            (decoded.encoding, decoded.text),
-            (Encoding::ShiftJis, text),
-            "{word}"
-        );
+        assert_eq!((decoded.encoding, decoded.text), (Encoding::ShiftJis, text), "{word}");
     }
 }
 
 #[test]
 fn western_comments_are_read_with_a_note() {
-    for word in [
-        "café",
-        "événement",
-        "créée",
-        "größe",
-        "für",
-        "ação",
-        "déjà vu",
-        "x² + y²",
-        "45°",
-        "© 2025",
-    ] {
+    for word in ["café", "événement", "créée", "größe", "für", "ação", "déjà vu", "x² + y²", "45°", "© 2025"]
+    {
         let text = shader(word);
         let decoded = decode(&WINDOWS_1252.encode(&text).0);
-        assert_eq!(
-            (decoded.encoding, decoded.text),
-            (Encoding::Windows1252, text),
-            "{word}"
-        );
+        assert_eq!((decoded.encoding, decoded.text), (Encoding::Windows1252, text), "{word}");
         assert_eq!(decoded.notes[0].severity, Severity::Note);
     }
 }
@@ -86,11 +68,7 @@ fn letters_of_europe_in_utf8_stay_utf8() {
     for word in ["α", "π/2", "ñ", "Tōkyō", "×", "表", "法線", "Å ŋ"] {
         let text = shader(word);
         let decoded = decode(text.as_bytes());
-        assert_eq!(
-            (decoded.encoding, decoded.text),
-            (Encoding::Utf8, text),
-            "{word}"
-        );
+        assert_eq!((decoded.encoding, decoded.text), (Encoding::Utf8, text), "{word}");
     }
 }
 
@@ -107,45 +85,27 @@ fn utf8_with_one_stray_byte_stays_utf8() {
 fn a_character_cut_off_at_the_end_does_not_change_the_encoding() {
     let bytes = SHIFT_JIS.encode("x // 環境光").0.into_owned();
     let decoded = decode(&bytes[..bytes.len() - 1]);
-    assert_eq!(
-        (decoded.encoding, decoded.text.as_str()),
-        (Encoding::ShiftJis, "x // 環境\u{FFFD}")
-    );
+    assert_eq!((decoded.encoding, decoded.text.as_str()), (Encoding::ShiftJis, "x // 環境\u{FFFD}"));
 }
 
 #[test]
 fn a_mark_is_removed_and_named() {
     let decoded = decode("\u{FEFF}x // 光".as_bytes());
-    assert_eq!(
-        (decoded.encoding, decoded.text.as_str()),
-        (Encoding::Utf8, "x // 光")
-    );
+    assert_eq!((decoded.encoding, decoded.text.as_str()), (Encoding::Utf8, "x // 光"));
     assert_eq!(decoded.notes[0].severity, Severity::Warning);
     let mut bytes = vec![0xEF, 0xBB, 0xBF];
     bytes.extend_from_slice(&SHIFT_JIS.encode("x // 拡散反射光").0);
     let decoded = decode(&bytes);
-    assert_eq!(
-        (decoded.encoding, decoded.text.as_str()),
-        (Encoding::ShiftJis, "x // 拡散反射光")
-    );
+    assert_eq!((decoded.encoding, decoded.text.as_str()), (Encoding::ShiftJis, "x // 拡散反射光"));
 }
 
 #[test]
 fn utf16_is_read_in_both_orders() {
-    let little: Vec<u8> = "\u{FEFF}x 光😀"
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    let big: Vec<u8> = "\u{FEFF}x 光😀"
-        .encode_utf16()
-        .flat_map(u16::to_be_bytes)
-        .collect();
+    let little: Vec<u8> = "\u{FEFF}x 光😀".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = "\u{FEFF}x 光😀".encode_utf16().flat_map(u16::to_be_bytes).collect();
     for (bytes, encoding) in [(little, Encoding::Utf16Le), (big, Encoding::Utf16Be)] {
         let decoded = decode(&bytes);
-        assert_eq!(
-            (decoded.encoding, decoded.text.as_str()),
-            (encoding, "x 光😀")
-        );
+        assert_eq!((decoded.encoding, decoded.text.as_str()), (encoding, "x 光😀"));
     }
 }
 
@@ -158,12 +118,7 @@ fn broken_utf16_keeps_its_place() {
 
 #[test]
 fn the_label_is_what_the_report_says() {
-    for encoding in [
-        Encoding::Utf8,
-        Encoding::ShiftJis,
-        Encoding::EucJp,
-        Encoding::Utf16Le,
-    ] {
+    for encoding in [Encoding::Utf8, Encoding::ShiftJis, Encoding::EucJp, Encoding::Utf16Le] {
         // The WHATWG names of encoding_rs, in lower case.
         assert_eq!(encoding.label(), encoding.codec().name().to_lowercase());
     }

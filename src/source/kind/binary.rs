@@ -7,50 +7,19 @@ use crate::language::Text;
 /// First bytes that the crate `infer` does not know, with what they mean in English and Japanese.
 const SIGNATURES: [(&[u8], &str, &str); 9] = [
     (b"%PDF-", "a PDF document", "PDF 文書"),
-    (
-        b"{\\rtf",
-        "a Rich Text (RTF) document",
-        "リッチテキスト（RTF）文書",
-    ),
-    (
-        b"\x03\x02\x23\x07",
-        "a compiled shader (SPIR-V)",
-        "コンパイル済みのシェーダ（SPIR-V）",
-    ),
-    (
-        b"\x07\x23\x02\x03",
-        "a compiled shader (SPIR-V)",
-        "コンパイル済みのシェーダ（SPIR-V）",
-    ),
-    (
-        b"\x00\x05\x16\x07",
-        "a “._” file that macOS adds to archives",
-        "macOS が作る「._」で始まる付属ファイル",
-    ),
-    (
-        b"\x00\x00\x00\x01Bud1",
-        "a .DS_Store file of macOS",
-        "macOS の .DS_Store ファイル",
-    ),
-    (
-        b"L\0\0\0\x01\x14\x02\0",
-        "a Windows shortcut",
-        "Windows のショートカット",
-    ),
-    (
-        b"bplist00",
-        "a property list of macOS",
-        "macOS のプロパティリスト",
-    ),
+    (b"{\\rtf", "a Rich Text (RTF) document", "リッチテキスト（RTF）文書"),
+    (b"\x03\x02\x23\x07", "a compiled shader (SPIR-V)", "コンパイル済みのシェーダ（SPIR-V）"),
+    (b"\x07\x23\x02\x03", "a compiled shader (SPIR-V)", "コンパイル済みのシェーダ（SPIR-V）"),
+    (b"\x00\x05\x16\x07", "a “._” file that macOS adds to archives", "macOS が作る「._」で始まる付属ファイル"),
+    (b"\x00\x00\x00\x01Bud1", "a .DS_Store file of macOS", "macOS の .DS_Store ファイル"),
+    (b"L\0\0\0\x01\x14\x02\0", "a Windows shortcut", "Windows のショートカット"),
+    (b"bplist00", "a property list of macOS", "macOS のプロパティリスト"),
     (b"\xFF\xFE\0\0", "text in UTF-32", "UTF-32 のテキスト"),
 ];
 
 /// Why `bytes` are no text, where they are not.
 pub(in crate::source) fn binary(bytes: &[u8]) -> Option<Diagnostic> {
-    if let Some((_, en, ja)) = SIGNATURES
-        .iter()
-        .find(|(signature, ..)| bytes.starts_with(signature))
-    {
+    if let Some((_, en, ja)) = SIGNATURES.iter().find(|(signature, ..)| bytes.starts_with(signature)) {
         return Some(looks_like(en, ja));
     }
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
@@ -72,20 +41,16 @@ pub(in crate::source) fn control_characters(text: &str) -> Option<Diagnostic> {
     if let Some(at) = text.find('\0') {
         return Some(with_nul(text.as_bytes(), at));
     }
-    let is_strange =
-        |c: &char| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}');
+    let is_strange = |c: &char| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}');
     let strange = text.chars().filter(is_strange).count();
     // A stray escape or end-of-file character is told at its place; one in sixteen is no text.
-    (strange > 8 && strange * 16 > text.chars().count())
-        .then(|| looks_like("binary data", "バイナリファイル"))
+    (strange > 8 && strange * 16 > text.chars().count()).then(|| looks_like("binary data", "バイナリファイル"))
 }
 
 /// The kind that `infer` found, in words.
 fn describe(kind: infer::Type) -> (String, String) {
     let by_extension = match kind.extension() {
-        "docx" | "doc" | "odt" => {
-            Some(("a word processor's document", "ワープロの文書（Word など）"))
-        }
+        "docx" | "doc" | "odt" => Some(("a word processor's document", "ワープロの文書（Word など）")),
         "zip" => Some(("a ZIP archive", "ZIP ファイル")),
         "exe" | "dll" | "elf" | "mach" | "obj" => Some(("a compiled program", "実行ファイル")),
         _ => None,
@@ -107,14 +72,7 @@ fn describe(kind: infer::Type) -> (String, String) {
 
 /// Whether at least half of the characters are ASCII in UTF-16: a NUL in every second byte, always on the same side.
 fn is_utf16(bytes: &[u8]) -> bool {
-    let nuls = |side: usize| {
-        bytes
-            .iter()
-            .skip(side)
-            .step_by(2)
-            .filter(|&&byte| byte == 0)
-            .count()
-    };
+    let nuls = |side: usize| bytes.iter().skip(side).step_by(2).filter(|&&byte| byte == 0).count();
     let (even, odd) = (nuls(0), nuls(1));
     even.min(odd) == 0 && even.max(odd) * 4 >= bytes.len()
 }
@@ -175,19 +133,13 @@ mod tests {
             (b"\xFF\xFE\0\0v\0\0\0", "UTF-32"),
         ] {
             let message = english(bytes).unwrap_or_default();
-            assert!(
-                message.contains(&word.replace("an archive", "archive (GZ)")),
-                "{word}: {message}"
-            );
+            assert!(message.contains(&word.replace("an archive", "archive (GZ)")), "{word}: {message}");
         }
     }
 
     #[test]
     fn utf16_without_a_mark_is_told_as_such() {
-        let bytes: Vec<u8> = "void main() {}\n"
-            .encode_utf16()
-            .flat_map(u16::to_le_bytes)
-            .collect();
+        let bytes: Vec<u8> = "void main() {}\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
         assert!(english(&bytes).is_some_and(|message| message.contains("UTF-16")));
     }
 
@@ -199,17 +151,7 @@ mod tests {
 
     #[test]
     fn text_that_opens_like_a_binary_format_is_text() {
-        for text in [
-            "BM",
-            "MZ = 1;",
-            "ID3",
-            "GIF89a",
-            "II*",
-            "PK",
-            "Rar!",
-            "OTTO",
-            "#version 410 core",
-        ] {
+        for text in ["BM", "MZ = 1;", "ID3", "GIF89a", "II*", "PK", "Rar!", "OTTO", "#version 410 core"] {
             assert_eq!(english(text.as_bytes()), None, "{text}");
         }
     }

@@ -8,31 +8,13 @@ use crate::source::Source;
 /// Words that stand in one kind of shader only, and never in a vertex shader.
 const OTHER_STAGES: [(&[&str], &str, &str); 4] = [
     (
-        &[
-            "gl_FragCoord",
-            "gl_FragColor",
-            "gl_FragData",
-            "gl_FragDepth",
-            "discard",
-        ],
+        &["gl_FragCoord", "gl_FragColor", "gl_FragData", "gl_FragDepth", "discard"],
         "the fragment shader",
         "フラグメントシェーダ",
     ),
-    (
-        &["EmitVertex", "EndPrimitive"],
-        "a geometry shader",
-        "ジオメトリシェーダ",
-    ),
-    (
-        &["gl_TessLevelOuter", "gl_TessCoord"],
-        "a tessellation shader",
-        "テッセレーションシェーダ",
-    ),
-    (
-        &["gl_GlobalInvocationID", "gl_LocalInvocationID"],
-        "a compute shader",
-        "コンピュートシェーダ",
-    ),
+    (&["EmitVertex", "EndPrimitive"], "a geometry shader", "ジオメトリシェーダ"),
+    (&["gl_TessLevelOuter", "gl_TessCoord"], "a tessellation shader", "テッセレーションシェーダ"),
+    (&["gl_GlobalInvocationID", "gl_LocalInvocationID"], "a compute shader", "コンピュートシェーダ"),
 ];
 
 /// Why the text of `source` is no vertex shader, where it is not.
@@ -40,9 +22,7 @@ pub(in crate::source) fn wrong_text(source: &Source) -> Option<Diagnostic> {
     if source.code().trim().is_empty() {
         return Some(empty(source));
     }
-    let found = markup(source)
-        .or_else(|| wrapped(source))
-        .or_else(|| cpp_with_main(source));
+    let found = markup(source).or_else(|| wrapped(source)).or_else(|| cpp_with_main(source));
     if found.is_some() || has_word(source, "gl_Position") {
         return found;
     }
@@ -55,25 +35,15 @@ pub fn fragment_shader(source: &Source, varying: &str) -> Option<Diagnostic> {
     let words: Vec<_> = source.words().collect();
     // `in vec4 NAME`, with or without a precision.
     let declaration = words.iter().enumerate().find(|&(index, (_, word))| {
-        let before = |count: usize| {
-            index
-                .checked_sub(count)
-                .and_then(|at| words.get(at))
-                .map(|(_, word)| *word)
-        };
+        let before = |count: usize| index.checked_sub(count).and_then(|at| words.get(at)).map(|(_, word)| *word);
         *word == varying
-            && (before(2) == Some("in")
-                || (before(3) == Some("in") && before(2).is_some_and(is_precision)))
+            && (before(2) == Some("in") || (before(3) == Some("in") && before(2).is_some_and(is_precision)))
     })?;
     if has_word(source, "gl_Position") {
         return None;
     }
     let (line, column) = source.position(declaration.1.0);
-    Some(
-        looks_like("the fragment shader", "フラグメントシェーダ")
-            .at(line, Some(column))
-            .spanning(varying.len()),
-    )
+    Some(looks_like("the fragment shader", "フラグメントシェーダ").at(line, Some(column)).spanning(varying.len()))
 }
 
 fn is_precision(word: &str) -> bool {
@@ -93,33 +63,19 @@ fn empty(source: &Source) -> Diagnostic {
     let message = if source.facts.bytes == 0 {
         Text::new("The file is empty.", "ファイルの中身が空です。")
     } else if source.text.trim().is_empty() {
-        Text::new(
-            "The file holds nothing but white space.",
-            "ファイルに空白と改行しか入っていません。",
-        )
+        Text::new("The file holds nothing but white space.", "ファイルに空白と改行しか入っていません。")
     } else {
-        Text::new(
-            "The file holds nothing but comments.",
-            "ファイルにコメントしか入っていません。",
-        )
+        Text::new("The file holds nothing but comments.", "ファイルにコメントしか入っていません。")
     };
-    let open = source
-        .comments
-        .last()
-        .filter(|comment| !comment.to_line_end && comment.range.end == source.text.len());
-    let diagnostic = Diagnostic::error(Stage::Source, message).hint(Text::new(
-        "Was it saved before you handed it in?",
-        "提出する前に保存したか確かめてください。",
-    ));
+    let open = source.comments.last().filter(|comment| !comment.to_line_end && comment.range.end == source.text.len());
+    let diagnostic = Diagnostic::error(Stage::Source, message)
+        .hint(Text::new("Was it saved before you handed it in?", "提出する前に保存したか確かめてください。"));
     let Some(open) = open else { return diagnostic };
     let (line, column) = source.position(open.range.start);
-    diagnostic
-        .at(line, Some(column))
-        .spanning(2)
-        .hint(Text::new(
-            "This comment has no end: where is its */ ?",
-            "このコメントが閉じられていません。対応する */ を確かめてください。",
-        ))
+    diagnostic.at(line, Some(column)).spanning(2).hint(Text::new(
+        "This comment has no end: where is its */ ?",
+        "このコメントが閉じられていません。対応する */ を確かめてください。",
+    ))
 }
 
 /// HTML and XML: no GLSL begins with `<`.
@@ -128,11 +84,7 @@ fn markup(source: &Source) -> Option<Diagnostic> {
     if !start.starts_with('<') || start.starts_with("<<") {
         return None;
     }
-    let is_html = start
-        .get(..200)
-        .unwrap_or(start)
-        .to_lowercase()
-        .contains("html");
+    let is_html = start.get(..200).unwrap_or(start).to_lowercase().contains("html");
     let refusal = if is_html {
         looks_like("a web page (HTML)", "Web ページ（HTML）").hint(Text::new(
             "Saving a page keeps the page, not the shader that it shows. Use the page's download link (“Raw” on GitHub) and hand in the .vert file.",
@@ -152,10 +104,7 @@ fn wrapped(source: &Source) -> Option<Diagnostic> {
     }
     let hunk = line_where(source, |line| line.starts_with("@@ -"));
     if hunk.is_some() || source.code().trim_start().starts_with("diff --git ") {
-        return Some(
-            looks_like("a patch (diff)", "差分（diff、パッチ）ファイル")
-                .at(hunk.unwrap_or(1), None),
-        );
+        return Some(looks_like("a patch (diff)", "差分（diff、パッチ）ファイル").at(hunk.unwrap_or(1), None));
     }
     let fence = line_where(source, |line| line.starts_with("```"))?;
     Some(fenced().at(fence, Some(1)).spanning(3))
@@ -188,22 +137,14 @@ fn other_program(source: &Source) -> Option<Diagnostic> {
     for (marks, en, ja) in OTHER_STAGES {
         if let Some((at, word)) = source.words().find(|(_, word)| marks.contains(word)) {
             let (line, column) = source.position(at);
-            return Some(
-                looks_like(en, ja)
-                    .at(line, Some(column))
-                    .spanning(word.len()),
-            );
+            return Some(looks_like(en, ja).at(line, Some(column)).spanning(word.len()));
         }
     }
-    let is_cpp = |line: &str| {
-        is_include(line) || line.contains("std::") || line.starts_with("using namespace ")
-    };
+    let is_cpp = |line: &str| is_include(line) || line.contains("std::") || line.starts_with("using namespace ");
     if let Some(line) = line_where(source, is_cpp) {
         return Some(cpp(line));
     }
-    let python = line_where(source, |line| {
-        line.starts_with("def ") && line.ends_with(':')
-    });
+    let python = line_where(source, |line| line.starts_with("def ") && line.ends_with(':'));
     python.map(|line| looks_like("a Python program", "Python のプログラム").at(line, None))
 }
 
@@ -211,15 +152,11 @@ fn other_program(source: &Source) -> Option<Diagnostic> {
 fn cpp_with_main(source: &Source) -> Option<Diagnostic> {
     let include = line_where(source, is_include)?;
     let words: Vec<_> = source.words().map(|(_, word)| word).collect();
-    words
-        .windows(2)
-        .any(|pair| pair == ["int", "main"])
-        .then(|| cpp(include))
+    words.windows(2).any(|pair| pair == ["int", "main"]).then(|| cpp(include))
 }
 
 fn is_include(line: &str) -> bool {
-    line.strip_prefix('#')
-        .is_some_and(|rest| rest.trim_start().starts_with("include"))
+    line.strip_prefix('#').is_some_and(|rest| rest.trim_start().starts_with("include"))
 }
 
 fn cpp(line: u32) -> Diagnostic {

@@ -13,13 +13,7 @@ const MAX_SHOWN: usize = 20;
 /// The error for a run in code.
 pub(super) fn told(run: &Run) -> Diagnostic {
     let (message, hint) = match run.text.chars().next().map_or(Kind::Foreign, kind) {
-        Kind::Space => (
-            space(run),
-            Text::new(
-                "Type an ordinary space instead.",
-                "半角スペースに直してください。",
-            ),
-        ),
+        Kind::Space => (space(run), Text::new("Type an ordinary space instead.", "半角スペースに直してください。")),
         Kind::Unseen => (
             unseen(run),
             Text::new(
@@ -37,9 +31,7 @@ pub(super) fn told(run: &Run) -> Diagnostic {
         Kind::LookAlike => (look_alike(run), instead(run.text)),
         Kind::Foreign => (foreign(run), foreign_hint(run.text)),
     };
-    Diagnostic::error(Stage::Source, message)
-        .spanning(run.text.chars().count())
-        .hint(hint)
+    Diagnostic::error(Stage::Source, message).spanning(run.text.chars().count()).hint(hint)
 }
 
 /// The characters of a run with code point and name: `「；」(U+FF1B FULLWIDTH SEMICOLON)`.
@@ -50,19 +42,10 @@ fn listing(text: &str) -> Text {
             different.push(c);
         }
     }
-    let seen = different
-        .iter()
-        .all(|&c| !matches!(kind(c), Kind::Space | Kind::Unseen | Kind::Unreadable));
-    let mut names: Vec<_> = different
-        .iter()
-        .map(|&c| format!("U+{:04X} {}", u32::from(c), name(c)))
-        .collect();
+    let seen = different.iter().all(|&c| !matches!(kind(c), Kind::Space | Kind::Unseen | Kind::Unreadable));
+    let mut names: Vec<_> = different.iter().map(|&c| format!("U+{:04X} {}", u32::from(c), name(c))).collect();
     // In words of another script the first character stands for all.
-    let told = if different.iter().all(|&c| kind(c) == Kind::Foreign) {
-        1
-    } else {
-        MAX_NAMES
-    };
+    let told = if different.iter().all(|&c| kind(c) == Kind::Foreign) { 1 } else { MAX_NAMES };
     if names.len() > told {
         names.truncate(told);
         names.push("…".to_owned());
@@ -71,10 +54,7 @@ fn listing(text: &str) -> Text {
     if seen {
         let shown: String = text.chars().take(MAX_SHOWN).collect();
         let more = if shown.len() < text.len() { "…" } else { "" };
-        return Text::new(
-            format!("`{shown}{more}` ({names})"),
-            format!("「{shown}{more}」（{names}）"),
-        );
+        return Text::new(format!("`{shown}{more}` ({names})"), format!("「{shown}{more}」（{names}）"));
     }
     Text::verbatim(names)
 }
@@ -83,20 +63,11 @@ fn space(run: &Run) -> Text {
     let names = listing(run.text);
     let (width_en, width_ja) = match run.text.contains('\u{3000}') {
         true => ("A full-width space", "全角スペース"),
-        false => (
-            "A blank that is no ordinary space",
-            "半角スペースではない空白文字",
-        ),
+        false => ("A blank that is no ordinary space", "半角スペースではない空白文字"),
     };
     Text::new(
-        format!(
-            "{width_en} stands in the code: {}. GLSL does not take it for a space.",
-            names.en
-        ),
-        format!(
-            "プログラムの中に{width_ja}（{}）があります。GLSL では空白として扱われません。",
-            names.ja
-        ),
+        format!("{width_en} stands in the code: {}. GLSL does not take it for a space.", names.en),
+        format!("プログラムの中に{width_ja}（{}）があります。GLSL では空白として扱われません。", names.ja),
     )
 }
 
@@ -104,10 +75,7 @@ fn unseen(run: &Run) -> Text {
     let names = listing(run.text);
     Text::new(
         format!("An invisible character stands in the code: {}.", names.en),
-        format!(
-            "プログラムの中に目に見えない文字（{}）があります。",
-            names.ja
-        ),
+        format!("プログラムの中に目に見えない文字（{}）があります。", names.ja),
     )
 }
 
@@ -120,10 +88,7 @@ fn unreadable() -> Text {
 
 fn look_alike(run: &Run) -> Text {
     let names = listing(run.text);
-    let full_width = run
-        .text
-        .chars()
-        .all(|c| matches!(c, '\u{FF01}'..='\u{FF5E}'));
+    let full_width = run.text.chars().all(|c| matches!(c, '\u{FF01}'..='\u{FF5E}'));
     let (kind_en, kind_ja) = if full_width {
         ("Full-width", "全角文字")
     } else {
@@ -131,24 +96,15 @@ fn look_alike(run: &Run) -> Text {
     };
     Text::new(
         format!("{kind_en} {} in the code: GLSL does not know it.", names.en),
-        format!(
-            "プログラムの中に{kind_ja}{}があります。GLSL では使えません。",
-            names.ja
-        ),
+        format!("プログラムの中に{kind_ja}{}があります。GLSL では使えません。", names.ja),
     )
 }
 
 fn foreign(run: &Run) -> Text {
     let names = listing(run.text);
     Text::new(
-        format!(
-            "{} in the code: outside comments, GLSL consists of ASCII characters only.",
-            names.en
-        ),
-        format!(
-            "プログラムの中に{}があります。コメントの外では半角の英数字と記号しか使えません。",
-            names.ja
-        ),
+        format!("{} in the code: outside comments, GLSL consists of ASCII characters only.", names.en),
+        format!("プログラムの中に{}があります。コメントの外では半角の英数字と記号しか使えません。", names.ja),
     )
 }
 
@@ -156,15 +112,9 @@ fn foreign(run: &Run) -> Text {
 fn instead(text: &str) -> Text {
     let typed: String = text.chars().filter_map(ascii_for).collect();
     if typed.contains(['"', '\'']) {
-        return Text::new(
-            "GLSL has no quotation marks: delete it.",
-            "GLSL に引用符はありません。削除してください。",
-        );
+        return Text::new("GLSL has no quotation marks: delete it.", "GLSL に引用符はありません。削除してください。");
     }
-    Text::new(
-        format!("Type `{typed}` in ASCII (half-width)."),
-        format!("半角の `{typed}` に直してください。"),
-    )
+    Text::new(format!("Type `{typed}` in ASCII (half-width)."), format!("半角の `{typed}` に直してください。"))
 }
 
 fn foreign_hint(text: &str) -> Text {
@@ -178,10 +128,7 @@ fn foreign_hint(text: &str) -> Text {
             "If this is a comment, put // before it. Names consist of a–z, A–Z, 0–9 and _.",
             "コメントなら前に // を付けてください。変数名に使えるのは半角の a–z、A–Z、0–9、_ だけです。",
         ),
-        _ => Text::new(
-            "Names consist of a–z, A–Z, 0–9 and _.",
-            "変数名に使えるのは半角の a–z、A–Z、0–9、_ だけです。",
-        ),
+        _ => Text::new("Names consist of a–z, A–Z, 0–9 and _.", "変数名に使えるのは半角の a–z、A–Z、0–9、_ だけです。"),
     }
 }
 
@@ -189,14 +136,8 @@ fn foreign_hint(text: &str) -> Text {
 pub(super) fn skipped(run: &Run) -> Diagnostic {
     let names = listing(run.text);
     let message = Text::new(
-        format!(
-            "{} stands outside a comment, in a line that the compiler skips.",
-            names.en
-        ),
-        format!(
-            "コメントの外に{}があります。コンパイラが読み飛ばす行なので採点には影響しません。",
-            names.ja
-        ),
+        format!("{} stands outside a comment, in a line that the compiler skips.", names.en),
+        format!("コメントの外に{}があります。コンパイラが読み飛ばす行なので採点には影響しません。", names.ja),
     );
     Diagnostic::warning(Stage::Source, message).spanning(run.text.chars().count())
 }

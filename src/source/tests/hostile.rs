@@ -32,9 +32,7 @@ fn no_bytes_panic_and_no_place_is_outside_the_text() {
     // A linear congruential generator (Knuth's MMIX constants) is random enough here, and repeats.
     let mut state = 1_u64;
     let mut next = move || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize
     };
     let pieces: [&[u8]; 24] = [
@@ -64,18 +62,11 @@ fn no_bytes_panic_and_no_place_is_outside_the_text() {
         b"gl_Position",
     ];
     for _ in 0..3000 {
-        let bytes: Vec<u8> = (0..next() % 40)
-            .flat_map(|_| pieces[next() % pieces.len()])
-            .copied()
-            .collect();
+        let bytes: Vec<u8> = (0..next() % 40).flat_map(|_| pieces[next() % pieces.len()]).copied().collect();
         let (source, diagnostics) = match read("a.vert", &bytes) {
             Ok(source) => (Some(source.clone()), source.notes),
             Err(refusal) => {
-                assert_eq!(
-                    refusal.diagnostics[0].severity,
-                    Severity::Error,
-                    "{bytes:?}"
-                );
+                assert_eq!(refusal.diagnostics[0].severity, Severity::Error, "{bytes:?}");
                 (refusal.source, refusal.diagnostics)
             }
         };
@@ -86,10 +77,7 @@ fn no_bytes_panic_and_no_place_is_outside_the_text() {
                 continue;
             };
             let column = diagnostic.column.unwrap_or(1) + diagnostic.length - 1;
-            assert!(
-                source.offset(line, column).is_some(),
-                "{bytes:?}: {diagnostic:?}"
-            );
+            assert!(source.offset(line, column).is_some(), "{bytes:?}: {diagnostic:?}");
         }
     }
 }
@@ -97,37 +85,22 @@ fn no_bytes_panic_and_no_place_is_outside_the_text() {
 #[test]
 fn broken_utf16_is_refused_where_it_stands() {
     // A lone low surrogate (DC00) as the second character of the second line.
-    let mut bytes: Vec<u8> = "\u{FEFF}void main() {}\na"
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
+    let mut bytes: Vec<u8> = "\u{FEFF}void main() {}\na".encode_utf16().flat_map(u16::to_le_bytes).collect();
     bytes.extend_from_slice(&[0x00, 0xDC]);
     assert_eq!(places(&refuse(&bytes).diagnostics)[0], (2, 2, 1));
 }
 
 #[test]
 fn an_odd_byte_ends_utf16_in_a_comment_without_harm() {
-    let mut bytes: Vec<u8> = "\u{FEFF}void main() {} // a"
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
+    let mut bytes: Vec<u8> = "\u{FEFF}void main() {} // a".encode_utf16().flat_map(u16::to_le_bytes).collect();
     bytes.push(b'b');
     assert_eq!(accept(bytes).code_line(1).trim_end(), "void main() {}");
 }
 
 #[test]
 fn a_nul_is_refused_in_any_disguise() {
-    for bytes in [
-        &b"void main() {}\0"[..],
-        b"// a\0b\nvoid main() {}",
-        b"\0",
-        b"\xFF\xFEa\0\0\0",
-    ] {
-        assert_eq!(
-            refuse(bytes).diagnostics[0].severity,
-            Severity::Error,
-            "{bytes:?}"
-        );
+    for bytes in [&b"void main() {}\0"[..], b"// a\0b\nvoid main() {}", b"\0", b"\xFF\xFEa\0\0\0"] {
+        assert_eq!(refuse(bytes).diagnostics[0].severity, Severity::Error, "{bytes:?}");
     }
 }
 
@@ -152,14 +125,7 @@ fn the_largest_files_are_read_in_no_time() {
         let text = format!("x\n{}", piece.repeat((MAX_BYTES - 2) / piece.len()));
         // Whatever comes of it, it comes soon.
         drop(read("a.vert", text.as_bytes()));
-        drop(read(
-            "a.vert",
-            &[text.as_bytes(), b"\xFF"].concat()[..MAX_BYTES.min(text.len() + 1)],
-        ));
+        drop(read("a.vert", &[text.as_bytes(), b"\xFF"].concat()[..MAX_BYTES.min(text.len() + 1)]));
     }
-    assert!(
-        begin.elapsed() < Duration::from_secs(5),
-        "{:?}",
-        begin.elapsed()
-    );
+    assert!(begin.elapsed() < Duration::from_secs(5), "{:?}", begin.elapsed());
 }

@@ -10,119 +10,33 @@ fn only(refusal: &Refusal) -> &Diagnostic {
 #[test]
 fn each_is_told_at_its_place_by_its_name_and_with_what_to_type() {
     for (code, column, length, name, hint) in [
-        (
-            "float　a;",
-            8,
-            1,
-            "U+3000 IDEOGRAPHIC SPACE",
-            "ordinary space",
-        ),
+        ("float　a;", 8, 1, "U+3000 IDEOGRAPHIC SPACE", "ordinary space"),
         ("float a；", 10, 1, "U+FF1B FULLWIDTH SEMICOLON", "`;`"),
-        (
-            "float a ＝ 1;",
-            11,
-            1,
-            "U+FF1D FULLWIDTH EQUALS SIGN",
-            "`=`",
-        ),
+        ("float a ＝ 1;", 11, 1, "U+FF1D FULLWIDTH EQUALS SIGN", "`=`"),
         ("f（1);", 4, 1, "U+FF08 FULLWIDTH LEFT PARENTHESIS", "`(`"),
-        (
-            "ｖｅｃ４ a;",
-            3,
-            4,
-            "U+FF56 FULLWIDTH LATIN SMALL LETTER V",
-            "`vec4`",
-        ),
+        ("ｖｅｃ４ a;", 3, 4, "U+FF56 FULLWIDTH LATIN SMALL LETTER V", "`vec4`"),
         ("a = b − c;", 9, 1, "U+2212 MINUS SIGN", "`-`"),
         ("a = b × c;", 9, 1, "U+00D7 MULTIPLICATION SIGN", "`*`"),
-        (
-            "a = “b;",
-            7,
-            1,
-            "U+201C LEFT DOUBLE QUOTATION MARK",
-            "delete it",
-        ),
-        (
-            "a\u{A0}= b;",
-            4,
-            1,
-            "U+00A0 NO-BREAK SPACE",
-            "ordinary space",
-        ),
-        (
-            "a\u{200B}= b;",
-            4,
-            1,
-            "U+200B ZERO WIDTH SPACE",
-            "Delete it",
-        ),
-        (
-            "a\u{FEFF}= b;",
-            4,
-            1,
-            "U+FEFF ZERO WIDTH NO-BREAK SPACE",
-            "Delete it",
-        ),
+        ("a = “b;", 7, 1, "U+201C LEFT DOUBLE QUOTATION MARK", "delete it"),
+        ("a\u{A0}= b;", 4, 1, "U+00A0 NO-BREAK SPACE", "ordinary space"),
+        ("a\u{200B}= b;", 4, 1, "U+200B ZERO WIDTH SPACE", "Delete it"),
+        ("a\u{FEFF}= b;", 4, 1, "U+FEFF ZERO WIDTH NO-BREAK SPACE", "Delete it"),
         ("a\u{AD}= b;", 4, 1, "U+00AD SOFT HYPHEN", "Delete it"),
-        (
-            "a\u{202E}= b;",
-            4,
-            1,
-            "U+202E RIGHT-TO-LEFT OVERRIDE",
-            "Delete it",
-        ),
-        (
-            "v\u{435}c4 a;",
-            4,
-            1,
-            "U+0435 CYRILLIC SMALL LETTER IE",
-            "`e`",
-        ),
-        (
-            "a = π;",
-            7,
-            1,
-            "U+03C0 GREEK SMALL LETTER PI",
-            "Names consist",
-        ),
+        ("a\u{202E}= b;", 4, 1, "U+202E RIGHT-TO-LEFT OVERRIDE", "Delete it"),
+        ("v\u{435}c4 a;", 4, 1, "U+0435 CYRILLIC SMALL LETTER IE", "`e`"),
+        ("a = π;", 7, 1, "U+03C0 GREEK SMALL LETTER PI", "Names consist"),
         ("a\u{37E}", 4, 1, "U+037E GREEK QUESTION MARK", "`;`"),
-        (
-            "a = 2 ー b;",
-            9,
-            1,
-            "U+30FC KATAKANA-HIRAGANA PROLONGED SOUND MARK",
-            "`-`",
-        ),
+        ("a = 2 ー b;", 9, 1, "U+30FC KATAKANA-HIRAGANA PROLONGED SOUND MARK", "`-`"),
         ("a\u{1A}", 4, 1, "U+001A SUBSTITUTE", "Delete it"),
-        (
-            "ここで光を足す",
-            3,
-            7,
-            "U+3053 HIRAGANA LETTER KO",
-            "put // before it",
-        ),
+        ("ここで光を足す", 3, 7, "U+3053 HIRAGANA LETTER KO", "put // before it"),
     ] {
         let refusal = refuse(shader("", "", code));
         let error = only(&refusal);
-        assert_eq!(
-            (error.severity, error.stage),
-            (Severity::Error, Stage::Source)
-        );
-        assert_eq!(
-            (error.line, error.column, error.length),
-            (Some(6), Some(column), length),
-            "{code}"
-        );
+        assert_eq!((error.severity, error.stage), (Severity::Error, Stage::Source));
+        assert_eq!((error.line, error.column, error.length), (Some(6), Some(column), length), "{code}");
         assert!(error.message.en.contains(name), "{}", error.message.en);
         assert!(error.message.ja.contains(name), "{}", error.message.ja);
-        assert!(
-            error
-                .hint
-                .as_ref()
-                .is_some_and(|text| text.en.contains(hint)),
-            "{:?}",
-            error.hint
-        );
+        assert!(error.hint.as_ref().is_some_and(|text| text.en.contains(hint)), "{:?}", error.hint);
     }
 }
 
@@ -136,10 +50,7 @@ fn columns_are_right_after_a_comment_in_japanese() {
 #[test]
 fn neighbours_of_one_kind_are_one_place() {
     let refusal = refuse(shader("", "", "f（）；　　a；"));
-    assert_eq!(
-        places(&refusal.diagnostics),
-        [(6, 4, 3), (6, 7, 2), (6, 10, 1)]
-    );
+    assert_eq!(places(&refusal.diagnostics), [(6, 4, 3), (6, 7, 2), (6, 10, 1)]);
 }
 
 #[test]
@@ -148,21 +59,13 @@ fn the_first_twenty_places_are_told_and_the_rest_counted() {
     assert_eq!(refusal.diagnostics.len(), 21);
     assert!(refusal.diagnostics[20].message.en.contains('5'));
     assert_eq!(refusal.diagnostics[20].line, None);
-    assert_eq!(
-        refuse(shader("", &"a；\n".repeat(20), ""))
-            .diagnostics
-            .len(),
-        20
-    );
+    assert_eq!(refuse(shader("", &"a；\n".repeat(20), "")).diagnostics.len(), 20);
 }
 
 #[test]
 fn the_refusal_keeps_the_text_for_the_excerpt() {
     let refusal = refuse(shader("", "", "a；"));
-    assert_eq!(
-        refusal.source.as_ref().map(|source| source.line(6)),
-        Some("  a；")
-    );
+    assert_eq!(refusal.source.as_ref().map(|source| source.line(6)), Some("  a；"));
     assert_eq!(refusal.facts.encoding, Some(Encoding::Utf8));
 }
 
@@ -190,11 +93,7 @@ fn what_a_driver_skips_is_a_warning() {
     ] {
         let source = accept(shader("", declaration, ""));
         assert_eq!(source.notes.len(), 1, "{declaration}");
-        assert_eq!(
-            (source.notes[0].line, source.notes[0].column),
-            (Some(line), Some(column)),
-            "{declaration}"
-        );
+        assert_eq!((source.notes[0].line, source.notes[0].column), (Some(line), Some(column)), "{declaration}");
         assert_eq!(source.notes[0].severity, Severity::Warning);
     }
 }
@@ -212,21 +111,14 @@ fn what_a_driver_reads_is_an_error() {
         "#extension　GL_ARB_gpu_shader5 : enable",
     ] {
         let refusal = refuse(shader("", declaration, "float a = USED;"));
-        assert_eq!(
-            refusal.diagnostics[0].severity,
-            Severity::Error,
-            "{declaration}"
-        );
+        assert_eq!(refusal.diagnostics[0].severity, Severity::Error, "{declaration}");
     }
 }
 
 #[test]
 fn only_the_compiler_can_decide_on_its_own_macros() {
     let source = accept(shader("", "#if __VERSION__ < 410\na；\n#endif", ""));
-    assert_eq!(
-        (source.notes[0].severity, source.notes[0].line),
-        (Severity::Warning, Some(5))
-    );
+    assert_eq!((source.notes[0].severity, source.notes[0].line), (Severity::Warning, Some(5)));
 }
 
 #[test]

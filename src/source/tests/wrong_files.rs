@@ -17,30 +17,15 @@ fn wrong_files_are_told_what_they_seem_to_be() {
         ("// TODO\n/* nothing */\n", "nothing but comments"),
         (cpp, "C++"),
         ("using namespace std;\nclass A {};\n", "C++"),
-        (
-            &format!("{cpp}const char *s = R\"(\ngl_Position = pv;\n)\";\n"),
-            "C++",
-        ),
+        (&format!("{cpp}const char *s = R\"(\ngl_Position = pv;\n)\";\n"), "C++"),
         (fragment, "the fragment shader"),
-        (
-            "layout(points) in;\nvoid main() { EmitVertex(); }\n",
-            "geometry shader",
-        ),
+        ("layout(points) in;\nvoid main() { EmitVertex(); }\n", "geometry shader"),
         ("<!DOCTYPE html>\n<html><body></body></html>\n", "HTML"),
         ("\n<?xml version='1.0'?>\n<svg/>\n", "XML"),
         ("{\\rtf1\\ansi text}", "RTF"),
-        (
-            "diff --git a/a.vert b/a.vert\n--- a/a.vert\n+++ b/a.vert\n@@ -1 +1 @@\n-a\n+b\n",
-            "patch",
-        ),
-        (
-            "# Answer\n```glsl\nvoid main() { gl_Position = vec4(0); }\n```\n",
-            "Markdown",
-        ),
-        (
-            "void main() {\n<<<<<<< HEAD\ngl_Position = vec4(0);\n=======\n>>>>>>> x\n}\n",
-            "merge conflict",
-        ),
+        ("diff --git a/a.vert b/a.vert\n--- a/a.vert\n+++ b/a.vert\n@@ -1 +1 @@\n-a\n+b\n", "patch"),
+        ("# Answer\n```glsl\nvoid main() { gl_Position = vec4(0); }\n```\n", "Markdown"),
+        ("void main() {\n<<<<<<< HEAD\ngl_Position = vec4(0);\n=======\n>>>>>>> x\n}\n", "merge conflict"),
         ("import moderngl\ndef main():\n    pass\n", "Python"),
     ] {
         let message = said(text);
@@ -65,16 +50,8 @@ fn a_comment_without_an_end_is_named() {
 #[test]
 fn vertex_shaders_are_not_refused_for_what_they_mention() {
     for text in [
-        shader(
-            "int main() #include <iostream> std::cout discard gl_FragCoord",
-            "",
-            "",
-        ),
-        shader(
-            "<html> ``` diff --git",
-            "/*\n```\n@@ -1 +1 @@\n<<<<<<< HEAD\n<html>\n*/",
-            "",
-        ),
+        shader("int main() #include <iostream> std::cout discard gl_FragCoord", "", ""),
+        shader("<html> ``` diff --git", "/*\n```\n@@ -1 +1 @@\n<<<<<<< HEAD\n<html>\n*/", ""),
         shader("", "int maintain(int a) { return a; }", ""),
         // Wrong, but the compiler says it better.
         shader("", "#include <iostream>", ""),
@@ -88,13 +65,10 @@ fn vertex_shaders_are_not_refused_for_what_they_mention() {
 
 #[test]
 fn the_fragment_shader_is_told_by_what_it_takes_in() {
-    let fragment =
-        accept("#version 410 core\nin vec4 colour;\nout vec4 fc;\nvoid main() { fc = colour; }\n");
+    let fragment = accept("#version 410 core\nin vec4 colour;\nout vec4 fc;\nvoid main() { fc = colour; }\n");
     let found = fragment_shader(&fragment, "colour").map(|refusal| places(&[refusal]));
     assert_eq!(found, Some(vec![(2, 9, 6)]));
-    assert!(
-        fragment_shader(&accept("in highp vec4 colour;\nvoid main() {}\n"), "colour").is_some()
-    );
+    assert!(fragment_shader(&accept("in highp vec4 colour;\nvoid main() {}\n"), "colour").is_some());
     // A vertex shader that forgets its position, one that takes in too much, and one that only mentions it.
     for text in [
         "in vec4 pv;\nout vec4 colour;\nvoid main() { colour = pv; }\n",

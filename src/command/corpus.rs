@@ -1,0 +1,77 @@
+//! `ggrade corpus DIR`: a table of expected against found.
+
+use super::Outcome;
+use crate::cli::Corpus;
+use crate::corpus::{self, Checked, Expectation};
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::sandbox::{Pool, Settings};
+use std::time::Duration;
+
+/// Longer than the usual deadline: a busy machine must not change what a sample is.
+const DEADLINE: Duration = Duration::from_secs(10);
+
+/// Grades the samples of a folder.
+pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
+    if arguments.bless && std::env::var_os("CI").is_some() {
+        anstream::eprintln!("ggrade: expected reports are not written in CI");
+        return Ok(Outcome::Usage);
+    }
+    let settings = Settings {
+        adapter: arguments.machine.adapter,
+        deadline: DEADLINE,
+        ..Settings::new(&arguments.machine.assignment)
+    };
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let results = corpus::check(&arguments.folder, &Pool::start(settings, workers)?)?;
+    let mut differing = 0;
+    for checked in &results {
+        if checked.agrees() {
+            if arguments.all {
+                anstream::println!("ok    {}  {}", checked.sample.display(), summary(checked.expected.as_ref()));
+            }
+            continue;
+        }
+        differing += 1;
+        show(checked);
+        if arguments.bless && checked.found.is_ok() {
+            checked.bless()?;
+        }
+    }
+    let agreeing = results.len() - differing;
+    anstream::println!("{agreeing} of {} samples are as expected", results.len());
+    if arguments.bless && differing > 0 {
+        return Err(Fault::new(Text::verbatim(format!("{differing} expected reports were written anew: look at them"))));
+    }
+    Ok(if differing == 0 { Outcome::FullMarks } else { Outcome::Graded })
+}
+
+fn show(checked: &Checked) {
+    anstream::println!("DIFF  {}", checked.sample.display());
+    anstream::println!("      expected  {}", summary(checked.expected.as_ref()));
+    match &checked.found {
+        Ok(found) => anstream::println!("      found     {}", summary(Some(found))),
+        Err(fault) => anstream::println!("      found     fault: {}", fault.message.en),
+    }
+}
+
+fn summary(expectation: Option<&Expectation>) -> String {
+    let Some(expectation) = expectation else { return "nothing (no file)".into() };
+    let rubric: Vec<_> = expectation.rubric.iter().map(|(id, points)| format!("{id} {points}")).collect();
+    let places: Vec<_> = expectation
+        .diagnostics
+        .iter()
+        .map(|place| {
+            let number = |n: Option<u32>| n.map_or_else(|| "-".into(), |n| n.to_string());
+            format!("{:?} {:?} {}:{}", place.severity, place.stage, number(place.line), number(place.column))
+        })
+        .collect();
+    format!(
+        "{:?} {} ({}) [{}] {}",
+        expectation.verdict,
+        expectation.score,
+        rubric.join(", "),
+        expectation.mistakes.join(" "),
+        places.join("; ")
+    )
+}

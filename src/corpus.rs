@@ -1,0 +1,170 @@
+//! Samples beside what is expected of them: `NAME.vert` and `NAME.json` in one folder.
+//!
+//! An expectation without a sample, and a sample without one, are errors; so is a folder without any.
+
+use crate::diagnostic::{Severity, Stage};
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::report::{Report, Verdict};
+use crate::sandbox::{Pool, Submission};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{fs, io};
+
+/// The seed that samples are graded with.
+pub const SEED: u64 = 1;
+/// Extension of an expected report.
+const EXPECTED: &str = "json";
+
+/// What a report must say. Wording is not part of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expectation {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The score.
+    pub score: f64,
+    /// Points by rubric line.
+    pub rubric: BTreeMap<String, f64>,
+    /// Ids of the mistakes.
+    pub mistakes: Vec<String>,
+    /// Where the diagnostics point.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub diagnostics: Vec<Place>,
+}
+
+/// Where a diagnostic points.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// Error, warning or note.
+    pub severity: Severity,
+    /// The stage that speaks.
+    pub stage: Stage,
+    /// Line, from 1.
+    pub line: Option<u32>,
+    /// Column, from 1.
+    pub column: Option<u32>,
+}
+
+impl Expectation {
+    /// What this report says.
+    pub fn of(report: &Report) -> Self {
+        Self {
+            verdict: report.verdict,
+            score: report.score,
+            rubric: report.rubric.iter().map(|line| (line.id.clone(), line.points)).collect(),
+            mistakes: report.mistakes.clone(),
+            diagnostics: report
+                .diagnostics
+                .iter()
+                .map(|d| Place { severity: d.severity, stage: d.stage, line: d.line, column: d.column })
+                .collect(),
+        }
+    }
+}
+
+/// How one sample came out.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The sample.
+    pub sample: PathBuf,
+    /// What is expected of it; none where the file is missing.
+    pub expected: Option<Expectation>,
+    /// What was found, or why nothing was.
+    pub found: Result<Expectation, Fault>,
+}
+
+impl Checked {
+    /// Whether all is as expected.
+    pub fn agrees(&self) -> bool {
+        matches!((&self.expected, &self.found), (Some(expected), Ok(found)) if expected == found)
+    }
+
+    /// Writes what was found as what is expected.
+    pub fn bless(&self) -> Result<(), Fault> {
+        let found = self.found.clone()?;
+        let path = self.sample.with_extension(EXPECTED);
+        let mut json = serde_json::to_string_pretty(&found).map_err(|error| unreadable(&path, &error.to_string()))?;
+        json.push('\n');
+        fs::write(&path, json).map_err(|error| unreadable(&path, &error.to_string()))
+    }
+}
+
+/// Grades every sample below `folder` on all cores, and holds each against its expectation.
+pub fn check(folder: &Path, pool: &Pool) -> Result<Vec<Checked>, Fault> {
+    let samples = samples(folder)?;
+    let next = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some(sample) = samples.get(next.fetch_add(1, Ordering::Relaxed)) {
+            done.push(check_one(sample, pool));
+        }
+        done
+    };
+    let results: Result<Vec<Checked>, Fault> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|_| vec![Err(unreadable(folder, "a thread panicked"))]))
+            .collect()
+    });
+    let mut results = results?;
+    results.sort_by(|a, b| a.sample.cmp(&b.sample));
+    Ok(results)
+}
+
+fn check_one(sample: &Path, pool: &Pool) -> Result<Checked, Fault> {
+    let bytes = fs::read(sample).map_err(|error| unreadable(sample, &error.to_string()))?;
+    let path = sample.with_extension(EXPECTED);
+    let expected = match fs::read_to_string(&path) {
+        Ok(json) => Some(serde_json::from_str(&json).map_err(|error| unreadable(&path, &error.to_string()))?),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(unreadable(&path, &error.to_string())),
+    };
+    let name = sample.file_name().unwrap_or_default().to_string_lossy();
+    let answer = pool.grade(Submission { name: &name, bytes: &bytes, seed: SEED, wants_frames: false });
+    Ok(Checked { sample: sample.into(), expected, found: answer.map(|answer| Expectation::of(&answer.report)) })
+}
+
+/// The samples below `folder`, in order of name.
+fn samples(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
+    let mut files = Vec::new();
+    walk(folder, &mut files)?;
+    let (expectations, mut samples): (Vec<_>, Vec<_>) =
+        files.into_iter().partition(|path| path.extension().is_some_and(|extension| extension == EXPECTED));
+    samples.sort();
+    if samples.is_empty() {
+        return Err(unreadable(folder, "there is no sample in it"));
+    }
+    let keys: Vec<PathBuf> = samples.iter().map(|sample| sample.with_extension("")).collect();
+    if let Some(pair) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(unreadable(&pair[0], "two samples have this name"));
+    }
+    for expectation in expectations {
+        if keys.binary_search(&expectation.with_extension("")).is_err() {
+            return Err(unreadable(&expectation, "it is an expectation without a sample"));
+        }
+    }
+    Ok(samples)
+}
+
+fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Fault> {
+    let entries = fs::read_dir(folder).map_err(|error| unreadable(folder, &error.to_string()))?;
+    for entry in entries {
+        let path = entry.map_err(|error| unreadable(folder, &error.to_string()))?.path();
+        if path.is_dir() {
+            walk(&path, files)?;
+        } else {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn unreadable(path: &Path, detail: &str) -> Fault {
+    Fault::new(Text::verbatim(format!("{}: {detail}", path.display())))
+}
