@@ -1,32 +1,12 @@
-//! EGL and OpenGL behind functions that cannot be misused: the only unsafe code of the tests.
+//! OpenGL behind functions that cannot be misused.
 //!
-//! Two facts carry every call below. A [`Driver`] cannot leave its thread and its context is current there as long as
-//! it lives, so the functions that glow loaded may be called; and each object name handed to them was made by this
-//! context.
+//! Two facts carry every call below. A [`Context`] is current in its thread as long as it lives and cannot leave it, so
+//! the functions that glow loaded may be called; and each object name handed to them was made by this context.
 #![allow(unsafe_code, reason = "OpenGL is a C library")]
 
+use super::context::{Context, Version};
 use super::{Rejection, Stage};
 use glow::HasContext;
-use khronos_egl as egl;
-use std::marker::PhantomData;
-use std::sync::OnceLock;
-
-const PACKAGES: &str =
-    "install the software OpenGL driver: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
-
-/// From the extension EGL_MESA_platform_surfaceless.
-const PLATFORM_SURFACELESS_MESA: egl::Enum = 0x31DD;
-
-type Egl = egl::DynamicInstance<egl::EGL1_5>;
-
-/// Which `#version` the driver takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Version {
-    /// What it offers of its own accord.
-    AsOffered,
-    /// Up to `#version 460`, which Mesa's compiler knows but its software driver does not offer before Mesa 23.
-    Raised460,
-}
 
 /// A linked program.
 #[derive(Clone, Copy)]
@@ -47,86 +27,16 @@ pub struct Vertices {
     count: i32,
 }
 
-/// A context that is current in this thread.
+/// OpenGL in this thread.
 pub struct Driver {
-    egl: &'static Egl,
-    display: egl::Display,
-    context: egl::Context,
-    gl: glow::Context,
-    /// Keeps the context in its thread.
-    thread: PhantomData<*const ()>,
-}
-
-impl Drop for Driver {
-    fn drop(&mut self) {
-        // A context that cannot be released is lost with the process; there is nobody to tell.
-        let _ = self.egl.make_current(self.display, None, None, None);
-        let _ = self.egl.destroy_context(self.display, self.context);
-    }
+    context: Context,
 }
 
 impl Driver {
-    /// Makes a context and makes it current in this thread.
+    /// Makes a context in this thread.
     pub fn start(version: Version) -> Result<Self, String> {
-        let egl = library(version)?;
-        if egl.get_current_context().is_some() {
-            return Err("this thread has an OpenGL context already".into());
-        }
-        // SAFETY: the surfaceless platform takes no native display, only the default (null).
-        let display = unsafe {
-            egl.get_platform_display(
-                PLATFORM_SURFACELESS_MESA,
-                egl::DEFAULT_DISPLAY,
-                &[egl::ATTRIB_NONE],
-            )
-        }
-        .map_err(failed("no EGL display without a screen"))?;
-        egl.initialize(display)
-            .map_err(failed("EGL does not start"))?;
-        egl.bind_api(egl::OPENGL_API)
-            .map_err(failed("EGL knows no desktop OpenGL"))?;
-        let config = egl
-            .choose_first_config(
-                display,
-                &[
-                    egl::SURFACE_TYPE,
-                    0,
-                    egl::RENDERABLE_TYPE,
-                    egl::OPENGL_BIT,
-                    egl::NONE,
-                ],
-            )
-            .map_err(failed("EGL has no configuration"))?
-            .ok_or_else(|| format!("EGL has no configuration for desktop OpenGL; {PACKAGES}"))?;
-        let wanted = [
-            egl::CONTEXT_MAJOR_VERSION,
-            4,
-            egl::CONTEXT_MINOR_VERSION,
-            1,
-            egl::CONTEXT_OPENGL_PROFILE_MASK,
-            egl::CONTEXT_OPENGL_CORE_PROFILE_BIT,
-            egl::NONE,
-        ];
-        let context = egl
-            .create_context(display, config, None, &wanted)
-            .map_err(failed("no OpenGL 4.1 core"))?;
-        egl.make_current(display, None, None, Some(context))
-            .map_err(failed("the OpenGL context is refused"))?;
-        // SAFETY: a context is current, and the addresses come from the library that made it.
-        let gl = unsafe {
-            glow::Context::from_loader_function(|name| {
-                egl.get_proc_address(name)
-                    .map_or(std::ptr::null(), |function| function as *const _)
-            })
-        };
-        // SAFETY: the context is current. Dithering is the one state that differs from the default.
-        unsafe { gl.disable(glow::DITHER) };
         Ok(Self {
-            egl,
-            display,
-            context,
-            gl,
-            thread: PhantomData,
+            context: Context::start(version)?,
         })
     }
 
@@ -134,7 +44,7 @@ impl Driver {
     pub fn renderer(&self) -> String {
         // SAFETY: see the head of this file.
         let [renderer, version] = unsafe {
-            [glow::RENDERER, glow::VERSION].map(|name| self.gl.get_parameter_string(name))
+            [glow::RENDERER, glow::VERSION].map(|name| self.context.gl().get_parameter_string(name))
         };
         format!("{renderer}, OpenGL {version}")
     }
@@ -155,7 +65,7 @@ impl Driver {
         let fragment = self
             .shader(glow::FRAGMENT_SHADER, fragment)
             .expect("the fixed fragment shader compiles");
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. A shader that is deleted while attached lives as long as the program.
         unsafe {
             let program = gl.create_program().expect("a program");
@@ -180,7 +90,7 @@ impl Driver {
     }
 
     fn shader(&self, stage: u32, text: &str) -> Result<glow::Shader, String> {
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. The text is passed with its length.
         unsafe {
             let shader = gl.create_shader(stage).expect("a shader");
@@ -198,12 +108,12 @@ impl Driver {
     /// Ends a program.
     pub fn delete(&self, program: Linked) {
         // SAFETY: see the head of this file. A program that is in use is deleted when another takes its place.
-        unsafe { self.gl.delete_program(program.0) };
+        unsafe { self.context.gl().delete_program(program.0) };
     }
 
     /// Sets the matrices that the program has. One declared with another type keeps its value, as on any driver.
     pub fn set_uniforms(&self, program: Linked, uniforms: &[(&str, [f32; 16])]) {
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. The value has the 16 floats of one matrix.
         unsafe {
             gl.use_program(Some(program.0));
@@ -231,7 +141,7 @@ impl Driver {
             "one normal for each position"
         );
         let count = i32::try_from(positions.len()).expect("a mesh that OpenGL can count");
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. Both buffers hold `count` times 3 floats, so no draw of `count` vertices
         // reads past them.
         unsafe {
@@ -263,7 +173,7 @@ impl Driver {
     pub fn frame(&self, width: u32, height: u32) -> Frame {
         let [width, height] =
             [width, height].map(|side| i32::try_from(side).expect("a size that OpenGL can count"));
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file.
         unsafe {
             let renderbuffer = gl.create_renderbuffer().expect("a renderbuffer");
@@ -296,7 +206,7 @@ impl Driver {
         vertices: &Vertices,
         [red, green, blue, alpha]: [f32; 4],
     ) {
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. The buffers behind the vertex array hold `count` vertices.
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(frame.framebuffer));
@@ -315,7 +225,7 @@ impl Driver {
         let [width, height] =
             [frame.width, frame.height].map(|side| usize::try_from(side).unwrap_or(0));
         let mut pixels = vec![0; width * height * 4];
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. The slice holds 4 bytes for each pixel that is read, and rows of 4-byte
         // pixels need no padding.
         unsafe {
@@ -346,7 +256,7 @@ impl Driver {
         // Without a window OpenGL draws only into a framebuffer, even when it discards what it draws.
         let frame = self.frame(1, 1);
         let mut floats = vec![0.0f32; positions.len() * 8];
-        let gl = &self.gl;
+        let gl = self.context.gl();
         // SAFETY: see the head of this file. OpenGL records no more than fits the buffer, and the buffer is read into a
         // slice of its own size.
         unsafe {
@@ -372,64 +282,20 @@ impl Driver {
     pub fn release(&self, frame: Frame, vertices: Vertices) {
         // SAFETY: see the head of this file.
         unsafe {
-            self.gl.delete_framebuffer(frame.framebuffer);
-            self.gl.delete_renderbuffer(frame.renderbuffer);
-            self.gl.delete_vertex_array(vertices.array);
+            self.context.gl().delete_framebuffer(frame.framebuffer);
+            self.context.gl().delete_renderbuffer(frame.renderbuffer);
+            self.context.gl().delete_vertex_array(vertices.array);
             vertices
                 .buffers
                 .into_iter()
-                .for_each(|buffer| self.gl.delete_buffer(buffer));
+                .for_each(|buffer| self.context.gl().delete_buffer(buffer));
         }
     }
 
     fn check(&self, what: &str) {
         // SAFETY: see the head of this file.
-        let error = unsafe { self.gl.get_error() };
+        let error = unsafe { self.context.gl().get_error() };
         assert_eq!(error, glow::NO_ERROR, "OpenGL error {error:#06x} at {what}");
-    }
-}
-
-fn failed(what: &str) -> impl Fn(egl::Error) -> String {
-    move |error| format!("{what}: {error}; {PACKAGES}")
-}
-
-/// The EGL library, loaded once.
-fn library(version: Version) -> Result<&'static Egl, String> {
-    static LIBRARY: OnceLock<(Version, Result<Egl, String>)> = OnceLock::new();
-    let (started, library) = LIBRARY.get_or_init(|| {
-        set_environment(version);
-        // SAFETY: libEGL.so.1 is by its name the library whose functions the crate declares.
-        let library = unsafe { Egl::load_required() };
-        (
-            version,
-            library.map_err(|error| format!("no EGL library ({error:?}); {PACKAGES}")),
-        )
-    });
-    if *started != version {
-        return Err(format!(
-            "this process runs the OpenGL driver with {started:?} and cannot change to {version:?}"
-        ));
-    }
-    library.as_ref().map_err(Clone::clone)
-}
-
-/// Mesa is told by its environment what to do, and reads it while it starts.
-fn set_environment(version: Version) {
-    let raised: &[_] = match version {
-        Version::AsOffered => &[],
-        Version::Raised460 => &[
-            ("MESA_GL_VERSION_OVERRIDE", "4.6"),
-            ("MESA_GLSL_VERSION_OVERRIDE", "460"),
-        ],
-    };
-    let always = [
-        ("LIBGL_ALWAYS_SOFTWARE", "1"),
-        ("MESA_SHADER_CACHE_DISABLE", "true"),
-    ];
-    for (name, value) in always.iter().chain(raised) {
-        // SAFETY: once in a process, before the library is loaded that reads these variables. Rust's own readers of the
-        // environment take the same lock.
-        unsafe { std::env::set_var(name, value) };
     }
 }
 

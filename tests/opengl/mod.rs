@@ -8,9 +8,10 @@
     reason = "every test binary that includes this module uses a part of it"
 )]
 
+mod context;
 mod driver;
 
-pub use driver::Version;
+pub use context::Version;
 use driver::{Driver, Linked};
 
 /// One 4 × 4 matrix, column after column.
