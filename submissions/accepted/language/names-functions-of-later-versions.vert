@@ -1,5 +1,5 @@
 #version 330 core
-// dmat2x3 and dmat4 are types, fma and ldexp functions from 4.00 on only.
+// fma, ldexp and findLSB are built-in functions from 4.00 on only; before, any name may be theirs.
 // 光源と材質
 const vec4 pl    = vec4(0.0, 0.0, 1.0, 0.0);
 const vec4 lamb  = vec4(vec3(0.2), 1.0);
@@ -27,8 +27,8 @@ void main(void)
 	vec3 v = -normalize(p.xyz / p.w); // 視線ベクトル
 	vec3 l = normalize((pl * p.w - p * pl.w).xyz); // 光線ベクトル
 	vec3 n = normalize((mg * cv).xyz); // 法線ベクトル
-	float dmat2x3 = fma(dot(n, l), 0.0);
-	vec3 dmat4 = normalize(l + v);
-	vc = kamb * lamb + dmat2x3 * kdiff * ldiff + pow(max(dot(n, dmat4), 0), kshi) * kspec * lspec;
+	float ldexp = fma(dot(n, l), 0.0);
+	vec3 findLSB = normalize(l + v);
+	vc = kamb * lamb + ldexp * kdiff * ldiff + pow(max(dot(n, findLSB), 0), kshi) * kspec * lspec;
 	gl_Position = mc * pv;
 }
