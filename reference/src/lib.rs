@@ -9,11 +9,23 @@
 //! - [`manifest`], [`assignment`], [`mistake`]: the folder, read and checked
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
+//! - [`fit`]: which mistakes explain what a shader computed
+//! - [`glsl`]: a shader for any of those hypotheses
+//!
+//! ```
+//! let assignment = reference::assignment("ggsample06").expect("built in");
+//! let probes = assignment.probes(7);
+//! let right: Vec<[f64; 3]> = probes.iter().map(|p| p.colour.to_array()).collect();
+//! let fit = reference::fit::explain(assignment, &probes, &right, 2e-3);
+//! assert!(fit.is_right());
+//! ```
 
 pub mod assignment;
 pub mod equation;
 pub mod expression;
+pub mod fit;
 pub mod frames;
+pub mod glsl;
 pub mod manifest;
 pub mod mistake;
 pub mod probes;

@@ -1,6 +1,7 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
 use crate::Text;
+use crate::probes::Region;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -212,6 +213,12 @@ pub struct RubricLine {
     pub label: Text,
     /// The definition that it judges.
     pub judges: String,
+    /// Where its term stands alone, beside those of earlier lines.
+    #[serde(default)]
+    pub alone_in: Vec<Region>,
+    /// Where it can be judged if all earlier lines are right.
+    #[serde(default)]
+    pub also_in: Vec<Region>,
 }
 
 /// A known mistake.
@@ -227,6 +234,9 @@ pub struct Mistake {
     pub forms: Vec<BTreeMap<String, String>>,
     /// The free parameter of its forms.
     pub fit: Option<Fit>,
+    /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
+    #[serde(default)]
+    pub near: Vec<String>,
     /// What is seen in the picture.
     pub seen: Text,
     /// Which equation of the lecture it breaks.

@@ -12,9 +12,11 @@ use design::Light;
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::Deserialize;
 
 /// Which terms of a right answer show at a probe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Region {
     /// The light is behind the surface and there is no highlight: only the ambient term.
     AmbientOnly,

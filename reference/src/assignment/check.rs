@@ -271,6 +271,7 @@ fn mistake(
         keeps: entry.keeps.into_iter().collect(),
         forms,
         fit,
+        near: entry.near,
         seen: entry.seen,
         equation: entry.equation,
         look: entry.look,

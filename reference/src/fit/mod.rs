@@ -1,0 +1,73 @@
+//! Which known mistakes explain what a shader computed at the probes.
+//!
+//! The combination with the fewest mistakes that reproduces every sample wins; of equals the first in the assignment's table,
+//! and one without a free parameter before one with it. What nothing explains is judged term by term, where a term stands alone.
+
+mod columns;
+mod search;
+mod terms;
+
+pub use terms::{TermJudgement, Worst};
+
+use crate::Assignment;
+use crate::mistake::Found;
+use crate::probes::ProbeSet;
+use glam::DVec3;
+
+/// How many mistakes are looked for at once.
+pub const MOST_MISTAKES: usize = 3;
+
+/// What the samples say.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fit {
+    /// The equation with these mistakes in it reproduces every sample; with none, the answer is right.
+    Explained(Vec<Found>),
+    /// No combination does: the rubric's terms, judged where they stand alone.
+    Unexplained(Vec<TermJudgement>),
+}
+
+impl Fit {
+    /// Whether every sample is right.
+    pub fn is_right(&self) -> bool {
+        matches!(self, Self::Explained(found) if found.is_empty())
+    }
+}
+
+/// Looks for the mistakes that explain `samples`: red, green and blue at each probe, in the probes' order.
+///
+/// A channel agrees if it is within `tolerance` of what is expected, relative to what is expected where that is over 1. Where
+/// GLSL leaves the expected value undefined (`pow` of a negative base), anything agrees. A sample that is missing or not
+/// finite agrees with nothing finite.
+pub fn explain(
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    samples: &[[f64; 3]],
+    tolerance: f64,
+) -> Fit {
+    let given = samples.iter().map(|s| DVec3::from_array(*s));
+    let samples: Vec<DVec3> = given
+        .chain(std::iter::repeat(DVec3::NAN))
+        .take(probes.probes.len())
+        .collect();
+    match search::search(assignment, probes, &samples, tolerance) {
+        Some(found) => Fit::Explained(found),
+        None => Fit::Unexplained(terms::judge(assignment, probes, &samples, tolerance)),
+    }
+}
+
+/// From here on a value is as good as infinite: f32 ends at 3.4e38, and a driver may overflow on the way to it.
+const OVERFLOWING: f64 = 1e36;
+
+/// Whether a sample is what is expected, see [`explain`].
+fn agrees(expected: DVec3, sample: DVec3, tolerance: f64) -> bool {
+    (0..3).all(|channel| {
+        let (expected, sample) = (expected[channel], sample[channel]);
+        if expected.is_nan() {
+            true
+        } else if expected.abs() > OVERFLOWING {
+            sample.is_nan() || sample.abs() > OVERFLOWING / 10.0
+        } else {
+            (sample - expected).abs() <= tolerance * expected.abs().max(1.0)
+        }
+    })
+}
