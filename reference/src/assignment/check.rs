@@ -208,6 +208,7 @@ fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &HashSet<String
         keeps: entry.keeps.into_iter().collect(),
         forms,
         fit,
+        near: entry.near,
         seen: entry.seen,
         equation: entry.equation,
         look: entry.look,

@@ -50,18 +50,29 @@ pub(super) struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     pub(super) fn new(assignment: &'a Assignment, probes: &'a ProbeSet) -> Self {
-        Self { assignment, probes, rules: Vec::new(), columns: Vec::new(), known: HashMap::default() }
+        Self {
+            assignment,
+            probes,
+            rules: Vec::new(),
+            columns: Vec::new(),
+            known: HashMap::default(),
+        }
     }
 
     /// Makes an expression known. The same text with the same parameter is the same rule.
     pub(super) fn rule(&mut self, expression: &'a Expression, parameter: f64) -> Rule {
-        let same =
-            |r: &RuleBody| r.expression.text() == expression.text() && r.parameter.to_bits() == parameter.to_bits();
+        let same = |r: &RuleBody| {
+            r.expression.text() == expression.text() && r.parameter.to_bits() == parameter.to_bits()
+        };
         let place = self.rules.iter().position(same).unwrap_or_else(|| {
             let equation = &self.assignment.equation;
             let slots = expression.slots().iter();
             let uses = slots.filter_map(|s| equation.definition_in(*s)).collect();
-            self.rules.push(RuleBody { expression, parameter, uses });
+            self.rules.push(RuleBody {
+                expression,
+                parameter,
+                uses,
+            });
             self.rules.len() - 1
         });
         Rule(u32::try_from(place).unwrap_or(u32::MAX))
@@ -103,7 +114,10 @@ impl<'a> Columns<'a> {
         let next = u32::try_from(self.columns.len()).unwrap_or(u32::MAX);
         let column = *self.known.entry(key).or_insert(next);
         if column == next {
-            self.columns.push(Column { key, values: Vec::new() });
+            self.columns.push(Column {
+                key,
+                values: Vec::new(),
+            });
         }
         column
     }
@@ -120,7 +134,13 @@ impl<'a> Columns<'a> {
     }
 
     /// The vertex colour at a probe for `base` with a form in it whose parameter is still being sought.
-    pub(super) fn colour_with(&mut self, base: &Resolved, form: &Form, parameter: f64, probe: usize) -> DVec3 {
+    pub(super) fn colour_with(
+        &mut self,
+        base: &Resolved,
+        form: &Form,
+        parameter: f64,
+        probe: usize,
+    ) -> DVec3 {
         let equation = &self.assignment.equation;
         let mut changed: Vec<Option<Value>> = vec![None; base.len()];
         let first = form.overrides.first().map_or(base.len(), |o| o.definition);
@@ -140,8 +160,12 @@ impl<'a> Columns<'a> {
             let sample = &self.probes.probes[probe];
             let uniforms = self.probes.uniforms(sample);
             let value = expression.evaluate(&|slot| match equation.definition_in(slot) {
-                Some(d) => changed[d].unwrap_or_else(|| self.columns[base[d] as usize].values[probe]),
-                None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(parameter)),
+                Some(d) => {
+                    changed[d].unwrap_or_else(|| self.columns[base[d] as usize].values[probe])
+                }
+                None => equation
+                    .given(slot, uniforms, &sample.attributes)
+                    .unwrap_or(Value::Float(parameter)),
             });
             changed[definition] = Some(value);
         }
@@ -172,14 +196,17 @@ impl<'a> Columns<'a> {
         let equation = &self.assignment.equation;
         let sample = &self.probes.probes[probe];
         let uniforms = self.probes.uniforms(sample);
-        rule.expression.evaluate(&|slot| match equation.definition_in(slot) {
-            Some(definition) => {
-                let input = rule.uses.iter().position(|d| *d == definition);
-                let input = input.map_or(u32::MAX, |i| key.inputs[i]);
-                self.columns[input as usize].values[probe]
-            }
-            None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(rule.parameter)),
-        })
+        rule.expression
+            .evaluate(&|slot| match equation.definition_in(slot) {
+                Some(definition) => {
+                    let input = rule.uses.iter().position(|d| *d == definition);
+                    let input = input.map_or(u32::MAX, |i| key.inputs[i]);
+                    self.columns[input as usize].values[probe]
+                }
+                None => equation
+                    .given(slot, uniforms, &sample.attributes)
+                    .unwrap_or(Value::Float(rule.parameter)),
+            })
     }
 }
 

@@ -38,9 +38,17 @@ impl Fit {
 /// A channel agrees if it is within `tolerance` of what is expected, relative to what is expected where that is over 1. Where
 /// GLSL leaves the expected value undefined (`pow` of a negative base), anything agrees. A sample that is missing or not
 /// finite agrees with nothing finite.
-pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> Fit {
+pub fn explain(
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    samples: &[[f64; 3]],
+    tolerance: f64,
+) -> Fit {
     let given = samples.iter().map(|s| DVec3::from_array(*s));
-    let samples: Vec<DVec3> = given.chain(std::iter::repeat(DVec3::NAN)).take(probes.probes.len()).collect();
+    let samples: Vec<DVec3> = given
+        .chain(std::iter::repeat(DVec3::NAN))
+        .take(probes.probes.len())
+        .collect();
     match search::search(assignment, probes, &samples, tolerance) {
         Some(found) => Fit::Explained(found),
         None => Fit::Unexplained(terms::judge(assignment, probes, &samples, tolerance)),

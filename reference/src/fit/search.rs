@@ -3,7 +3,7 @@
 use super::columns::{Columns, Resolved, Rule};
 use super::{MOST_MISTAKES, agrees};
 use crate::Assignment;
-use crate::mistake::{Form, Found, FreeParameter, Mistake};
+use crate::mistake::{Form, Found, FreeParameter};
 use crate::probes::ProbeSet;
 use glam::DVec3;
 use std::collections::HashSet;
@@ -44,7 +44,14 @@ pub(super) fn search(
     let mut columns = Columns::new(assignment, probes);
     let right = columns.right();
     let candidates = candidates(assignment, &mut columns);
-    let mut search = Search { assignment, columns, candidates, samples, tolerance, tried: HashSet::new() };
+    let mut search = Search {
+        assignment,
+        columns,
+        candidates,
+        samples,
+        tolerance,
+        tried: HashSet::new(),
+    };
     if search.explains(&right) {
         return Some(Vec::new());
     }
@@ -78,7 +85,8 @@ fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<
 }
 
 fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form, parameter: f64) -> Vec<(usize, Rule)> {
-    let rule = |o: &'a crate::mistake::Override| (o.definition, columns.rule(&o.expression, parameter));
+    let rule =
+        |o: &'a crate::mistake::Override| (o.definition, columns.rule(&o.expression, parameter));
     form.overrides.iter().map(rule).collect()
 }
 
@@ -153,14 +161,21 @@ impl<'a> Search<'a> {
     }
 
     /// The parameter with which a candidate explains every sample.
-    fn solve(&mut self, base: &Resolved, index: usize, parameter: &FreeParameter, form: &Form) -> Option<f64> {
+    fn solve(
+        &mut self,
+        base: &Resolved,
+        index: usize,
+        parameter: &FreeParameter,
+        form: &Form,
+    ) -> Option<f64> {
         let least = self.columns.derive(base, &self.candidates[index].replaced);
         let greatest = self.columns.derive(base, &self.candidates[index].greatest);
         let least = self.columns.colour_column(&least);
         let greatest = self.columns.colour_column(&greatest);
         let (probe, channel) = self.pivot(least, greatest)?;
         let target = self.samples[probe][channel];
-        let rising = self.columns.colour(least, probe)[channel] < self.columns.colour(greatest, probe)[channel];
+        let rising = self.columns.colour(least, probe)[channel]
+            < self.columns.colour(greatest, probe)[channel];
         let (mut low, mut high) = (parameter.from.ln(), parameter.to.ln());
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
@@ -176,7 +191,9 @@ impl<'a> Search<'a> {
             return None;
         }
         let rounded = DIGITS.map(|digits| significant(exact, digits));
-        let simplest = rounded.into_iter().find(|x| self.explains_with(base, form, *x));
+        let simplest = rounded
+            .into_iter()
+            .find(|x| self.explains_with(base, form, *x));
         Some(simplest.unwrap_or(exact))
     }
 

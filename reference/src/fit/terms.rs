@@ -53,8 +53,12 @@ pub(super) fn judge(
     let mut shift = DVec3::ZERO;
     for line in assignment.rubric.iter().filter(|l| !l.alone_in.is_empty()) {
         let all_right = judgements.iter().all(TermJudgement::is_right);
-        let here = |p: &Probe| line.alone_in.contains(&p.region) || (all_right && line.also_in.contains(&p.region));
-        let places: Vec<usize> = (0..samples.len()).filter(|i| here(&probes.probes[*i])).collect();
+        let here = |p: &Probe| {
+            line.alone_in.contains(&p.region) || (all_right && line.also_in.contains(&p.region))
+        };
+        let places: Vec<usize> = (0..samples.len())
+            .filter(|i| here(&probes.probes[*i]))
+            .collect();
         let judgement = judge_line(line, probes, samples, &places, shift, tolerance);
         if judgements.is_empty() && !judgement.is_right() {
             shift = constant_shift(probes, samples, &places, tolerance).unwrap_or(DVec3::ZERO);
@@ -83,17 +87,39 @@ fn judge_line(
         }
         // Something that is no number is worse than any.
         let apart = (found - expected).abs();
-        let apart = if apart.is_finite() { apart.max_element() } else { f64::INFINITY };
+        let apart = if apart.is_finite() {
+            apart.max_element()
+        } else {
+            f64::INFINITY
+        };
         if worst.is_none_or(|(w, _)| apart > w) {
             let region = probe.region;
-            worst = Some((apart, Worst { probe: *place, region, expected, found }));
+            worst = Some((
+                apart,
+                Worst {
+                    probe: *place,
+                    region,
+                    expected,
+                    found,
+                },
+            ));
         }
     }
-    TermJudgement { line: line.id.clone(), judged: places.len(), matched, worst: worst.map(|(_, w)| w) }
+    TermJudgement {
+        line: line.id.clone(),
+        judged: places.len(),
+        matched,
+        worst: worst.map(|(_, w)| w),
+    }
 }
 
 /// By how much all samples at these places differ from what is right, if it is the same for all.
-fn constant_shift(probes: &ProbeSet, samples: &[DVec3], places: &[usize], tolerance: f64) -> Option<DVec3> {
+fn constant_shift(
+    probes: &ProbeSet,
+    samples: &[DVec3],
+    places: &[usize],
+    tolerance: f64,
+) -> Option<DVec3> {
     let shift = |place: &usize| samples[*place] - probes.probes[*place].colour;
     let first = places.first().map(shift)?;
     let same = |place: &usize| (shift(place) - first).abs().max_element() <= tolerance;
