@@ -75,12 +75,20 @@ impl Equation {
     }
 
     /// The value in a slot that is not a definition's.
-    pub(crate) fn given(&self, slot: usize, uniforms: &[Value], attributes: &[Value]) -> Option<Value> {
+    pub(crate) fn given(
+        &self,
+        slot: usize,
+        uniforms: &[Value],
+        attributes: &[Value],
+    ) -> Option<Value> {
         if let Some(constant) = self.constants.get(slot) {
             return Some(*constant);
         }
         let slot = slot - self.constants.len();
-        uniforms.get(slot).or_else(|| attributes.get(slot.checked_sub(self.uniforms)?)).copied()
+        uniforms
+            .get(slot)
+            .or_else(|| attributes.get(slot.checked_sub(self.uniforms)?))
+            .copied()
     }
 
     /// The equation as it stands.
@@ -110,11 +118,17 @@ impl<'a> Variant<'a> {
         for expression in &self.expressions {
             let value = expression.evaluate(&|slot| match self.equation.definition_in(slot) {
                 Some(d) => values.get(d).copied().unwrap_or(Value::Float(f64::NAN)),
-                None => self.equation.given(slot, uniforms, attributes).unwrap_or(Value::Float(self.parameter)),
+                None => self
+                    .equation
+                    .given(slot, uniforms, attributes)
+                    .unwrap_or(Value::Float(self.parameter)),
             });
             values.push(value);
         }
-        Outcome { equation: self.equation, values }
+        Outcome {
+            equation: self.equation,
+            values,
+        }
     }
 }
 

@@ -39,7 +39,9 @@ pub struct Scope {
 impl Scope {
     /// Adds a name and returns its slot; `None` if the name is taken or means something in GLSL already.
     pub fn declare(&mut self, name: &str, kind: Type) -> Option<usize> {
-        let taken = self.slot(name).is_some() || Builtin::named(name).is_some() || Type::from_glsl(name).is_some();
+        let taken = self.slot(name).is_some()
+            || Builtin::named(name).is_some()
+            || Type::from_glsl(name).is_some();
         if taken || !parse::is_identifier(name) {
             return None;
         }
@@ -102,7 +104,12 @@ impl Expression {
         let (root, kind, mut slots) = parse::parse(text, scope)?;
         slots.sort_unstable();
         slots.dedup();
-        Ok(Self { text: text.to_owned(), kind, root, slots })
+        Ok(Self {
+            text: text.to_owned(),
+            kind,
+            root,
+            slots,
+        })
     }
 
     /// The expression as it was written: valid GLSL.
@@ -135,9 +142,9 @@ impl Node {
             Self::Variable(slot) => lookup(*slot),
             Self::Negate(a) => a.evaluate(lookup).negated(),
             Self::Binary(operator, a, b) => operator.apply(a.evaluate(lookup), b.evaluate(lookup)),
-            Self::Compare(comparison, a, b) => {
-                Value::Bool(comparison.holds(a.evaluate(lookup).float(), b.evaluate(lookup).float()))
-            }
+            Self::Compare(comparison, a, b) => Value::Bool(
+                comparison.holds(a.evaluate(lookup).float(), b.evaluate(lookup).float()),
+            ),
             Self::Choose(condition, yes, no) => match condition.evaluate(lookup) {
                 Value::Bool(true) => yes.evaluate(lookup),
                 _ => no.evaluate(lookup),
@@ -195,8 +202,12 @@ impl Operator {
             (Self::Multiply, Mat3(m), Vec3(v)) => Vec3(m * v),
             (Self::Multiply, Vec3(v), Mat3(m)) => Vec3(m.transpose() * v),
             (Self::Multiply, Mat3(m), Mat3(n)) => Mat3(m * n),
-            (Self::Multiply, Mat4(m), Float(x)) | (Self::Multiply, Float(x), Mat4(m)) => Mat4(m * x),
-            (Self::Multiply, Mat3(m), Float(x)) | (Self::Multiply, Float(x), Mat3(m)) => Mat3(m * x),
+            (Self::Multiply, Mat4(m), Float(x)) | (Self::Multiply, Float(x), Mat4(m)) => {
+                Mat4(m * x)
+            }
+            (Self::Multiply, Mat3(m), Float(x)) | (Self::Multiply, Float(x), Mat3(m)) => {
+                Mat3(m * x)
+            }
             (Self::Add, a, b) => a.zip(&b, |x, y| x + y).unwrap_or(Float(f64::NAN)),
             (Self::Subtract, a, b) => a.zip(&b, |x, y| x - y).unwrap_or(Float(f64::NAN)),
             (Self::Multiply, a, b) => a.zip(&b, |x, y| x * y).unwrap_or(Float(f64::NAN)),
@@ -209,9 +220,15 @@ impl Operator {
         match (self, a, b) {
             (_, a, b) if a == b && a.width().is_some() => Some(a),
             (_, Type::Float, v) | (_, v, Type::Float) if v.width().is_some() => Some(v),
-            (Self::Multiply, Type::Mat4, Type::Vec4) | (Self::Multiply, Type::Vec4, Type::Mat4) => Some(Type::Vec4),
-            (Self::Multiply, Type::Mat3, Type::Vec3) | (Self::Multiply, Type::Vec3, Type::Mat3) => Some(Type::Vec3),
-            (Self::Multiply, a @ (Type::Mat3 | Type::Mat4), b) if a == b || b == Type::Float => Some(a),
+            (Self::Multiply, Type::Mat4, Type::Vec4) | (Self::Multiply, Type::Vec4, Type::Mat4) => {
+                Some(Type::Vec4)
+            }
+            (Self::Multiply, Type::Mat3, Type::Vec3) | (Self::Multiply, Type::Vec3, Type::Mat3) => {
+                Some(Type::Vec3)
+            }
+            (Self::Multiply, a @ (Type::Mat3 | Type::Mat4), b) if a == b || b == Type::Float => {
+                Some(a)
+            }
             (Self::Multiply, Type::Float, b @ (Type::Mat3 | Type::Mat4)) => Some(b),
             _ => None,
         }
