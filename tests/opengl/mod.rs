@@ -79,14 +79,19 @@ pub struct Rejection {
 }
 
 impl Rejection {
-    /// The line, from 1, of the first error of the log; `#line` directives count. The linker names none.
+    /// The line, from 1, of the first error of the log; `#line` directives count. The linker names none, nor
+    /// does the compiler for a recursion.
     pub fn line(&self) -> Option<u32> {
         self.log
             .lines()
             .filter(|line| line.contains("error"))
             .find_map(|line| {
                 let (_, rest) = line.split_once(':')?;
-                rest.split_once('(')?.0.parse().ok()
+                rest.split_once('(')?
+                    .0
+                    .parse()
+                    .ok()
+                    .filter(|&line| line > 0)
             })
     }
 }
