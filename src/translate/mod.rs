@@ -2,12 +2,16 @@
 
 mod entry;
 pub mod glslang;
+mod hints;
 mod interface;
 mod limits;
+mod log;
 mod spirv;
 
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
+pub use hints::{overlooked_errors, without_line_directives};
 pub use interface::{Interface, Variable};
+pub use log::{link_diagnostics, vertex_diagnostics};
 pub use spirv::Lines;
 
 mod module;
