@@ -75,6 +75,9 @@ impl Grader {
             Ok(source) => source,
             Err(refusal) => return Ok(self.rejected(&refusal.facts, refusal.diagnostics)),
         };
+        if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
+            return Ok(self.rejected(&source.facts, vec![error]));
+        }
         let Translation { shader, mut diagnostics } = match translate::translate(&source, &self.interface) {
             Ok(translation) => translation,
             Err(Refusal::Rejected(mut diagnostics)) => {
@@ -110,7 +113,7 @@ impl Grader {
             .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
             .collect();
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let evidence = Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples };
+        let evidence = Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples, hints };
         let diagnosis = diagnose::diagnose(&evidence);
         let score = diagnosis.rubric.iter().map(|line| line.points).sum();
         let max_score = self.assignment.max_score();

@@ -2,6 +2,7 @@
 
 mod constants;
 mod hard_coded;
+mod locate;
 mod message;
 
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
@@ -14,9 +15,28 @@ use reference::Assignment;
 use reference::fit::{Fit, TermJudgement, explain};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
+use serde::{Deserialize, Serialize};
 
 /// The rubric line that is judged by where things are drawn, not by their colour.
 const SHAPE: &str = "shape";
+/// Mistakes that are told from other things than the colours alone.
+const POSITION_CHANGED: &str = "position-changed";
+const CONSTANTS_CHANGED: &str = "constants-changed";
+const HARD_CODED: &str = "hard-coded";
+const UNEXPLAINED: &str = "unexplained";
+
+/// How much a message helps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hints {
+    /// What is seen, no more.
+    None,
+    /// And which equation it breaks.
+    Gentle,
+    /// And which line to look at, with a question to think about.
+    #[default]
+    Full,
+}
 
 /// What a rendering showed.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +51,8 @@ pub struct Evidence<'a> {
     pub probes: &'a ProbeSet,
     /// What the shader computed at each probe, in their order.
     pub samples: &'a [Sample],
+    /// How much the messages help.
+    pub hints: Hints,
 }
 
 /// What is to be said and credited.
@@ -67,7 +89,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let cause = cause(evidence, shape);
     let mut mistakes = cause.ids();
     if !shape && !mistakes.iter().any(|id| costs(evidence.assignment, id, SHAPE)) {
-        mistakes.push("position-changed".into());
+        mistakes.insert(0, POSITION_CHANGED.into());
     }
     let lines = &evidence.assignment.rubric;
     let rubric: Vec<RubricLine> = lines.iter().map(|line| judge(evidence, line, shape, &cause, &mistakes)).collect();
@@ -157,11 +179,11 @@ impl Cause {
         match self {
             Self::Right => Vec::new(),
             Self::Known { constants, found } => {
-                let changed = (!constants.is_empty()).then(|| "constants-changed".to_owned());
+                let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
                 changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
             }
-            Self::HardCoded => vec!["hard-coded".into()],
-            Self::Unexplained(_) => vec!["unexplained".into()],
+            Self::HardCoded => vec![HARD_CODED.into()],
+            Self::Unexplained(_) => vec![UNEXPLAINED.into()],
         }
     }
 }
@@ -174,21 +196,18 @@ fn judge(
     cause: &Cause,
     mistakes: &[String],
 ) -> RubricLine {
-    let culprit = mistakes.iter().find(|id| is_touched(evidence.assignment, line, shape, cause, id));
-    let kept = mistakes
-        .iter()
-        .filter(|id| is_touched(evidence.assignment, line, shape, cause, id))
-        .filter_map(|id| evidence.assignment.mistake(id))
-        .map(|mistake| mistake.keeps(&line.id))
-        .product::<f64>();
-    let told = message::tell(evidence, line, cause, culprit.map(String::as_str));
+    let touching = |id: &&str| is_touched(evidence.assignment, line, shape, cause, id);
+    let culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(touching).collect();
+    let kept: f64 =
+        culprits.iter().filter_map(|id| evidence.assignment.mistake(id)).map(|mistake| mistake.keeps(&line.id)).product();
+    let told = message::tell(evidence, line, cause, &culprits);
     RubricLine {
         id: line.id.clone(),
         label: Text::new(&line.label.en, &line.label.ja),
         // Half points are the finest that a rubric shows.
         points: (line.points * kept * 2.0).round() / 2.0,
         max_points: line.points,
-        mistake: culprit.cloned(),
+        mistake: culprits.first().map(|id| (*id).to_owned()),
         message: told.text,
         line: told.line,
     }
@@ -203,11 +222,16 @@ fn is_touched(
     id: &str,
 ) -> bool {
     match (cause, id) {
-        (_, "position-changed") => !shape && line.id == SHAPE,
-        (Cause::Unexplained(terms), "unexplained") => terms.iter().any(|term| term.line == line.id && !term.is_right()),
-        (Cause::Known { constants, .. }, "constants-changed") => constants
-            .iter()
-            .any(|changed| assignment.constants.iter().any(|c| c.name == changed.name && c.line == line.id)),
+        (_, POSITION_CHANGED) => !shape && line.id == SHAPE,
+        (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
+        (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
+            constants.iter().any(|changed| belongs(assignment, &changed.name, line))
+        }
         _ => costs(assignment, id, &line.id),
     }
+}
+
+/// Whether the constant is one of the line's.
+fn belongs(assignment: &Assignment, constant: &str, line: &reference::assignment::RubricLine) -> bool {
+    assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
 }
