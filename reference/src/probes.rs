@@ -178,3 +178,6 @@ impl Random {
         axis * angle.cos() + around * aside * angle.sin()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,7 +1,7 @@
 //! Which known mistakes explain what a shader computed at the probes.
 //!
-//! The combination with the fewest mistakes that reproduces every sample wins; of equals the first in the assignment's table,
-//! and one without a free parameter before one with it. What nothing explains is judged term by term, where a term stands alone.
+//! The combination with the fewest mistakes that reproduces every sample wins; of equals one without a free parameter, then the
+//! one that touches the fewest lines of the rubric, then the first in the assignment's table. What nothing explains is judged term by term, where a term stands alone.
 
 mod columns;
 mod search;
@@ -36,8 +36,8 @@ impl Fit {
 /// Looks for the mistakes that explain `samples`: red, green and blue at each probe, in the probes' order.
 ///
 /// A channel agrees if it is within `tolerance` of what is expected, relative to what is expected where that is over 1. Where
-/// GLSL leaves the expected value undefined (`pow` of a negative base), anything agrees. A sample that is missing or not
-/// finite agrees with nothing finite.
+/// GLSL leaves the expected value undefined (`pow` of a negative base is NaN on real drivers), only what is not finite agrees;
+/// a sample that is missing counts as NaN.
 pub fn explain(
     assignment: &Assignment,
     probes: &ProbeSet,
@@ -49,10 +49,30 @@ pub fn explain(
         .chain(std::iter::repeat(DVec3::NAN))
         .take(probes.probes.len())
         .collect();
-    match search::search(assignment, probes, &samples, tolerance) {
+    let right = assignment.equation.right();
+    let is_right = |place: &usize| {
+        let probe = &probes.probes[*place];
+        let outcome = right.evaluate(probes.uniforms(probe), &probe.attributes);
+        agrees(outcome.colour(), samples[*place], tolerance)
+    };
+    let (rest, wrong): (Vec<_>, Vec<_>) = (0..samples.len()).partition(is_right);
+    if wrong.is_empty() {
+        return Fit::Explained(Vec::new());
+    }
+    let order = alternating(&wrong, &rest);
+    match search::search(assignment, probes, &samples, &order, tolerance) {
         Some(found) => Fit::Explained(found),
         None => Fit::Unexplained(terms::judge(assignment, probes, &samples, tolerance)),
     }
+}
+
+/// Wrong and right places in turn: an explanation must explain the ones and leave the others, and most candidates fail soon at
+/// either.
+fn alternating(wrong: &[usize], rest: &[usize]) -> Vec<usize> {
+    let both = wrong.len().min(rest.len());
+    let pairs = wrong.iter().zip(rest).flat_map(|(w, r)| [*w, *r]);
+    let tail = wrong[both..].iter().chain(&rest[both..]).copied();
+    pairs.chain(tail).collect()
 }
 
 /// From here on a value is as good as infinite: f32 ends at 3.4e38, and a driver may overflow on the way to it.
@@ -63,7 +83,7 @@ fn agrees(expected: DVec3, sample: DVec3, tolerance: f64) -> bool {
     (0..3).all(|channel| {
         let (expected, sample) = (expected[channel], sample[channel]);
         if expected.is_nan() {
-            true
+            !sample.is_finite()
         } else if expected.abs() > OVERFLOWING {
             sample.is_nan() || sample.abs() > OVERFLOWING / 10.0
         } else {
