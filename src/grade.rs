@@ -1,7 +1,7 @@
 //! The pipeline: the only module that knows all the stages.
 
 use crate::compare::{self, ExpectedFrame};
-use crate::diagnose::{self, Evidence};
+use crate::diagnose::{self, Evidence, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -12,8 +12,18 @@ use crate::translate::{self, Interface, Refusal, Translation, Variable};
 use reference::Assignment;
 use reference::probes::ProbeSet;
 use reference::scene::{Matrices, Vertex};
+use serde::{Deserialize, Serialize};
 use std::ffi::CString;
 use std::time::Instant;
+
+/// How a file is to be graded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Order {
+    /// Seed of the probes; the same seed gives the same probes.
+    pub seed: u64,
+    /// How much the messages help.
+    pub hints: Hints,
+}
 
 /// A graded file.
 #[derive(Clone, Debug)]
@@ -62,15 +72,15 @@ impl Grader {
         &self.environment
     }
 
-    /// Grades one file; the same seed gives the same probes.
-    pub fn grade(&mut self, name: &str, bytes: &[u8], seed: u64) -> Result<Graded, Fault> {
+    /// Grades one file.
+    pub fn grade(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
         let start = Instant::now();
-        let mut graded = self.judge(name, bytes, seed)?;
+        let mut graded = self.judge(name, bytes, order)?;
         graded.report.elapsed_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(graded)
     }
 
-    fn judge(&mut self, name: &str, bytes: &[u8], seed: u64) -> Result<Graded, Fault> {
+    fn judge(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
         let source = match source::read(name, bytes) {
             Ok(source) => source,
             Err(refusal) => return Ok(self.rejected(&refusal.facts, refusal.diagnostics)),
@@ -87,9 +97,9 @@ impl Grader {
             Err(Refusal::Fault(fault)) => return Err(fault),
         };
         diagnostics.extend(source.notes.iter().cloned());
-        let probes = self.assignment.probes(seed);
+        let probes = self.assignment.probes(order.seed);
         let rendering = self.renderer.render(&shader, &scene(self.assignment, &probes))?;
-        let report = self.report(&source, &probes, &rendering, diagnostics);
+        let report = self.report(&source, &probes, &rendering, diagnostics, order.hints);
         Ok(Graded { report, frames: Some(rendering.frames) })
     }
 
@@ -105,6 +115,7 @@ impl Grader {
         probes: &ProbeSet,
         rendering: &Rendering,
         diagnostics: Vec<Diagnostic>,
+        hints: Hints,
     ) -> Report {
         let frames: Vec<_> = self
             .expected
@@ -113,7 +124,8 @@ impl Grader {
             .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
             .collect();
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let evidence = Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples, hints };
+        let evidence =
+            Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples, hints };
         let diagnosis = diagnose::diagnose(&evidence);
         let score = diagnosis.rubric.iter().map(|line| line.points).sum();
         let max_score = self.assignment.max_score();

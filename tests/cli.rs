@@ -38,7 +38,9 @@ fn a_right_answer_ends_with_0_and_says_what_agrees() {
         .arg(sample_like("accepted/answers", "plain-int-zero"))
         .assert()
         .code(0)
-        .stdout(predicate::str::contains("100 / 100").and(predicate::str::contains("Every frame and every probe agrees")))
+        .stdout(
+            predicate::str::contains("100 / 100").and(predicate::str::contains("Every frame and every probe agrees")),
+        )
         .stderr("");
 }
 
@@ -62,12 +64,9 @@ fn the_unchanged_starter_scores_0() {
 
 #[test]
 fn a_broken_file_is_rejected_with_its_line_under_a_caret() {
-    ggrade()
-        .arg("grade")
-        .arg(sample_like("rejected", "undeclared-capital-max"))
-        .assert()
-        .code(1)
-        .stdout(predicate::str::contains("Max").and(predicate::str::contains("^")).and(predicate::str::contains("max")));
+    ggrade().arg("grade").arg(sample_like("rejected", "undeclared-capital-max")).assert().code(1).stdout(
+        predicate::str::contains("Max").and(predicate::str::contains("^")).and(predicate::str::contains("max")),
+    );
 }
 
 #[test]
@@ -77,8 +76,19 @@ fn the_json_report_has_the_fields_of_the_contract_in_their_order() {
     assert_eq!(
         keys,
         [
-            "schema", "assignment", "source", "verdict", "score", "max_score", "rubric", "mistakes", "diagnostics",
-            "frames", "probes", "environment", "elapsed_ms"
+            "schema",
+            "assignment",
+            "source",
+            "verdict",
+            "score",
+            "max_score",
+            "rubric",
+            "mistakes",
+            "diagnostics",
+            "frames",
+            "probes",
+            "environment",
+            "elapsed_ms"
         ]
     );
     assert_eq!(report["schema"], "ggrade/report/v1");
@@ -117,13 +127,7 @@ fn no_colour_reaches_a_pipe() {
 fn pictures_and_the_animation_are_written() {
     let folder = tempfile::tempdir().unwrap();
     let frames = folder.path().join("pictures");
-    ggrade()
-        .arg("grade")
-        .arg(sample_like("wrong", "specular-missing--"))
-        .arg("--frames")
-        .arg(&frames)
-        .assert()
-        .code(1);
+    ggrade().arg("grade").arg(sample_like("wrong", "specular-missing--")).arg("--frames").arg(&frames).assert().code(1);
     for name in ["yours-00.png", "expected-24.png", "difference-12.png"] {
         let picture = image::open(frames.join(name)).unwrap();
         assert_eq!((picture.width(), picture.height()), (640, 480), "{name}");

@@ -4,6 +4,7 @@ use super::{Outcome, file_fault, language, writing};
 use crate::cli::{Format, Grade};
 use crate::excerpt;
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::language::{Language, Text};
 use crate::report::Equation;
 use crate::report::html::Page;
@@ -32,7 +33,8 @@ pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let pool = Pool::start(settings, 1)?;
     let wants_frames = arguments.frames.is_some() || arguments.format == Format::Html;
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
-    let answer = pool.grade(Submission { name: &name, bytes: &bytes, seed, wants_frames })?;
+    let order = Order { seed, hints: arguments.hints };
+    let answer = pool.grade(Submission { name: &name, bytes: &bytes, order, wants_frames })?;
     drop(pool);
 
     let Answer { report, frames } = answer;

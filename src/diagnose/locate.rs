@@ -28,7 +28,8 @@ pub(super) fn find(source: &Source, telling: &[String]) -> Option<Located> {
 }
 
 fn is_declaration(line: &str) -> bool {
-    let first = line.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '#')).find(|word| !word.is_empty());
+    let first =
+        line.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '#')).find(|word| !word.is_empty());
     matches!(first, Some("in" | "out" | "uniform" | "const" | "layout" | "attribute" | "varying"))
         || first.is_some_and(|word| word.starts_with('#') && !line.contains("define"))
 }
@@ -37,9 +38,8 @@ fn is_declaration(line: &str) -> bool {
 fn contains(line: &str, part: &str) -> bool {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     line.match_indices(part).any(|(at, _)| {
-        let joined = |outside: Option<char>, inside: Option<char>| {
-            outside.is_some_and(is_word) && inside.is_some_and(is_word)
-        };
+        let joined =
+            |outside: Option<char>, inside: Option<char>| outside.is_some_and(is_word) && inside.is_some_and(is_word);
         let before = line[..at].chars().next_back();
         let after = line[at + part.len()..].chars().next();
         // Types stand right before a name once spaces are gone, so only what follows can lengthen it.
@@ -83,7 +83,8 @@ mod tests {
 
     #[test]
     fn spaces_and_comments_do_not_count() {
-        let code = "#version 410\n// h = l + v\nvoid main() {\n  vec3 h = (l  +  v) / 2.0;\n gl_Position = vec4(h, 1);\n}\n";
+        let code =
+            "#version 410\n// h = l + v\nvoid main() {\n  vec3 h = (l  +  v) / 2.0;\n gl_Position = vec4(h, 1);\n}\n";
         assert_eq!(located(code, &["l+v"]), Some((4, Some("h".into()))));
     }
 

@@ -147,9 +147,10 @@ fn region(region: Region) -> Text {
             "Seen where light and half vector are behind the surface",
             "光も中間ベクトルも面の裏側にあるところ",
         ),
-        Region::DiffuseOnly => {
-            Text::new("Seen where the light falls on the surface, away from the highlight", "光が当たり、ハイライトから離れたところ")
-        }
+        Region::DiffuseOnly => Text::new(
+            "Seen where the light falls on the surface, away from the highlight",
+            "光が当たり、ハイライトから離れたところ",
+        ),
         Region::Highlight => Text::new("Seen in the highlight", "ハイライトのところ"),
         Region::HighlightBehind => Text::new(
             "Seen where N·L is not above 0 and N·H is large, for points behind the eye",

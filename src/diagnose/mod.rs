@@ -166,7 +166,7 @@ fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples:
     if constants.is_empty() {
         return None;
     }
-    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found)).collect();
+    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
     let changed = evidence.assignment.with_constants(&changes).ok()?;
     match explain(&changed, evidence.probes, samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) => Some(found),
@@ -198,8 +198,11 @@ fn judge(
 ) -> RubricLine {
     let touching = |id: &&str| is_touched(evidence.assignment, line, shape, cause, id);
     let culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(touching).collect();
-    let kept: f64 =
-        culprits.iter().filter_map(|id| evidence.assignment.mistake(id)).map(|mistake| mistake.keeps(&line.id)).product();
+    let kept: f64 = culprits
+        .iter()
+        .filter_map(|id| evidence.assignment.mistake(id))
+        .map(|mistake| mistake.keeps(&line.id))
+        .product();
     let told = message::tell(evidence, line, cause, &culprits);
     RubricLine {
         id: line.id.clone(),

@@ -35,36 +35,22 @@ pub struct Driver {
 impl Driver {
     /// Makes a context in this thread.
     pub fn start(version: Version) -> Result<Self, String> {
-        Ok(Self {
-            context: Context::start(version)?,
-        })
+        Ok(Self { context: Context::start(version)? })
     }
 
     /// Renderer and version.
     pub fn renderer(&self) -> String {
         // SAFETY: see the head of this file.
-        let [renderer, version] = unsafe {
-            [glow::RENDERER, glow::VERSION].map(|name| self.context.gl().get_parameter_string(name))
-        };
+        let [renderer, version] =
+            unsafe { [glow::RENDERER, glow::VERSION].map(|name| self.context.gl().get_parameter_string(name)) };
         format!("{renderer}, OpenGL {version}")
     }
 
     /// Compiles and links; `varyings` are recorded by transform feedback.
-    pub fn link(
-        &self,
-        vertex: &str,
-        fragment: &str,
-        varyings: &[&str],
-    ) -> Result<Linked, Rejection> {
-        let vertex = self
-            .shader(glow::VERTEX_SHADER, vertex)
-            .map_err(|log| Rejection {
-                stage: Stage::Compile,
-                log,
-            })?;
-        let fragment = self
-            .shader(glow::FRAGMENT_SHADER, fragment)
-            .expect("the fixed fragment shader compiles");
+    pub fn link(&self, vertex: &str, fragment: &str, varyings: &[&str]) -> Result<Linked, Rejection> {
+        let vertex =
+            self.shader(glow::VERTEX_SHADER, vertex).map_err(|log| Rejection { stage: Stage::Compile, log })?;
+        let fragment = self.shader(glow::FRAGMENT_SHADER, fragment).expect("the fixed fragment shader compiles");
         let gl = self.context.gl();
         // SAFETY: see the head of this file. A shader that is deleted while attached lives as long as the program.
         unsafe {
@@ -82,10 +68,7 @@ impl Driver {
             }
             let log = readable(gl.get_program_info_log(program));
             gl.delete_program(program);
-            Err(Rejection {
-                stage: Stage::Link,
-                log,
-            })
+            Err(Rejection { stage: Stage::Link, log })
         }
     }
 
@@ -118,28 +101,15 @@ impl Driver {
         unsafe {
             gl.use_program(Some(program.0));
             for (name, matrix) in uniforms {
-                gl.uniform_matrix_4_f32_slice(
-                    gl.get_uniform_location(program.0, name).as_ref(),
-                    false,
-                    matrix,
-                );
+                gl.uniform_matrix_4_f32_slice(gl.get_uniform_location(program.0, name).as_ref(), false, matrix);
                 gl.get_error();
             }
         }
     }
 
     /// Uploads a mesh, as 3 floats for each attribute that the program uses.
-    pub fn vertices(
-        &self,
-        program: Linked,
-        positions: &[[f32; 3]],
-        normals: &[[f32; 3]],
-    ) -> Vertices {
-        assert_eq!(
-            positions.len(),
-            normals.len(),
-            "one normal for each position"
-        );
+    pub fn vertices(&self, program: Linked, positions: &[[f32; 3]], normals: &[[f32; 3]]) -> Vertices {
+        assert_eq!(positions.len(), normals.len(), "one normal for each position");
         let count = i32::try_from(positions.len()).expect("a mesh that OpenGL can count");
         let gl = self.context.gl();
         // SAFETY: see the head of this file. Both buffers hold `count` times 3 floats, so no draw of `count` vertices
@@ -150,29 +120,20 @@ impl Driver {
             let buffers = [("pv", positions), ("cv", normals)].map(|(name, values)| {
                 let buffer = gl.create_buffer().expect("a buffer");
                 gl.bind_buffer(glow::ARRAY_BUFFER, Some(buffer));
-                gl.buffer_data_u8_slice(
-                    glow::ARRAY_BUFFER,
-                    bytemuck::cast_slice(values),
-                    glow::STATIC_DRAW,
-                );
+                gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, bytemuck::cast_slice(values), glow::STATIC_DRAW);
                 if let Some(location) = gl.get_attrib_location(program.0, name) {
                     gl.enable_vertex_attrib_array(location);
                     gl.vertex_attrib_pointer_f32(location, 3, glow::FLOAT, false, 0, 0);
                 }
                 buffer
             });
-            Vertices {
-                array,
-                buffers,
-                count,
-            }
+            Vertices { array, buffers, count }
         }
     }
 
     /// Makes a framebuffer.
     pub fn frame(&self, width: u32, height: u32) -> Frame {
-        let [width, height] =
-            [width, height].map(|side| i32::try_from(side).expect("a size that OpenGL can count"));
+        let [width, height] = [width, height].map(|side| i32::try_from(side).expect("a size that OpenGL can count"));
         let gl = self.context.gl();
         // SAFETY: see the head of this file.
         unsafe {
@@ -184,28 +145,13 @@ impl Driver {
             let (kind, colour) = (glow::RENDERBUFFER, glow::COLOR_ATTACHMENT0);
             gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, colour, kind, Some(renderbuffer));
             let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
-            assert_eq!(
-                status,
-                glow::FRAMEBUFFER_COMPLETE,
-                "a framebuffer of {width} × {height}"
-            );
-            Frame {
-                framebuffer,
-                renderbuffer,
-                width,
-                height,
-            }
+            assert_eq!(status, glow::FRAMEBUFFER_COMPLETE, "a framebuffer of {width} × {height}");
+            Frame { framebuffer, renderbuffer, width, height }
         }
     }
 
     /// Clears the frame and draws triangles.
-    pub fn draw(
-        &self,
-        frame: &Frame,
-        program: Linked,
-        vertices: &Vertices,
-        [red, green, blue, alpha]: [f32; 4],
-    ) {
+    pub fn draw(&self, frame: &Frame, program: Linked, vertices: &Vertices, [red, green, blue, alpha]: [f32; 4]) {
         let gl = self.context.gl();
         // SAFETY: see the head of this file. The buffers behind the vertex array hold `count` vertices.
         unsafe {
@@ -222,8 +168,7 @@ impl Driver {
 
     /// Reads RGBA, 8 bits a channel, bottom row first.
     pub fn read(&self, frame: &Frame) -> Vec<u8> {
-        let [width, height] =
-            [frame.width, frame.height].map(|side| usize::try_from(side).unwrap_or(0));
+        let [width, height] = [frame.width, frame.height].map(|side| usize::try_from(side).unwrap_or(0));
         let mut pixels = vec![0; width * height * 4];
         let gl = self.context.gl();
         // SAFETY: see the head of this file. The slice holds 4 bytes for each pixel that is read, and rows of 4-byte
@@ -231,27 +176,14 @@ impl Driver {
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(frame.framebuffer));
             let into = glow::PixelPackData::Slice(Some(&mut pixels));
-            gl.read_pixels(
-                0,
-                0,
-                frame.width,
-                frame.height,
-                glow::RGBA,
-                glow::UNSIGNED_BYTE,
-                into,
-            );
+            gl.read_pixels(0, 0, frame.width, frame.height, glow::RGBA, glow::UNSIGNED_BYTE, into);
         }
         self.check("read");
         pixels
     }
 
     /// Runs a program whose recorded varyings are 8 floats, once for each vertex, and returns them.
-    pub fn record(
-        &self,
-        program: Linked,
-        positions: &[[f32; 3]],
-        normals: &[[f32; 3]],
-    ) -> Vec<f32> {
+    pub fn record(&self, program: Linked, positions: &[[f32; 3]], normals: &[[f32; 3]]) -> Vec<f32> {
         let vertices = self.vertices(program, positions, normals);
         // Without a window OpenGL draws only into a framebuffer, even when it discards what it draws.
         let frame = self.frame(1, 1);
@@ -285,10 +217,7 @@ impl Driver {
             self.context.gl().delete_framebuffer(frame.framebuffer);
             self.context.gl().delete_renderbuffer(frame.renderbuffer);
             self.context.gl().delete_vertex_array(vertices.array);
-            vertices
-                .buffers
-                .into_iter()
-                .for_each(|buffer| self.context.gl().delete_buffer(buffer));
+            vertices.buffers.into_iter().for_each(|buffer| self.context.gl().delete_buffer(buffer));
         }
     }
 

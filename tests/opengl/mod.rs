@@ -3,10 +3,7 @@
 //! The context is OpenGL 4.1 core or newer on Mesa's software driver, without a display (EGL, surfaceless platform).
 //! The state is that of the course program: no depth test, no culling, no blending, no multisampling, no dithering,
 //! 8 bits a channel without sRGB encoding. Nothing here shares code with what the tests hold against it.
-#![allow(
-    dead_code,
-    reason = "every test binary that includes this module uses a part of it"
-)]
+#![allow(dead_code, reason = "every test binary that includes this module uses a part of it")]
 
 mod context;
 mod driver;
@@ -82,17 +79,10 @@ impl Rejection {
     /// The line, from 1, of the first error of the log; `#line` directives count. The linker names none, nor
     /// does the compiler for a recursion.
     pub fn line(&self) -> Option<u32> {
-        self.log
-            .lines()
-            .filter(|line| line.contains("error"))
-            .find_map(|line| {
-                let (_, rest) = line.split_once(':')?;
-                rest.split_once('(')?
-                    .0
-                    .parse()
-                    .ok()
-                    .filter(|&line| line > 0)
-            })
+        self.log.lines().filter(|line| line.contains("error")).find_map(|line| {
+            let (_, rest) = line.split_once(':')?;
+            rest.split_once('(')?.0.parse().ok().filter(|&line| line > 0)
+        })
     }
 }
 
@@ -132,9 +122,7 @@ impl OpenGl {
     /// # Errors
     /// As for [`OpenGl::new`]; and when the process has started the driver with another version before.
     pub fn with_version(version: Version) -> Result<Self, String> {
-        Ok(Self {
-            driver: Driver::start(version)?,
-        })
+        Ok(Self { driver: Driver::start(version)? })
     }
 
     /// The driver's name and version, for reports.
@@ -152,25 +140,12 @@ impl OpenGl {
     pub fn compile(&self, vertex: &[u8], fragment: &str) -> Result<Program<'_>, Rejection> {
         let vertex = String::from_utf8_lossy(vertex);
         let drawing = self.driver.link(&vertex, fragment, &[])?;
-        let recording = self
-            .driver
-            .link(&vertex, fragment, &["vc", "gl_Position"])
-            .map_err(|refused| refused.log);
-        Ok(Program {
-            gl: self,
-            drawing,
-            recording,
-        })
+        let recording = self.driver.link(&vertex, fragment, &["vc", "gl_Position"]).map_err(|refused| refused.log);
+        Ok(Program { gl: self, drawing, recording })
     }
 
     /// Draws one pose.
-    pub fn draw(
-        &self,
-        program: &Program<'_>,
-        uniforms: Uniforms<'_>,
-        mesh: Mesh<'_>,
-        canvas: Canvas,
-    ) -> Picture {
+    pub fn draw(&self, program: &Program<'_>, uniforms: Uniforms<'_>, mesh: Mesh<'_>, canvas: Canvas) -> Picture {
         self.draw_many(program, &[uniforms], mesh, canvas).remove(0)
     }
 
@@ -183,13 +158,10 @@ impl OpenGl {
         canvas: Canvas,
     ) -> Vec<Picture> {
         let frame = self.driver.frame(canvas.width, canvas.height);
-        let vertices = self
-            .driver
-            .vertices(program.drawing, mesh.positions, mesh.normals);
+        let vertices = self.driver.vertices(program.drawing, mesh.positions, mesh.normals);
         let draw = |uniforms: &Uniforms<'_>| {
             self.driver.set_uniforms(program.drawing, uniforms);
-            self.driver
-                .draw(&frame, program.drawing, &vertices, canvas.background);
+            self.driver.draw(&frame, program.drawing, &vertices, canvas.background);
             Picture {
                 width: canvas.width,
                 height: canvas.height,
@@ -218,20 +190,12 @@ impl OpenGl {
             .as_chunks::<8>()
             .0
             .iter()
-            .map(|&[r, g, b, a, x, y, z, w]| Vertex {
-                vc: [r, g, b, a],
-                position: [x, y, z, w],
-            })
+            .map(|&[r, g, b, a, x, y, z, w]| Vertex { vc: [r, g, b, a], position: [x, y, z, w] })
             .collect())
     }
 }
 
 /// OpenGL reads the bottom row first.
 fn top_row_first(pixels: Vec<u8>, canvas: Canvas) -> Vec<u8> {
-    pixels
-        .chunks_exact(canvas.width as usize * 4)
-        .rev()
-        .flatten()
-        .copied()
-        .collect()
+    pixels.chunks_exact(canvas.width as usize * 4).rev().flatten().copied().collect()
 }
