@@ -16,7 +16,7 @@
 //! let assignment = reference::assignment("ggsample06").expect("built in");
 //! let probes = assignment.probes(7);
 //! let right: Vec<[f64; 3]> = probes.iter().map(|p| p.colour.to_array()).collect();
-//! let fit = reference::fit::explain(assignment, &probes, &right, 2e-3);
+//! let fit = reference::fit::explain(assignment, &probes, &right, reference::fit::TOLERANCE);
 //! assert!(fit.is_right());
 //! ```
 

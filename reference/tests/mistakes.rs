@@ -1,12 +1,9 @@
 //! The table of mistakes and the probes, held against one another: every mistake shows, and is found.
 
-use reference::fit::{Fit, explain};
+use reference::fit::{Fit, TOLERANCE, explain};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
 use reference::{Assignment, Value, assignment};
-
-/// What ggrade allows a driver's f32: x^80 in f32 is off by 1e-5 as a rule and by less than 1e-3 at worst.
-const TOLERANCE: f64 = 2e-3;
 
 /// How far apart two mistakes must be somewhere.
 const MARGIN: f64 = 10.0 * TOLERANCE;
