@@ -6,7 +6,7 @@
 //! - [`expression`]: the small exact subset of GLSL in which equations are written
 //! - [`equation`]: definitions evaluated in order, with any of them replaced
 //! - [`scene`]: poses and matrices of the course program
-//! - [`manifest`], [`assignment`], [`mistake`]: the folder, read and checked
+//! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
 //! - [`fit`]: which mistakes explain what a shader computed

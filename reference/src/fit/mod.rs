@@ -19,7 +19,7 @@ pub const MOST_MISTAKES: usize = 3;
 
 /// A tolerance for [`explain`] that suits f32 drivers: half a step of 8 bits, which nobody sees.
 ///
-/// Measured on Mesa's OpenGL driver (llvmpipe) at 560 probes: the right answer is off by 4.3e-6 at most, each of the 131 forms
+/// Measured on Mesa's OpenGL driver (llvmpipe) at 560 probes: the right answer is off by 4.3e-6 at most, each of the 132 forms
 /// in ggsample06's table by 2.4e-5. The tests hold every two mistakes ten times this tolerance apart.
 pub const TOLERANCE: f64 = 2e-3;
 
