@@ -133,18 +133,9 @@ pub const MANIFEST: &str = "assignment.toml";
 type Folder = &'static [(&'static str, &'static str)];
 
 const BUILT_IN: &[Folder] = &[&[
-    (
-        MANIFEST,
-        include_str!("../assignments/ggsample06/assignment.toml"),
-    ),
-    (
-        "starter.vert",
-        include_str!("../assignments/ggsample06/starter.vert"),
-    ),
-    (
-        "fixed.frag",
-        include_str!("../assignments/ggsample06/fixed.frag"),
-    ),
+    (MANIFEST, include_str!("../assignments/ggsample06/assignment.toml")),
+    ("starter.vert", include_str!("../assignments/ggsample06/starter.vert")),
+    ("fixed.frag", include_str!("../assignments/ggsample06/fixed.frag")),
 ]];
 
 /// The assignments that are built in.
@@ -157,8 +148,7 @@ pub fn assignments() -> &'static [Assignment] {
         let load = |folder: &Folder| {
             Assignment::load(|name| {
                 let file = folder.iter().find(|(n, _)| *n == name);
-                file.map(|(_, text)| (*text).to_owned())
-                    .ok_or_else(|| "is not in the folder".to_owned())
+                file.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "is not in the folder".to_owned())
             })
         };
         let all: Result<Vec<_>, _> = BUILT_IN.iter().map(load).collect();
@@ -269,10 +259,7 @@ impl Attribute {
 }
 
 fn error(place: impl Into<String>, message: impl Into<String>) -> AssignmentError {
-    AssignmentError {
-        place: place.into(),
-        message: message.into(),
-    }
+    AssignmentError { place: place.into(), message: message.into() }
 }
 
 #[cfg(test)]

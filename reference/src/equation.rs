@@ -78,20 +78,12 @@ impl Equation {
     }
 
     /// The value in a slot that is not a definition's.
-    pub(crate) fn given(
-        &self,
-        slot: usize,
-        uniforms: &[Value],
-        attributes: &[Value],
-    ) -> Option<Value> {
+    pub(crate) fn given(&self, slot: usize, uniforms: &[Value], attributes: &[Value]) -> Option<Value> {
         if let Some(constant) = self.constants.get(slot) {
             return Some(constant.clone());
         }
         let slot = slot - self.constants.len();
-        uniforms
-            .get(slot)
-            .or_else(|| attributes.get(slot.checked_sub(self.uniforms)?))
-            .cloned()
+        uniforms.get(slot).or_else(|| attributes.get(slot.checked_sub(self.uniforms)?)).cloned()
     }
 
     /// The equation as it stands.
@@ -121,17 +113,11 @@ impl<'a> Variant<'a> {
         for expression in &self.expressions {
             let value = expression.evaluate(&|slot| match self.equation.definition_in(slot) {
                 Some(d) => values.get(d).cloned().unwrap_or(Value::Float(f64::NAN)),
-                None => self
-                    .equation
-                    .given(slot, uniforms, attributes)
-                    .unwrap_or(Value::Float(self.parameter)),
+                None => self.equation.given(slot, uniforms, attributes).unwrap_or(Value::Float(self.parameter)),
             });
             values.push(value);
         }
-        Outcome {
-            equation: self.equation,
-            values,
-        }
+        Outcome { equation: self.equation, values }
     }
 }
 

@@ -15,10 +15,7 @@ pub fn answer(assignment: &Assignment, mistakes: &[Found]) -> Option<String> {
         Some((free.name.as_str(), found.parameter?))
     });
     if let Some((name, value)) = parameters.next() {
-        line(
-            &mut text,
-            &format!("const float {name} = {};", number(value)),
-        );
+        line(&mut text, &format!("const float {name} = {};", number(value)));
     }
     line(&mut text, "void main()");
     line(&mut text, "{");
@@ -29,10 +26,7 @@ pub fn answer(assignment: &Assignment, mistakes: &[Found]) -> Option<String> {
         line(&mut text, &format!("    {kind} {name} = {value};"));
     }
     for output in &assignment.interface.outputs {
-        line(
-            &mut text,
-            &format!("    {} = {};", output.name, output.carries),
-        );
+        line(&mut text, &format!("    {} = {};", output.name, output.carries));
     }
     let position = crate::equation::POSITION;
     line(&mut text, &format!("    gl_Position = {position};"));
@@ -48,10 +42,7 @@ fn preamble(assignment: &Assignment) -> String {
     line(&mut text, version.unwrap_or("#version 410 core"));
     for c in &assignment.constants {
         let kind = c.kind.glsl();
-        line(
-            &mut text,
-            &format!("const {kind} {} = {};", c.name, literal(&c.value)),
-        );
+        line(&mut text, &format!("const {kind} {} = {};", c.name, literal(&c.value)));
     }
     for i in &assignment.interface.inputs {
         line(&mut text, &format!("in {} {};", i.kind.glsl(), i.name));
@@ -102,11 +93,7 @@ mod tests {
     #[test]
     fn a_mistake_stands_in_its_statement_and_its_parameter_before() {
         let assignment = assignment("ggsample06").expect("built in");
-        let found = Found {
-            id: "specular-wrong-exponent".into(),
-            form: 0,
-            parameter: Some(20.0),
-        };
+        let found = Found { id: "specular-wrong-exponent".into(), form: 0, parameter: Some(20.0) };
         let text = answer(assignment, &[found]).expect("a known mistake");
         assert!(text.contains("const float x = 20.0;\nvoid main()"));
         assert!(text.contains("    float highlight = pow(facing, x);\n"));
@@ -115,11 +102,7 @@ mod tests {
     #[test]
     fn an_unknown_mistake_has_no_shader() {
         let assignment = assignment("ggsample06").expect("built in");
-        let found = Found {
-            id: "no-such-mistake".into(),
-            form: 0,
-            parameter: None,
-        };
+        let found = Found { id: "no-such-mistake".into(), form: 0, parameter: None };
         assert_eq!(answer(assignment, &[found]), None);
     }
 }

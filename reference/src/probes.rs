@@ -83,9 +83,7 @@ impl ProbeSet {
     /// The probes of one group.
     pub fn of_group(&self, group: usize) -> &[Probe] {
         let each = self.probes.len() / self.groups.len().max(1);
-        self.probes
-            .get(group * each..(group + 1) * each)
-            .unwrap_or_default()
+        self.probes.get(group * each..(group + 1) * each).unwrap_or_default()
     }
 }
 
@@ -124,11 +122,7 @@ impl Assignment {
             }
             groups.push(Group { matrices, uniforms });
         }
-        ProbeSet {
-            seed,
-            groups,
-            probes,
-        }
+        ProbeSet { seed, groups, probes }
     }
 }
 
@@ -140,16 +134,9 @@ fn random_camera(random: &mut Random) -> Matrices {
     let rotation = DQuat::from_axis_angle(axis, random.between(0.4, 2.7));
     let shift = random.direction() * random.between(3.0, 8.0);
     let near = random.between(0.5, 2.0);
-    let projection = perspective(
-        random.between(0.4, 1.2),
-        random.between(0.8, 1.8),
-        near,
-        near + random.between(10.0, 20.0),
-    );
-    Matrices::new(
-        DMat4::from_rotation_translation(rotation, shift),
-        projection,
-    )
+    let projection =
+        perspective(random.between(0.4, 1.2), random.between(0.8, 1.8), near, near + random.between(10.0, 20.0));
+    Matrices::new(DMat4::from_rotation_translation(rotation, shift), projection)
 }
 
 /// Random numbers that are the same on every machine.

@@ -50,12 +50,7 @@ impl Frame {
     /// A picture of one colour.
     pub fn cleared(width: u32, height: u32, background: [u8; 4]) -> Self {
         let count = width as usize * height as usize;
-        Self {
-            width,
-            height,
-            pixels: vec![background; count],
-            coverage: vec![Coverage::Outside; count],
-        }
+        Self { width, height, pixels: vec![background; count], coverage: vec![Coverage::Outside; count] }
     }
 
     /// Draws a triangle over what is there. A vertex that is not finite draws nothing.
@@ -80,12 +75,7 @@ impl Frame {
         clip(triangle.map(|v| v.position).to_vec())
             .into_iter()
             .filter(|p| p.w > 0.0)
-            .map(|p| {
-                DVec2::new(
-                    (p.x / p.w + 1.0) / 2.0 * size.x,
-                    (1.0 - p.y / p.w) / 2.0 * size.y,
-                )
-            })
+            .map(|p| DVec2::new((p.x / p.w + 1.0) / 2.0 * size.x, (1.0 - p.y / p.w) / 2.0 * size.y))
             .collect()
     }
 
@@ -153,11 +143,7 @@ fn span(outline: &[DVec2], y: f64) -> Option<(f64, f64)> {
     let crossing = |(i, a): (usize, &DVec2)| {
         let b = &outline[(i + 1) % outline.len()];
         // Upper end first: two triangles that share an edge find the same number.
-        let (upper, lower) = if (a.y, a.x) <= (b.y, b.x) {
-            (a, b)
-        } else {
-            (b, a)
-        };
+        let (upper, lower) = if (a.y, a.x) <= (b.y, b.x) { (a, b) } else { (b, a) };
         let crosses = upper.y <= y && y < lower.y;
         crosses.then(|| upper.x + (y - upper.y) * ((lower.x - upper.x) / (lower.y - upper.y)))
     };
@@ -167,14 +153,8 @@ fn span(outline: &[DVec2], y: f64) -> Option<(f64, f64)> {
 
 /// Sutherland and Hodgman: one plane of the view volume after the other.
 fn clip(mut polygon: Vec<DVec4>) -> Vec<DVec4> {
-    let planes: [fn(&DVec4) -> f64; 6] = [
-        |p| p.w + p.z,
-        |p| p.w - p.z,
-        |p| p.w + p.x,
-        |p| p.w - p.x,
-        |p| p.w + p.y,
-        |p| p.w - p.y,
-    ];
+    let planes: [fn(&DVec4) -> f64; 6] =
+        [|p| p.w + p.z, |p| p.w - p.z, |p| p.w + p.x, |p| p.w - p.x, |p| p.w + p.y, |p| p.w - p.y];
     for distance in planes {
         let mut kept = Vec::with_capacity(polygon.len() + 1);
         for (i, a) in polygon.iter().enumerate() {

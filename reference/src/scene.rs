@@ -48,10 +48,7 @@ impl Vertex {
     /// A vertex from the three floats of each attribute, rounded to f32 as a vertex buffer holds them.
     pub fn new(position: DVec3, normal: DVec3) -> Self {
         let attribute = |v: DVec3| v.as_vec3().as_dvec3().extend(1.0);
-        Self {
-            position: attribute(position),
-            normal: attribute(normal),
-        }
+        Self { position: attribute(position), normal: attribute(normal) }
     }
 }
 
@@ -92,10 +89,7 @@ impl Scene {
         let view = look_at(self.eye, self.target, self.up);
         let aspect = f64::from(self.width) / f64::from(self.height);
         let projection = perspective(self.fovy, aspect, self.near, self.far);
-        Pose {
-            t,
-            matrices: Matrices::new(view * rotate_y(self.turn * t), projection),
-        }
+        Pose { t, matrices: Matrices::new(view * rotate_y(self.turn * t), projection) }
     }
 
     /// The poses that are looked at: t = k / n.
@@ -105,9 +99,7 @@ impl Scene {
 
     /// `count` poses of the cycle: t = k / count.
     pub fn evenly_spaced(&self, count: u32) -> Vec<Pose> {
-        (0..count)
-            .map(|k| self.pose(f64::from(k) / f64::from(count)))
-            .collect()
+        (0..count).map(|k| self.pose(f64::from(k) / f64::from(count))).collect()
     }
 }
 
@@ -134,12 +126,7 @@ pub fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> DMat4 {
 /// Rotation by `angle` about the y axis: z turns towards x.
 pub fn rotate_y(angle: f64) -> DMat4 {
     let (s, c) = angle.sin_cos();
-    DMat4::from_cols(
-        DVec4::new(c, 0.0, -s, 0.0),
-        DVec4::Y,
-        DVec4::new(s, 0.0, c, 0.0),
-        DVec4::W,
-    )
+    DMat4::from_cols(DVec4::new(c, 0.0, -s, 0.0), DVec4::Y, DVec4::new(s, 0.0, c, 0.0), DVec4::W)
 }
 
 /// The projection of `gluPerspective`: z = -near goes to -1 and z = -far to 1 after division by w.
@@ -159,11 +146,7 @@ pub fn perspective(fovy: f64, aspect: f64, near: f64, far: f64) -> DMat4 {
 /// The cofactor matrix of (a b c) has the columns b×c, c×a, a×b; it is the transposed inverse times the determinant, so a
 /// transformed normal stays perpendicular to the transformed surface.
 pub fn normal_matrix(m: DMat4) -> DMat4 {
-    let (a, b, c) = (
-        m.x_axis.truncate(),
-        m.y_axis.truncate(),
-        m.z_axis.truncate(),
-    );
+    let (a, b, c) = (m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate());
     DMat4::from_mat3(DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)))
 }
 
@@ -192,10 +175,7 @@ mod tests {
         let view = look_at(eye, target, DVec3::Y);
         assert!(near(view * eye.extend(1.0), DVec4::W));
         // The target is 5 away (3-4-5 triangle), straight ahead.
-        assert!(near(
-            view * target.extend(1.0),
-            DVec4::new(0.0, 0.0, -5.0, 1.0)
-        ));
+        assert!(near(view * target.extend(1.0), DVec4::new(0.0, 0.0, -5.0, 1.0)));
         // x stays x; world up has the component cos(angle of elevation) = 4/5 along y and 3/5 along z.
         assert!(near(view * DVec4::X, DVec4::X));
         assert!(near(view * DVec4::Y, DVec4::new(0.0, 0.8, 0.6, 0.0)));

@@ -15,10 +15,7 @@ pub struct Text {
 impl Text {
     /// Both wordings with their `{placeholders}` filled in. A part in ⟨ ⟩ is left out if one of its placeholders is not given.
     pub fn fill(&self, values: &[(&str, &str)]) -> Self {
-        Self {
-            en: fill(&self.en, values),
-            ja: fill(&self.ja, values),
-        }
+        Self { en: fill(&self.en, values), ja: fill(&self.ja, values) }
     }
 }
 
@@ -41,9 +38,7 @@ fn fill(text: &str, values: &[(&str, &str)]) -> String {
 
 /// The names in braces.
 fn placeholders(text: &str) -> impl Iterator<Item = &str> {
-    text.split('{')
-        .skip(1)
-        .filter_map(|part| part.split_once('}').map(|(name, _)| name))
+    text.split('{').skip(1).filter_map(|part| part.split_once('}').map(|(name, _)| name))
 }
 
 /// In one pass, so that braces in a value are not taken for placeholders.
@@ -74,19 +69,13 @@ mod tests {
     use super::*;
 
     fn text(en: &str) -> Text {
-        Text {
-            en: en.into(),
-            ja: en.into(),
-        }
+        Text { en: en.into(), ja: en.into() }
     }
 
     #[test]
     fn a_part_in_angle_brackets_needs_its_placeholders() {
         let look = text("Look at `h`⟨ on line {line}⟩: how long is⟨ `{name}`⟩ it?");
-        assert_eq!(
-            look.fill(&[("line", "37")]).en,
-            "Look at `h` on line 37: how long is it?"
-        );
+        assert_eq!(look.fill(&[("line", "37")]).en, "Look at `h` on line 37: how long is it?");
         assert_eq!(look.fill(&[]).ja, "Look at `h`: how long is it?");
     }
 

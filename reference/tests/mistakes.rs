@@ -63,19 +63,13 @@ fn every_mistake_is_told_from_every_other_and_from_the_right_answer() {
     for seed in SEEDS {
         let probes = assignment.probes(seed);
         let right = samples(assignment, &probes, &[]);
-        let columns: Vec<_> = forms
-            .iter()
-            .map(|f| samples(assignment, &probes, std::slice::from_ref(f)))
-            .collect();
+        let columns: Vec<_> = forms.iter().map(|f| samples(assignment, &probes, std::slice::from_ref(f))).collect();
         for (i, a) in forms.iter().enumerate() {
             let apart = distance(&columns[i], &right);
             assert!(apart >= MARGIN, "seed {seed}: {a:?} is right to {apart:e}");
             for (j, b) in forms.iter().enumerate().take(i) {
                 let apart = distance(&columns[i], &columns[j]);
-                assert!(
-                    a.id == b.id || apart >= MARGIN,
-                    "seed {seed}: {a:?} and {b:?} are only {apart:e} apart"
-                );
+                assert!(a.id == b.id || apart >= MARGIN, "seed {seed}: {a:?} and {b:?} are only {apart:e} apart");
             }
         }
     }
@@ -87,11 +81,7 @@ fn every_mistake_is_found_alone() {
     for seed in [1, 99] {
         let probes = assignment.probes(seed);
         for planted in all_forms(assignment) {
-            let given = noisy(&samples(
-                assignment,
-                &probes,
-                std::slice::from_ref(&planted),
-            ));
+            let given = noisy(&samples(assignment, &probes, std::slice::from_ref(&planted)));
             match explain(assignment, &probes, &given, TOLERANCE) {
                 Fit::Explained(found) => {
                     let ids: Vec<_> = found.iter().map(|f| f.id.as_str()).collect();
@@ -114,9 +104,7 @@ fn first_forms_of<'a>(assignment: &'a Assignment, line: &'a str) -> impl Iterato
         .filter(|m| m.keeps.len() == 1 && m.keeps[0].0 == line)
         .map(|m| m.id.clone())
         .collect();
-    all_forms(assignment)
-        .into_iter()
-        .filter(move |f| f.form == 0 && f.parameter.is_none() && ids.contains(&f.id))
+    all_forms(assignment).into_iter().filter(move |f| f.form == 0 && f.parameter.is_none() && ids.contains(&f.id))
 }
 
 fn ids(mistakes: &[Found]) -> Vec<&str> {
@@ -130,11 +118,7 @@ fn mistakes_in_two_lines_are_both_found() {
     let assignment = ggsample06();
     let probes = assignment.probes(4);
     let (mut tried, mut same) = (0, 0);
-    for (one, other) in [
-        ("ambient", "diffuse"),
-        ("ambient", "specular"),
-        ("diffuse", "specular"),
-    ] {
+    for (one, other) in [("ambient", "diffuse"), ("ambient", "specular"), ("diffuse", "specular")] {
         for a in first_forms_of(assignment, one) {
             for b in first_forms_of(assignment, other) {
                 let planted = [a.clone(), b.clone()];
@@ -164,17 +148,9 @@ fn mistakes_in_two_lines_are_both_found() {
 fn three_mistakes_are_found() {
     let assignment = ggsample06();
     let probes = assignment.probes(5);
-    let mistake = |id: &str, parameter: Option<f64>| Found {
-        id: id.to_owned(),
-        form: 0,
-        parameter,
-    };
+    let mistake = |id: &str, parameter: Option<f64>| Found { id: id.to_owned(), form: 0, parameter };
     for planted in [
-        [
-            mistake("ambient-missing", None),
-            mistake("diffuse-unclamped", None),
-            mistake("specular-phong", None),
-        ],
+        [mistake("ambient-missing", None), mistake("diffuse-unclamped", None), mistake("specular-phong", None)],
         [
             mistake("ambient-added", None),
             mistake("specular-half-unnormalized", None),
@@ -217,10 +193,7 @@ fn right_answers_are_right_however_they_are_written() {
                 let mut vertex = p.vertex;
                 vertex.normal.w = 0.0;
                 let uniforms = other.uniform_values(&probes.groups[p.group].matrices);
-                let outcome = other
-                    .equation
-                    .right()
-                    .evaluate(&uniforms, &other.attribute_values(&vertex));
+                let outcome = other.equation.right().evaluate(&uniforms, &other.attribute_values(&vertex));
                 outcome.colour().to_array()
             })
             .collect();
@@ -236,10 +209,7 @@ fn an_unknown_mistake_is_judged_where_terms_stand_alone() {
     let given: Vec<[f64; 3]> = probes
         .iter()
         .map(|p| {
-            let outcome = assignment
-                .equation
-                .right()
-                .evaluate(probes.uniforms(p), &p.attributes);
+            let outcome = assignment.equation.right().evaluate(probes.uniforms(p), &p.attributes);
             let cosine = outcome.get("lambert").expect("a definition").float();
             let tint = 0.3 + 0.05 * p.vertex.position.truncate();
             (p.colour + cosine * cosine * tint).to_array()
@@ -248,14 +218,8 @@ fn an_unknown_mistake_is_judged_where_terms_stand_alone() {
     let Fit::Unexplained(terms) = explain(assignment, &probes, &given, TOLERANCE) else {
         panic!("something explains it");
     };
-    let right: Vec<(&str, bool)> = terms
-        .iter()
-        .map(|t| (t.line.as_str(), t.is_right()))
-        .collect();
-    assert_eq!(
-        right,
-        [("ambient", true), ("diffuse", false), ("specular", true)]
-    );
+    let right: Vec<(&str, bool)> = terms.iter().map(|t| (t.line.as_str(), t.is_right())).collect();
+    assert_eq!(right, [("ambient", true), ("diffuse", false), ("specular", true)]);
     let worst = terms[1].worst.expect("a place");
     assert_eq!(worst.region, probes.probes[worst.probe].region);
     assert_eq!(worst.expected, probes.probes[worst.probe].colour);
@@ -282,16 +246,10 @@ fn samples_that_are_no_numbers_or_missing_are_never_right() {
     for poison in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut given = right.clone();
         given[100][1] = poison;
-        assert!(matches!(
-            explain(assignment, &probes, &given, TOLERANCE),
-            Fit::Unexplained(_)
-        ));
+        assert!(matches!(explain(assignment, &probes, &given, TOLERANCE), Fit::Unexplained(_)));
     }
     for count in [0, 1, right.len() - 1] {
-        assert!(matches!(
-            explain(assignment, &probes, &right[..count], TOLERANCE),
-            Fit::Unexplained(_)
-        ));
+        assert!(matches!(explain(assignment, &probes, &right[..count], TOLERANCE), Fit::Unexplained(_)));
     }
 }
 
@@ -299,9 +257,7 @@ fn samples_that_are_no_numbers_or_missing_are_never_right() {
 fn an_answer_with_other_constants_is_right_for_those_constants() {
     let assignment = ggsample06();
     let probes = assignment.probes(8);
-    let changed = assignment
-        .with_constants(&[("kshi", Value::Float(20.0))])
-        .expect("a constant");
+    let changed = assignment.with_constants(&[("kshi", Value::Float(20.0))]).expect("a constant");
     let given = samples(&changed, &probes, &[]);
     assert!(explain(&changed, &probes, &given, TOLERANCE).is_right());
     match explain(assignment, &probes, &given, TOLERANCE) {

@@ -15,9 +15,7 @@ fn ggsample06() -> &'static Assignment {
 }
 
 fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
 #[test]
@@ -33,9 +31,7 @@ fn vertex_colours_agree_with_the_driver() {
         let pose = assignment.scene.pose(entry["t"].as_f64().expect("t"));
         let uniforms = assignment.uniform_values(&pose.matrices);
         for (i, vertex) in assignment.scene.triangle.iter().enumerate() {
-            let colour = right
-                .evaluate(&uniforms, &assignment.attribute_values(vertex))
-                .colour();
+            let colour = right.evaluate(&uniforms, &assignment.attribute_values(vertex)).colour();
             for channel in 0..3 {
                 let theirs = entry["vc"][i][channel].as_f64().expect("a number");
                 worst = worst.max((colour[channel] - theirs).abs());
@@ -47,9 +43,7 @@ fn vertex_colours_agree_with_the_driver() {
 }
 
 fn captured_frame(index: usize) -> image::RgbaImage {
-    image::open(data(&format!("frame-{index:02}.png")))
-        .expect("captured frame")
-        .to_rgba8()
+    image::open(data(&format!("frame-{index:02}.png"))).expect("captured frame").to_rgba8()
 }
 
 fn covered(pixel: &[u8; 4]) -> bool {
@@ -75,10 +69,7 @@ fn compare(ours: &Frame, theirs: &image::RgbaImage, tally: &mut Tally) {
             tally.coverage_mismatches += 1;
             continue;
         }
-        let difference = (0..3)
-            .map(|c| pixel[c].abs_diff(their[c]))
-            .max()
-            .unwrap_or(0);
+        let difference = (0..3).map(|c| pixel[c].abs_diff(their[c])).max().unwrap_or(0);
         if *coverage == Coverage::Interior {
             tally.interior += 1;
             tally.worst = tally.worst.max(difference);
@@ -109,14 +100,8 @@ fn a_wrong_equation_does_not_agree() {
     let moved = other.frames();
     let mismatched = moved.iter().enumerate().any(|(index, frame)| {
         let theirs = captured_frame(index);
-        let pairs = frame
-            .pixels
-            .iter()
-            .zip(&frame.coverage)
-            .zip(theirs.pixels());
-        pairs
-            .into_iter()
-            .any(|((p, c), t)| *c != Coverage::Silhouette && covered(p) != (t[3] == 255))
+        let pairs = frame.pixels.iter().zip(&frame.coverage).zip(theirs.pixels());
+        pairs.into_iter().any(|((p, c), t)| *c != Coverage::Silhouette && covered(p) != (t[3] == 255))
     });
     assert!(mismatched, "the comparison cannot fail");
 }

@@ -155,6 +155,13 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         return Cause::Known { constants, found };
     }
     match fit {
+        // Numbers fitted to one colour that is everywhere the same explain nothing.
+        Fit::Explained(found)
+            if found.iter().any(|mistake| mistake.parameter.is_some())
+                && hard_coded::is_lookup(probes, evidence.samples) =>
+        {
+            Cause::HardCoded
+        }
         Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
         Fit::Unexplained(_) if frames_agree || hard_coded::is_lookup(probes, evidence.samples) => Cause::HardCoded,
         Fit::Unexplained(terms) => Cause::Unexplained(terms),

@@ -1,8 +1,6 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
-use super::{
-    Assignment, AssignmentError, Constant, HandedIn, Input, Interface, Output, Uniform, error,
-};
+use super::{Assignment, AssignmentError, Constant, HandedIn, Input, Interface, Output, Uniform, error};
 use crate::equation::{COLOUR, Definition, Equation, MAX_INPUTS, POSITION};
 use crate::expression::{Expression, Scope, Type, Value};
 use crate::manifest::{self, Manifest};
@@ -16,10 +14,7 @@ const MAX_DEFINITIONS: usize = 64;
 
 type Checked<T> = Result<T, AssignmentError>;
 
-pub(super) fn assignment(
-    m: Manifest,
-    read: impl Fn(&str) -> Checked<String>,
-) -> Checked<Assignment> {
+pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) -> Checked<Assignment> {
     let interface = interface(&m)?;
     let constants = constants(&m)?;
     let equation = equation(&interface, &constants, &m.definition)?;
@@ -27,10 +22,7 @@ pub(super) fn assignment(
         let place = format!("output `{}`", output.name);
         let definition = named(&equation, &output.carries, &place)?;
         if equation.definitions[definition].kind() != output.kind {
-            return Err(error(
-                place,
-                format!("`{}` is not a {}", output.carries, output.kind.glsl()),
-            ));
+            return Err(error(place, format!("`{}` is not a {}", output.carries, output.kind.glsl())));
         }
     }
     for definition in &equation.definitions {
@@ -39,11 +31,7 @@ pub(super) fn assignment(
     }
     let lines = rubric(&m.rubric, &equation)?;
     for constant in &constants {
-        known_line(
-            &lines,
-            &constant.line,
-            &format!("constant `{}`", constant.name),
-        )?;
+        known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let mut ids = HashSet::new();
     let mut mistakes = Vec::new();
@@ -68,25 +56,13 @@ pub(super) fn assignment(
     })
 }
 
-fn files(
-    files: Vec<manifest::File>,
-    read: impl Fn(&str) -> Checked<String>,
-) -> Checked<Vec<HandedIn>> {
+fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> Checked<Vec<HandedIn>> {
     if files.is_empty() {
         return Err(error("file", "nothing is handed in"));
     }
     let handed_in = |file: manifest::File| {
-        let fixed = file
-            .fixed
-            .iter()
-            .map(|f| Ok((f.stage, read(&f.file)?)))
-            .collect::<Checked<_>>()?;
-        Ok(HandedIn {
-            starter: read(&file.starter)?,
-            name: file.name,
-            stage: file.stage,
-            fixed,
-        })
+        let fixed = file.fixed.iter().map(|f| Ok((f.stage, read(&f.file)?))).collect::<Checked<_>>()?;
+        Ok(HandedIn { starter: read(&file.starter)?, name: file.name, stage: file.stage, fixed })
     };
     files.into_iter().map(handed_in).collect()
 }
@@ -135,37 +111,21 @@ fn constants(m: &Manifest) -> Checked<Vec<Constant>> {
     let constant = |c: &manifest::Constant| {
         let place = format!("constant `{}`", c.name);
         let kind = kind(&c.r#type, &place)?;
-        let value = Value::from_numbers(kind, &c.value).ok_or_else(|| {
-            error(
-                &place,
-                format!("a {} has {} numbers", kind.glsl(), kind.numbers()),
-            )
-        })?;
-        Ok(Constant {
-            name: c.name.clone(),
-            kind,
-            value,
-            means: c.means.clone(),
-            line: c.line.clone(),
-        })
+        let value = Value::from_numbers(kind, &c.value)
+            .ok_or_else(|| error(&place, format!("a {} has {} numbers", kind.glsl(), kind.numbers())))?;
+        Ok(Constant { name: c.name.clone(), kind, value, means: c.means.clone(), line: c.line.clone() })
     };
     m.constant.iter().map(constant).collect()
 }
 
 fn declare(scope: &mut Scope, name: &str, kind: Type) -> Checked<()> {
-    scope.declare(name, kind).map(|_| ()).ok_or_else(|| {
-        error(
-            format!("`{name}`"),
-            "is taken, means something in GLSL, or is not a name",
-        )
-    })
+    scope
+        .declare(name, kind)
+        .map(|_| ())
+        .ok_or_else(|| error(format!("`{name}`"), "is taken, means something in GLSL, or is not a name"))
 }
 
-fn equation(
-    interface: &Interface,
-    constants: &[Constant],
-    entries: &[manifest::Definition],
-) -> Checked<Equation> {
+fn equation(interface: &Interface, constants: &[Constant], entries: &[manifest::Definition]) -> Checked<Equation> {
     let mut scope = Scope::default();
     for c in constants {
         declare(&mut scope, &c.name, c.kind)?;
@@ -179,14 +139,9 @@ fn equation(
     let mut definitions = Vec::new();
     for d in entries {
         let place = format!("definition `{}`", d.name);
-        let expression =
-            Expression::parse(&d.is, &scope).map_err(|e| error(place, e.to_string()))?;
+        let expression = Expression::parse(&d.is, &scope).map_err(|e| error(place, e.to_string()))?;
         declare(&mut scope, &d.name, expression.kind())?;
-        definitions.push(Definition {
-            name: d.name.clone(),
-            expression,
-            slide: d.slide,
-        });
+        definitions.push(Definition { name: d.name.clone(), expression, slide: d.slide });
     }
     if definitions.len() > MAX_DEFINITIONS {
         let message = format!("more than {MAX_DEFINITIONS} of them");
@@ -209,9 +164,7 @@ fn equation(
 }
 
 fn named(equation: &Equation, name: &str, place: &str) -> Checked<usize> {
-    equation
-        .index(name)
-        .ok_or_else(|| error(place, format!("there is no definition `{name}`")))
+    equation.index(name).ok_or_else(|| error(place, format!("there is no definition `{name}`")))
 }
 
 fn rubric(lines: &[manifest::RubricLine], equation: &Equation) -> Checked<HashSet<String>> {
@@ -233,26 +186,15 @@ fn rubric(lines: &[manifest::RubricLine], equation: &Equation) -> Checked<HashSe
 }
 
 fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> Checked<()> {
-    if lines.contains(line) {
-        Ok(())
-    } else {
-        Err(error(place, format!("there is no rubric line `{line}`")))
-    }
+    if lines.contains(line) { Ok(()) } else { Err(error(place, format!("there is no rubric line `{line}`"))) }
 }
 
-fn mistake(
-    entry: manifest::Mistake,
-    equation: &Equation,
-    lines: &HashSet<String>,
-) -> Checked<Mistake> {
+fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &HashSet<String>) -> Checked<Mistake> {
     let place = format!("mistake `{}`", entry.id);
     for (line, fraction) in &entry.keeps {
         known_line(lines, line, &place)?;
         if !(0.0..=1.0).contains(fraction) {
-            return Err(error(
-                place,
-                format!("keeps {fraction} of `{line}`: not a fraction"),
-            ));
+            return Err(error(place, format!("keeps {fraction} of `{line}`: not a fraction")));
         }
     }
     let mut scope = equation.scope.clone();
@@ -263,12 +205,7 @@ fn mistake(
             if !(f.from > 0.0 && f.from < f.example && f.example < f.to && f.to.is_finite()) {
                 return Err(error(place, "`fit` needs 0 < from < example < to"));
             }
-            Some(FreeParameter {
-                name: f.name,
-                from: f.from,
-                to: f.to,
-                example: f.example,
-            })
+            Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example })
         }
     };
     let forms = entry
@@ -292,41 +229,26 @@ fn mistake(
     })
 }
 
-fn form(
-    texts: &BTreeMap<String, String>,
-    equation: &Equation,
-    scope: &Scope,
-    place: &str,
-) -> Checked<Form> {
+fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, place: &str) -> Checked<Form> {
     let mut overrides = Vec::new();
     let mut free = false;
     for (name, text) in texts {
         let place = format!("{place}, `{name}`");
         let definition = named(equation, name, &place)?;
-        let expression =
-            Expression::parse(text, scope).map_err(|e| error(&place, e.to_string()))?;
+        let expression = Expression::parse(text, scope).map_err(|e| error(&place, e.to_string()))?;
         let wanted = equation.definitions[definition].kind();
         if expression.kind() != wanted {
-            return Err(error(
-                place,
-                format!("is a {}, not a {}", expression.kind().glsl(), wanted.glsl()),
-            ));
+            return Err(error(place, format!("is a {}, not a {}", expression.kind().glsl(), wanted.glsl())));
         }
         let parameter = equation.parameter_slot();
         let later = |slot: &&usize| **slot >= equation.slot(definition) && **slot != parameter;
         if let Some(slot) = expression.slots().iter().find(later) {
             let used = scope.get(*slot).map_or("", |(n, _)| n);
-            return Err(error(
-                place,
-                format!("uses `{used}`, which is defined later"),
-            ));
+            return Err(error(place, format!("uses `{used}`, which is defined later")));
         }
         definition_uses(&expression, equation, &place)?;
         free |= expression.slots().contains(&parameter);
-        overrides.push(Override {
-            definition,
-            expression,
-        });
+        overrides.push(Override { definition, expression });
     }
     if overrides.is_empty() {
         return Err(error(place, "replaces nothing"));
@@ -349,12 +271,7 @@ fn definition_uses(expression: &Expression, equation: &Equation, place: &str) ->
 fn probing(probes: &manifest::Probes, constants: &[Constant]) -> Checked<()> {
     let find = |name: &str, kind: Type| {
         let found = constants.iter().any(|c| c.name == name && c.kind == kind);
-        found.then_some(()).ok_or_else(|| {
-            error(
-                "probes",
-                format!("there is no {} constant `{name}`", kind.glsl()),
-            )
-        })
+        found.then_some(()).ok_or_else(|| error("probes", format!("there is no {} constant `{name}`", kind.glsl())))
     };
     find(&probes.light, Type::Vec4)?;
     find(&probes.shininess, Type::Float)?;
@@ -372,10 +289,7 @@ fn scene(s: &manifest::Scene) -> Checked<Scene> {
         && s.window.iter().all(|n| (1..=8192).contains(n))
         && (1..=10_000).contains(&s.poses);
     if !sane {
-        return Err(error(
-            "scene",
-            "the camera, the window or the number of poses makes no picture",
-        ));
+        return Err(error("scene", "the camera, the window or the number of poses makes no picture"));
     }
     let vertex = |i: usize| Vertex::new(s.triangle[i].into(), s.normals[i].into());
     let point = |p: [f64; 3]| DVec3::from_array(p);

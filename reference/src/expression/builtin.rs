@@ -73,21 +73,11 @@ impl Builtin {
             (Self::Cross, [Type::Vec3, Type::Vec3]) => Some(Type::Vec3),
             (Self::Length, [a]) if vector(*a) => Some(Type::Float),
             (Self::Reflect | Self::Pow, [a, b]) if a == b && vector(*a) => Some(*a),
-            (Self::Max | Self::Min, [a, b]) if vector(*a) && (a == b || *b == Type::Float) => {
-                Some(*a)
-            }
+            (Self::Max | Self::Min, [a, b]) if vector(*a) && (a == b || *b == Type::Float) => Some(*a),
             (Self::Step, [a, b]) if vector(*b) && (a == b || *a == Type::Float) => Some(*b),
-            (Self::Clamp, [a, b, c]) if vector(*a) && b == c && (a == b || *b == Type::Float) => {
-                Some(*a)
-            }
-            (Self::Smoothstep, [a, b, c])
-                if vector(*c) && a == b && (b == c || *b == Type::Float) =>
-            {
-                Some(*c)
-            }
-            (Self::Mix, [a, b, c]) if vector(*a) && a == b && (a == c || *c == Type::Float) => {
-                Some(*a)
-            }
+            (Self::Clamp, [a, b, c]) if vector(*a) && b == c && (a == b || *b == Type::Float) => Some(*a),
+            (Self::Smoothstep, [a, b, c]) if vector(*c) && a == b && (b == c || *b == Type::Float) => Some(*c),
+            (Self::Mix, [a, b, c]) if vector(*a) && a == b && (a == c || *c == Type::Float) => Some(*a),
             (Self::Inverse | Self::Transpose, [a @ (Type::Mat3 | Type::Mat4)]) => Some(*a),
             (
                 Self::Normalize
@@ -196,35 +186,19 @@ fn vec3(a: &Value) -> Option<DVec3> {
 
 /// GLSL leaves `max` of a NaN open; here what is undefined stays undefined, so that it can be named.
 fn max(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.max(b)
-    }
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 fn min(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.min(b)
-    }
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
 }
 
 /// GLSL 4.10, 8.2: undefined if x < 0, and if x = 0 and y <= 0; never the even power that f64 would give.
 fn pow(x: f64, y: f64) -> f64 {
-    if x < 0.0 || (x == 0.0 && y <= 0.0) {
-        f64::NAN
-    } else {
-        x.powf(y)
-    }
+    if x < 0.0 || (x == 0.0 && y <= 0.0) { f64::NAN } else { x.powf(y) }
 }
 
 /// Upper left 3×3 of a mat4, as `mat3(m)` does.
 pub(super) fn upper_left(m: &glam::DMat4) -> DMat3 {
-    DMat3::from_cols(
-        m.x_axis.truncate(),
-        m.y_axis.truncate(),
-        m.z_axis.truncate(),
-    )
+    DMat3::from_cols(m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate())
 }

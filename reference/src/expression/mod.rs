@@ -39,9 +39,7 @@ pub struct Scope {
 impl Scope {
     /// Adds a name and returns its slot; `None` if the name is taken or means something in GLSL already.
     pub fn declare(&mut self, name: &str, kind: Type) -> Option<usize> {
-        let taken = self.slot(name).is_some()
-            || Builtin::named(name).is_some()
-            || Type::from_glsl(name).is_some();
+        let taken = self.slot(name).is_some() || Builtin::named(name).is_some() || Type::from_glsl(name).is_some();
         if taken || !parse::is_identifier(name) {
             return None;
         }
@@ -104,12 +102,7 @@ impl Expression {
         let (root, kind, mut slots) = parse::parse(text, scope)?;
         slots.sort_unstable();
         slots.dedup();
-        Ok(Self {
-            text: text.to_owned(),
-            kind,
-            root,
-            slots,
-        })
+        Ok(Self { text: text.to_owned(), kind, root, slots })
     }
 
     /// The expression as it was written: valid GLSL.
@@ -142,9 +135,9 @@ impl Node {
             Self::Variable(slot) => lookup(*slot),
             Self::Negate(a) => a.evaluate(lookup).negated(),
             Self::Binary(operator, a, b) => operator.apply(a.evaluate(lookup), b.evaluate(lookup)),
-            Self::Compare(comparison, a, b) => Value::Bool(
-                comparison.holds(a.evaluate(lookup).float(), b.evaluate(lookup).float()),
-            ),
+            Self::Compare(comparison, a, b) => {
+                Value::Bool(comparison.holds(a.evaluate(lookup).float(), b.evaluate(lookup).float()))
+            }
             Self::Choose(condition, yes, no) => match condition.evaluate(lookup) {
                 Value::Bool(true) => yes.evaluate(lookup),
                 _ => no.evaluate(lookup),
@@ -199,16 +192,13 @@ impl Operator {
             // The common cases by name: a search evaluates them by the hundred thousand.
             (Self::Add, Vec4(v), Vec4(w)) => Vec4(v + w),
             (Self::Multiply, Vec4(v), Vec4(w)) => Vec4(v * w),
-            (Self::Multiply, Vec4(v), Float(x)) | (Self::Multiply, Float(x), Vec4(v)) => {
-                Vec4(v * x)
-            }
+            (Self::Multiply, Vec4(v), Float(x)) | (Self::Multiply, Float(x), Vec4(v)) => Vec4(v * x),
             (Self::Add, a, b) => a.zip(b, |x, y| x + y).unwrap_or(Float(f64::NAN)),
             (Self::Subtract, a, b) => a.zip(b, |x, y| x - y).unwrap_or(Float(f64::NAN)),
             (Self::Divide, a, b) => a.zip(b, |x, y| x / y).unwrap_or(Float(f64::NAN)),
-            (Self::Multiply, a, b) => a
-                .zip(b, |x, y| x * y)
-                .or_else(|| matrix_product(a, b))
-                .unwrap_or(Float(f64::NAN)),
+            (Self::Multiply, a, b) => {
+                a.zip(b, |x, y| x * y).or_else(|| matrix_product(a, b)).unwrap_or(Float(f64::NAN))
+            }
         }
     }
 
@@ -217,15 +207,9 @@ impl Operator {
         match (self, a, b) {
             (_, a, b) if a == b && a.width().is_some() => Some(a),
             (_, Type::Float, v) | (_, v, Type::Float) if v.width().is_some() => Some(v),
-            (Self::Multiply, Type::Mat4, Type::Vec4) | (Self::Multiply, Type::Vec4, Type::Mat4) => {
-                Some(Type::Vec4)
-            }
-            (Self::Multiply, Type::Mat3, Type::Vec3) | (Self::Multiply, Type::Vec3, Type::Mat3) => {
-                Some(Type::Vec3)
-            }
-            (Self::Multiply, a @ (Type::Mat3 | Type::Mat4), b) if a == b || b == Type::Float => {
-                Some(a)
-            }
+            (Self::Multiply, Type::Mat4, Type::Vec4) | (Self::Multiply, Type::Vec4, Type::Mat4) => Some(Type::Vec4),
+            (Self::Multiply, Type::Mat3, Type::Vec3) | (Self::Multiply, Type::Vec3, Type::Mat3) => Some(Type::Vec3),
+            (Self::Multiply, a @ (Type::Mat3 | Type::Mat4), b) if a == b || b == Type::Float => Some(a),
             (Self::Multiply, Type::Float, b @ (Type::Mat3 | Type::Mat4)) => Some(b),
             _ => None,
         }

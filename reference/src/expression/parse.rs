@@ -11,23 +11,12 @@ type Typed = (Node, Type);
 
 pub(super) fn is_identifier(name: &str) -> bool {
     let mut chars = name.chars();
-    chars
-        .next()
-        .is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
+    chars.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
         && chars.all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-pub(super) fn parse(
-    text: &str,
-    scope: &Scope,
-) -> Result<(Node, Type, Vec<usize>), ExpressionError> {
-    let mut parser = Parser {
-        text: text.chars().collect(),
-        at: 0,
-        scope,
-        slots: Vec::new(),
-        depth: 0,
-    };
+pub(super) fn parse(text: &str, scope: &Scope) -> Result<(Node, Type, Vec<usize>), ExpressionError> {
+    let mut parser = Parser { text: text.chars().collect(), at: 0, scope, slots: Vec::new(), depth: 0 };
     let (node, kind) = parser.choice()?;
     parser.skip_space();
     match parser.text.get(parser.at) {
@@ -46,10 +35,7 @@ struct Parser<'a> {
 
 impl Parser<'_> {
     fn error(&self, at: usize, message: impl Into<String>) -> ExpressionError {
-        ExpressionError {
-            column: at + 1,
-            message: message.into(),
-        }
+        ExpressionError { column: at + 1, message: message.into() }
     }
 
     fn skip_space(&mut self) {
@@ -62,10 +48,7 @@ impl Parser<'_> {
     fn take(&mut self, token: &str) -> bool {
         self.skip_space();
         let rest = &self.text[self.at..];
-        let found = token
-            .chars()
-            .enumerate()
-            .all(|(i, c)| rest.get(i) == Some(&c));
+        let found = token.chars().enumerate().all(|(i, c)| rest.get(i) == Some(&c));
         if found {
             self.at += token.chars().count();
         }
@@ -73,11 +56,7 @@ impl Parser<'_> {
     }
 
     fn expect(&mut self, token: &str) -> Result<(), ExpressionError> {
-        if self.take(token) {
-            Ok(())
-        } else {
-            Err(self.error(self.at, format!("`{token}` expected")))
-        }
+        if self.take(token) { Ok(()) } else { Err(self.error(self.at, format!("`{token}` expected"))) }
     }
 
     /// `condition ? a : b`, or what stands above it in precedence.
@@ -97,9 +76,7 @@ impl Parser<'_> {
             self.expect(":")?;
             let (no, b) = self.choice()?;
             if a != b {
-                return Err(
-                    self.error(start, format!("`?:` between {} and {}", a.glsl(), b.glsl()))
-                );
+                return Err(self.error(start, format!("`?:` between {} and {}", a.glsl(), b.glsl())));
             }
             let node = Node::Choose(Box::new(condition), Box::new(yes), Box::new(no));
             (node, a)
@@ -167,10 +144,7 @@ impl Parser<'_> {
             self.skip_space();
             let second = self.at;
             let right = self.unary()?;
-            if operator == Operator::Divide
-                && self.is_integer(start, at)
-                && self.is_integer(second, self.at)
-            {
+            if operator == Operator::Divide && self.is_integer(start, at) && self.is_integer(second, self.at) {
                 return Err(self.error(at, "GLSL divides integers here: write 1.0 / 2.0"));
             }
             start = second;
@@ -194,10 +168,7 @@ impl Parser<'_> {
     ) -> Result<Typed, ExpressionError> {
         let kind = operator.result(kind_a, kind_b).ok_or_else(|| {
             let names = (kind_a.glsl(), kind_b.glsl());
-            self.error(
-                at,
-                format!("no such operation between {} and {}", names.0, names.1),
-            )
+            self.error(at, format!("no such operation between {} and {}", names.0, names.1))
         })?;
         Ok((Node::Binary(operator, Box::new(a), Box::new(b)), kind))
     }
@@ -225,18 +196,11 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    fn swizzle(
-        &self,
-        at: usize,
-        name: &str,
-        (node, kind): Typed,
-    ) -> Result<Typed, ExpressionError> {
+    fn swizzle(&self, at: usize, name: &str, (node, kind): Typed) -> Result<Typed, ExpressionError> {
         let wrong = || self.error(at, format!("{} has no `.{name}`", kind.glsl()));
         let width = kind.width().filter(|w| *w > 1).ok_or_else(wrong)?;
-        let set = ["xyzw", "rgba", "stpq"]
-            .into_iter()
-            .find(|set| name.chars().all(|c| set.contains(c)))
-            .ok_or_else(wrong)?;
+        let set =
+            ["xyzw", "rgba", "stpq"].into_iter().find(|set| name.chars().all(|c| set.contains(c))).ok_or_else(wrong)?;
         let mut places = [0u8; 4];
         if name.len() > places.len() {
             return Err(wrong());
@@ -251,19 +215,11 @@ impl Parser<'_> {
 
     fn identifier(&mut self) -> Result<String, ExpressionError> {
         let start = self.at;
-        while self
-            .text
-            .get(self.at)
-            .is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_')
-        {
+        while self.text.get(self.at).is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_') {
             self.at += 1;
         }
         let name: String = self.text[start..self.at].iter().collect();
-        if is_identifier(&name) {
-            Ok(name)
-        } else {
-            Err(self.error(start, "a name, a number or `(` expected"))
-        }
+        if is_identifier(&name) { Ok(name) } else { Err(self.error(start, "a name, a number or `(` expected")) }
     }
 
     fn primary(&mut self) -> Result<Typed, ExpressionError> {
@@ -274,11 +230,7 @@ impl Parser<'_> {
             self.expect(")")?;
             return Ok(inner);
         }
-        if self
-            .text
-            .get(self.at)
-            .is_some_and(|c| c.is_ascii_digit() || *c == '.')
-        {
+        if self.text.get(self.at).is_some_and(|c| c.is_ascii_digit() || *c == '.') {
             return self.number();
         }
         let name = self.identifier()?;
@@ -286,10 +238,7 @@ impl Parser<'_> {
             let arguments = self.arguments()?;
             return self.call(start, &name, arguments);
         }
-        let slot = self
-            .scope
-            .slot(&name)
-            .ok_or_else(|| self.error(start, format!("`{name}` is not known here")))?;
+        let slot = self.scope.slot(&name).ok_or_else(|| self.error(start, format!("`{name}` is not known here")))?;
         let (_, kind) = self.scope.get(slot).unwrap_or(("", Type::Float));
         self.slots.push(slot);
         Ok((Node::Variable(slot), kind))
@@ -298,8 +247,8 @@ impl Parser<'_> {
     fn number(&mut self) -> Result<Typed, ExpressionError> {
         let start = self.at;
         while let Some(c) = self.text.get(self.at) {
-            let exponent_sign = matches!(c, '+' | '-')
-                && matches!(self.text.get(self.at.wrapping_sub(1)), Some('e' | 'E'));
+            let exponent_sign =
+                matches!(c, '+' | '-') && matches!(self.text.get(self.at.wrapping_sub(1)), Some('e' | 'E'));
             if !(c.is_ascii_alphanumeric() || *c == '.' || exponent_sign) {
                 break;
             }
@@ -307,8 +256,7 @@ impl Parser<'_> {
         }
         let text: String = self.text[start..self.at].iter().collect();
         let number = text.parse().ok().filter(|x: &f64| x.is_finite());
-        let number =
-            number.ok_or_else(|| self.error(start, format!("`{text}` is not a number")))?;
+        let number = number.ok_or_else(|| self.error(start, format!("`{text}` is not a number")))?;
         Ok((Node::Literal(number), Type::Float))
     }
 
@@ -332,14 +280,10 @@ impl Parser<'_> {
         let listed: Vec<&str> = kinds.iter().map(|k| k.glsl()).collect();
         let wrong = || self.error(at, format!("no `{name}({})`", listed.join(", ")));
         if let Some(kind) = Type::from_glsl(name) {
-            return if constructs(kind, &kinds) {
-                Ok((Node::Construct(kind, nodes), kind))
-            } else {
-                Err(wrong())
-            };
+            return if constructs(kind, &kinds) { Ok((Node::Construct(kind, nodes), kind)) } else { Err(wrong()) };
         }
-        let builtin = Builtin::named(name)
-            .ok_or_else(|| self.error(at, format!("the function `{name}` is not known here")))?;
+        let builtin =
+            Builtin::named(name).ok_or_else(|| self.error(at, format!("the function `{name}` is not known here")))?;
         let kind = builtin.result(&kinds).ok_or_else(wrong)?;
         Ok((Node::Call(builtin, nodes), kind))
     }

@@ -3,12 +3,7 @@ use glam::DVec2;
 
 fn scope() -> Scope {
     let mut scope = Scope::default();
-    for (name, kind) in [
-        ("x", Type::Float),
-        ("a", Type::Vec3),
-        ("b", Type::Vec4),
-        ("m", Type::Mat4),
-    ] {
+    for (name, kind) in [("x", Type::Float), ("a", Type::Vec3), ("b", Type::Vec4), ("m", Type::Mat4)] {
         scope.declare(name, kind).expect("a fresh name");
     }
     scope
@@ -21,9 +16,7 @@ fn value(text: &str) -> Value {
         0 => Value::Float(2.0),
         1 => Value::Vec3(DVec3::new(3.0, 4.0, 0.0)),
         2 => Value::Vec4(DVec4::new(1.0, 2.0, 3.0, 4.0)),
-        _ => Value::Mat4(Box::new(DMat4::from_translation(DVec3::new(
-            10.0, 20.0, 30.0,
-        )))),
+        _ => Value::Mat4(Box::new(DMat4::from_translation(DVec3::new(10.0, 20.0, 30.0)))),
     });
     assert_eq!(value.kind(), expression.kind(), "{text}");
     value
@@ -55,10 +48,7 @@ fn vectors_work_component_by_component_and_with_floats() {
     assert_eq!(value("b * b"), Value::Vec4(DVec4::new(1.0, 4.0, 9.0, 16.0)));
     assert_eq!(value("b.wz"), Value::Vec2(DVec2::new(4.0, 3.0)));
     assert_eq!(value("b.rgb.y"), Value::Float(2.0));
-    assert_eq!(
-        value("vec4(a.xy, 7.0, x)"),
-        Value::Vec4(DVec4::new(3.0, 4.0, 7.0, 2.0))
-    );
+    assert_eq!(value("vec4(a.xy, 7.0, x)"), Value::Vec4(DVec4::new(3.0, 4.0, 7.0, 2.0)));
     assert_eq!(value("vec3(b)"), Value::Vec3(DVec3::new(1.0, 2.0, 3.0)));
     assert_eq!(value("vec3(x)"), Value::Vec3(DVec3::splat(2.0)));
 }
@@ -66,15 +56,9 @@ fn vectors_work_component_by_component_and_with_floats() {
 #[test]
 fn a_matrix_times_a_vector_is_the_linear_map() {
     // The translation is weighted by w = 4.
-    assert_eq!(
-        value("m * b"),
-        Value::Vec4(DVec4::new(41.0, 82.0, 123.0, 4.0))
-    );
+    assert_eq!(value("m * b"), Value::Vec4(DVec4::new(41.0, 82.0, 123.0, 4.0)));
     // From the left the vector meets the columns: the last is (10, 20, 30, 1), so w = 10 + 40 + 90 + 4.
-    assert_eq!(
-        value("b * m"),
-        Value::Vec4(DVec4::new(1.0, 2.0, 3.0, 144.0))
-    );
+    assert_eq!(value("b * m"), Value::Vec4(DVec4::new(1.0, 2.0, 3.0, 144.0)));
     assert_eq!(value("transpose(m) * b"), value("b * m"));
     assert_eq!(value("inverse(m) * (m * b)"), value("b"));
     assert_eq!(value("mat3(m) * a"), value("a"));
@@ -90,14 +74,8 @@ fn functions_are_those_of_glsl() {
     assert_eq!(number("mix(1.0, 3.0, 0.25)"), 1.5);
     assert_eq!(number("step(x, 2.0) + step(x, 1.0)"), 1.0);
     // Reflected at the ground (normal y), (1, -1, 0) goes up again.
-    assert_eq!(
-        value("reflect(vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0))"),
-        Value::Vec3(DVec3::new(1.0, 1.0, 0.0))
-    );
-    assert_eq!(
-        value("cross(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0))"),
-        Value::Vec3(DVec3::Z)
-    );
+    assert_eq!(value("reflect(vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0))"), Value::Vec3(DVec3::new(1.0, 1.0, 0.0)));
+    assert_eq!(value("cross(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0))"), Value::Vec3(DVec3::Z));
 }
 
 #[test]

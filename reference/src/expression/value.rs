@@ -22,15 +22,7 @@ pub enum Type {
 }
 
 impl Type {
-    const ALL: [Self; 7] = [
-        Self::Bool,
-        Self::Float,
-        Self::Vec2,
-        Self::Vec3,
-        Self::Vec4,
-        Self::Mat3,
-        Self::Mat4,
-    ];
+    const ALL: [Self; 7] = [Self::Bool, Self::Float, Self::Vec2, Self::Vec3, Self::Vec4, Self::Mat3, Self::Mat4];
 
     /// The type's name in GLSL.
     pub const fn glsl(self) -> &'static str {
@@ -154,8 +146,7 @@ impl Value {
 
     /// The value as a colour or position of four components; what a shorter vector lacks is 0.
     pub fn vec4(&self) -> DVec4 {
-        self.components()
-            .map_or(DVec4::NAN, |(c, _)| DVec4::from_array(c))
+        self.components().map_or(DVec4::NAN, |(c, _)| DVec4::from_array(c))
     }
 
     /// The first three components, see [`Value::vec4`].
@@ -197,10 +188,7 @@ impl Value {
         let width = wide_a.max(wide_b);
         let mut c = [0.0; 4];
         for (i, slot) in c.iter_mut().enumerate().take(width) {
-            *slot = join(
-                a[if wide_a == 1 { 0 } else { i }],
-                b[if wide_b == 1 { 0 } else { i }],
-            );
+            *slot = join(a[if wide_a == 1 { 0 } else { i }], b[if wide_b == 1 { 0 } else { i }]);
         }
         Some(Self::from_components(c, width))
     }

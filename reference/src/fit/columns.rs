@@ -73,20 +73,13 @@ impl<'a> Columns<'a> {
 
     /// Makes an expression known. The same text is the same rule.
     pub(super) fn rule(&mut self, expression: &'a Expression) -> Rule {
-        *self
-            .rules_by_text
-            .entry(expression.text())
-            .or_insert_with(|| {
-                let equation = &self.assignment.equation;
-                let slots = expression.slots().iter();
-                let uses: Vec<usize> = slots.filter_map(|s| equation.definition_in(*s)).collect();
-                self.rules.push(RuleBody {
-                    expression,
-                    used: uses.iter().map(|d| 1 << d).sum(),
-                    uses,
-                });
-                Rule(u32::try_from(self.rules.len() - 1).unwrap_or(u32::MAX))
-            })
+        *self.rules_by_text.entry(expression.text()).or_insert_with(|| {
+            let equation = &self.assignment.equation;
+            let slots = expression.slots().iter();
+            let uses: Vec<usize> = slots.filter_map(|s| equation.definition_in(*s)).collect();
+            self.rules.push(RuleBody { expression, used: uses.iter().map(|d| 1 << d).sum(), uses });
+            Rule(u32::try_from(self.rules.len() - 1).unwrap_or(u32::MAX))
+        })
     }
 
     /// The right equation.
@@ -139,10 +132,7 @@ impl<'a> Columns<'a> {
         let next = u32::try_from(self.columns.len()).unwrap_or(u32::MAX);
         let column = *self.known.entry(key).or_insert(next);
         if column == next {
-            self.columns.push(Column {
-                key,
-                values: Vec::new(),
-            });
+            self.columns.push(Column { key, values: Vec::new() });
         }
         column
     }
@@ -187,9 +177,7 @@ impl<'a> Columns<'a> {
             let value = expression.evaluate(&|slot| match equation.definition_in(slot) {
                 Some(d) if changed & (1 << d) != 0 => self.scratch[d].clone(),
                 Some(d) => self.columns[base[d] as usize].values[probe].clone(),
-                None => equation
-                    .given(slot, uniforms, &sample.attributes)
-                    .unwrap_or(Value::Float(parameter)),
+                None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(parameter)),
             });
             self.scratch[definition] = value;
             changed |= 1 << definition;
@@ -221,17 +209,14 @@ impl<'a> Columns<'a> {
         let equation = &self.assignment.equation;
         let sample = self.probes[probe];
         let uniforms = self.uniforms[probe];
-        rule.expression
-            .evaluate(&|slot| match equation.definition_in(slot) {
-                Some(definition) => {
-                    let input = rule.uses.iter().position(|d| *d == definition);
-                    let input = input.map_or(u32::MAX, |i| key.inputs[i]);
-                    self.columns[input as usize].values[probe].clone()
-                }
-                None => equation
-                    .given(slot, uniforms, &sample.attributes)
-                    .unwrap_or(Value::Float(f64::NAN)),
-            })
+        rule.expression.evaluate(&|slot| match equation.definition_in(slot) {
+            Some(definition) => {
+                let input = rule.uses.iter().position(|d| *d == definition);
+                let input = input.map_or(u32::MAX, |i| key.inputs[i]);
+                self.columns[input as usize].values[probe].clone()
+            }
+            None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(f64::NAN)),
+        })
     }
 }
 

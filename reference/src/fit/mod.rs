@@ -3,6 +3,7 @@
 //! The combination with the fewest mistakes that reproduces every sample wins; of equals one without a free parameter, then the
 //! one that touches the fewest lines of the rubric, then the first in the assignment's table. What nothing explains is judged term by term, where a term stands alone.
 
+mod alone;
 mod columns;
 mod search;
 mod terms;
@@ -44,17 +45,9 @@ impl Fit {
 /// A channel agrees if it is within `tolerance` of what is expected, relative to what is expected where that is over 1. Where
 /// GLSL leaves the expected value undefined (`pow` of a negative base is NaN on real drivers), only what is not finite agrees;
 /// a sample that is missing counts as NaN.
-pub fn explain(
-    assignment: &Assignment,
-    probes: &ProbeSet,
-    samples: &[[f64; 3]],
-    tolerance: f64,
-) -> Fit {
+pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> Fit {
     let given = samples.iter().map(|s| DVec3::from_array(*s));
-    let samples: Vec<DVec3> = given
-        .chain(std::iter::repeat(DVec3::NAN))
-        .take(probes.probes.len())
-        .collect();
+    let samples: Vec<DVec3> = given.chain(std::iter::repeat(DVec3::NAN)).take(probes.probes.len()).collect();
     let right = assignment.equation.right();
     let is_right = |place: &usize| {
         let probe = &probes.probes[*place];

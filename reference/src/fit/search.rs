@@ -131,14 +131,7 @@ fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
 
 impl<'a> Search<'a> {
     /// Adds `count` more candidates, from `next` on, to the chosen ones; `free`: the last one has a free parameter.
-    fn extend(
-        &mut self,
-        base: &Resolved,
-        chosen: &mut Vec<Rc<Candidate<'a>>>,
-        next: usize,
-        count: usize,
-        free: bool,
-    ) {
+    fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Rc<Candidate<'a>>>, next: usize, count: usize, free: bool) {
         if count == 1 && free {
             self.fit(base, chosen);
             return;
@@ -185,12 +178,7 @@ impl<'a> Search<'a> {
     }
 
     /// Keeps an explanation if it is the most plausible so far.
-    fn keep(
-        &mut self,
-        chosen: &[Rc<Candidate<'a>>],
-        last: &Rc<Candidate<'a>>,
-        parameter: Option<f64>,
-    ) {
+    fn keep(&mut self, chosen: &[Rc<Candidate<'a>>], last: &Rc<Candidate<'a>>, parameter: Option<f64>) {
         let mut all = [chosen, std::slice::from_ref(last)].concat();
         all.sort_by_key(|c| (c.mistake, c.form));
         let lines = all.iter().map(|c| c.lines.count_ones()).sum();
@@ -207,12 +195,7 @@ impl<'a> Search<'a> {
     }
 
     /// The parameter with which a candidate explains every sample.
-    fn solve(
-        &mut self,
-        base: &Resolved,
-        candidate: &Candidate<'a>,
-        parameter: &FreeParameter,
-    ) -> Option<f64> {
+    fn solve(&mut self, base: &Resolved, candidate: &Candidate<'a>, parameter: &FreeParameter) -> Option<f64> {
         let (probe, channel) = self.pivot(base, candidate, parameter)?;
         let replaced = &candidate.replaced;
         let mut value = |x: f64| self.columns.colour_with(base, replaced, x, probe)[channel];
@@ -232,9 +215,7 @@ impl<'a> Search<'a> {
             return None;
         }
         let rounded = DIGITS.map(|digits| significant(exact, digits));
-        let simplest = rounded
-            .into_iter()
-            .find(|x| self.explains(base, replaced, *x));
+        let simplest = rounded.into_iter().find(|x| self.explains(base, replaced, *x));
         Some(simplest.unwrap_or(exact))
     }
 
@@ -252,10 +233,7 @@ impl<'a> Search<'a> {
         let mut reach = self.tolerance;
         for probe in 0..self.samples.len() {
             let sample = self.samples[probe];
-            let mut end = |x: f64| {
-                self.columns
-                    .colour_with(base, &candidate.replaced, x, probe)
-            };
+            let mut end = |x: f64| self.columns.colour_with(base, &candidate.replaced, x, probe);
             let (a, b) = (end(parameter.from), end(parameter.to));
             for channel in 0..3 {
                 let (low, high) = (a[channel].min(b[channel]), a[channel].max(b[channel]));

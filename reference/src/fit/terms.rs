@@ -1,6 +1,6 @@
 //! Judging the terms of a shader that no known mistake explains, each where it stands alone.
 
-use super::agrees;
+use super::{agrees, alone};
 use crate::Assignment;
 use crate::assignment::RubricLine;
 use crate::probes::{Probe, ProbeSet, Region};
@@ -20,6 +20,10 @@ pub struct TermJudgement {
 }
 
 impl TermJudgement {
+    fn right(line: &str, judged: usize) -> Self {
+        Self { line: line.to_owned(), judged, matched: judged, worst: None }
+    }
+
     /// Whether the term is right wherever it could be judged, and could be judged somewhere.
     pub const fn is_right(&self) -> bool {
         self.judged > 0 && self.matched == self.judged
@@ -53,19 +57,42 @@ pub(super) fn judge(
     let mut shift = DVec3::ZERO;
     for line in assignment.rubric.iter().filter(|l| !l.alone_in.is_empty()) {
         let all_right = judgements.iter().all(TermJudgement::is_right);
-        let here = |p: &Probe| {
-            line.alone_in.contains(&p.region) || (all_right && line.also_in.contains(&p.region))
-        };
-        let places: Vec<usize> = (0..samples.len())
-            .filter(|i| here(&probes.probes[*i]))
-            .collect();
+        let here = |p: &Probe| line.alone_in.contains(&p.region) || (all_right && line.also_in.contains(&p.region));
+        let places: Vec<usize> = (0..samples.len()).filter(|i| here(&probes.probes[*i])).collect();
         let judgement = judge_line(line, probes, samples, &places, shift, tolerance);
         if judgements.is_empty() && !judgement.is_right() {
             shift = constant_shift(probes, samples, &places, tolerance).unwrap_or(DVec3::ZERO);
         }
         judgements.push(judgement);
     }
+    acquit(&mut judgements, assignment, probes, samples, tolerance);
     judgements
+}
+
+/// Clears the terms that are right by the direction of their colour, although they never stand alone in this shader.
+fn acquit(
+    judgements: &mut [TermJudgement],
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    samples: &[DVec3],
+    tolerance: f64,
+) {
+    let terms = alone::terms(assignment, probes);
+    let culprit = alone::only_wrong(&terms, probes, samples, tolerance);
+    for (index, term) in terms.iter().enumerate() {
+        let right = match culprit {
+            Some(culprit) => culprit != index,
+            None => alone::right_in_its_channels(&terms, index, probes, samples, tolerance) == Some(true),
+        };
+        let Some(judgement) = judgements.iter_mut().find(|judgement| judgement.line == term.line.id) else { continue };
+        if right {
+            *judgement = TermJudgement::right(&term.line.id, samples.len());
+        } else if judgement.is_right() && culprit == Some(index) {
+            // It is right where it stands alone, and wrong beside the others.
+            let all: Vec<usize> = (0..samples.len()).collect();
+            *judgement = judge_line(term.line, probes, samples, &all, DVec3::ZERO, tolerance);
+        }
+    }
 }
 
 fn judge_line(
@@ -87,39 +114,17 @@ fn judge_line(
         }
         // Something that is no number is worse than any.
         let apart = (found - expected).abs();
-        let apart = if apart.is_finite() {
-            apart.max_element()
-        } else {
-            f64::INFINITY
-        };
+        let apart = if apart.is_finite() { apart.max_element() } else { f64::INFINITY };
         if worst.is_none_or(|(w, _)| apart > w) {
             let region = probe.region;
-            worst = Some((
-                apart,
-                Worst {
-                    probe: *place,
-                    region,
-                    expected,
-                    found,
-                },
-            ));
+            worst = Some((apart, Worst { probe: *place, region, expected, found }));
         }
     }
-    TermJudgement {
-        line: line.id.clone(),
-        judged: places.len(),
-        matched,
-        worst: worst.map(|(_, w)| w),
-    }
+    TermJudgement { line: line.id.clone(), judged: places.len(), matched, worst: worst.map(|(_, w)| w) }
 }
 
 /// By how much all samples at these places differ from what is right, if it is the same for all.
-fn constant_shift(
-    probes: &ProbeSet,
-    samples: &[DVec3],
-    places: &[usize],
-    tolerance: f64,
-) -> Option<DVec3> {
+fn constant_shift(probes: &ProbeSet, samples: &[DVec3], places: &[usize], tolerance: f64) -> Option<DVec3> {
     let shift = |place: &usize| samples[*place] - probes.probes[*place].colour;
     let first = places.first().map(shift)?;
     let same = |place: &usize| (shift(place) - first).abs().max_element() <= tolerance;

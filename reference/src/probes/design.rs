@@ -52,12 +52,7 @@ const FAR_AND_NEAR: Range = (0.7, 12.0);
 const MIDDLE: Range = (1.5, 12.0);
 
 const fn design(opening: Range, distance: Range, normal: Normal, light: Range) -> Design {
-    Design {
-        opening,
-        distance,
-        normal,
-        light,
-    }
+    Design { opening, distance, normal, light }
 }
 
 /// Every group goes through these in order.
@@ -65,56 +60,16 @@ const DESIGNS: [Design; 20] = [
     // All terms at once, bright: the sum is over 1.
     design((2.0, 25.0), MIDDLE, Normal::Highlight((0.85, 1.0)), LIT),
     // Highlights in the course's own range of angles, at several levels.
-    design(
-        (5.0, 40.0),
-        FAR_AND_NEAR,
-        Normal::Highlight((0.05, 0.4)),
-        LIT,
-    ),
-    design(
-        (5.0, 40.0),
-        FAR_AND_NEAR,
-        Normal::Highlight((0.4, 0.9)),
-        LIT,
-    ),
+    design((5.0, 40.0), FAR_AND_NEAR, Normal::Highlight((0.05, 0.4)), LIT),
+    design((5.0, 40.0), FAR_AND_NEAR, Normal::Highlight((0.4, 0.9)), LIT),
     // Only the diffuse term, bright and dim, grazing, and with the half vector behind the surface.
-    design(
-        (90.0, 160.0),
-        FAR_AND_NEAR,
-        Normal::Half((-0.2, 0.8)),
-        (0.5, 1.0),
-    ),
-    design(
-        (20.0, 150.0),
-        FAR_AND_NEAR,
-        Normal::Half((0.0, 0.8)),
-        (0.1, 0.6),
-    ),
-    design(
-        (20.0, 150.0),
-        FAR_AND_NEAR,
-        Normal::Half((0.0, 0.8)),
-        (0.02, 0.12),
-    ),
-    design(
-        (60.0, 160.0),
-        FAR_AND_NEAR,
-        Normal::Half((-0.9, -0.1)),
-        (0.05, 0.7),
-    ),
+    design((90.0, 160.0), FAR_AND_NEAR, Normal::Half((-0.2, 0.8)), (0.5, 1.0)),
+    design((20.0, 150.0), FAR_AND_NEAR, Normal::Half((0.0, 0.8)), (0.1, 0.6)),
+    design((20.0, 150.0), FAR_AND_NEAR, Normal::Half((0.0, 0.8)), (0.02, 0.12)),
+    design((60.0, 160.0), FAR_AND_NEAR, Normal::Half((-0.9, -0.1)), (0.05, 0.7)),
     // Only the ambient term: light behind the surface, a little and fully.
-    design(
-        (20.0, 150.0),
-        FAR_AND_NEAR,
-        Normal::Half((-0.5, 0.8)),
-        UNLIT,
-    ),
-    design(
-        (100.0, 165.0),
-        FAR_AND_NEAR,
-        Normal::Half((0.1, 0.8)),
-        (-0.7, -0.05),
-    ),
+    design((20.0, 150.0), FAR_AND_NEAR, Normal::Half((-0.5, 0.8)), UNLIT),
+    design((100.0, 165.0), FAR_AND_NEAR, Normal::Half((0.1, 0.8)), (-0.7, -0.05)),
     // Half vector far behind the surface: even powers of a negative number.
     design((10.0, 120.0), MIDDLE, Normal::Half((-1.0, -0.985)), UNLIT),
     design((10.0, 120.0), MIDDLE, Normal::Half((-0.985, -0.9)), UNLIT),
@@ -124,25 +79,10 @@ const DESIGNS: [Design; 20] = [
     design((100.0, 150.0), MIDDLE, Normal::Highlight((0.3, 0.9)), LIT),
     design((25.0, 60.0), MIDDLE, Normal::Highlight((0.3, 0.95)), LIT),
     // Highlights where the light is behind the surface: the slide has no condition on N·L.
-    design(
-        (150.0, 170.0),
-        MIDDLE,
-        Normal::Highlight((0.15, 0.6)),
-        (-1.0, -0.03),
-    ),
-    design(
-        (150.0, 170.0),
-        MIDDLE,
-        Normal::Highlight((0.4, 0.95)),
-        (-1.0, -0.03),
-    ),
+    design((150.0, 170.0), MIDDLE, Normal::Highlight((0.15, 0.6)), (-1.0, -0.03)),
+    design((150.0, 170.0), MIDDLE, Normal::Highlight((0.4, 0.95)), (-1.0, -0.03)),
     // And where the eye is behind it (N·V < 0): with this opening that is so for N·L > 0.27.
-    design(
-        (166.0, 171.0),
-        MIDDLE,
-        Normal::Highlight((0.08, 0.3)),
-        (0.28, 1.0),
-    ),
+    design((166.0, 171.0), MIDDLE, Normal::Highlight((0.08, 0.3)), (0.28, 1.0)),
     // The rim of a highlight, where another exponent shows best.
     design((10.0, 90.0), MIDDLE, Normal::Highlight((0.01, 0.1)), LIT),
     // Anything.
@@ -177,10 +117,7 @@ impl Light {
     fn vectors(&self, p: DVec3) -> Vectors {
         let light = (self.position.truncate() - p * self.position.w).normalize();
         let view = -p.normalize();
-        Vectors {
-            light,
-            half: (light + view).normalize(),
-        }
+        Vectors { light, half: (light + view).normalize() }
     }
 
     /// Which terms show at a vertex.
@@ -208,12 +145,7 @@ impl Light {
 }
 
 /// The vertex in a group's `place`, carried back to object space.
-pub(super) fn vertex(
-    random: &mut Random,
-    place: usize,
-    light: &Light,
-    matrices: &Matrices,
-) -> Vertex {
+pub(super) fn vertex(random: &mut Random, place: usize, light: &Light, matrices: &Matrices) -> Vertex {
     let design = &DESIGNS[place % DESIGNS.len()];
     let (p, n) = in_eye_space(random, design, light);
     let position = matrices.model_view.inverse().transform_point3(p);

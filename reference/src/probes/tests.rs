@@ -26,18 +26,11 @@ fn every_region_is_well_populated() {
         for probe in &ggsample06().probes(seed) {
             *count.entry(probe.region).or_default() += 1;
         }
-        for region in [
-            Region::AmbientOnly,
-            Region::FacingAway,
-            Region::DiffuseOnly,
-            Region::Highlight,
-            Region::HighlightBehind,
-        ] {
+        for region in
+            [Region::AmbientOnly, Region::FacingAway, Region::DiffuseOnly, Region::Highlight, Region::HighlightBehind]
+        {
             // Two designs of twenty in 28 groups, less a few that end up between regions.
-            assert!(
-                count.get(&region).copied().unwrap_or(0) >= 40,
-                "{region:?} for {seed}: {count:?}"
-            );
+            assert!(count.get(&region).copied().unwrap_or(0) >= 40, "{region:?} for {seed}: {count:?}");
         }
     }
 }
@@ -49,11 +42,7 @@ fn regions_show_the_terms_that_they_promise() {
         let probes = ggsample06().probes(seed);
         for probe in &probes {
             let outcome = right.evaluate(probes.uniforms(probe), &probe.attributes);
-            let shows = |name: &str| {
-                outcome
-                    .get(name)
-                    .map_or(f64::NAN, |v| v.vec3().max_element())
-            };
+            let shows = |name: &str| outcome.get(name).map_or(f64::NAN, |v| v.vec3().max_element());
             let (diffuse, specular) = (shows("diffuse"), shows("specular"));
             let ok = match probe.region {
                 Region::AmbientOnly | Region::FacingAway => diffuse == 0.0 && specular < 1e-6,
@@ -98,10 +87,7 @@ fn design_difference(m: &Matrices) -> f64 {
         m.model_view.y_axis - m.normal.y_axis,
         m.model_view.z_axis - m.normal.z_axis,
     ];
-    columns
-        .iter()
-        .map(|c| c.abs().max_element())
-        .fold(0.0, f64::max)
+    columns.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max)
 }
 
 #[test]

@@ -6,10 +6,7 @@ const BACKGROUND: [u8; 4] = [255, 255, 255, 0];
 fn vertex(size: u32, x: f64, y: f64, w: f64, grey: f64) -> ClipVertex {
     let size = f64::from(size);
     let ndc = DVec2::new(2.0 * x / size - 1.0, 1.0 - 2.0 * y / size);
-    ClipVertex {
-        position: DVec4::new(ndc.x * w, ndc.y * w, 0.0, w),
-        colour: DVec3::splat(grey),
-    }
+    ClipVertex { position: DVec4::new(ndc.x * w, ndc.y * w, 0.0, w), colour: DVec3::splat(grey) }
 }
 
 fn flat(size: u32, corners: [(f64, f64); 3]) -> [ClipVertex; 3] {
@@ -19,10 +16,7 @@ fn flat(size: u32, corners: [(f64, f64); 3]) -> [ClipVertex; 3] {
 fn covered(frame: &Frame) -> Vec<(usize, usize)> {
     let width = frame.width as usize;
     let inside = |i: &usize| frame.pixels[*i][3] == 255;
-    (0..frame.pixels.len())
-        .filter(inside)
-        .map(|i| (i % width, i / width))
-        .collect()
+    (0..frame.pixels.len()).filter(inside).map(|i| (i % width, i / width)).collect()
 }
 
 fn drawn(size: u32, triangle: &[ClipVertex; 3]) -> Frame {
@@ -61,15 +55,8 @@ fn triangles_that_share_an_edge_cover_each_pixel_once() {
     assert_eq!(seen.len(), all, "a pixel is covered twice");
     // And none is left out: the shared edge crosses the rows 1 to 14, whose covered pixels must be one run.
     for row in 1..15 {
-        let columns: Vec<usize> = seen
-            .iter()
-            .filter(|(_, y)| *y == row)
-            .map(|(x, _)| *x)
-            .collect();
-        let (least, greatest) = (
-            columns.iter().min().expect("a run"),
-            columns.iter().max().expect("a run"),
-        );
+        let columns: Vec<usize> = seen.iter().filter(|(_, y)| *y == row).map(|(x, _)| *x).collect();
+        let (least, greatest) = (columns.iter().min().expect("a run"), columns.iter().max().expect("a run"));
         assert_eq!(greatest - least + 1, columns.len(), "row {row}");
     }
 }
@@ -84,11 +71,7 @@ fn both_windings_are_drawn_alike() {
 fn colours_are_interpolated_in_perspective() {
     // Left vertices at w = 1 with 0, the right one at w = 3 with 1; the point half way across the picture has the weights
     // (1/2)/1 and (1/2)/3 before division, so the colour is (1/6) / (1/2 + 1/6) = 1/4.
-    let triangle = [
-        vertex(64, 0.5, -63.5, 1.0, 0.0),
-        vertex(64, 0.5, 64.5, 1.0, 0.0),
-        vertex(64, 64.5, 0.5, 3.0, 1.0),
-    ];
+    let triangle = [vertex(64, 0.5, -63.5, 1.0, 0.0), vertex(64, 0.5, 64.5, 1.0, 0.0), vertex(64, 64.5, 0.5, 3.0, 1.0)];
     let frame = drawn(64, &triangle);
     // The pixel (32, 0) has its centre at (32.5, 0.5), half way. 255/4 = 63.75 is rounded to 64.
     assert_eq!(frame.pixels[32], [64, 64, 64, 255]);
@@ -113,10 +96,7 @@ fn the_near_plane_cuts_what_lies_before_it() {
 
 #[test]
 fn what_lies_behind_the_eye_is_not_mirrored_into_the_picture() {
-    let behind = flat(8, [(1.0, 1.0), (7.0, 1.0), (1.0, 7.0)]).map(|v| ClipVertex {
-        position: -v.position,
-        ..v
-    });
+    let behind = flat(8, [(1.0, 1.0), (7.0, 1.0), (1.0, 7.0)]).map(|v| ClipVertex { position: -v.position, ..v });
     assert!(covered(&drawn(8, &behind)).is_empty());
 }
 
@@ -150,10 +130,7 @@ fn pixels_near_an_edge_are_left_to_the_rasteriser() {
 fn colours_are_clamped_and_rounded_to_the_nearest() {
     let colour = |grey: f64| {
         let triangle = flat(4, [(-8.0, -8.0), (16.0, -8.0), (-8.0, 16.0)]);
-        let triangle = triangle.map(|v| ClipVertex {
-            colour: DVec3::splat(grey),
-            ..v
-        });
+        let triangle = triangle.map(|v| ClipVertex { colour: DVec3::splat(grey), ..v });
         drawn(4, &triangle).pixels[0][0]
     };
     assert_eq!(colour(-0.5), 0);
@@ -169,10 +146,6 @@ fn a_vertex_that_is_no_number_draws_nothing() {
     for odd in [f64::NAN, f64::INFINITY] {
         let mut triangle = flat(4, [(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)]);
         triangle[1].position.x = odd;
-        assert_eq!(
-            drawn(4, &triangle),
-            Frame::cleared(4, 4, BACKGROUND),
-            "{odd}"
-        );
+        assert_eq!(drawn(4, &triangle), Frame::cleared(4, 4, BACKGROUND), "{odd}");
     }
 }
