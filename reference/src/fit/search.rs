@@ -11,6 +11,10 @@ use std::rc::Rc;
 /// Halvings of the free parameter's range: 60 leave nothing of an f64's precision.
 const HALVINGS: usize = 60;
 
+/// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
+/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need a third.
+const MOST_COLOURS: u64 = 300_000;
+
 /// Significant digits to which a free parameter is rounded if that still explains every sample: what a person would write.
 const DIGITS: [i32; 3] = [1, 2, 3];
 
@@ -36,6 +40,10 @@ struct Search<'a> {
     /// In the order in which they are tried.
     samples: Vec<DVec3>,
     tolerance: f64,
+    /// How often the colour at a probe was computed.
+    spent: u64,
+    /// What may be spent on the combinations of the present number of mistakes.
+    budget: u64,
     /// The most plausible explanation so far.
     best: Option<(Rank, Vec<Found>)>,
 }
@@ -64,10 +72,14 @@ pub(super) fn search(
         columns,
         samples: order.iter().map(|place| samples[*place]).collect(),
         tolerance,
+        spent: 0,
+        budget: u64::MAX,
         best: None,
     };
     for count in 1..=MOST_MISTAKES {
         for free in [false, true] {
+            search.spent = 0;
+            search.budget = if count == MOST_MISTAKES { MOST_COLOURS } else { u64::MAX };
             search.extend(&right, &mut Vec::new(), 0, count, free);
             if let Some((_, found)) = search.best {
                 return Some(found);
@@ -132,6 +144,9 @@ fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
 impl<'a> Search<'a> {
     /// Adds `count` more candidates, from `next` on, to the chosen ones; `free`: the last one has a free parameter.
     fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Rc<Candidate<'a>>>, next: usize, count: usize, free: bool) {
+        if self.spent > self.budget {
+            return;
+        }
         if count == 1 && free {
             self.fit(base, chosen);
             return;
@@ -159,6 +174,7 @@ impl<'a> Search<'a> {
     /// Whether `base` with some definitions replaced reproduces every sample.
     fn explains(&mut self, base: &Resolved, replaced: &[(usize, Rule)], parameter: f64) -> bool {
         (0..self.samples.len()).all(|i| {
+            self.spent += 1;
             let expected = self.columns.colour_with(base, replaced, parameter, i);
             agrees(expected, self.samples[i], self.tolerance)
         })
@@ -232,6 +248,7 @@ impl<'a> Search<'a> {
         let mut best = None;
         let mut reach = self.tolerance;
         for probe in 0..self.samples.len() {
+            self.spent += 2;
             let sample = self.samples[probe];
             let mut end = |x: f64| self.columns.colour_with(base, &candidate.replaced, x, probe);
             let (a, b) = (end(parameter.from), end(parameter.to));
