@@ -6,12 +6,16 @@ mod brackets;
 mod components;
 mod declarations;
 mod directives;
+mod disallowed;
+mod expression;
 mod file;
 pub mod link;
 mod mismatch;
 mod names;
 mod overlooked;
 mod rules;
+mod statement;
+mod suggestions;
 mod syntax;
 #[cfg(test)]
 pub mod tests;
@@ -59,7 +63,11 @@ impl Finding<'_, '_> {
         let (before, now) = (earlier.entry, self.entry);
         let undeclared = before.message.starts_with("undeclared identifier") && before.token == now.token;
         // The compiler declares a name that it missed, and a declaration further down is then the second.
-        (undeclared && now.message.starts_with("redefinition"))
+        let declared_by_that = now.message.starts_with("redefinition") || now.message.starts_with("can't use function");
+        (undeclared && declared_by_that)
+            || (before.message.starts_with("identifier not previously declared") && before.token == now.token)
+            || (before.message.starts_with("invalid directive") && now.message.contains("#endif"))
+            || (before.message.starts_with("invalid directive") && now.message.starts_with("mismatched"))
             || (before.token == "return" && now.message.contains("does not return a value"))
     }
 
@@ -84,6 +92,7 @@ impl Finding<'_, '_> {
         self.is_alien()
             || self.entry.message.starts_with("Reserved word")
             || self.index == syntax.index
+            || before.and_then(|close| file.opening(close)).and_then(|open| open.checked_sub(1)) == Some(self.index)
             || (self.stands_alone() && before == Some(self.index) && file.word(before) == self.entry.token)
     }
 }
@@ -91,7 +100,9 @@ impl Finding<'_, '_> {
 /// Finds the place that `entry` is about.
 pub fn find<'e, 'a>(file: &File<'a>, entry: &'e Entry<'a>) -> Finding<'e, 'a> {
     let index = match entry.place {
-        Some((line, column)) if entry.is_syntax_error() => syntax::unexpected_token(file, file.offset(line, column)),
+        Some((line, column)) if entry.is_syntax_error() => {
+            syntax::unexpected_token(file, entry, file.offset(line, column))
+        }
         Some((line, column)) => names::locate(file, entry, file.offset(line, column)),
         None => file.code.len(),
     };
@@ -129,7 +140,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 
 /// Puts a warning into words, if it matters to a student.
 pub fn warn(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
-    let diagnostic = rules::warn(file, finding)?;
+    let diagnostic = disallowed::warn(file, finding)?;
     Some(Diagnostic { severity: Severity::Warning, ..diagnostic })
 }
 
@@ -146,7 +157,11 @@ fn in_the_compilers_words(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnos
         ),
     };
     match finding.entry.place {
-        Some(_) => file.error_at(finding.index, text),
+        // A place outside the code, such as a preprocessor line, has no token.
+        Some((line, column)) => match file.code.get(finding.index) {
+            Some(token) if file.line(token.start) == line => file.error_at(finding.index, text),
+            _ => file.error(file.offset(line, column), 1, text),
+        },
         None => Diagnostic::error(crate::diagnostic::Stage::Compile, text),
     }
 }

@@ -117,6 +117,7 @@ fn causes<'f, 'e, 'a>(file: &File<'a>, findings: &'f [Finding<'e, 'a>]) -> Vec<&
             kept.iter().copied().any(|other| same(&other) && other.stands_alone() && again(&other))
         } else {
             earlier.is_some()
+                || errors.iter().any(|other| other.stands_alone() && same(other))
                 || syntax.is_some_and(|syntax| syntax.statement == finding.statement)
                 || hints::statement_words(file, finding).any(|word| tainted.contains(&word))
         };

@@ -73,6 +73,7 @@ pub fn explain(file: &File<'_>, at: usize) -> Option<Diagnostic> {
         "}" | "{" if matches!(opening, "(" | "[") => Some(unclosed(file, innermost?)),
         ";" if matches!(opening, "(" | "[") => Some(unclosed_at_semicolon(file, innermost?, at)),
         "{" if !open.is_empty() => unclosed_brace(file).map(|brace| unclosed(file, brace)),
+        "else" if unclosed_brace(file).is_some() => Some(unclosed(file, unclosed_brace(file)?)),
         _ if stray_brace(file, at).is_some() => Some(extra(file, stray_brace(file, at)?)),
         _ if matches!(opening, "(" | "[") && statement_begins(file, at) => Some(unclosed(file, innermost?)),
         _ => None,
@@ -140,6 +141,10 @@ fn unclosed(file: &File<'_>, open: usize) -> Diagnostic {
 }
 
 fn extra(file: &File<'_>, close: usize) -> Diagnostic {
+    // The brace that is missing may stand in a comment that was never ended.
+    if let Some(swallowed) = file.swallowed("{").filter(|_| file.code[close].text == "}") {
+        return swallowed;
+    }
     let bracket = file.code[close].text;
     let open = partner(bracket);
     let text = Text::new(

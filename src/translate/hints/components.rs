@@ -1,7 +1,7 @@
 //! Components of vectors, members, indices and conditions.
 
 use super::file::File;
-use super::{Finding, types};
+use super::{Finding, expression, types};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
@@ -107,7 +107,7 @@ fn condition(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
         );
         return file.error_at(open + 1 + at, text);
     }
-    let ty = types::of_expression(file, inside).map(|ty| ty.to_string());
+    let ty = expression::type_of(file, inside).map(|ty| ty.to_string());
     let text = match ty.filter(|ty| ty != "bool") {
         Some(ty) => Text::new(
             format!("The condition has type {ty}; it must be bool."),

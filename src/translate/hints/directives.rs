@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 
 const NAMES: [&str; 12] =
-    ["version", "define", "undef", "if", "ifdef", "ifndef", "else", "elif", "endif", "error", "pragma", "extension"];
+    ["version", "define", "undef", "if", "ifdef", "ifndef", "else", "endif", "elif", "error", "pragma", "extension"];
 
 /// `text` with its `#line` directives blanked, so that the compiler counts as an editor does; `None` without any.
 /// Every byte of them becomes a space: offsets of everything else stay.
@@ -62,7 +62,10 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
         let text = Text::new("The `#endif` for this line is missing.", "この行に対応する `#endif` がありません。");
         return Some(file.error(open.start, open.text.len(), text));
     }
-    let directive = directive?;
+    // Where a line ends too early, the compiler is on the next one already.
+    let above = || file.directives.iter().find(|token| Some(file.line(token.end()) + 1) == line);
+    let about = |token: &&Token<'_>| entry.token.strip_prefix('#') == Some(directive_name(token.text));
+    let directive = directive.or_else(|| above().filter(about))?;
     let name = directive_name(directive.text);
     let mark = |text| file.error(directive.start, directive.text.len(), text);
     if message.starts_with("mismatched statements") {
@@ -79,7 +82,15 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
             "シェーダは 1 つのファイルで完結します。組み込み関数を使うのにヘッダは要りません。",
         )));
     }
-    message.starts_with("invalid directive").then(|| misspelt(name, mark))
+    if message.starts_with("invalid directive") {
+        return Some(misspelt(name, mark));
+    }
+    entry.token.starts_with('#').then(|| {
+        mark(Text::new(
+            format!("This `#{name}` is not complete or not correct: “{message}”."),
+            format!("この `#{name}` の書き方が正しくありません:「{message}」。"),
+        ))
+    })
 }
 
 fn misspelt(name: &str, mark: impl Fn(Text) -> Diagnostic) -> Diagnostic {

@@ -117,6 +117,26 @@ impl<'a> File<'a> {
         self.directives.iter().find(|line| macro_name(line.text) == Some(name))
     }
 
+    /// An error about the comment that swallows `name`: one that reaches over the `/*` of the next comment to its end.
+    pub fn swallowed(&self, name: &str) -> Option<Diagnostic> {
+        let has_name = |part: &str| tokens::tokens(part).iter().any(|token| token.text == name);
+        let code_in = |comment: &str| comment.lines().skip(1).any(has_name);
+        let comment = tokens::comments(self.text).into_iter().find(|comment| {
+            let inside = &self.text[comment.start + 2..comment.end];
+            inside.contains("/*") && code_in(inside)
+        })?;
+        let (first, last) = (self.line(comment.start), self.line(comment.end - 1));
+        let text = Text::new(
+            format!("This comment ends only on line {last}, and so hides the code in between."),
+            format!("このコメントは {last} 行目まで続いているので、その間のコードが無効になっています。"),
+        );
+        let hint = Text::new(
+            format!("The `*/` of the comment on line {first} is missing; `{name}` stands inside it."),
+            format!("{first} 行目のコメントを閉じる `*/` がありません。`{name}` がコメントの中に入っています。"),
+        );
+        Some(self.error(comment.start, 2, text).hint(hint))
+    }
+
     /// An error of the compiler about `length` bytes from `offset` on.
     pub fn error(&self, offset: usize, length: usize, message: Text) -> Diagnostic {
         let offset = offset.min(self.text.len());

@@ -2,7 +2,7 @@
 
 use super::declarations::{Declaration, Role};
 use super::file::File;
-use super::names;
+use super::suggestions;
 use super::vocabulary;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
@@ -13,7 +13,7 @@ pub fn explain(file: &File<'_>, entry: &Entry<'_>) -> Diagnostic {
     let message = entry.message;
     let found = if message.contains("no matching declaration for statically used input") {
         Some(output_missing(file))
-    } else if message.contains("must match") {
+    } else if message.contains("must match") || message.contains("must be compatible") {
         output_differs(file, message)
     } else if message.contains("Missing entry point") {
         Some(no_main(file))
@@ -42,33 +42,47 @@ fn at(file: &File<'_>, declaration: &Declaration<'_>, text: Text) -> Diagnostic 
     Diagnostic { stage: Stage::Link, ..file.error_at(declaration.index, text) }
 }
 
+/// How the fragment shader's input wants the output declared.
+fn output_hint(file: &File<'_>) -> Text {
+    let needed = suggestions::declaration_of(file, &file.interface.output.name).unwrap_or_default();
+    Text::new(
+        format!("The fragment shader's input fits an output `{needed}`: the name and the type must be just these."),
+        format!("フラグメントシェーダの入力に合う宣言は `{needed}` です。変数名と型をこれに合わせてください。"),
+    )
+}
+
+/// An error of the compiler: `own` has the name of the output and is none.
+pub fn output_missing_as(file: &File<'_>, own: &Declaration<'_>) -> Diagnostic {
+    let name = own.name;
+    let text = if own.global {
+        Text::new(
+            format!("`{name}` is not declared as an output (`out`) of this shader."),
+            format!("`{name}` が出力変数 (`out`) として宣言されていません。"),
+        )
+    } else {
+        Text::new(
+            format!("This `{name}` exists only inside its function or block; the shader has no output `{name}`."),
+            format!("この `{name}` は関数やブロックの中だけの変数です。出力変数 `{name}` がありません。"),
+        )
+    };
+    file.error_at(own.index, text).hint(output_hint(file))
+}
+
 /// Whether `declaration` is an output variable, also in the words of old GLSL.
 fn is_output(declaration: &Declaration<'_>) -> bool {
     let output = declaration.is("out") || declaration.is("varying");
     declaration.global && declaration.role == Role::Variable && output
 }
 
-fn output_missing(file: &File<'_>) -> Diagnostic {
+pub fn output_missing(file: &File<'_>) -> Diagnostic {
     let output = &file.interface.output;
     let name = output.name.as_str();
-    let needed = names::declaration_of(file, name).unwrap_or_default();
-    let hint = Text::new(
-        format!("The fragment shader's input fits an output `{needed}`: the name and the type must be just these."),
-        format!("フラグメントシェーダの入力に合う宣言は `{needed}` です。変数名と型をこれに合わせてください。"),
-    );
+    let hint = output_hint(file);
+    if let Some(swallowed) = file.swallowed(name).filter(|_| file.anywhere(name).is_none()) {
+        return Diagnostic { stage: Stage::Link, ..swallowed };
+    }
     if let Some(own) = file.anywhere(name).filter(|d| !is_output(d)) {
-        let text = if own.global {
-            Text::new(
-                format!("`{name}` is not declared as an output (`out`) of this shader."),
-                format!("`{name}` が出力変数 (`out`) として宣言されていません。"),
-            )
-        } else {
-            Text::new(
-                format!("This `{name}` exists only inside its function or block; the shader has no output `{name}`."),
-                format!("この `{name}` は関数やブロックの中だけの変数です。出力変数 `{name}` がありません。"),
-            )
-        };
-        return at(file, own, text).hint(hint);
+        return Diagnostic { stage: Stage::Link, ..output_missing_as(file, own) };
     }
     let outputs: Vec<_> = file.declarations.iter().filter(|d| is_output(d) && d.name != name).collect();
     let near = vocabulary::nearest(name, outputs.iter().map(|d| d.name));
@@ -108,7 +122,7 @@ fn output_differs(file: &File<'_>, message: &str) -> Option<Diagnostic> {
             format!("出力変数 `{name}` の修飾子が、フラグメントシェーダの入力変数と一致していません。"),
         )
     };
-    let declaration = names::declaration_of(file, name)?;
+    let declaration = suggestions::declaration_of(file, name)?;
     Some(at(file, own, text).hint(Text::new(
         format!("It must be declared as `{declaration}`."),
         format!("`{declaration}` と宣言してください。"),
@@ -116,6 +130,9 @@ fn output_differs(file: &File<'_>, message: &str) -> Option<Diagnostic> {
 }
 
 fn no_main(file: &File<'_>) -> Diagnostic {
+    if let Some(swallowed) = file.swallowed("main") {
+        return Diagnostic { stage: Stage::Link, ..swallowed };
+    }
     let text = Text::new("The file has no function `main`.", "関数 `main` がありません。");
     let functions = || file.declarations.iter().filter(|d| d.role == Role::Function);
     let near = vocabulary::nearest("main", functions().map(|d| d.name));

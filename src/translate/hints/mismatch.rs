@@ -1,8 +1,9 @@
 //! Types that do not fit: conversions, operands, arguments, constructors, components.
 
+use super::declarations::Role;
 use super::file::File;
 use super::types::{self, Numeric};
-use super::{Finding, vocabulary};
+use super::{Finding, expression, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
@@ -34,7 +35,7 @@ fn conversion(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> 
     let equals = (finding.index..file.code.len()).find(|&at| matches!(file.code[at].text, "=" | ";"))?;
     let value = || {
         let end = (equals..file.code.len()).find(|&at| file.code[at].text == ";")?;
-        types::of_expression(file, file.code.get(equals + 1..end)?).map(|ty| ty.to_string())
+        expression::type_of(file, file.code.get(equals + 1..end)?).map(|ty| ty.to_string())
     };
     let (from, to) = match &quoted[..] {
         [from, to] => (Some(from.clone()), Some(to.clone())),
@@ -109,7 +110,8 @@ fn operands(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
     let operator = finding.entry.token;
     let quoted = quoted_types(finding.entry.message);
     let Some((left, right)) = quoted.get(1).zip(quoted.get(2)) else {
-        let ty = quoted.get(1).cloned().unwrap_or_default();
+        let phrase = finding.entry.message.split("operand of type ").nth(1).unwrap_or_default();
+        let ty = types::from_phrase(phrase.split(" (or").next().unwrap_or_default());
         let text = Text::new(
             format!("`{operator}` cannot be applied to a value of type {ty}."),
             format!("`{operator}` を {ty} 型の値に使うことはできません。"),
@@ -191,9 +193,9 @@ fn arguments(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
     let name = finding.entry.token;
     let open = finding.index + 1;
     let inside = file.closing(open).and_then(|close| file.code.get(open + 1..close)).unwrap_or_default();
-    let arguments = types::arguments(inside);
+    let arguments = expression::arguments(inside);
     let given: Option<Vec<_>> =
-        arguments.iter().map(|argument| types::of_expression(file, argument).map(|ty| ty.to_string())).collect();
+        arguments.iter().map(|argument| expression::type_of(file, argument).map(|ty| ty.to_string())).collect();
     let text = match given {
         Some(given) => Text::new(
             format!("`{name}` cannot be called with ({}).", given.join(", ")),
@@ -213,7 +215,7 @@ fn arguments(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
 
 /// What a function takes.
 fn form(file: &File<'_>, name: &str) -> Option<Text> {
-    if let Some(function) = file.anywhere(name) {
+    if let Some(function) = file.anywhere(name).filter(|d| d.role == Role::Function) {
         let close = file.closing(function.index + 1)?;
         let parameters: String =
             file.text[function.start..file.code[close].end()].split_ascii_whitespace().collect::<Vec<_>>().join(" ");
@@ -250,8 +252,10 @@ fn constructor(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     let open = finding.index + 1;
     let inside = file.closing(open).and_then(|close| file.code.get(open + 1..close)).unwrap_or_default();
     let components = |ty: Numeric| u32::from(ty.columns) * u32::from(ty.rows);
-    let given: Option<u32> =
-        types::arguments(inside).into_iter().map(|argument| types::of_expression(file, argument).map(components)).sum();
+    let given: Option<u32> = expression::arguments(inside)
+        .into_iter()
+        .map(|argument| expression::type_of(file, argument).map(components))
+        .sum();
     let needed = components(ty);
     let text =
         match given.filter(|_| message.starts_with("not enough data") || message.starts_with("too many arguments")) {

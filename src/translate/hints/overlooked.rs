@@ -1,9 +1,9 @@
 //! What every driver refuses and the compiler here lets pass.
 
-use super::declarations::Declaration;
+use super::declarations::{Declaration, Role};
 use super::directives::directive_name;
 use super::file::File;
-use super::names;
+use super::suggestions;
 use super::tokens::Kind;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
@@ -18,6 +18,7 @@ pub fn overlooked_errors(text: &str, interface: &Interface) -> Vec<Diagnostic> {
     let mut all: Vec<_> = version(&file).into_iter().collect();
     all.extend(swizzles(&file));
     all.extend(interpolation(&file));
+    all.extend(output_in_block(&file));
     all
 }
 
@@ -84,6 +85,15 @@ fn is_conditional(file: &File<'_>, offset: usize) -> bool {
     depth > 0
 }
 
+/// The output as a member of a block, which is not the variable that the fragment shader reads.
+fn output_in_block(file: &File<'_>) -> Option<Diagnostic> {
+    let output = file.anywhere(&file.interface.output.name).filter(|d| !d.global)?;
+    let inside = file.code[..output.index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
+    let block = inside.checked_sub(1)?;
+    let is_block = |d: &Declaration<'_>| d.role == Role::Structure && d.ty == "out" && d.index == block;
+    (file.code[inside].text == "{" && file.declarations.iter().any(is_block)).then(|| super::link::output_missing(file))
+}
+
 /// An output that is `flat` or `noperspective` where the fragment shader's input is not, or the other way round.
 fn interpolation(file: &File<'_>) -> Option<Diagnostic> {
     if version_number(file) >= FREE_INTERPOLATION {
@@ -100,7 +110,7 @@ fn interpolation(file: &File<'_>) -> Option<Diagnostic> {
         format!("The output `{name}` and the fragment shader's input differ in `{qualifier}`."),
         format!("出力変数 `{name}` とフラグメントシェーダの入力変数とで、`{qualifier}` の有無が異なっています。"),
     );
-    let declaration = names::declaration_of(file, name)?;
+    let declaration = suggestions::declaration_of(file, name)?;
     let diagnostic = Diagnostic { stage: Stage::Link, ..file.error_at(output.index, text) };
     Some(diagnostic.hint(Text::new(
         format!("It must be declared as `{declaration}`."),

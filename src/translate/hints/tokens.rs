@@ -62,6 +62,29 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
     all
 }
 
+/// Where the block comments of `text` stand.
+pub fn comments(text: &str) -> Vec<std::ops::Range<usize>> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    for token in tokens(text) {
+        block_comments(&text[at..token.start], at, &mut found);
+        at = token.end();
+    }
+    block_comments(&text[at..], at, &mut found);
+    found
+}
+
+/// Finds the block comments in a gap between two tokens, which begins at byte `start`.
+fn block_comments(gap: &str, start: usize, found: &mut Vec<std::ops::Range<usize>>) {
+    let mut at = 0;
+    while let Some(length) = blank_length(&gap[at..]) {
+        if gap[at..].starts_with("/*") {
+            found.push(start + at..start + at + length);
+        }
+        at += length;
+    }
+}
+
 /// The length of the white space, comment or line continuation that `rest` begins with.
 fn blank_length(rest: &str) -> Option<usize> {
     if rest.starts_with("//") {

@@ -14,11 +14,6 @@ const QUALIFIERS: &str = "const in out inout uniform buffer attribute varying fl
 const KEYWORDS: &str = "if else for while do switch case default break continue return discard struct true false \
     precision subroutine coherent volatile restrict readonly writeonly";
 
-/// Words that GLSL keeps for itself, in some version or all, without giving them a meaning.
-const RESERVED: &str = "common partition active asm class union enum typedef template this resource goto inline noinline \
-    public static extern external interface long short half fixed unsigned superp input output hvec2 hvec3 hvec4 fvec2 \
-    fvec3 fvec4 filter sizeof cast namespace using sampler3DRect row_major packed";
-
 /// Built-in functions of a vertex shader.
 const FUNCTIONS: &str = "radians degrees sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow exp log exp2 log2 \
     sqrt inversesqrt abs sign floor trunc round roundEven ceil fract mod modf min max clamp mix step smoothstep isnan \
@@ -42,11 +37,6 @@ pub fn is_type(word: &str) -> bool {
 /// Whether `word` qualifies a declaration.
 pub fn is_qualifier(word: &str) -> bool {
     has(QUALIFIERS, word)
-}
-
-/// Whether `word` is reserved without a meaning.
-pub fn is_reserved(word: &str) -> bool {
-    has(RESERVED, word)
 }
 
 /// Whether `word` is a type, a qualifier or another keyword.
@@ -126,7 +116,7 @@ const FOREIGN: [(Origin, &str); 4] = [
     ),
     (
         Origin::C,
-        "new delete malloc printf cout std string char auto nullptr NULL TRUE=true FALSE=false True=true False=false \
+        "new delete malloc printf cout std string char auto nullptr NULL let var def function and=&& or=|| TRUE=true FALSE=false True=true False=false \
          powf=pow sqrtf=sqrt fabs=abs fabsf=abs fmax=max fmaxf=max fmin=min fminf=min sinf=sin cosf=cos glm=vec3 fmodf=mod \
          size_t=int power=pow maximum=max minimum=min Vector3=vec3 Vector4=vec4 Matrix4=mat4 Vec3=vec3 Vec4=vec4 Mat4=mat4",
     ),
