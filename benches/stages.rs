@@ -2,7 +2,8 @@
 
 use divan::Bencher;
 use ggrade::compare;
-use ggrade::grade::{self, Grader, Order};
+use ggrade::grade::{Grader, Order};
+use ggrade::homework;
 use ggrade::render::{AdapterKind, Device, Renderer};
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, Interface, Shader};
@@ -14,11 +15,11 @@ fn main() {
 }
 
 fn assignment() -> &'static Assignment {
-    grade::assignment("ggsample06").expect("the assignment is built in")
+    homework::assignment("ggsample06").expect("the assignment is built in")
 }
 
 fn interface() -> Interface {
-    grade::interface(assignment()).expect("the assignment is whole")
+    homework::interface(assignment()).expect("the assignment is whole")
 }
 
 /// A right answer that no cache has seen: another constant in code that does nothing.
@@ -63,7 +64,7 @@ fn translate_source(bencher: Bencher<'_, '_>) {
 fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
     let interface = interface();
     let renderer = RefCell::new(renderer());
-    let scene = grade::scene(assignment(), &assignment().probes(1));
+    let scene = homework::scene(assignment(), &assignment().probes(1));
     bencher
         .with_inputs(|| shader(&read(&text()), &interface))
         .bench_local_refs(|shader| renderer.borrow_mut().render(shader, &scene).expect("a rendering"));
@@ -71,9 +72,9 @@ fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
 
 #[divan::bench]
 fn compare_25_frames(bencher: Bencher<'_, '_>) {
-    let expected = grade::expected_frames(assignment());
+    let expected = homework::expected_frames(assignment());
     let mut renderer = renderer();
-    let scene = grade::scene(assignment(), &assignment().probes(1));
+    let scene = homework::scene(assignment(), &assignment().probes(1));
     let rendering = renderer.render(&shader(&read(&text()), &interface()), &scene).expect("a rendering");
     bencher.bench_local(|| {
         expected

@@ -30,8 +30,8 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
-        let assignment = ggrade::grade::assignment("ggsample06").unwrap();
-        let interface = ggrade::grade::interface(assignment).unwrap();
+        let assignment = ggrade::homework::assignment("ggsample06").unwrap();
+        let interface = ggrade::homework::interface(assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
         let renderer = Renderer::new(device, fixed).unwrap();
@@ -45,7 +45,7 @@ impl Bench {
 
     fn scene(&self, poses: &[Pose]) -> Scene {
         let scene = &self.assignment.scene;
-        let batch = |pose: &Pose| ggrade::grade::batch(self.assignment, &pose.matrices, &scene.triangle);
+        let batch = |pose: &Pose| ggrade::homework::batch(self.assignment, &pose.matrices, &scene.triangle);
         Scene {
             width: scene.width,
             height: scene.height,

@@ -1,6 +1,6 @@
 //! Samples → which terms are right, which known mistakes explain the rest, and what that is worth. Pure.
 
-mod constants;
+pub mod constants;
 mod hard_coded;
 mod locate;
 mod message;
@@ -8,7 +8,7 @@ mod message;
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
 use crate::language::Text;
 use crate::render::Sample;
-use crate::report::{FrameResult, ProbeResult, RubricLine};
+use crate::report::{FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
 use constants::ChangedConstant;
 use reference::Assignment;
@@ -64,6 +64,8 @@ pub struct Diagnosis {
     pub rubric: Vec<RubricLine>,
     /// Ids of the mistakes found.
     pub mistakes: Vec<String>,
+    /// The equation that computes what the shader computes, where one is known.
+    pub explanation: Option<Vec<Hypothesis>>,
     /// The probes in figures.
     pub probes: ProbeResult,
 }
@@ -93,7 +95,13 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     }
     let lines = &evidence.assignment.rubric;
     let rubric: Vec<RubricLine> = lines.iter().map(|line| judge(evidence, line, shape, &cause, &mistakes)).collect();
-    Diagnosis { is_right: mistakes.is_empty(), rubric, mistakes, probes: probes.result }
+    Diagnosis {
+        is_right: mistakes.is_empty(),
+        rubric,
+        mistakes,
+        explanation: cause.explanation(),
+        probes: probes.result,
+    }
 }
 
 fn costs(assignment: &Assignment, id: &str, line: &str) -> bool {
@@ -182,6 +190,19 @@ fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples:
 }
 
 impl Cause {
+    fn explanation(&self) -> Option<Vec<Hypothesis>> {
+        match self {
+            Self::Right => Some(Vec::new()),
+            Self::Known { found, .. } => Some(
+                found
+                    .iter()
+                    .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
+                    .collect(),
+            ),
+            Self::HardCoded | Self::Unexplained(_) => None,
+        }
+    }
+
     fn ids(&self) -> Vec<String> {
         match self {
             Self::Right => Vec::new(),
