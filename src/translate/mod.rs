@@ -3,7 +3,10 @@
 //! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
+mod build;
 mod entry;
+mod fuel;
+mod gate;
 pub mod glslang;
 mod interface;
 mod limits;
@@ -12,7 +15,8 @@ mod module;
 mod rework;
 mod spirv;
 
-pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
+pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
+pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
@@ -27,6 +31,8 @@ use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
 pub enum Refusal {
     /// The student's file is at fault.
     Rejected(Vec<Diagnostic>),
+    /// It exceeds a limit.
+    Stopped(Vec<Diagnostic>),
     /// ggrade is.
     Fault(Fault),
 }
@@ -48,6 +54,7 @@ pub struct Translation {
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
+    gate::check_text(source)?;
     let text = rework::c_text(&source.text);
     let verdict = compile(&Request {
         vertex: &text,
@@ -62,8 +69,9 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     }
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     let spirv = second_pass(source, interface)?;
+    gate::check_words(&spirv, source)?;
     let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, &inputs, &interface.output.name)?;
+    let shader = module::build(&spirv, source, &inputs, &interface.output.name)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
     Ok(Translation { shader, diagnostics })
 }
