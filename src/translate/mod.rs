@@ -3,7 +3,10 @@
 //! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
+mod build;
 mod entry;
+mod fuel;
+mod gate;
 pub mod glslang;
 mod hints;
 mod interface;
@@ -13,8 +16,8 @@ mod module;
 mod rework;
 mod spirv;
 
-pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
-pub use hints::{overlooked_errors, without_line_directives};
+pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
+pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
@@ -29,6 +32,8 @@ use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
 pub enum Refusal {
     /// The student's file is at fault.
     Rejected(Vec<Diagnostic>),
+    /// It exceeds a limit.
+    Stopped(Vec<Diagnostic>),
     /// ggrade is.
     Fault(Fault),
 }
@@ -50,6 +55,7 @@ pub struct Translation {
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
+    gate::check_text(source)?;
     let verdict = first_pass(&source.text, interface);
     if verdict.reached != Reached::Done {
         return Err(rejected(verdict, source, interface));
@@ -60,8 +66,9 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     }
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     let spirv = second_pass(source, interface)?;
+    gate::check_words(&spirv, source)?;
     let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, &inputs, &interface.output.name)?;
+    let shader = module::build(&spirv, source, &inputs, &interface.output.name)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
     Ok(Translation { shader, diagnostics })
 }

@@ -5,21 +5,28 @@ use std::collections::BTreeMap;
 const HEADER_WORDS: usize = 5;
 
 /// Opcodes that are looked at here (SPIR-V specification, section 3.42).
-mod op {
+pub(super) mod op {
     pub const UNDEF: u16 = 1;
+    pub const NAME: u16 = 5;
     pub const LINE: u16 = 8;
+    pub const TYPE_ARRAY: u16 = 28;
+    pub const TYPE_POINTER: u16 = 32;
     pub const CONSTANT_NULL: u16 = 46;
     pub const FUNCTION: u16 = 54;
+    pub const VARIABLE: u16 = 59;
+    pub const DECORATE: u16 = 71;
+    pub const LOOP_MERGE: u16 = 246;
     pub const NO_LINE: u16 = 317;
 }
 
 /// One instruction: its opcode and its words, the first included.
-struct Instruction<'a> {
-    opcode: u16,
-    words: &'a [u32],
+pub(super) struct Instruction<'a> {
+    pub opcode: u16,
+    pub words: &'a [u32],
 }
 
-fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
+/// The instructions behind the header.
+pub(super) fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
     let mut at = HEADER_WORDS;
     std::iter::from_fn(move || {
         let first = *words.get(at)?;
@@ -29,6 +36,12 @@ fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
         at += length.max(1);
         Some(instruction)
     })
+}
+
+/// A text of SPIR-V: bytes of UTF-8 in words, ended by a zero.
+pub(super) fn text(words: &[u32]) -> String {
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).take_while(|byte| *byte != 0).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// What the compiler wrote, as naga's front end takes it.
