@@ -8,6 +8,7 @@ use super::tokens::Kind;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::translate::Interface;
+use crate::translate::log::MAX_DIAGNOSTICS;
 
 /// From this version on, the two shaders may differ in how an output is interpolated.
 const FREE_INTERPOLATION: u32 = 440;
@@ -19,6 +20,7 @@ pub fn overlooked_errors(text: &str, interface: &Interface) -> Vec<Diagnostic> {
     all.extend(swizzles(&file));
     all.extend(interpolation(&file));
     all.extend(output_in_block(&file));
+    all.truncate(MAX_DIAGNOSTICS);
     all
 }
 
