@@ -49,7 +49,7 @@ pub struct Finding<'e, 'a> {
 impl Finding<'_, '_> {
     /// Whether a real driver refuses the file for this too.
     pub fn is_error(&self) -> bool {
-        self.entry.is_error && self.entry.token != "line continuation"
+        self.entry.is_error && !matches!(self.entry.token, "line continuation" | "extraneous semicolon")
     }
 
     /// Whether nothing that the compiler says besides is worth reading.
