@@ -63,7 +63,8 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     let spirv = second_pass(source, interface)?;
     let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, &inputs, &interface.output.name)?;
+    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
+    let shader = module::build(&spirv, &inputs, &set, &interface.output.name)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
     Ok(Translation { shader, diagnostics })
 }
@@ -87,15 +88,11 @@ fn second_pass(source: &Source, interface: &Interface) -> Result<Vec<u32>, Fault
         vertex: &reworked.text,
         fragment: &interface.fragment,
         preamble: &reworked.preamble,
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: reworked.version,
         emit: Stage::Vertex,
     };
-    let mut outcome = compile(&request);
-    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-    if let Some(text) = rework::initialised_uniforms(&source.text, source.code(), &outcome.vertex_log, &set) {
-        outcome = compile(&Request { vertex: &text, ..request });
-    }
+    let outcome = compile(&request);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
     }
@@ -109,7 +106,7 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
         vertex: &rework::c_text(vertex),
         fragment: &interface.fragment,
         preamble: c"",
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: None,
         emit: Stage::Fragment,
     });
