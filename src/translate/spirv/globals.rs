@@ -7,6 +7,9 @@ use std::collections::HashMap;
 /// Name of the block of OpenGL's default-block uniforms.
 pub const DEFAULT_BLOCK: &str = "gl_DefaultUniformBlock";
 
+/// The built-in uniform that holds the range of depth in window coordinates.
+const DEPTH_RANGE: &str = "gl_DepthRange";
+
 /// A uniform variable or block of which the shader reads and the program sets nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unset {
@@ -32,6 +35,7 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
     let mut places = HashMap::new();
     let mut members = Vec::new();
     let mut unset = Vec::new();
+    let mut initials = HashMap::new();
     for variable in &variables {
         let [pointer, id, class, ..] = variable.operands[..] else { continue };
         let Some(pointee) = pointee(code, pointer) else { continue };
@@ -47,6 +51,9 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
         if !is_block && set.contains(&name.as_str()) && is_numeric(code, pointee) {
             places.insert(id, (Place::Member(members.len() as u32), pointee));
             members.push((name, pointee));
+        } else if name == DEPTH_RANGE {
+            places.insert(id, (Place::Private, pointee));
+            initials.insert(id, depth_range(code, pointee));
         } else {
             places.insert(id, (Place::Private, pointee));
             unset.push(Unset { name, ty: if is_block { "block" } else { short_name(code, pointee) } });
@@ -55,7 +62,8 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
     let block = (!members.is_empty()).then(|| default_block(code, &members));
     for variable in &variables {
         if let Some((place, pointee)) = places.get(&variable.operands[1]) {
-            replace(code, variable, place, *pointee);
+            let initial = initials.get(&variable.operands[1]).or(variable.operands.get(3)).copied();
+            replace(code, variable, place, *pointee, initial);
         }
     }
     uses(code, &places, block);
@@ -88,6 +96,13 @@ fn draw_parameters(code: &mut Code) -> Vec<u32> {
         entry.operands.extend(interface.into_iter().filter(|id| !found.contains(id)));
     }
     found
+}
+
+/// `near`, `far` and `diff` as they are where a program sets nothing: 0, 1, 1.
+fn depth_range(code: &mut Code, ty: u32) -> u32 {
+    let float = code.ty(op::TYPE_FLOAT, &[32]);
+    let [near, far] = [0.0f32, 1.0].map(|depth| code.constant(op::CONSTANT, float, &[depth.to_bits()]));
+    code.constant(op::CONSTANT_COMPOSITE, ty, &[near, far, far])
 }
 
 fn pointee(code: &Code, pointer: u32) -> Option<u32> {
@@ -178,7 +193,7 @@ fn layout(code: &Code, ty: u32) -> Layout {
 }
 
 /// Takes away a variable that becomes a member, and declares one that becomes private anew.
-fn replace(code: &mut Code, variable: &Instruction, place: &Place, pointee: u32) {
+fn replace(code: &mut Code, variable: &Instruction, place: &Place, pointee: u32, initial: Option<u32>) {
     let id = variable.operands[1];
     code.undecorate(id);
     code.globals.retain(|i| i.opcode != op::VARIABLE || i.operands[1] != id);
@@ -188,7 +203,7 @@ fn replace(code: &mut Code, variable: &Instruction, place: &Place, pointee: u32)
     if variable.operands[2] != storage::UNIFORM_CONSTANT {
         code.undecorate(pointee);
     }
-    let initial = variable.operands.get(3).copied().unwrap_or_else(|| code.null(pointee));
+    let initial = initial.unwrap_or_else(|| code.null(pointee));
     let pointer = code.ty(op::TYPE_POINTER, &[storage::PRIVATE, pointee]);
     code.globals.push(Instruction::new(op::VARIABLE, vec![pointer, id, storage::PRIVATE, initial]));
 }

@@ -1,7 +1,7 @@
 //! Instructions that naga's front end does not know, or takes for something else, in terms of ones it knows.
 
 use super::code::{Code, Instruction};
-use super::{integers, op, op::glsl};
+use super::{integers, op, op::glsl, packing};
 use std::collections::HashMap;
 
 /// Lowers the functions of `code`.
@@ -133,7 +133,7 @@ fn lowered(b: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
         }
         (op::F_MOD, &[x, y]) => {
             let ratio = b.op(op::F_DIV, ty, &[x, y]);
-            let floor = b.glsl(8, ty, &[ratio]);
+            let floor = b.glsl(glsl::FLOOR, ty, &[ratio]);
             let product = b.op(op::F_MUL, ty, &[y, floor]);
             b.op_as(id, op::F_SUB, ty, &[x, product]);
             Some(())
@@ -212,6 +212,8 @@ fn extended(b: &mut Builder<'_>, id: u32, ty: u32, number: u32, arguments: &[u32
             let found = b.glsl(number, argument_ty, &[x]);
             b.op_as(id, op::BITCAST, ty, &[found]);
         }
+        (glsl::PACK_SNORM_4X8 | glsl::PACK_SNORM_2X16, &[x]) => return packing::pack_signed(b, id, ty, x),
+        (glsl::UNPACK_HALF_2X16, &[x]) => return packing::unpack_half(b, id, ty, x),
         _ => return None,
     }
     Some(())

@@ -5,6 +5,7 @@ mod globals;
 mod integers;
 mod lower;
 mod op;
+mod packing;
 mod switch;
 #[cfg(test)]
 mod tests;

@@ -43,6 +43,8 @@ pub const COMPOSITE_INSERT: u16 = 82;
 pub const COPY_OBJECT: u16 = 83;
 pub const IMAGE_SAMPLE_FIRST: u16 = 87;
 pub const IMAGE_LAST: u16 = 107;
+pub const CONVERT_F_TO_S: u16 = 110;
+pub const CONVERT_U_TO_F: u16 = 112;
 pub const BITCAST: u16 = 124;
 pub const F_NEGATE: u16 = 127;
 pub const I_ADD: u16 = 128;
@@ -62,11 +64,13 @@ pub const I_SUB_BORROW: u16 = 150;
 pub const U_MUL_EXTENDED: u16 = 151;
 pub const S_MUL_EXTENDED: u16 = 152;
 pub const SELECT: u16 = 169;
+pub const I_EQUAL: u16 = 170;
 pub const U_LESS_THAN: u16 = 176;
 pub const S_LESS_THAN: u16 = 177;
 pub const F_ORD_EQUAL: u16 = 180;
 pub const F_ORD_LESS_THAN: u16 = 184;
 pub const SHIFT_RIGHT_LOGICAL: u16 = 194;
+pub const SHIFT_LEFT_LOGICAL: u16 = 196;
 pub const BITWISE_OR: u16 = 197;
 pub const BITWISE_AND: u16 = 199;
 pub const BIT_REVERSE: u16 = 204;
@@ -116,14 +120,22 @@ pub mod built_in {
 
 /// `GLSL.std.450`.
 pub mod glsl {
+    pub const ROUND_EVEN: u32 = 2;
     pub const TRUNC: u32 = 3;
     pub const F_ABS: u32 = 4;
     pub const F_SIGN: u32 = 6;
+    pub const FLOOR: u32 = 8;
     pub const SQRT: u32 = 31;
     pub const MODF: u32 = 35;
     pub const MODF_STRUCT: u32 = 36;
+    pub const F_CLAMP: u32 = 43;
     pub const FREXP: u32 = 51;
     pub const FREXP_STRUCT: u32 = 52;
+    pub const PACK_SNORM_4X8: u32 = 54;
+    pub const PACK_SNORM_2X16: u32 = 56;
+    pub const PACK_DOUBLE_2X32: u32 = 59;
+    pub const UNPACK_HALF_2X16: u32 = 62;
+    pub const UNPACK_DOUBLE_2X32: u32 = 65;
     pub const LENGTH: u32 = 66;
     pub const DISTANCE: u32 = 67;
     pub const NORMALIZE: u32 = 69;
