@@ -41,7 +41,9 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
     let agreeing = results.len() - differing;
     anstream::println!("{agreeing} of {} samples are as expected", results.len());
     if arguments.bless && differing > 0 {
-        return Err(Fault::new(Text::verbatim(format!("{differing} expected reports were written anew: look at them"))));
+        return Err(Fault::new(Text::verbatim(format!(
+            "{differing} expected reports were written anew: look at them"
+        ))));
     }
     Ok(if differing == 0 { Outcome::FullMarks } else { Outcome::Graded })
 }

@@ -7,7 +7,7 @@ use crate::language::Text;
 
 /// Grades what the parent sends until it closes the pipe.
 pub fn run(arguments: &Worker) -> Result<Outcome, Fault> {
-    let assignment = crate::grade::assignment(&arguments.machine.assignment)?;
+    let assignment = crate::homework::assignment(&arguments.machine.assignment)?;
     crate::sandbox::worker::run(assignment, arguments.machine.adapter)
         .map_err(|error| Fault::new(Text::verbatim(error.to_string())))?;
     Ok(Outcome::FullMarks)

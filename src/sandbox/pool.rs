@@ -5,6 +5,7 @@ use super::child::{Ended, Worker};
 use super::protocol::{Reply, Request, Tile};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
 use std::sync::{Mutex, PoisonError};
@@ -16,8 +17,8 @@ pub struct Submission<'a> {
     pub name: &'a str,
     /// Its bytes.
     pub bytes: &'a [u8],
-    /// The seed of the probes.
-    pub seed: u64,
+    /// How it is to be graded.
+    pub order: Order,
     /// Whether the frames are wanted, not only their comparison.
     pub wants_frames: bool,
 }
@@ -59,7 +60,7 @@ impl Pool {
             None => Worker::start(&self.settings)?,
         };
         let request =
-            Request { name: submission.name.into(), seed: submission.seed, wants_frames: submission.wants_frames };
+            Request { name: submission.name.into(), order: submission.order, wants_frames: submission.wants_frames };
         let ended = match worker.grade(&request, submission.bytes, self.settings.deadline) {
             Ok((Reply::Graded { report, frames }, body)) => {
                 let frames = self.paste(&frames, &body);

@@ -1,6 +1,7 @@
 //! What parent and worker say to each other: a JSON head and raw bytes, both with their length in front.
 
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::report::{Environment, Report};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::io::{self, Read, Write};
@@ -13,7 +14,7 @@ const MAX_BODY_BYTES: u32 = 256 << 20;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Request {
     pub name: String,
-    pub seed: u64,
+    pub order: Order,
     pub wants_frames: bool,
 }
 

@@ -33,7 +33,7 @@ fn serve(
             Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(()),
             Err(error) => return Err(error),
         };
-        let (reply, body) = answer(grader.grade(&request.name, &bytes, request.seed), request.wants_frames);
+        let (reply, body) = answer(grader.grade(&request.name, &bytes, request.order), request.wants_frames);
         send(output, &reply, &body)?;
     }
 }

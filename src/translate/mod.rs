@@ -5,6 +5,7 @@
 
 mod entry;
 pub mod glslang;
+mod hints;
 mod interface;
 mod limits;
 mod log;
@@ -13,6 +14,7 @@ mod rework;
 mod spirv;
 
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
+pub use hints::{overlooked_errors, without_line_directives};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
@@ -48,17 +50,13 @@ pub struct Translation {
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
-    let text = rework::c_text(&source.text);
-    let verdict = compile(&Request {
-        vertex: &text,
-        fragment: &interface.fragment,
-        preamble: c"",
-        rules: Rules::OpenGl,
-        version: None,
-        emit: Stage::Vertex,
-    });
+    let verdict = first_pass(&source.text, interface);
     if verdict.reached != Reached::Done {
-        return Err(rejected(&verdict, source, interface));
+        return Err(rejected(verdict, source, interface));
+    }
+    let overlooked = hints::overlooked_errors(&source.text, interface);
+    if !overlooked.is_empty() {
+        return Err(Refusal::Rejected(overlooked));
     }
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     let spirv = second_pass(source, interface)?;
@@ -69,7 +67,22 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     Ok(Translation { shader, diagnostics })
 }
 
-fn rejected(verdict: &Outcome, source: &Source, interface: &Interface) -> Refusal {
+/// The compiler's verdict on the student's own text.
+fn first_pass(text: &str, interface: &Interface) -> Outcome {
+    compile(&Request {
+        vertex: &rework::c_text(text),
+        fragment: &interface.fragment,
+        preamble: c"",
+        rules: Rules::OpenGl,
+        version: None,
+        emit: Stage::Vertex,
+    })
+}
+
+fn rejected(verdict: Outcome, source: &Source, interface: &Interface) -> Refusal {
+    // With `#line` the compiler counts as the student tells it to; a person counts lines of the file.
+    let plain = hints::without_line_directives(&source.text).map(|text| first_pass(&text, interface));
+    let verdict = plain.filter(|plain| plain.reached == verdict.reached).unwrap_or(verdict);
     match verdict.reached {
         Reached::Vertex => Refusal::Rejected(log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface)),
         Reached::Link => Refusal::Rejected(log::link_diagnostics(&verdict.link_log, &source.text, interface)),
@@ -118,12 +131,5 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
 pub fn warm(interface: &Interface, vertex: &str) {
-    compile(&Request {
-        vertex: &rework::c_text(vertex),
-        fragment: &interface.fragment,
-        preamble: c"",
-        rules: Rules::OpenGl,
-        version: None,
-        emit: Stage::Vertex,
-    });
+    first_pass(vertex, interface);
 }
