@@ -13,6 +13,7 @@ use crate::translate::{self, Interface, Refusal, Translation};
 use reference::Assignment;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 /// How a file is to be graded.
@@ -74,7 +75,9 @@ impl Grader {
     /// Grades one file.
     pub fn grade(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
         let start = Instant::now();
-        let mut graded = self.judge(name, bytes, order)?;
+        // A panic of the translator or renderer is our limit. The process is not to be used again.
+        let judged = catch_unwind(AssertUnwindSafe(|| self.judge(name, bytes, order)));
+        let mut graded = judged.unwrap_or_else(|panic| Err(translate::unsupported(&panic_message(&*panic))))?;
         graded.report.elapsed_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(graded)
     }
@@ -156,6 +159,12 @@ impl Grader {
             elapsed_ms: 0.0,
         }
     }
+}
+
+/// What a panic says.
+fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("internal error").to_owned()
 }
 
 /// The report of a file that was not rendered to the end: no points, and the diagnostics say why.

@@ -68,7 +68,8 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     let spirv = second_pass(source, interface)?;
     gate::check_words(&spirv, source)?;
     let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, source, &inputs, &interface.output.name)?;
+    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
+    let shader = module::build(&spirv, source, &inputs, &set, &interface.output.name)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
     Ok(Translation { shader, diagnostics })
 }
@@ -107,15 +108,11 @@ fn second_pass(source: &Source, interface: &Interface) -> Result<Vec<u32>, Fault
         vertex: &reworked.text,
         fragment: &interface.fragment,
         preamble: &reworked.preamble,
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: reworked.version,
         emit: Stage::Vertex,
     };
-    let mut outcome = compile(&request);
-    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-    if let Some(text) = rework::initialised_uniforms(&source.text, source.code(), &outcome.vertex_log, &set) {
-        outcome = compile(&Request { vertex: &text, ..request });
-    }
+    let outcome = compile(&request);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
     }
@@ -129,7 +126,7 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
         vertex: &rework::c_text(vertex),
         fragment: &interface.fragment,
         preamble: c"",
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: None,
         emit: Stage::Fragment,
     });

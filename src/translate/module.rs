@@ -4,7 +4,7 @@ use super::Refusal;
 use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
-use super::spirv::{self, Lines};
+use super::spirv::{self, Lines, Reworked, Unset};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -44,6 +44,8 @@ pub struct Shader {
     pub attributes: Vec<Attribute>,
     /// Its uniform blocks in order of binding.
     pub uniforms: Vec<UniformBlock>,
+    /// Uniforms that it reads and the program does not set.
+    pub(super) unset: Vec<Unset>,
     /// From a span of the module to the line of the student's file.
     pub lines: Lines,
     /// Its loops, numbered from 1 where the capture's header names one.
@@ -57,19 +59,26 @@ impl Shader {
     }
 }
 
-/// Name that the compiler gives to the block of OpenGL's default-block uniforms.
-const DEFAULT_BLOCK: &str = "gl_DefaultUniformBlock";
-
-/// Makes the module. A fault here is our limit, not the student's.
-pub(super) fn build(written: &[u32], source: &Source, inputs: &[&str], output: &str) -> Result<Shader, Refusal> {
-    let spirv::Reworked { words, lines } = spirv::rework(written);
+/// Makes the module. A fault here is our limit, not the student's. `set` are the uniforms that the program sets.
+pub(super) fn build(
+    written: &[u32],
+    source: &Source,
+    inputs: &[&str],
+    set: &[&str],
+    output: &str,
+) -> Result<Shader, Refusal> {
+    let Reworked { words, lines, unset } = rework(written, set)?;
     let mut module = parse(&words)?;
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
     let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
     let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref());
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader { module, attributes, uniforms, lines, meters })
+    Ok(Shader { module, attributes, uniforms, unset, lines, meters })
+}
+
+fn rework(words: &[u32], set: &[&str]) -> Result<Reworked, Fault> {
+    spirv::rework(words, set).ok_or_else(|| unsupported("a `switch` of this size"))
 }
 
 fn parse(words: &[u32]) -> Result<Module, Fault> {
@@ -123,7 +132,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
     UniformBlock {
         binding,
         size: *span,
-        is_default: types[ty].name.as_deref() == Some(DEFAULT_BLOCK),
+        is_default: types[ty].name.as_deref() == Some(spirv::DEFAULT_BLOCK),
         members: members
             .iter()
             .map(|member| Uniform {
@@ -137,7 +146,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
 
 /// Makes the module of the assignment's fixed fragment stage; it reads `varying` at location 0.
 pub(super) fn build_fixed_stage(words: &[u32], varying: &str) -> Result<Module, Fault> {
-    let mut module = parse(&spirv::rework(words).words)?;
+    let mut module = parse(&rework(words, &[])?.words)?;
     for argument in &mut module.entry_points[0].function.arguments {
         if let Some(naga::Binding::Location { location, .. }) = &mut argument.binding
             && argument.name.as_deref() == Some(varying)
