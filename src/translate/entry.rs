@@ -12,9 +12,9 @@
 //!   colour at location 0.
 
 use super::build::Build;
-use super::fuel::{Gauge, fill, report};
+use super::fuel::{self, Gauge};
 use naga::{
-    AddressSpace, Arena, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function, FunctionArgument,
+    AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function, FunctionArgument,
     FunctionResult, GlobalVariable, Handle, Interpolation, Literal, LocalVariable, Module, ResourceBinding, Sampling,
     Scalar, Span, Statement, StorageAccess, StructMember, Type, TypeInner, VectorSize,
 };
@@ -236,12 +236,18 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     }
     let mut build = Build::new(&mut function.expressions);
     let capture = build.leaf(Expression::GlobalVariable(capture));
-    let tank = gauge.map(|gauge| fill(&mut build, gauge, capture));
-    build.append(statements);
-    if let Some(tank) = tank {
-        let turns = local(&mut function.local_variables, types.u32);
-        report(&mut build, &tank, turns);
+    // Those that call `main`; what is loaded to be returned stays outside, where it is used.
+    let call = statements.iter().rposition(|(statement, _)| matches!(statement, Statement::Call { .. }));
+    let behind = statements.split_off(call.map_or(0, |call| call + 1));
+    match gauge {
+        Some(gauge) => {
+            let turns = LocalVariable { name: None, ty: types.u32, init: None };
+            let turns = function.local_variables.append(turns, Span::UNDEFINED);
+            fuel::run(&mut build, gauge, capture, turns, |build| build.append(statements));
+        }
+        None => build.append(statements),
     }
+    build.append(behind);
     let result = write_record(&mut build, &types, outputs, capture, [instance, vertex]);
     build.push(Statement::Return { value: Some(result) });
     function.body = build.finish();
@@ -285,10 +291,6 @@ fn write_record(
     let depth = build.binary(BinaryOperator::Multiply, sum, half);
     let clip = build.node(Expression::Compose { ty: types.vec4, components: vec![x, y, depth, w] });
     build.node(Expression::Compose { ty: types.result, components: vec![clip, colour] })
-}
-
-fn local(variables: &mut Arena<LocalVariable>, ty: Handle<Type>) -> Handle<LocalVariable> {
-    variables.append(LocalVariable { name: None, ty, init: None }, Span::UNDEFINED)
 }
 
 struct Types {

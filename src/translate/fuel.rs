@@ -3,18 +3,22 @@
 //! The software driver cuts a shader's loops silently after 65,535 turns in all, and draws a wrong picture. So the
 //! module counts the turns itself and says which loop was running when the count reached its bound.
 //!
+//! Each loop counts its own turns from 0 against a constant, and adds them up behind its end: so a driver that unrolls
+//! a short loop finds the count superfluous and drops it. (A count that goes on from loop to loop turns 100 unrolled
+//! loops into branches that take half a minute to compile.) Only a loop around other loops looks at the sum.
+//!
 //! Straight code needs no fuel: [`super::gate`] bounds how much of it there is, all calls inlined.
 
 use super::build::Build;
-use super::gate::Costs;
+use super::gate::{Costs, each_statement};
 use super::spirv::{self, Lines, op};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use naga::{
-    AddressSpace, Arena, BinaryOperator, Block, Expression, GlobalVariable, Handle, LocalVariable, Module, Scalar,
-    Span, Statement, Type, TypeInner,
+    AddressSpace, Arena, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, LocalVariable, Module,
+    Scalar, Span, Statement, Type, TypeInner,
 };
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Turns that the loops of a shader may take for one vertex, in all, where a turn is short.
 ///
@@ -68,8 +72,12 @@ pub(super) fn meter(module: &mut Module, costs: &Costs, words: &[u32], lines: &L
     let gauge = Gauge { used: counter("fuel used"), ran_out: counter("ran out") };
     let headers = loop_lines(words);
     let mut meters = Vec::new();
+    let mut looping = HashSet::new();
     let handles: Vec<_> = module.functions.iter().map(|(handle, _)| handle).collect();
     for handle in handles {
+        if holds_loop(&module.functions[handle].body, &looping) {
+            looping.insert(handle);
+        }
         let operations = costs.loops(module, &module.functions[handle]);
         if operations.is_empty() {
             continue;
@@ -78,26 +86,50 @@ pub(super) fn meter(module: &mut Module, costs: &Costs, words: &[u32], lines: &L
         let known = function.name.as_deref().and_then(|name| headers.get(name));
         // Both are in the order of the source, unless the compiler dropped a loop that is never reached.
         let known = known.filter(|known| known.len() == operations.len());
-        let mut leaf = |expression| function.expressions.append(expression, Span::UNDEFINED);
-        let used = leaf(Expression::GlobalVariable(gauge.used));
-        let ran_out = leaf(Expression::GlobalVariable(gauge.ran_out));
         let body = std::mem::take(&mut function.body);
-        let first = meters.len();
-        let mut refit = Refit { used, ran_out, operations: &operations, known, lines, first, meters: &mut meters };
+        let mut refit = Refit {
+            u32_type,
+            used: function.expressions.append(Expression::GlobalVariable(gauge.used), Span::UNDEFINED),
+            ran_out: function.expressions.append(Expression::GlobalVariable(gauge.ran_out), Span::UNDEFINED),
+            locals: &mut function.local_variables,
+            operations: &operations,
+            known,
+            lines,
+            looping: &looping,
+            open: Vec::new(),
+            first: meters.len(),
+            meters: &mut meters,
+        };
         function.body = refit.block(&mut function.expressions, body);
     }
     let gauge = (!meters.is_empty()).then_some(gauge);
     (meters, gauge)
 }
 
+/// Whether a loop stands in the block or in what it calls; `looping` are the functions that are known to have one.
+fn holds_loop(block: &Block, looping: &HashSet<Handle<Function>>) -> bool {
+    let mut found = false;
+    each_statement(block, &mut |statement, _| match statement {
+        Statement::Loop { .. } => found = true,
+        Statement::Call { function, .. } => found |= looping.contains(function),
+        _ => {}
+    });
+    found
+}
+
 /// Puts meters into the loops of one function.
 struct Refit<'a> {
+    u32_type: Handle<Type>,
     used: Handle<Expression>,
     ran_out: Handle<Expression>,
+    locals: &'a mut Arena<LocalVariable>,
     /// Of each loop of the function, what a turn costs.
     operations: &'a [u64],
     known: Option<&'a Vec<Option<u32>>>,
     lines: &'a Lines,
+    looping: &'a HashSet<Handle<Function>>,
+    /// The counters of the loops around the current statement.
+    open: Vec<Handle<Expression>>,
     /// How many meters there were before this function's.
     first: usize,
     meters: &'a mut Vec<Meter>,
@@ -121,12 +153,15 @@ impl Refit<'_> {
                     Statement::Switch { selector, cases }
                 }
                 Statement::Loop { body, continuing, break_if } => {
-                    let mut metered = self.check(expressions, &body);
-                    for (statement, span) in self.block(expressions, body).span_into_iter() {
-                        metered.push(statement, span);
-                    }
-                    let continuing = self.block(expressions, continuing);
-                    Statement::Loop { body: metered, continuing, break_if }
+                    let metered = self.metered(expressions, body, continuing, break_if);
+                    metered.span_into_iter().for_each(|(statement, span)| refitted.push(statement, span));
+                    continue;
+                }
+                Statement::Return { .. } => {
+                    let mut build = Build::new(expressions);
+                    self.open.iter().for_each(|counter| add(&mut build, self.used, *counter));
+                    build.finish().span_into_iter().for_each(|(statement, span)| refitted.push(statement, span));
+                    statement
                 }
                 other => other,
             };
@@ -135,36 +170,82 @@ impl Refit<'_> {
         refitted
     }
 
-    /// What a loop does first in each turn: leave where the fuel is used up, else take some.
-    fn check(&mut self, expressions: &mut Arena<Expression>, body: &Block) -> Block {
+    /// The loop with its meter, and what stands around it.
+    fn metered(
+        &mut self,
+        expressions: &mut Arena<Expression>,
+        body: Block,
+        continuing: Block,
+        break_if: Option<Handle<Expression>>,
+    ) -> Block {
         let index = self.meters.len() - self.first;
         let units = 1 + self.operations.get(index).copied().unwrap_or(0) / OPERATIONS_PER_UNIT;
         let units = u32::try_from(units).unwrap_or(MAX_TURNS).min(MAX_TURNS);
         let line = match self.known {
             Some(known) => known.get(index).copied().flatten(),
-            None => first_line(body, expressions, self.lines),
+            None => first_line(&body, expressions, self.lines),
         };
         self.meters.push(Meter { line, turns: MAX_TURNS / units });
+        let number = self.meters.len() as u32;
+        let counter = LocalVariable { name: None, ty: self.u32_type, init: None };
+        let counter = self.locals.append(counter, Span::UNDEFINED);
+        let counter = expressions.append(Expression::LocalVariable(counter), Span::UNDEFINED);
+
+        let sees_sum = holds_loop(&body, self.looping);
+        let mut turn = Build::new(expressions);
+        take_fuel(&mut turn, counter, units);
+        if sees_sum {
+            let (sum, last) = (turn.load(self.used), turn.number(MAX_TURNS));
+            leave_above(&mut turn, sum, last);
+        }
+        let mut metered = turn.finish();
+        self.open.push(counter);
+        metered.append(&mut self.block(expressions, body));
+        let continuing = self.block(expressions, continuing);
+        self.open.pop();
+
         let mut build = Build::new(expressions);
-        let id = build.number(self.meters.len() as u32);
         let zero = build.number(0);
-        let units = build.number(units);
-        let last = build.number(MAX_TURNS);
-        let used = build.load(self.used);
-        let sum = build.binary(BinaryOperator::Add, used, units);
-        let is_empty = build.binary(BinaryOperator::Greater, sum, last);
-        build.when(is_empty, |build| {
-            let known = build.load(self.ran_out);
-            let is_first = build.binary(BinaryOperator::Equal, known, zero);
-            let told = build.node(Expression::Select { condition: is_first, accept: id, reject: known });
-            build.store(self.ran_out, told);
-            // Every loop that this vertex still meets is left at once.
-            build.store(self.used, last);
-            build.push(Statement::Break);
-        });
-        build.store(self.used, sum);
+        build.store(counter, zero);
+        build.push(Statement::Loop { body: metered, continuing, break_if });
+        add(&mut build, self.used, counter);
+        self.tell(&mut build, number);
         build.finish()
     }
+
+    /// Behind a loop: says so where the fuel is used up.
+    fn tell(&self, build: &mut Build<'_>, number: u32) {
+        let [number, zero, last] = [number, 0, MAX_TURNS].map(|n| build.number(n));
+        let sum = build.load(self.used);
+        let is_over = build.binary(BinaryOperator::Greater, sum, last);
+        let told = build.load(self.ran_out);
+        let is_first = build.binary(BinaryOperator::Equal, told, zero);
+        let is_told = build.binary(BinaryOperator::LogicalAnd, is_over, is_first);
+        let told = build.node(Expression::Select { condition: is_told, accept: number, reject: told });
+        build.store(self.ran_out, told);
+    }
+}
+
+/// `sum += counter`
+fn add(build: &mut Build<'_>, sum: Handle<Expression>, counter: Handle<Expression>) {
+    let (before, turns) = (build.load(sum), build.load(counter));
+    let after = build.binary(BinaryOperator::Add, before, turns);
+    build.store(sum, after);
+}
+
+/// What a loop does first in each turn: takes fuel, and leaves where there is none.
+fn take_fuel(build: &mut Build<'_>, counter: Handle<Expression>, units: u32) {
+    let [units, last] = [units, MAX_TURNS].map(|n| build.number(n));
+    let before = build.load(counter);
+    let after = build.binary(BinaryOperator::Add, before, units);
+    build.store(counter, after);
+    leave_above(build, after, last);
+}
+
+/// `if (value > last) break;`
+fn leave_above(build: &mut Build<'_>, value: Handle<Expression>, last: Handle<Expression>) {
+    let is_over = build.binary(BinaryOperator::Greater, value, last);
+    build.when(is_over, |build| build.push(Statement::Break));
 }
 
 /// The first line that anything in a loop has.
@@ -201,55 +282,43 @@ fn loop_lines(words: &[u32]) -> HashMap<String, Vec<Option<u32>>> {
     found
 }
 
-/// The counters as a function sees them, and where the first vertex that runs out tells the others.
-pub(super) struct Tank {
-    ran_out: Handle<Expression>,
-    header: Handle<Expression>,
-    /// What the header said when this vertex began.
-    before: Handle<Expression>,
-}
-
-/// Begins a vertex: its tank is full, or empty where another vertex has run out before. `capture` is the buffer.
-pub(super) fn fill(build: &mut Build<'_>, gauge: &Gauge, capture: Handle<Expression>) -> Tank {
-    let used = build.leaf(Expression::GlobalVariable(gauge.used));
-    let ran_out = build.leaf(Expression::GlobalVariable(gauge.ran_out));
-    let zero = build.number(0);
-    let empty = build.number(MAX_TURNS);
-    let header = build.member(capture, 0);
-    let before = build.load(header);
-    let is_over = build.binary(BinaryOperator::NotEqual, before, zero);
-    build.when(is_over, |build| {
-        build.store(used, empty);
-        build.store(ran_out, before);
-    });
-    Tank { ran_out, header, before }
-}
-
-/// Ends a vertex: writes to the header which loop ran out, or that the driver cut one. `turns` is a variable for it.
+/// Runs `vertex` unless the header says that another vertex ran out of fuel, and writes to it if this one does.
+/// `capture` is the buffer, `turns` a variable.
 ///
 /// A driver that has cut a loop leaves every later one after its first turn. So a loop of two turns tells: its length
 /// hangs on the header, which is 0 and which the driver's compiler does not know.
-pub(super) fn report(build: &mut Build<'_>, tank: &Tank, turns: Handle<LocalVariable>) {
+pub(super) fn run(
+    build: &mut Build<'_>,
+    gauge: &Gauge,
+    capture: Handle<Expression>,
+    turns: Handle<LocalVariable>,
+    vertex: impl FnOnce(&mut Build<'_>),
+) {
+    let ran_out = build.leaf(Expression::GlobalVariable(gauge.ran_out));
     let turns = build.leaf(Expression::LocalVariable(turns));
     let [zero, one, two, cut] = [0, 1, 2, CUT].map(|number| build.number(number));
-    let first = build.load(tank.ran_out);
-    let has_fuel = build.binary(BinaryOperator::Equal, first, zero);
+    let header = build.member(capture, 0);
+    let before = build.load(header);
+    // Outside the branch, in which the driver's compiler would know it.
+    let enough = build.binary(BinaryOperator::Add, before, one);
+    let has_fuel = build.binary(BinaryOperator::Equal, before, zero);
     build.when(has_fuel, |build| {
+        vertex(build);
         build.forever(|build| {
             let done = build.load(turns);
             let done = build.binary(BinaryOperator::Add, done, one);
             build.store(turns, done);
-            let enough = build.binary(BinaryOperator::Add, tank.before, one);
-            let is_last = build.binary(BinaryOperator::Greater, done, enough);
-            build.when(is_last, |build| build.push(Statement::Break));
+            leave_above(build, done, enough);
         });
         let done = build.load(turns);
         let is_cut = build.binary(BinaryOperator::Less, done, two);
-        build.when(is_cut, |build| build.store(tank.ran_out, cut));
+        let told = build.load(ran_out);
+        let is_first = build.binary(BinaryOperator::Equal, told, zero);
+        let is_told = build.binary(BinaryOperator::LogicalAnd, is_cut, is_first);
+        let told = build.node(Expression::Select { condition: is_told, accept: cut, reject: told });
+        let is_over = build.binary(BinaryOperator::NotEqual, told, zero);
+        build.when(is_over, |build| build.store(header, told));
     });
-    let ran_out = build.load(tank.ran_out);
-    let is_over = build.binary(BinaryOperator::NotEqual, ran_out, zero);
-    build.when(is_over, |build| build.store(tank.header, ran_out));
 }
 
 /// What a student is told whose loops ran out of fuel.

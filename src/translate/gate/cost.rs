@@ -219,7 +219,14 @@ impl Walk<'_> {
                 return vec![0; function.expressions.len()];
             }
             let size = |of: Handle<Expression>| scalars(self.module, types.get(of, &self.module.types));
-            weights.push(weight(expression, types.get(handle, &self.module.types), size(handle), &size));
+            let is_constant = |of: Handle<Expression>| {
+                matches!(function.expressions[of], Expression::Literal(_) | Expression::Constant(_))
+            };
+            let own = types.get(handle, &self.module.types);
+            weights.push(match *expression {
+                Expression::Access { index, .. } if is_constant(index) => 1,
+                _ => weight(expression, own, size(handle), &size),
+            });
         }
         weights
     }
@@ -286,7 +293,7 @@ impl Walk<'_> {
 }
 
 /// Visits the statements of a block and of all blocks in it.
-fn each_statement(block: &Block, visit: &mut dyn FnMut(&Statement, Span)) {
+pub(in crate::translate) fn each_statement(block: &Block, visit: &mut dyn FnMut(&Statement, Span)) {
     for (statement, span) in block.span_iter() {
         visit(statement, *span);
         match statement {

@@ -10,7 +10,7 @@ mod nesting;
 mod storage;
 mod text;
 
-pub(super) use cost::{Costs, check_module};
+pub(super) use cost::{Costs, check_module, each_statement};
 pub(super) use storage::check_words;
 pub(super) use text::check_text;
 
