@@ -1,6 +1,6 @@
 //! `ggrade corpus DIR`: a table of expected against found.
 
-use super::Outcome;
+use super::{Outcome, language, warn};
 use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
 use crate::fault::Fault;
@@ -23,7 +23,9 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
         ..Settings::new(&arguments.machine.assignment)
     };
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let results = corpus::check(&arguments.folder, &Pool::start(settings, workers)?)?;
+    let pool = Pool::start(arguments.sandbox.apply(settings), workers)?;
+    warn(&pool, language(None));
+    let results = corpus::check(&arguments.folder, &pool)?;
     let mut differing = 0;
     for checked in &results {
         if checked.agrees() {
@@ -41,7 +43,9 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
     let agreeing = results.len() - differing;
     anstream::println!("{agreeing} of {} samples are as expected", results.len());
     if arguments.bless && differing > 0 {
-        return Err(Fault::new(Text::verbatim(format!("{differing} expected reports were written anew: look at them"))));
+        return Err(Fault::new(Text::verbatim(format!(
+            "{differing} expected reports were written anew: look at them"
+        ))));
     }
     Ok(if differing == 0 { Outcome::FullMarks } else { Outcome::Graded })
 }
