@@ -15,7 +15,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// How long a worker may take to open its device.
-const START_DEADLINE: Duration = Duration::from_secs(20);
+const START_DEADLINE: Duration = Duration::from_secs(10);
 
 /// How long a worker that has closed its output may take to die: the kernel has its memory to tidy up.
 const DYING: Duration = Duration::from_millis(300);

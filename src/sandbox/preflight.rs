@@ -3,7 +3,7 @@
 use super::protection::Reach;
 use nix::errno::Errno;
 use nix::sys::signal::{Signal, kill};
-use nix::unistd::{Pid, Uid, execv, getppid, setuid};
+use nix::unistd::{Uid, execv, getppid, setuid};
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::net::{Ipv4Addr, TcpStream, UdpSocket};
@@ -71,6 +71,10 @@ pub enum Attempt {
     Signal,
     /// Become root.
     Root,
+    /// Compute without end.
+    Compute,
+    /// Take memory without end.
+    Allocate,
     /// Nothing: shows that a process which tries nothing ends well.
     Nothing,
 }
@@ -89,13 +93,29 @@ impl Attempt {
             Self::Connect => first(Reach::Connect),
             Self::Child => first(Reach::Child),
             Self::Exec => Ok(execv(c"/bin/true", &[c"true"]).map(drop)?),
-            Self::Signal => Ok(kill(parent(), Signal::SIGCONT)?),
+            Self::Signal => Ok(kill(getppid(), Signal::SIGCONT)?),
             Self::Root => Ok(setuid(Uid::from_raw(0))?),
+            Self::Compute => compute(),
+            Self::Allocate => allocate(),
             Self::Nothing => Ok(()),
         }
     }
 }
 
-fn parent() -> Pid {
-    getppid()
+fn compute() -> io::Result<()> {
+    let mut sum = 0_u64;
+    loop {
+        sum = std::hint::black_box(sum.wrapping_add(1));
+        if sum == u64::MAX {
+            return Ok(());
+        }
+    }
+}
+
+fn allocate() -> io::Result<()> {
+    let mut taken: Vec<Vec<u8>> = Vec::new();
+    loop {
+        taken.push(vec![1; 16 << 20]);
+        std::hint::black_box(&taken);
+    }
 }

@@ -39,9 +39,9 @@ pub fn run(job: Job) -> io::Result<()> {
 pub fn attempt(job: Job, attempt: Attempt) -> io::Result<io::Result<()>> {
     let confined = confine::enter(job.limits, job.adapter)?;
     on_large_stack(move || {
-        let Confined { layers, .. } = confined;
-        let ready = prepare(job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
-        drop(ready);
+        let Confined { layers, meter, .. } = confined;
+        let _ready = prepare(job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
+        meter.next(job.adapter)?;
         Ok(attempt.make())
     })
 }
