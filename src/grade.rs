@@ -138,8 +138,15 @@ impl Grader {
             .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
             .collect();
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let evidence =
-            Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples, hints };
+        let evidence = Evidence {
+            assignment: self.assignment,
+            source,
+            frames: &frames,
+            probes,
+            samples: &samples,
+            undefined: rendering.undefined,
+            hints,
+        };
         let diagnosis = diagnose::diagnose(&evidence);
         let score = diagnosis.rubric.iter().map(|line| line.points).sum();
         let max_score = self.assignment.max_score();

@@ -23,6 +23,9 @@ use naga::{
 pub const CAPTURE_GROUP: u32 = 1;
 /// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, and room.
 pub const CAPTURE_HEADER: u64 = 32;
+/// Members of the capture buffer behind the number of the loop that ran out of fuel.
+const UNDEFINED_MEMBER: u32 = 1;
+const RECORDS_MEMBER: u32 = 2;
 /// Bytes of one captured vertex: clip-space position and colour, four f32 each.
 pub const CAPTURE_STRIDE: u64 = 32;
 
@@ -45,11 +48,17 @@ pub struct Attribute {
 ///
 /// `inputs` are the names that the assignment's program feeds, `output` is the varying that the
 /// fixed fragment shader reads, `gauge` are the counters of the module's loops.
-pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, gauge: Option<&Gauge>) -> Vec<Attribute> {
+pub(super) fn rebuild(
+    module: &mut Module,
+    inputs: &[&str],
+    output: &str,
+    gauge: Option<&Gauge>,
+    undefined: Option<Handle<GlobalVariable>>,
+) -> Vec<Attribute> {
     let mut entry = module.entry_points.remove(0);
     let outputs = Outputs::of(module, &entry.function, output);
     let (attributes, instance) = feed(module, &mut entry.function, inputs);
-    finish(module, &mut entry.function, &outputs, instance, gauge);
+    finish(module, &mut entry.function, &outputs, instance, Extras { gauge, undefined });
     entry.name = "main".into();
     module.entry_points.push(entry);
     attributes
@@ -215,8 +224,26 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
     module.global_variables[global].init = Some(init);
 }
 
+/// What is counted and watched while `main` runs.
+struct Extras<'a> {
+    gauge: Option<&'a Gauge>,
+    undefined: Option<Handle<GlobalVariable>>,
+}
+
+/// Tells in the capture's header what [`super::undefined`] met. Any vertex's answer will do.
+fn tell_undefined(build: &mut Build<'_>, capture: Handle<Expression>, undefined: Handle<GlobalVariable>) {
+    let undefined = build.leaf(Expression::GlobalVariable(undefined));
+    let met = build.load(undefined);
+    let none = build.number(0);
+    let is_met = build.binary(BinaryOperator::NotEqual, met, none);
+    build.when(is_met, |build| {
+        let place = build.member(capture, UNDEFINED_MEMBER);
+        build.store(place, met);
+    });
+}
+
 /// Replaces what follows the call of `main`: capture, clip range, return.
-fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, gauge: Option<&Gauge>) {
+fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, extras: Extras<'_>) {
     let types = Types::new(module);
     let capture = module.global_variables.append(
         GlobalVariable {
@@ -239,7 +266,7 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     // Those that call `main`; what is loaded to be returned stays outside, where it is used.
     let call = statements.iter().rposition(|(statement, _)| matches!(statement, Statement::Call { .. }));
     let behind = statements.split_off(call.map_or(0, |call| call + 1));
-    match gauge {
+    match extras.gauge {
         Some(gauge) => {
             let turns = LocalVariable { name: None, ty: types.u32, init: None };
             let turns = function.local_variables.append(turns, Span::UNDEFINED);
@@ -248,6 +275,9 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
         None => build.append(statements),
     }
     build.append(behind);
+    if let Some(undefined) = extras.undefined {
+        tell_undefined(&mut build, capture, undefined);
+    }
     let result = write_record(&mut build, &types, outputs, capture, [instance, vertex]);
     build.push(Statement::Return { value: Some(result) });
     function.body = build.finish();
@@ -279,7 +309,7 @@ fn write_record(
     let colour = outputs.colour.unwrap_or(zero);
 
     let index = build.binary(BinaryOperator::Add, instance, vertex);
-    let records = build.member(capture, 1);
+    let records = build.member(capture, RECORDS_MEMBER);
     let record = build.node(Expression::Access { base: records, index });
     let to_position = build.member(record, 0);
     let to_colour = build.member(record, 1);
@@ -311,11 +341,14 @@ impl Types {
         );
         let records =
             insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
-        let header = StructMember { name: Some("ran_out".into()), ty: u32, binding: None, offset: 0 };
+        let header = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
         let behind =
             StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
         let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
-        let capture = insert(module, TypeInner::Struct { members: vec![header, behind], span });
+        let capture = insert(
+            module,
+            TypeInner::Struct { members: vec![header("ran_out", 0), header("undefined", 4), behind], span },
+        );
         let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
         let colour = Binding::Location {
             location: 0,

@@ -15,12 +15,14 @@ mod log;
 mod module;
 mod rework;
 mod spirv;
+mod undefined;
 
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
 pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
+pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;

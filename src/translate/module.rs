@@ -5,6 +5,7 @@ use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
 use super::spirv::{self, Lines, Reworked, Unset};
+use super::undefined;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -72,7 +73,8 @@ pub(super) fn build(
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
     let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
-    let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref());
+    let undefined = undefined::watch(&mut module, &lines);
+    let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref(), undefined);
     let uniforms = bind_uniforms(&mut module);
     Ok(Shader { module, attributes, uniforms, unset, lines, meters })
 }
