@@ -58,10 +58,9 @@ pub(in crate::translate) fn check_module(
     if costs.of_entry <= MAX_OPERATIONS {
         return Ok(());
     }
-    let heaviest = Walk { module, costs }.heaviest(entry);
     Err(stopped(
         Stage::Compile,
-        lines.line(heaviest),
+        Walk { module, costs }.heaviest(entry, lines),
         Text::new(
             format!(
                 "the shader has about {} operations when all calls and array accesses are written out, and at most \
@@ -268,15 +267,16 @@ impl Walk<'_> {
         found
     }
 
-    /// Where the most expensive call or expression of the shader's `main` stands.
-    fn heaviest(&self, entry: &Function) -> Span {
+    /// The line of the most expensive call or expression of the shader's `main`.
+    fn heaviest(&self, entry: &Function, lines: &Lines) -> Option<u32> {
         let main = self.called(&entry.body).into_iter().next_back();
         let function = main.map_or(entry, |main| &self.module.functions[main]);
         let weights = self.weights(function);
-        let mut heaviest = (0, Span::UNDEFINED);
+        let mut heaviest = (0, None);
         let mut consider = |cost, span| {
-            if cost > heaviest.0 {
-                heaviest = (cost, span);
+            let line = lines.line(span);
+            if cost > heaviest.0 && line.is_some() {
+                heaviest = (cost, line);
             }
         };
         each_statement(&function.body, &mut |statement, span| match statement {
