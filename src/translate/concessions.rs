@@ -44,6 +44,24 @@ pub(super) fn unimplemented(outcome: &Outcome) -> Option<String> {
     entries.iter().find(|entry| entry.message == "feature not yet implemented").map(|entry| entry.token.to_owned())
 }
 
+/// A function of old GLSL, called and not the student's own, at which the compiler ends the process.
+pub(super) fn fatal(source: &Source) -> Option<&str> {
+    let code = source.code();
+    let is_old = |word: &str| {
+        let kind = word.strip_prefix("texture").or_else(|| word.strip_prefix("shadow"));
+        kind.is_some_and(|kind| ["1D", "2D", "3D", "Cube"].iter().any(|start| kind.starts_with(start)))
+    };
+    let is_called = |at: usize, word: &str| code[at + word.len()..].trim_start().starts_with('(');
+    // Behind a type stands a declaration.
+    let is_own = |at: usize| {
+        let before = code[..at].trim_end();
+        before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_') && !before.ends_with("return")
+    };
+    let called = || text::words(code).filter(|&(at, word)| is_old(word) && is_called(at, word));
+    let own: Vec<&str> = called().filter(|&(at, _)| is_own(at)).map(|(_, word)| word).collect();
+    called().map(|(_, word)| word).find(|word| !own.contains(word))
+}
+
 impl Granted {
     /// A `;` outside functions that ends nothing.
     fn semicolon(&mut self, entry: &Entry<'_>, source: &Source) {

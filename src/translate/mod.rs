@@ -12,6 +12,7 @@ mod limits;
 mod log;
 mod module;
 mod spirv;
+mod strict;
 mod text;
 
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
@@ -52,7 +53,8 @@ pub struct Translation {
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
     let Accepted { text, verdict, warnings } = first_pass(source, interface)?;
-    let overlooked = hints::overlooked_errors(&source.text, interface);
+    let mut overlooked = hints::overlooked_errors(&source.text, interface);
+    overlooked.extend(strict::errors(source, interface));
     if !overlooked.is_empty() {
         return Err(Refusal::Rejected(overlooked));
     }
@@ -78,6 +80,9 @@ const MAX_CONCESSIONS: usize = 4;
 
 /// The compiler's verdict on the student's text.
 fn first_pass(source: &Source, interface: &Interface) -> Result<Accepted, Refusal> {
+    if let Some(name) = concessions::fatal(source) {
+        return Err(unsupported(&format!("`{name}`")).into());
+    }
     let mut text = text::prepared(source);
     let mut warnings = Vec::new();
     let mut verdict = check(&text, interface);
