@@ -58,7 +58,9 @@ fn swizzles(file: &File<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for index in 2..file.code.len() {
         let field = file.code[index];
-        let is_field = file.code[index - 1].text == "." && field.kind == Kind::Word;
+        let is_field = file.code[index - 1].text == "."
+            && field.kind == Kind::Word
+            && file.code[index - 2].text != "gl_DepthRange";
         let called = file.word(Some(index + 1)) == "(";
         // A member of a structure, a macro, or a branch of `#if` that nobody compiles may be called anything.
         let built_in = [file.code[index - 2].text, field.text].iter().any(|name| name.starts_with("gl_"));

@@ -34,7 +34,7 @@ impl Instruction {
                 | op::SELECTION_MERGE
                 | op::BRANCH..=op::UNREACHABLE
                 | 63 // OpCopyMemory
-                | 99 // OpImageWrite
+                | op::IMAGE_WRITE
                 | op::TYPE_VOID..=op::TYPE_FUNCTION
                 | 218..=225 // geometry streams, barriers
         );

@@ -1,6 +1,7 @@
 //! Global variables as wgpu takes them: uniforms that are set in one block, all others private.
 
 use super::code::{Code, Instruction};
+use super::images;
 use super::op::{self, built_in, decoration, execution_mode, storage};
 use std::collections::HashMap;
 
@@ -29,6 +30,7 @@ enum Place {
 
 /// Reworks the global variables; gives the uniforms that nothing sets.
 pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
+    images::plain_types(code);
     let names = code.names();
     let never_set = draw_parameters(code);
     let variables: Vec<Instruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
@@ -42,7 +44,7 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
         if never_set.contains(&id) {
             places.insert(id, (Place::Private, pointee));
         }
-        if !matches!(class, storage::UNIFORM_CONSTANT | storage::UNIFORM) || is_handle(code, pointee) {
+        if !matches!(class, storage::UNIFORM_CONSTANT | storage::UNIFORM) || !has_size(code, pointee) {
             continue;
         }
         let is_block = class == storage::UNIFORM;
@@ -110,15 +112,14 @@ fn pointee(code: &Code, pointer: u32) -> Option<u32> {
     code.global(pointer).filter(|i| i.opcode == op::TYPE_POINTER).and_then(|i| i.operands.get(2).copied())
 }
 
-/// Whether it is a sampler or image, or an array of such, or has no size: nothing that a private variable holds.
-fn is_handle(code: &Code, ty: u32) -> bool {
-    let Some(declared) = code.global(ty) else { return true };
-    match declared.opcode {
-        op::TYPE_IMAGE | op::TYPE_SAMPLER | op::TYPE_SAMPLED_IMAGE | op::TYPE_RUNTIME_ARRAY => true,
-        op::TYPE_ARRAY => is_handle(code, declared.operands[1]),
-        op::TYPE_STRUCT => declared.operands[1..].iter().any(|&member| is_handle(code, member)),
-        _ => false,
-    }
+/// Whether it has a size, so that a private variable can hold it.
+fn has_size(code: &Code, ty: u32) -> bool {
+    code.global(ty).is_some_and(|declared| match declared.opcode {
+        op::TYPE_RUNTIME_ARRAY => false,
+        op::TYPE_ARRAY => has_size(code, declared.operands[1]),
+        op::TYPE_STRUCT => declared.operands[1..].iter().all(|&member| has_size(code, member)),
+        _ => true,
+    })
 }
 
 /// Whether it is a scalar, vector or matrix of numbers.

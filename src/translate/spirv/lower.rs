@@ -1,7 +1,7 @@
 //! Instructions that naga's front end does not know, or takes for something else, in terms of ones it knows.
 
 use super::code::{Code, Instruction};
-use super::{integers, op, op::glsl, packing};
+use super::{images, integers, op, op::glsl, packing};
 use std::collections::HashMap;
 
 /// Lowers the functions of `code`.
@@ -11,6 +11,9 @@ pub(super) fn lower(code: &mut Code) {
     let mut builder = Builder { code, types, out: Vec::with_capacity(functions.len()), line: None, set: 0 };
     for instruction in functions {
         builder.line = instruction.line;
+        if instruction.opcode == op::IMAGE_WRITE {
+            continue;
+        }
         if lowered(&mut builder, &instruction).is_none() {
             builder.out.push(instruction);
         }
@@ -139,6 +142,7 @@ fn lowered(b: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
             Some(())
         }
         (op::OUTER_PRODUCT, &[column, row]) => outer_product(b, id, ty, column, row),
+        (op::SAMPLED_IMAGE..=op::IMAGE_LAST, _) => images::lowered(b, instruction.opcode, id, ty),
         _ => integers::lowered(b, instruction.opcode, id, ty, operands),
     }
 }

@@ -2,6 +2,7 @@
 
 mod code;
 mod globals;
+mod images;
 mod integers;
 mod lower;
 pub(super) mod op;
