@@ -155,9 +155,16 @@ impl Ending {
     }
 }
 
-/// Words of Rust, C++ and LLVM where an allocation fails.
-const OUT_OF_MEMORY: [&str; 5] =
-    ["memory allocation of", "bad_alloc", "out of memory", "Unable to allocate", "Allocation failed"];
+/// Words of Rust, C++ and LLVM where an allocation fails. A foreign exception is `std::bad_alloc` too: it is the only
+/// one that the compilers, which are built without exceptions, let through to Rust.
+const OUT_OF_MEMORY: [&str; 6] = [
+    "memory allocation of",
+    "bad_alloc",
+    "cannot catch foreign exceptions",
+    "out of memory",
+    "Unable to allocate",
+    "Allocation failed",
+];
 
 /// Rust's words where a guard page is hit.
 const STACK: [&str; 1] = ["has overflowed its stack"];

@@ -17,6 +17,10 @@ use std::time::{Duration, Instant};
 /// How often a grading that fails by no doing of the file's is begun.
 const ATTEMPTS: u32 = 3;
 
+/// The share of the deadline that must be left for a crash to be confirmed by a second worker. A file that crashes as
+/// late as that has used the time of a grading anyway.
+const LEFT_TO_CONFIRM: f64 = 0.4;
+
 /// A file to grade.
 #[derive(Clone, Copy, Debug)]
 pub struct Submission<'a> {
@@ -87,7 +91,7 @@ impl Pool {
     /// Grades one submission. A fault is ours; whatever the file does to a worker is a verdict.
     pub fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
         let place = self.roster.place();
-        let mut grading = Grading { pool: self, place, submission, blamed: None, spent: Duration::ZERO };
+        let mut grading = Grading { pool: self, place, submission, blamed: None };
         let mut wanted = Wanted::Any;
         let mut attempts = 0;
         loop {
@@ -142,9 +146,8 @@ struct Grading<'a> {
     pool: &'a Pool,
     place: Place<'a>,
     submission: Submission<'a>,
-    /// An ending that a fresh worker has to confirm, and the time that it took.
-    blamed: Option<Ending>,
-    spent: Duration,
+    /// An ending that a fresh worker has to confirm, and when the attempt began that ended so.
+    blamed: Option<(Ending, Instant)>,
 }
 
 enum Attempted {
@@ -161,9 +164,10 @@ impl Grading<'_> {
         let Submission { name, bytes, order, wants_frames } = self.submission;
         let request = Request { id: next_id.fetch_add(1, Ordering::Relaxed), name: name.into(), order, wants_frames };
         let frames_bytes = if wants_frames { self.pool.frames_bytes() } else { 0 };
-        // Confirming a crash takes what it left of the deadline: no file has twice the time.
-        let deadline = settings.deadline.saturating_sub(self.spent);
         let start = Instant::now();
+        // Confirming a crash takes what it left of the deadline: no file has twice the time.
+        let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
+        let deadline = settings.deadline.saturating_sub(spent);
         let answered = worker.grade(&request, bytes, frames_bytes, deadline);
         let environment = worker.environment.clone();
         let ending = match answered {
@@ -171,7 +175,7 @@ impl Grading<'_> {
             Err(ending) => ending,
         };
         self.place.give_up(worker);
-        self.ended(ending, was_fresh, start.elapsed(), environment)
+        self.ended(ending, was_fresh, start, environment)
     }
 
     fn answered(&mut self, worker: Worker, was_fresh: bool, reply: Reply, body: &[u8]) -> Result<Attempted, Fault> {
@@ -200,35 +204,35 @@ impl Grading<'_> {
         &mut self,
         ending: Ending,
         was_fresh: bool,
-        took: Duration,
+        began: Instant,
         environment: Environment,
     ) -> Result<Attempted, Fault> {
-        let deadline = self.pool.settings.deadline;
-        let is_verdict = match ending.blame() {
-            Blame::File => true,
-            // A limit met by a worker that has seen nothing else needs no confirmation. A crash does, since any process
-            // can send its signal.
+        match ending.blame() {
+            Blame::File => {}
+            Blame::FileIfRepeated if self.is_certain(&ending, was_fresh, began) => {}
             Blame::FileIfRepeated => {
-                let certain = was_fresh && !matches!(ending, Ending::Crash(_));
-                certain || self.blamed.is_some() || took > deadline.mul_f64(0.8)
+                let fault = ending.fault();
+                self.blamed = Some((ending, began));
+                return Ok(Attempted::NotDone(fault));
             }
-            Blame::Ours => false,
-        };
-        if !is_verdict {
-            let fault = ending.fault();
-            if ending.blame() == Blame::FileIfRepeated {
-                self.blamed = Some(ending);
-                self.spent = took;
-            }
-            return Ok(Attempted::NotDone(fault));
+            Blame::Ours => return Ok(Attempted::NotDone(ending.fault())),
         }
-        // Where the confirmation ran out of the little time that was left, the crash is what happened.
-        let ending = match (ending, self.blamed.take()) {
+        let (ending, began) = match (ending, self.blamed.take()) {
+            // The confirmation ran out of the little time that was left: the crash is what happened.
             (Ending::Deadline, Some(blamed)) => blamed,
-            (ending, _) => ending,
+            (ending, Some((_, began))) => (ending, began),
+            (ending, None) => (ending, began),
         };
         let mut report = self.pool.stopped(self.submission, &ending, environment);
-        report.elapsed_ms = (self.spent + took).as_secs_f64() * 1e3;
+        report.elapsed_ms = began.elapsed().as_secs_f64() * 1e3;
         Ok(Attempted::Done(Box::new(Answer { report, frames: Vec::new() })))
+    }
+
+    /// Whether an ending is the file's doing beyond doubt. A limit met by a worker that has seen nothing else is; a
+    /// crash needs a second one, since any process can send its signal.
+    fn is_certain(&self, ending: &Ending, was_fresh: bool, began: Instant) -> bool {
+        let is_limit = was_fresh && !matches!(ending, Ending::Crash(_));
+        let is_late = began.elapsed() > self.pool.settings.deadline.mul_f64(1.0 - LEFT_TO_CONFIRM);
+        is_limit || self.blamed.is_some() || is_late
     }
 }

@@ -119,3 +119,22 @@ fn allocate() -> io::Result<()> {
         std::hint::black_box(&taken);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_walls_every_way_is_found_open() {
+        assert_eq!(open(), [Reach::Read, Reach::Write, Reach::Socket, Reach::Connect, Reach::Child]);
+    }
+
+    #[test]
+    fn only_a_lack_of_rights_counts_as_refused() {
+        let error = |errno: Errno| Err(errno.into());
+        assert!(is_refused(&error(Errno::EPERM)) && is_refused(&error(Errno::EACCES)));
+        for way_in in [Ok(()), error(Errno::ECONNREFUSED), error(Errno::ENOENT), error(Errno::ENETUNREACH)] {
+            assert!(!is_refused(&way_in), "{way_in:?}");
+        }
+    }
+}
