@@ -6,10 +6,10 @@ use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::homework;
 use crate::language::Text;
-use crate::render::{AdapterKind, Device, Frames, Renderer, Rendering};
+use crate::render::{AdapterKind, Device, Frames, Renderer, Rendering, Sample, Scene};
 use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::source::{self, Facts, Source};
-use crate::translate::{self, Interface, Refusal, Translation};
+use crate::translate::{self, Interface, Refusal, Shader, Translation};
 use reference::Assignment;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
@@ -104,10 +104,14 @@ impl Grader {
         };
         diagnostics.extend(source.notes.iter().cloned());
         let probes = self.assignment.probes(order.seed);
-        let rendering = self.renderer.render(&shader, &homework::scene(self.assignment, &probes))?;
+        let scene = homework::scene(self.assignment, &probes);
+        let mut rendering = self.renderer.render(&shader, &scene)?;
         if let Some(ran_out) = rendering.ran_out {
             diagnostics.insert(0, shader.out_of_fuel(ran_out));
             return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
+        }
+        if rendering.undefined.is_some() && !self.shows_undefined(&source, &shader, &scene, &rendering)? {
+            rendering.undefined = None;
         }
         let report = self.report(&source, &probes, &rendering, diagnostics, order.hints);
         Ok(Graded { report, frames: Some(rendering.frames) })
@@ -121,6 +125,27 @@ impl Grader {
         let environment = self.environment.clone();
         let report = unfinished(self.assignment, info(facts), verdict, diagnostics, environment);
         Graded { report, frames: None }
+    }
+
+    /// Whether a colour depends on what GLSL leaves undefined.
+    fn shows_undefined(
+        &mut self,
+        source: &Source,
+        shader: &Shader,
+        scene: &Scene,
+        rendering: &Rendering,
+    ) -> Result<bool, Fault> {
+        let poisoned = match shader.poisoned(source, &self.interface) {
+            Ok(poisoned) => self.renderer.render(&poisoned, scene)?,
+            Err(Refusal::Fault(fault)) => return Err(fault),
+            // The gate bounds what it is given; what is a little larger is still only a doubt.
+            Err(_) => return Ok(false),
+        };
+        let bits = |samples: &[Vec<Sample>]| -> Vec<[u32; 4]> {
+            samples.iter().flatten().map(|sample| sample.colour.map(f32::to_bits)).collect()
+        };
+        Ok(bits(&poisoned.probe_samples) != bits(&rendering.probe_samples)
+            || bits(&poisoned.frame_samples) != bits(&rendering.frame_samples))
     }
 
     fn report(

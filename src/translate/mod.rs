@@ -70,9 +70,7 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     diagnostics.extend(warnings);
     let spirv = second_pass(&text, text::version(source.code()), interface)?;
     gate::check_words(&spirv, source)?;
-    let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, source, &inputs, &set, &interface.output.name)?;
+    let shader = module::build(spirv, source, interface, false)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
     Ok(Translation { shader, diagnostics })
 }

@@ -1,11 +1,11 @@
 //! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
 
-use super::Refusal;
 use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
 use super::spirv::{self, Lines, Reworked, Unset};
 use super::undefined;
+use super::{Interface, Refusal, Variable};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -51,36 +51,47 @@ pub struct Shader {
     pub lines: Lines,
     /// Its loops, numbered from 1 where the capture's header names one.
     pub meters: Vec<Meter>,
+    /// What the compiler wrote.
+    written: Vec<u32>,
 }
 
 impl Shader {
+    /// The same shader, but where its text leaves a result undefined (see [`super::undefined`]) it computes a number that
+    /// shows in whatever depends on it.
+    pub fn poisoned(&self, source: &Source, interface: &Interface) -> Result<Self, Refusal> {
+        build(self.written.clone(), source, interface, true)
+    }
+
     /// What to say where the capture's header is not 0.
     pub fn out_of_fuel(&self, ran_out: u32) -> Diagnostic {
         fuel::out_of_fuel(&self.meters, ran_out)
     }
 }
 
-/// Makes the module. A fault here is our limit, not the student's. `set` are the uniforms that the program sets.
+/// Makes the module. A fault here is our limit, not the student's.
 pub(super) fn build(
-    written: &[u32],
+    written: Vec<u32>,
     source: &Source,
-    inputs: &[&str],
-    set: &[&str],
-    output: &str,
+    interface: &Interface,
+    poisons: bool,
 ) -> Result<Shader, Refusal> {
-    let Reworked { words, lines, unset } = rework(written, set)?;
+    let names = |variables: &'_ [Variable]| variables.iter().map(|variable| variable.name.clone()).collect::<Vec<_>>();
+    let (inputs, set) = (names(&interface.inputs), names(&interface.uniforms));
+    let Reworked { words, lines, unset } = rework(&written, &set, poisons)?;
     let mut module = parse(&words)?;
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
-    let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
+    let (meters, gauge) = fuel::meter(&mut module, &costs, &written, &lines);
     let undefined = undefined::watch(&mut module, &lines);
-    let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref(), undefined);
+    let inputs: Vec<&str> = inputs.iter().map(String::as_str).collect();
+    let attributes = entry::rebuild(&mut module, &inputs, &interface.output.name, gauge.as_ref(), undefined);
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader { module, attributes, uniforms, unset, lines, meters })
+    Ok(Shader { module, attributes, uniforms, unset, lines, meters, written })
 }
 
-fn rework(words: &[u32], set: &[&str]) -> Result<Reworked, Fault> {
-    spirv::rework(words, set).ok_or_else(|| unsupported("a `switch` of this size"))
+fn rework(words: &[u32], set: &[String], poisons: bool) -> Result<Reworked, Fault> {
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    spirv::rework(words, &set, poisons).ok_or_else(|| unsupported("a `switch` of this size"))
 }
 
 fn parse(words: &[u32]) -> Result<Module, Fault> {
@@ -148,7 +159,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
 
 /// Makes the module of the assignment's fixed fragment stage; it reads `varying` at location 0.
 pub(super) fn build_fixed_stage(words: &[u32], varying: &str) -> Result<Module, Fault> {
-    let mut module = parse(&rework(words, &[])?.words)?;
+    let mut module = parse(&rework(words, &[], false)?.words)?;
     for argument in &mut module.entry_points[0].function.arguments {
         if let Some(naga::Binding::Location { location, .. }) = &mut argument.binding
             && argument.name.as_deref() == Some(varying)

@@ -1,10 +1,11 @@
 //! Watches for what GLSL leaves undefined: `pow` of a negative base (GLSL 4.10, section 8.2).
 //!
 //! A driver may give NaN, which `max` or a comparison then hides, or some number; another driver gives another picture.
-//! So the module notes it where it happens, and the capture's header tells.
+//! So the module notes it where it happens, and the capture's header tells. Whether the colour depends on it is seen
+//! when the shader runs once more with such results poisoned ([`super::Shader::poisoned`]).
 
 use super::build::Build;
-use super::spirv::Lines;
+use super::spirv::{Lines, NEGATIVE};
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
 use naga::{
@@ -13,8 +14,6 @@ use naga::{
 };
 use std::collections::HashMap;
 
-/// From here down a base is negative; what rounding makes of 0 is not.
-const NEGATIVE: f32 = -1e-5;
 /// What the variable holds where the line is not known.
 pub const NO_LINE: u32 = u32::MAX;
 

@@ -6,15 +6,18 @@ use std::collections::HashMap;
 
 /// Lowers the functions of `code`.
 pub(super) fn lower(code: &mut Code) {
+    code.functions.retain(|instruction| instruction.opcode != op::IMAGE_WRITE);
+    rewrite(code, lowered);
+}
+
+/// Replaces the instructions of all functions for which `replaced` writes others.
+pub(super) fn rewrite(code: &mut Code, replaced: impl Fn(&mut Builder<'_>, &Instruction) -> Option<()>) {
     let types = code.value_types();
     let functions = std::mem::take(&mut code.functions);
     let mut builder = Builder { code, types, out: Vec::with_capacity(functions.len()), line: None, set: 0 };
     for instruction in functions {
         builder.line = instruction.line;
-        if instruction.opcode == op::IMAGE_WRITE {
-            continue;
-        }
-        if lowered(&mut builder, &instruction).is_none() {
+        if replaced(&mut builder, &instruction).is_none() {
             builder.out.push(instruction);
         }
     }

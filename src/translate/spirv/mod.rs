@@ -7,12 +7,14 @@ mod integers;
 mod lower;
 pub(super) mod op;
 mod packing;
+mod poison;
 mod switch;
 #[cfg(test)]
 mod tests;
 mod walk;
 
 pub(super) use globals::{DEFAULT_BLOCK, Unset};
+pub(super) use poison::NEGATIVE;
 pub(super) use walk::{instructions, text};
 
 use code::Code;
@@ -36,14 +38,18 @@ pub(super) struct Reworked {
 /// - Cases of a `switch` that run into the next get a copy of it ([`switch`]).
 /// - Instructions that naga does not know, or takes for something else, become others
 ///   ([`lower`], [`integers`]).
+/// - Where `poisons`, what is undefined becomes a number that shows ([`poison`]).
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
 ///   there, and zero is the same each time.
-pub(super) fn rework(words: &[u32], set: &[&str]) -> Option<Reworked> {
+pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Option<Reworked> {
     let mut code = Code::parse(words)?;
     let unset = globals::rework(&mut code, set);
     undefined(&mut code);
     switch::separate_cases(&mut code)?;
     lower::lower(&mut code);
+    if poisons {
+        poison::poison(&mut code);
+    }
     let (words, lines) = code.encode();
     Some(Reworked { words, lines, unset })
 }

@@ -122,6 +122,7 @@ pub mod built_in {
 
 /// `GLSL.std.450`.
 pub mod glsl {
+    pub const POW: u32 = 26;
     pub const ROUND_EVEN: u32 = 2;
     pub const TRUNC: u32 = 3;
     pub const F_ABS: u32 = 4;
