@@ -88,7 +88,7 @@ impl Grader {
             Err(refusal) => return Ok(self.rejected(&refusal.facts, refusal.diagnostics)),
         };
         if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
-            return Ok(self.rejected(&source.facts, vec![error]));
+            return Ok(self.refused(&source.facts, Verdict::Rejected, vec![error]));
         }
         let Translation { shader, mut diagnostics } = match translate::translate(&source, &self.interface) {
             Ok(translation) => translation,
@@ -96,18 +96,30 @@ impl Grader {
                 diagnostics.extend(source.notes);
                 return Ok(self.rejected(&source.facts, diagnostics));
             }
+            Err(Refusal::Stopped(mut diagnostics)) => {
+                diagnostics.extend(source.notes);
+                return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
+            }
             Err(Refusal::Fault(fault)) => return Err(fault),
         };
         diagnostics.extend(source.notes.iter().cloned());
         let probes = self.assignment.probes(order.seed);
         let rendering = self.renderer.render(&shader, &homework::scene(self.assignment, &probes))?;
+        if let Some(ran_out) = rendering.ran_out {
+            diagnostics.insert(0, shader.out_of_fuel(ran_out));
+            return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
+        }
         let report = self.report(&source, &probes, &rendering, diagnostics, order.hints);
         Ok(Graded { report, frames: Some(rendering.frames) })
     }
 
     fn rejected(&self, facts: &Facts, diagnostics: Vec<Diagnostic>) -> Graded {
+        self.refused(facts, Verdict::Rejected, diagnostics)
+    }
+
+    fn refused(&self, facts: &Facts, verdict: Verdict, diagnostics: Vec<Diagnostic>) -> Graded {
         let environment = self.environment.clone();
-        let report = unfinished(self.assignment, info(facts), Verdict::Rejected, diagnostics, environment);
+        let report = unfinished(self.assignment, info(facts), verdict, diagnostics, environment);
         Graded { report, frames: None }
     }
 
@@ -126,8 +138,15 @@ impl Grader {
             .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
             .collect();
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let evidence =
-            Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples, hints };
+        let evidence = Evidence {
+            assignment: self.assignment,
+            source,
+            frames: &frames,
+            probes,
+            samples: &samples,
+            undefined: rendering.undefined,
+            hints,
+        };
         let diagnosis = diagnose::diagnose(&evidence);
         let score = diagnosis.rubric.iter().map(|line| line.points).sum();
         let max_score = self.assignment.max_score();

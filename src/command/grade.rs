@@ -1,6 +1,6 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::{Outcome, file_fault, language, writing};
+use super::{Outcome, file_fault, language, warn, writing};
 use crate::cli::{Format, Grade};
 use crate::excerpt;
 use crate::fault::Fault;
@@ -30,7 +30,8 @@ pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let settings =
         Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
     let assignment = crate::homework::assignment(&settings.assignment)?;
-    let pool = Pool::start(settings, 1)?;
+    let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
+    warn(&pool, language);
     let wants_frames = arguments.frames.is_some() || arguments.format == Format::Html;
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
     let order = Order { seed, hints: arguments.hints };

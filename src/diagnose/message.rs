@@ -4,6 +4,7 @@ use super::constants::ChangedConstant;
 use super::locate::{self, Located};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
+use crate::translate::NO_LINE;
 use reference::assignment::RubricLine;
 use reference::fit::Worst;
 use reference::mistake::Mistake;
@@ -78,7 +79,9 @@ impl Blanks {
                 blanks.worst(worst);
             }
             (Cause::Known { found, .. }, id) => {
-                blanks.place(locate::find(evidence.source, &mistake.near));
+                let met = evidence.undefined.filter(|line| id == super::UNDEFINED_POWER && *line != NO_LINE);
+                let met = met.map(|line| Located { line, name: None });
+                blanks.place(met.or_else(|| locate::find(evidence.source, &mistake.near)));
                 let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);
                 blanks.parameter(parameter, evidence);
             }

@@ -24,6 +24,8 @@ const POSITION_CHANGED: &str = "position-changed";
 const CONSTANTS_CHANGED: &str = "constants-changed";
 const HARD_CODED: &str = "hard-coded";
 const UNEXPLAINED: &str = "unexplained";
+/// What a negative base of a power is called, also where this driver hides that its result is undefined.
+const UNDEFINED_POWER: &str = "specular-unclamped";
 
 /// How much a message helps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize)]
@@ -51,6 +53,8 @@ pub struct Evidence<'a> {
     pub probes: &'a ProbeSet,
     /// What the shader computed at each probe, in their order.
     pub samples: &'a [Sample],
+    /// The line where a negative number was raised to a power, where one was.
+    pub undefined: Option<u32>,
     /// How much the messages help.
     pub hints: Hints,
 }
@@ -154,6 +158,10 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
     let fit = explain(assignment, probes, &samples, COLOUR_TOLERANCE);
+    if fit.is_right() && evidence.undefined.is_some() {
+        let found = vec![Found { id: UNDEFINED_POWER.into(), form: 0, parameter: None }];
+        return Cause::Known { constants: Vec::new(), found };
+    }
     if fit.is_right() {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
         return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };

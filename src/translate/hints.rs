@@ -30,6 +30,8 @@ pub use overlooked::overlooked_errors;
 use super::log::Entry;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Text;
+use std::ops::Range;
+use tokens::Token;
 
 /// A message of the compiler with its place in the file.
 #[derive(Clone, Debug)]
@@ -47,7 +49,7 @@ pub struct Finding<'e, 'a> {
 impl Finding<'_, '_> {
     /// Whether a real driver refuses the file for this too.
     pub fn is_error(&self) -> bool {
-        self.entry.is_error && self.entry.token != "line continuation"
+        self.entry.is_error && !matches!(self.entry.token, "line continuation" | "extraneous semicolon")
     }
 
     /// Whether nothing that the compiler says besides is worth reading.
@@ -117,15 +119,21 @@ pub fn stray_brace(file: &File<'_>, syntax: &Finding<'_, '_>) -> Option<usize> {
 }
 
 /// The words of the statement that `finding` is about.
-pub fn statement_words<'a>(file: &File<'a>, finding: &Finding<'_, 'a>) -> impl Iterator<Item = &'a str> {
-    let statement = file.code.get(finding.statement..).unwrap_or_default();
-    statement.iter().take_while(|token| !matches!(token.text, ";" | "{" | "}")).map(|token| token.text)
+pub fn statement_words<'a>(file: &File<'a>, finding: &Finding<'_, '_>) -> impl Iterator<Item = &'a str> {
+    file.code[statement_range(file, finding)].iter().map(|token| token.text)
 }
 
 /// The names that the statement around `finding` declares.
-pub fn declared_in_statement<'a>(file: &File<'a>, finding: &Finding<'_, '_>) -> Vec<&'a str> {
-    let inside = |index: &usize| *index >= finding.statement && file.statement(*index) == finding.statement;
-    file.declarations.iter().filter(|d| inside(&d.index)).map(|d| d.name).collect()
+pub fn declared_in_statement<'a>(file: &File<'a>, finding: &Finding<'_, '_>) -> impl Iterator<Item = &'a str> {
+    let statement = statement_range(file, finding);
+    file.declarations.iter().filter(move |d| statement.contains(&d.index)).map(|d| d.name)
+}
+
+fn statement_range(file: &File<'_>, finding: &Finding<'_, '_>) -> Range<usize> {
+    let start = finding.statement.min(file.code.len());
+    let ends = |token: &Token<'_>| matches!(token.text, ";" | "{" | "}");
+    let end = file.code[start..].iter().position(ends).map_or(file.code.len(), |length| start + length);
+    start..end
 }
 
 /// Puts an error into words.

@@ -95,7 +95,10 @@ fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnost
 }
 
 /// Puts the diagnostic at the first place where the code has `name` as a word: its declaration.
-fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+pub(super) fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+    if name.is_empty() {
+        return diagnostic;
+    }
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     for number in 1..=source.line_count() {
         let line = source.code_line(number);

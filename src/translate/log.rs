@@ -5,7 +5,10 @@ use super::hints::{self, File, Finding};
 use crate::diagnostic::{Diagnostic, Severity};
 
 /// No reader fixes more than this at a time; a hostile file can cause thousands.
-const MAX_DIAGNOSTICS: usize = 20;
+pub const MAX_DIAGNOSTICS: usize = 20;
+
+/// How many messages are looked into, each of which means a walk through the file.
+const MAX_ENTRIES: usize = 100;
 
 /// One message of the compiler.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,7 +68,12 @@ fn place(rest: &str) -> Option<((u32, u32), &str)> {
 /// What the compiler's log of compiling the vertex shader `text` says, in the order in which to fix it: at least one
 /// error if the log has one, except for what real drivers let pass, which stays a warning.
 pub fn vertex_diagnostics(log: &str, text: &str, interface: &Interface) -> Vec<Diagnostic> {
-    let entries = entries(log);
+    let mut entries = entries(log);
+    // The parser's giving up is the last error, and tells most about the ones before it.
+    let syntax = entries.iter().position(Entry::is_syntax_error).filter(|&at| at >= MAX_ENTRIES);
+    let last = syntax.map(|at| entries.swap_remove(at));
+    entries.truncate(MAX_ENTRIES);
+    entries.extend(last);
     let file = File::new(text, interface);
     if entries.iter().any(|entry| entry.is_error)
         && let Some(missing) = hints::missing_version(&file)

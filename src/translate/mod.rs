@@ -3,8 +3,11 @@
 //! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
+mod build;
 mod concessions;
 mod entry;
+mod fuel;
+mod gate;
 pub mod glslang;
 mod hints;
 mod interface;
@@ -14,12 +17,14 @@ mod module;
 mod spirv;
 mod strict;
 mod text;
+mod undefined;
 
-pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
-pub use hints::{overlooked_errors, without_line_directives};
+pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
+pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
+pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -31,6 +36,8 @@ use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
 pub enum Refusal {
     /// The student's file is at fault.
     Rejected(Vec<Diagnostic>),
+    /// It exceeds a limit.
+    Stopped(Vec<Diagnostic>),
     /// ggrade is.
     Fault(Fault),
 }
@@ -52,6 +59,7 @@ pub struct Translation {
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
+    gate::check_text(source)?;
     let Accepted { text, verdict, warnings } = first_pass(source, interface)?;
     let mut overlooked = hints::overlooked_errors(&source.text, interface);
     overlooked.extend(strict::errors(source, interface));
@@ -61,9 +69,10 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     diagnostics.extend(warnings);
     let spirv = second_pass(&text, text::version(source.code()), interface)?;
+    gate::check_words(&spirv, source)?;
     let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
     let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, &inputs, &set, &interface.output.name)?;
+    let shader = module::build(&spirv, source, &inputs, &set, &interface.output.name)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
     Ok(Translation { shader, diagnostics })
 }

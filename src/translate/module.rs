@@ -1,9 +1,15 @@
 //! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
 
+use super::Refusal;
 use super::entry::{self, Attribute};
+use super::fuel::{self, Meter};
+use super::gate::{self, Costs};
 use super::spirv::{self, Lines, Reworked, Unset};
+use super::undefined;
+use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::source::Source;
 use naga::{AddressSpace, Handle, Module, ResourceBinding, Type, TypeInner};
 
 /// A uniform variable of the default block, or a member of a block of the student's own.
@@ -43,15 +49,34 @@ pub struct Shader {
     pub(super) unset: Vec<Unset>,
     /// From a span of the module to the line of the student's file.
     pub lines: Lines,
+    /// Its loops, numbered from 1 where the capture's header names one.
+    pub meters: Vec<Meter>,
 }
 
-/// Makes the module. An error here is our limit, not the student's.
-pub(super) fn build(words: &[u32], inputs: &[&str], set: &[&str], output: &str) -> Result<Shader, Fault> {
-    let Reworked { words, lines, unset } = rework(words, set)?;
+impl Shader {
+    /// What to say where the capture's header is not 0.
+    pub fn out_of_fuel(&self, ran_out: u32) -> Diagnostic {
+        fuel::out_of_fuel(&self.meters, ran_out)
+    }
+}
+
+/// Makes the module. A fault here is our limit, not the student's. `set` are the uniforms that the program sets.
+pub(super) fn build(
+    written: &[u32],
+    source: &Source,
+    inputs: &[&str],
+    set: &[&str],
+    output: &str,
+) -> Result<Shader, Refusal> {
+    let Reworked { words, lines, unset } = rework(written, set)?;
     let mut module = parse(&words)?;
-    let attributes = entry::rebuild(&mut module, inputs, output);
+    let costs = Costs::of(&module);
+    gate::check_module(&module, &costs, &lines, source)?;
+    let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
+    let undefined = undefined::watch(&mut module, &lines);
+    let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref(), undefined);
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader { module, attributes, uniforms, unset, lines })
+    Ok(Shader { module, attributes, uniforms, unset, lines, meters })
 }
 
 fn rework(words: &[u32], set: &[&str]) -> Result<Reworked, Fault> {

@@ -52,6 +52,9 @@ impl Declaration<'_> {
 /// Enough for any real shader; keeps a hostile one from taking long.
 const MAX_DECLARATIONS: usize = 2_000;
 
+/// How far a list of parameters or qualifiers is followed, in tokens, for the same reason.
+const MAX_LIST: usize = 500;
+
 /// Everything that `code` declares, in order.
 pub fn find<'a>(code: &[Token<'a>]) -> Vec<Declaration<'a>> {
     let mut all: Vec<Declaration<'a>> = Vec::new();
@@ -63,7 +66,7 @@ pub fn find<'a>(code: &[Token<'a>]) -> Vec<Declaration<'a>> {
         if let Some((ty, role)) = structure(code, index).or_else(|| typed(code, index, &all)) {
             let mut indices = vec![index];
             if role == Role::Variable {
-                indices.extend(more_names(code, index));
+                indices.extend(more_names(code, index).into_iter().take(MAX_DECLARATIONS));
             }
             let qualifiers = qualifiers(code, index);
             all.extend(indices.into_iter().map(|index| declaration(code, &braces, index, &ty, role, &qualifiers)));
@@ -112,7 +115,7 @@ fn typed(code: &[Token<'_>], index: usize, before: &[Declaration<'_>]) -> Option
 /// Whether the declaration whose type is at `at` stands in the parentheses of a function's parameters.
 fn parenthesis_before(code: &[Token<'_>], at: usize) -> bool {
     let mut depth = 0_i32;
-    for (index, token) in code[..at].iter().enumerate().rev() {
+    for (index, token) in code[..at].iter().enumerate().rev().take(MAX_LIST) {
         match token.text {
             ")" => depth += 1,
             "(" if depth == 0 => return index == 0 || code[index - 1].text != "for",
@@ -152,7 +155,8 @@ fn more_names(code: &[Token<'_>], first: usize) -> Vec<usize> {
 
 /// The qualifiers in front of the declaration whose first name is at `index`.
 fn qualifiers<'a>(code: &[Token<'a>], index: usize) -> Vec<&'a str> {
-    let before = code[..index].iter().rev().take_while(|token| !matches!(token.text, ";" | "{" | "}" | "="));
+    let before =
+        code[..index].iter().rev().take(MAX_LIST).take_while(|token| !matches!(token.text, ";" | "{" | "}" | "="));
     before.map(|token| token.text).filter(|text| vocabulary::is_qualifier(text)).collect()
 }
 

@@ -64,8 +64,10 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     }
     // Where a line ends too early, the compiler is on the next one already.
     let above = || file.directives.iter().find(|token| Some(file.line(token.end()) + 1) == line);
-    let about = |token: &&Token<'_>| entry.token.strip_prefix('#') == Some(directive_name(token.text));
-    let directive = directive.or_else(|| above().filter(about))?;
+    let condition = entry.token == "preprocessor evaluation";
+    let about = |token: &&Token<'_>| condition || entry.token.strip_prefix('#') == Some(directive_name(token.text));
+    let above = above().filter(about);
+    let directive = if condition { above.or(directive) } else { directive.or(above) }?;
     let name = directive_name(directive.text);
     let mark = |text| file.error(directive.start, directive.text.len(), text);
     if message.starts_with("mismatched statements") {
@@ -85,7 +87,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     if message.starts_with("invalid directive") {
         return Some(misspelt(name, mark));
     }
-    entry.token.starts_with('#').then(|| {
+    (condition || entry.token.starts_with('#')).then(|| {
         mark(Text::new(
             format!("This `#{name}` is not complete or not correct: “{message}”."),
             format!("この `#{name}` の書き方が正しくありません:「{message}」。"),

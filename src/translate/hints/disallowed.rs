@@ -1,6 +1,7 @@
 //! Words of other languages, declarations that GLSL does not allow, and what another version has.
 
-use super::file::File;
+use super::file::{File, macro_name};
+use super::tokens::Token;
 use super::{Finding, suggestions, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -220,6 +221,13 @@ pub fn warn(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
         );
         return Some(file.error(file.offset(line, column), 1, text));
     }
+    if finding.entry.token == "extraneous semicolon" {
+        let text = Text::new(
+            "A `;` that ends nothing belongs to GLSL 4.60; some drivers refuse it here.",
+            "余分な `;` が許されるのは GLSL 4.60 からです。ドライバによってはエラーになります。",
+        );
+        return Some(file.error(file.offset(line, column), 1, text));
+    }
     let word = message.split_ascii_whitespace().next().unwrap_or_default();
     if message.contains("deprecated in version") && vocabulary::is_qualifier(word) {
         let (old, new) = (word, if word == "varying" { "out" } else { "in" });
@@ -239,12 +247,18 @@ pub fn warn(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
         return Some(file.error_at(finding.index, text));
     }
     if message.contains("consecutive underscores") {
-        let token = finding.entry.token;
+        let token = match finding.entry.token {
+            "#define" => {
+                let here = |directive: &&Token<'_>| file.line(directive.start) == line;
+                file.directives.iter().find(here).and_then(|directive| macro_name(directive.text)).unwrap_or_default()
+            }
+            token => token,
+        };
         let text = Text::new(
             format!("`{token}` contains `__`, which GLSL keeps for itself."),
             format!("`{token}` に含まれる `__` は、GLSL 自身のために予約されています。"),
         );
-        return Some(file.error_at(finding.index, text));
+        return Some(file.error(file.offset(line, column), token.len(), text));
     }
     None
 }

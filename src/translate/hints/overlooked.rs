@@ -8,6 +8,7 @@ use super::tokens::Kind;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::translate::Interface;
+use crate::translate::log::MAX_DIAGNOSTICS;
 
 /// From this version on, the two shaders may differ in how an output is interpolated.
 const FREE_INTERPOLATION: u32 = 440;
@@ -19,6 +20,7 @@ pub fn overlooked_errors(text: &str, interface: &Interface) -> Vec<Diagnostic> {
     all.extend(swizzles(&file));
     all.extend(interpolation(&file));
     all.extend(output_in_block(&file));
+    all.truncate(MAX_DIAGNOSTICS);
     all
 }
 
@@ -61,7 +63,8 @@ fn swizzles(file: &File<'_>) -> Vec<Diagnostic> {
             && file.code[index - 2].text != "gl_DepthRange";
         let called = file.word(Some(index + 1)) == "(";
         // A member of a structure, a macro, or a branch of `#if` that nobody compiles may be called anything.
-        let known = file.anywhere(field.text).is_some() || field.text.starts_with("gl_");
+        let built_in = [file.code[index - 2].text, field.text].iter().any(|name| name.starts_with("gl_"));
+        let known = file.anywhere(field.text).is_some() || built_in;
         if !is_field || called || known || file.definition(field.text).is_some() || is_conditional(file, field.start) {
             continue;
         }

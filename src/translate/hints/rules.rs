@@ -3,7 +3,7 @@
 use super::declarations::Role;
 use super::file::File;
 use super::tokens::Kind;
-use super::{Finding, disallowed, expression, mismatch};
+use super::{Finding, brackets, disallowed, expression, mismatch};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
@@ -23,6 +23,22 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
 }
 
 fn not_assignable(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+    let operator = file.word(Some(finding.index));
+    if !(operator.ends_with('=') || matches!(operator, "++" | "--")) {
+        let open = brackets::open_before(file, finding.index).last().copied();
+        let call = open.and_then(|open| open.checked_sub(1)).unwrap_or(finding.index);
+        let text = Text::new(
+            format!(
+                "`{}` writes into this argument (`out`), so it must be a variable of your own.",
+                file.word(Some(call))
+            ),
+            format!(
+                "`{}` はこの引数に値を書き込む (`out`) ので、書き換えられる変数を渡してください。",
+                file.word(Some(call))
+            ),
+        );
+        return file.error_at(call, text);
+    }
     let Some(base) = assigned(file, finding.index) else {
         let text = Text::new(
             "What stands left of the assignment cannot be assigned to.",

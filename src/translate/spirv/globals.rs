@@ -93,7 +93,8 @@ fn draw_parameters(code: &mut Code) -> Vec<u32> {
         }
     }
     for entry in code.heads.iter_mut().filter(|i| i.opcode == op::ENTRY_POINT) {
-        let name = 2 + entry.operands[2..].iter().position(|word| word.to_le_bytes()[3] == 0).map_or(0, |last| last + 1);
+        let name =
+            2 + entry.operands[2..].iter().position(|word| word.to_le_bytes()[3] == 0).map_or(0, |last| last + 1);
         let interface = entry.operands.split_off(name.min(entry.operands.len()));
         entry.operands.extend(interface.into_iter().filter(|id| !found.contains(id)));
     }

@@ -5,13 +5,15 @@ mod globals;
 mod images;
 mod integers;
 mod lower;
-mod op;
+pub(super) mod op;
 mod packing;
 mod switch;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub(super) use globals::{DEFAULT_BLOCK, Unset};
+pub(super) use walk::{instructions, text};
 
 use code::Code;
 use std::collections::BTreeMap;

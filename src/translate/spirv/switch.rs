@@ -60,8 +60,7 @@ fn separate(code: &mut Code, at: usize) -> Option<()> {
         }
     }
     let (Some(first), Some(last)) = (cases.first(), cases.last()) else { return Some(()) };
-    let all: Vec<Instruction> =
-        cases.iter().filter_map(|case| whole.get(&case.label)).flatten().cloned().collect();
+    let all: Vec<Instruction> = cases.iter().filter_map(|case| whole.get(&case.label)).flatten().cloned().collect();
     code.functions.splice(first.blocks.start..last.blocks.end, all);
     Some(())
 }

@@ -17,7 +17,7 @@ in vec4 pv;
 void main() {
     vec4 p = mw * pv;
     vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
-	int rounds = int(abs(pv.x) * 3.0) + 1;         // 4, 4, 1
+	int rounds = int(min(abs(pv.x), 1.0) * 3.0) + 1;         // 4, 4, 1
 	float d = 0.0, share = max(dot(n, l), 0.0) / float(rounds);
 	for (int i = 0; i < rounds; i++) d += share;
 	int i = rounds;

@@ -88,6 +88,7 @@ const RULES: &[Case] = &[
     ("  // 合計", "  §nv.w = 0.0;", "input of the shader|line 9", "入力変数|9 行目"),
     ("  // 合計", "  §mv = mvp;", "a uniform|line 10", "uniform 変数"),
     ("  // 合計", "  §shine *= 2.0;", "a constant|line 6", "定数"),
+    ("  // 合計", "  float whole = §modf(cosine, shine);", "`modf`|variable of your own", "`modf`|書き換えられる変数"),
     ("position;\n}", "position;\n  §return 0;\n}", "no value", "値を返せません"),
     ("void main", "§int main", "`void main()`", "`void main()`"),
     ("shine = 80.0", "shine = §(float) 80", "float(x)", "float(x)"),
@@ -100,6 +101,7 @@ const RULES: &[Case] = &[
 ];
 
 const DIRECTIVES: &[Case] = &[
+    ("  // 合計", "§#if\n#endif", "not complete", "書き方が正しくありません"),
     ("#version 410 core\n", "§#version 411 core\n", "no GLSL of this version|#version 410 core", "この番号"),
     ("#version 410 core\n", "§#verson 410 core\n", "`#version`", "`#version`"),
     ("#version 410 core\n", "const int a = 1;\n§#version 410 core\n", "first line", "先頭"),
@@ -200,6 +202,13 @@ fn a_mistake_in_a_macro_is_told_where_it_is_written() {
     assert_eq!((all[0].line, all[0].column), (Some(20), Some(3)));
     assert!(all[0].message.en.contains("line 27"), "{}", all[0].message.en);
     assert_eq!(all[1].severity, Severity::Warning, "a continued line is a warning");
+}
+
+#[test]
+fn a_semicolon_that_ends_nothing_is_a_warning() {
+    let (text, place) = broken("a.xyz);\n}", "a.xyz);\n}§;");
+    let all = diagnostics(&text);
+    assert_eq!((all.len(), all[0].severity, all[0].line.zip(all[0].column)), (1, Severity::Warning, place));
 }
 
 #[test]

@@ -66,6 +66,7 @@ fn what_is_valid_is_not_refused_here() {
         ("out vec4 colour", "smooth out vec4 colour"),
         ("#version 410 core", "#version 330"),
         ("vec3 unit(", "struct S { vec4 b2; };\nvec3 unit("),
+        ("  // 合計", "  cosine *= gl_DepthRange.far;"),
         ("vec3 unit(", "#define FIRST xyz\nvec3 unit("),
     ] {
         let (text, _) = broken(from, to);
