@@ -1,5 +1,6 @@
 //! The command line's types, and nothing else.
 
+use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
 use crate::sandbox::{Attempt, Policy, Settings};
@@ -89,6 +90,9 @@ pub struct Grade {
     /// Seed of the probes: the one of an earlier report repeats that grading exactly [default: random]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// How much the messages help: only what is seen, also the equation it breaks, or also where to look
+    #[arg(long, value_enum, default_value_t)]
+    pub hints: Hints,
     /// Seconds that the grading may take
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     pub deadline: f64,

@@ -10,7 +10,7 @@ use std::io;
 /// Grades what the parent sends until it closes the pipe.
 pub fn run(arguments: &Worker) -> Result<Outcome, Fault> {
     let job = worker::Job {
-        assignment: crate::grade::assignment(&arguments.machine.assignment)?,
+        assignment: crate::homework::assignment(&arguments.machine.assignment)?,
         adapter: arguments.machine.adapter,
         limits: Limits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
         warm_up: arguments.warm_up,

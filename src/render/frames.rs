@@ -60,4 +60,7 @@ pub struct Rendering {
     pub frame_samples: Vec<Vec<Sample>>,
     /// For each batch of probes, its vertices.
     pub probe_samples: Vec<Vec<Sample>>,
+    /// The loop that ran out of fuel, where one did: then nothing else here means anything. See
+    /// [`Shader::out_of_fuel`](crate::translate::Shader::out_of_fuel).
+    pub ran_out: Option<u32>,
 }

@@ -3,7 +3,7 @@
 use super::buffers::{Uniforms, layout_entry, vertex_buffer};
 use super::device::Device;
 use super::target::{FORMAT, Target};
-use crate::translate::{CAPTURE_GROUP, CAPTURE_STRIDE, Shader};
+use crate::translate::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE, Shader};
 use std::borrow::Cow;
 
 /// A draw: its vertices, one array of xyz for each attribute, and the matrices that hold for them.
@@ -61,7 +61,7 @@ impl Job {
         let batches: Vec<&Batch> = scene.frames.iter().chain(&scene.probes).collect();
         let vertices: u32 = batches.iter().map(|batch| batch.drawn()).sum();
         let uniforms = Uniforms::new(device, &shader.uniforms, &batches);
-        let size = u64::from(vertices.max(1)) * CAPTURE_STRIDE;
+        let size = CAPTURE_HEADER + u64::from(vertices.max(1)) * CAPTURE_STRIDE;
         let buffer = |label, usage| {
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
         };

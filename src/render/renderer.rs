@@ -6,7 +6,7 @@ use super::job::{Batch, Job, Scene};
 use super::target::{Target, Tiles};
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::translate::Shader;
+use crate::translate::{CAPTURE_HEADER, Shader};
 use std::borrow::Cow;
 
 /// Renders submissions on one device.
@@ -59,12 +59,12 @@ impl Renderer {
             bytes_per_row: tiles.bytes_per_row(),
             bytes: Vec::new(),
         };
-        let (bytes, samples) = read_back(&self.device, target, &job)?;
-        Ok(split(Frames { bytes, ..frames }, &samples, scene))
+        let (bytes, captured) = read_back(&self.device, target, &job)?;
+        Ok(split(Frames { bytes, ..frames }, &captured, scene))
     }
 }
 
-fn read_back(device: &Device, target: &Target, job: &Job) -> Result<(Vec<u8>, Vec<Sample>), Fault> {
+fn read_back(device: &Device, target: &Target, job: &Job) -> Result<(Vec<u8>, Vec<u8>), Fault> {
     let (sender, receiver) = std::sync::mpsc::channel();
     for buffer in [&target.readback, &job.readback] {
         let sender = sender.clone();
@@ -83,12 +83,15 @@ fn read_back(device: &Device, target: &Target, job: &Job) -> Result<(Vec<u8>, Ve
         Ok(bytes)
     };
     let frames = copy(&target.readback)?;
-    let samples = copy(&job.readback)?;
-    Ok((frames, bytemuck::pod_collect_to_vec(&samples)))
+    let captured = copy(&job.readback)?;
+    Ok((frames, captured))
 }
 
-fn split(frames: Frames, samples: &[Sample], scene: &Scene) -> Rendering {
-    let mut rest = samples;
+fn split(frames: Frames, captured: &[u8], scene: &Scene) -> Rendering {
+    let (header, records) = captured.split_at((CAPTURE_HEADER as usize).min(captured.len()));
+    let ran_out = header.first_chunk().map(|bytes| u32::from_le_bytes(*bytes)).filter(|number| *number != 0);
+    let samples: Vec<Sample> = bytemuck::pod_collect_to_vec(records);
+    let mut rest = samples.as_slice();
     let mut take = |batches: &[Batch]| {
         let mut all = Vec::with_capacity(batches.len());
         for batch in batches {
@@ -100,7 +103,7 @@ fn split(frames: Frames, samples: &[Sample], scene: &Scene) -> Rendering {
     };
     let frame_samples = take(&scene.frames);
     let probe_samples = take(&scene.probes);
-    Rendering { frames, frame_samples, probe_samples }
+    Rendering { frames, frame_samples, probe_samples, ran_out }
 }
 
 fn render_fault(error: &wgpu::Error) -> Fault {

@@ -8,6 +8,7 @@ use super::roster::{Place, Roster, Wanted};
 use super::{Policy, Settings};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,8 +28,8 @@ pub struct Submission<'a> {
     pub name: &'a str,
     /// Its bytes.
     pub bytes: &'a [u8],
-    /// The seed of the probes.
-    pub seed: u64,
+    /// How it is to be graded.
+    pub order: Order,
     /// Whether the frames are wanted, not only their comparison.
     pub wants_frames: bool,
 }
@@ -57,7 +58,7 @@ pub struct Pool {
 impl Pool {
     /// Starts a pool in which `workers` submissions are graded at once, and waits for its first worker.
     pub fn start(settings: Settings, workers: usize) -> Result<Self, Fault> {
-        let assignment = crate::grade::assignment(&settings.assignment)?;
+        let assignment = crate::homework::assignment(&settings.assignment)?;
         let roster = Roster::start(settings.clone(), workers)?;
         let found = roster.idle(|worker| (worker.environment.clone(), worker.protection.clone())).pop();
         let (environment, protection) = found.unwrap_or_default();
@@ -160,8 +161,8 @@ impl Grading<'_> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
         let was_fresh = worker.gradings == 0;
-        let Submission { name, bytes, seed, wants_frames } = self.submission;
-        let request = Request { id: next_id.fetch_add(1, Ordering::Relaxed), name: name.into(), seed, wants_frames };
+        let Submission { name, bytes, order, wants_frames } = self.submission;
+        let request = Request { id: next_id.fetch_add(1, Ordering::Relaxed), name: name.into(), order, wants_frames };
         let frames_bytes = if wants_frames { self.pool.frames_bytes() } else { 0 };
         let start = Instant::now();
         // Confirming a crash takes what it left of the deadline: no file has twice the time.

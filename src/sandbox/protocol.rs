@@ -2,6 +2,7 @@
 
 use super::protection::Protection;
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::report::{Environment, Report};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::io::{self, Read, Write};
@@ -15,7 +16,7 @@ pub(super) struct Request {
     /// Comes back in the reply, so that an answer is never taken for another file's.
     pub id: u64,
     pub name: String,
-    pub seed: u64,
+    pub order: Order,
     pub wants_frames: bool,
 }
 

@@ -6,7 +6,7 @@ use super::protection::{Layer, Protection};
 use super::protocol::{Hello, Outcome, REQUEST, Reply, Request, Tile, receive, send};
 use super::{Limits, syscalls};
 use crate::fault::Fault;
-use crate::grade::{Graded, Grader};
+use crate::grade::{Graded, Grader, Order};
 use crate::render::{AdapterKind, Frames};
 use nix::sys::resource::Resource;
 use reference::Assignment;
@@ -69,7 +69,7 @@ fn serve(job: Job, confined: Confined) -> io::Result<()> {
 fn prepare(job: Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Protection), Fault> {
     let mut grader = Grader::new(job.assignment, job.adapter)?;
     if let Some(file) = job.assignment.files.first().filter(|_| job.warm_up) {
-        grader.grade(&file.name, file.starter.as_bytes(), 0)?;
+        grader.grade(&file.name, file.starter.as_bytes(), Order::default())?;
     }
     let filtered = syscalls::restrict(job.adapter);
     if filtered.is_err() {
@@ -97,7 +97,7 @@ fn answer(
         Err(error) => return Err(error),
     };
     meter.next(job.adapter)?;
-    let (outcome, body) = outcome(grader.grade(&request.name, &bytes, request.seed), request.wants_frames);
+    let (outcome, body) = outcome(grader.grade(&request.name, &bytes, request.order), request.wants_frames);
     let spent = meter.size()? > start + job.limits.memory;
     send(output, &Reply { id: request.id, spent, outcome }, &body)?;
     Ok(true)

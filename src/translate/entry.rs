@@ -5,18 +5,24 @@
 //! - feed only the assignment's inputs and `gl_VertexID`; every other input has the value that
 //!   OpenGL gives it when the program sets nothing (0, 0, 0, 1; `gl_InstanceID` = 0);
 //! - write the clip-space position and the colour to a storage buffer, one [`CAPTURE_STRIDE`]-byte
-//!   record a vertex, at `instance_index + vertex_index`;
+//!   record a vertex, at `instance_index + vertex_index`, behind a header of [`CAPTURE_HEADER`] bytes;
+//! - tell in the header, a u32, which loop ran out of fuel (see [`super::fuel`]), 0 where none did;
+//!   every vertex after the first to say so finds no fuel, so that they all end quickly;
 //! - return the position with OpenGL's clip range of z, [−w, w], brought to wgpu's [0, w], and the
 //!   colour at location 0.
 
+use super::build::Build;
+use super::fuel::{self, Gauge};
 use naga::{
     AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function, FunctionArgument,
-    FunctionResult, GlobalVariable, Handle, Interpolation, Literal, Module, ResourceBinding, Sampling, Scalar, Span,
-    Statement, StorageAccess, StructMember, Type, TypeInner, VectorSize, proc::Emitter,
+    FunctionResult, GlobalVariable, Handle, Interpolation, Literal, LocalVariable, Module, ResourceBinding, Sampling,
+    Scalar, Span, Statement, StorageAccess, StructMember, Type, TypeInner, VectorSize,
 };
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
 pub const CAPTURE_GROUP: u32 = 1;
+/// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, and room.
+pub const CAPTURE_HEADER: u64 = 32;
 /// Bytes of one captured vertex: clip-space position and colour, four f32 each.
 pub const CAPTURE_STRIDE: u64 = 32;
 
@@ -38,12 +44,12 @@ pub struct Attribute {
 /// Rebuilds the only entry point of `module`; gives the attributes that it reads.
 ///
 /// `inputs` are the names that the assignment's program feeds, `output` is the varying that the
-/// fixed fragment shader reads.
-pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str) -> Vec<Attribute> {
+/// fixed fragment shader reads, `gauge` are the counters of the module's loops.
+pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, gauge: Option<&Gauge>) -> Vec<Attribute> {
     let mut entry = module.entry_points.remove(0);
     let outputs = Outputs::of(module, &entry.function, output);
     let (attributes, instance) = feed(module, &mut entry.function, inputs);
-    finish(module, &mut entry.function, &outputs, instance);
+    finish(module, &mut entry.function, &outputs, instance, gauge);
     entry.name = "main".into();
     module.entry_points.push(entry);
     attributes
@@ -210,74 +216,87 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
 }
 
 /// Replaces what follows the call of `main`: capture, clip range, return.
-fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32) {
+fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, gauge: Option<&Gauge>) {
     let types = Types::new(module);
     let capture = module.global_variables.append(
         GlobalVariable {
             name: Some("capture".into()),
             space: AddressSpace::Storage { access: StorageAccess::LOAD | StorageAccess::STORE },
             binding: Some(ResourceBinding { group: CAPTURE_GROUP, binding: 0 }),
-            ty: types.records,
+            ty: types.capture,
             init: None,
             memory_decorations: naga::MemoryDecorations::empty(),
         },
         Span::UNDEFINED,
     );
-    let vertex = function.arguments.iter().position(|a| a.binding == Some(Binding::BuiltIn(BuiltIn::VertexIndex)));
-    let vertex = vertex.unwrap_or_else(|| {
-        function.arguments.push(FunctionArgument {
-            name: None,
-            ty: types.u32,
-            binding: Some(Binding::BuiltIn(BuiltIn::VertexIndex)),
-        });
-        function.arguments.len() - 1
-    });
-
+    let vertex = vertex_index(function, types.u32);
     let mut statements: Vec<_> = std::mem::take(&mut function.body).span_into_iter().collect();
     if matches!(statements.last(), Some((Statement::Return { .. }, _))) {
         statements.pop();
     }
-    let mut body = Block::new();
-    for (statement, span) in statements {
-        body.push(statement, span);
+    let mut build = Build::new(&mut function.expressions);
+    let capture = build.leaf(Expression::GlobalVariable(capture));
+    // Those that call `main`; what is loaded to be returned stays outside, where it is used.
+    let call = statements.iter().rposition(|(statement, _)| matches!(statement, Statement::Call { .. }));
+    let behind = statements.split_off(call.map_or(0, |call| call + 1));
+    match gauge {
+        Some(gauge) => {
+            let turns = LocalVariable { name: None, ty: types.u32, init: None };
+            let turns = function.local_variables.append(turns, Span::UNDEFINED);
+            fuel::run(&mut build, gauge, capture, turns, |build| build.append(statements));
+        }
+        None => build.append(statements),
     }
+    build.append(behind);
+    let result = write_record(&mut build, &types, outputs, capture, [instance, vertex]);
+    build.push(Statement::Return { value: Some(result) });
+    function.body = build.finish();
+    function.result = Some(FunctionResult { ty: types.result, binding: None });
+}
 
-    let span = Span::UNDEFINED;
-    let expressions = &mut function.expressions;
-    let mut leaf = |expression| expressions.append(expression, span);
-    let records = leaf(Expression::GlobalVariable(capture));
-    let instance = leaf(Expression::FunctionArgument(instance));
-    let vertex = leaf(Expression::FunctionArgument(vertex as u32));
-    let half = leaf(Expression::Literal(Literal::F32(0.5)));
-    let zero = leaf(Expression::ZeroValue(types.vec4));
+/// The argument that carries the vertex's index; made where the shader does not read it.
+fn vertex_index(function: &mut Function, u32_type: Handle<Type>) -> u32 {
+    let binding = Some(Binding::BuiltIn(BuiltIn::VertexIndex));
+    let known = function.arguments.iter().position(|argument| argument.binding == binding);
+    known.unwrap_or_else(|| {
+        function.arguments.push(FunctionArgument { name: None, ty: u32_type, binding });
+        function.arguments.len() - 1
+    }) as u32
+}
+
+fn write_record(
+    build: &mut Build<'_>,
+    types: &Types,
+    outputs: &Outputs,
+    capture: Handle<Expression>,
+    [instance, vertex]: [u32; 2],
+) -> Handle<Expression> {
+    let instance = build.leaf(Expression::FunctionArgument(instance));
+    let vertex = build.leaf(Expression::FunctionArgument(vertex));
+    let half = build.leaf(Expression::Literal(Literal::F32(0.5)));
+    let zero = build.leaf(Expression::ZeroValue(types.vec4));
     let position = outputs.position.unwrap_or(zero);
     let colour = outputs.colour.unwrap_or(zero);
 
-    let mut emitter = Emitter::default();
-    emitter.start(expressions);
-    let mut node = |expression| expressions.append(expression, span);
-    let binary = |op, left, right| Expression::Binary { op, left, right };
-    let index = node(binary(BinaryOperator::Add, instance, vertex));
-    let record = node(Expression::Access { base: records, index });
-    let to_position = node(Expression::AccessIndex { base: record, index: 0 });
-    let to_colour = node(Expression::AccessIndex { base: record, index: 1 });
-    let [x, y, z, w] = [0, 1, 2, 3].map(|index| node(Expression::AccessIndex { base: position, index }));
-    let sum = node(binary(BinaryOperator::Add, z, w));
-    let depth = node(binary(BinaryOperator::Multiply, sum, half));
-    let clip = node(Expression::Compose { ty: types.vec4, components: vec![x, y, depth, w] });
-    let result = node(Expression::Compose { ty: types.result, components: vec![clip, colour] });
-    body.extend(emitter.finish(expressions));
-    body.push(Statement::Store { pointer: to_position, value: position }, span);
-    body.push(Statement::Store { pointer: to_colour, value: colour }, span);
-    body.push(Statement::Return { value: Some(result) }, span);
-    function.body = body;
-    function.result = Some(FunctionResult { ty: types.result, binding: None });
+    let index = build.binary(BinaryOperator::Add, instance, vertex);
+    let records = build.member(capture, 1);
+    let record = build.node(Expression::Access { base: records, index });
+    let to_position = build.member(record, 0);
+    let to_colour = build.member(record, 1);
+    build.store(to_position, position);
+    build.store(to_colour, colour);
+
+    let [x, y, z, w] = [0, 1, 2, 3].map(|index| build.member(position, index));
+    let sum = build.binary(BinaryOperator::Add, z, w);
+    let depth = build.binary(BinaryOperator::Multiply, sum, half);
+    let clip = build.node(Expression::Compose { ty: types.vec4, components: vec![x, y, depth, w] });
+    build.node(Expression::Compose { ty: types.result, components: vec![clip, colour] })
 }
 
 struct Types {
     u32: Handle<Type>,
     vec4: Handle<Type>,
-    records: Handle<Type>,
+    capture: Handle<Type>,
     result: Handle<Type>,
 }
 
@@ -292,6 +311,11 @@ impl Types {
         );
         let records =
             insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
+        let header = StructMember { name: Some("ran_out".into()), ty: u32, binding: None, offset: 0 };
+        let behind =
+            StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
+        let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
+        let capture = insert(module, TypeInner::Struct { members: vec![header, behind], span });
         let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
         let colour = Binding::Location {
             location: 0,
@@ -307,7 +331,7 @@ impl Types {
                 span: 32,
             },
         );
-        Self { u32, vec4, records, result }
+        Self { u32, vec4, capture, result }
     }
 }
 

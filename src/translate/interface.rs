@@ -46,6 +46,12 @@ pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> 
             None => notes.push(unset_uniform(source, &member.name, interface)),
         }
     }
+    for unset in &shader.unset {
+        match interface.uniforms.iter().find(|uniform| uniform.name == unset.name) {
+            Some(expected) if unset.ty != "block" => errors.push(wrong_type(source, "uniform", expected, unset.ty)),
+            _ => notes.push(unset_uniform(source, &unset.name, interface)),
+        }
+    }
     for attribute in &shader.attributes {
         let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
         // A program feeds floats; a shader may take fewer of them than there are.
@@ -89,7 +95,10 @@ fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnost
 }
 
 /// Puts the diagnostic at the first place where the code has `name` as a word: its declaration.
-fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+pub(super) fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+    if name.is_empty() {
+        return diagnostic;
+    }
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     for number in 1..=source.line_count() {
         let line = source.code_line(number);

@@ -3,8 +3,12 @@
 //! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
+mod build;
 mod entry;
+mod fuel;
+mod gate;
 pub mod glslang;
+mod hints;
 mod interface;
 mod limits;
 mod log;
@@ -12,7 +16,8 @@ mod module;
 mod rework;
 mod spirv;
 
-pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_STRIDE};
+pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
+pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
@@ -27,6 +32,8 @@ use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
 pub enum Refusal {
     /// The student's file is at fault.
     Rejected(Vec<Diagnostic>),
+    /// It exceeds a limit.
+    Stopped(Vec<Diagnostic>),
     /// ggrade is.
     Fault(Fault),
 }
@@ -48,27 +55,41 @@ pub struct Translation {
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
-    let text = rework::c_text(&source.text);
-    let verdict = compile(&Request {
-        vertex: &text,
+    gate::check_text(source)?;
+    let verdict = first_pass(&source.text, interface);
+    if verdict.reached != Reached::Done {
+        return Err(rejected(verdict, source, interface));
+    }
+    let overlooked = hints::overlooked_errors(&source.text, interface);
+    if !overlooked.is_empty() {
+        return Err(Refusal::Rejected(overlooked));
+    }
+    let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
+    let spirv = second_pass(source, interface)?;
+    gate::check_words(&spirv, source)?;
+    let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
+    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
+    let shader = module::build(&spirv, source, &inputs, &set, &interface.output.name)?;
+    diagnostics.extend(interface::check(&shader, source, interface)?);
+    Ok(Translation { shader, diagnostics })
+}
+
+/// The compiler's verdict on the student's own text.
+fn first_pass(text: &str, interface: &Interface) -> Outcome {
+    compile(&Request {
+        vertex: &rework::c_text(text),
         fragment: &interface.fragment,
         preamble: c"",
         rules: Rules::OpenGl,
         version: None,
         emit: Stage::Vertex,
-    });
-    if verdict.reached != Reached::Done {
-        return Err(rejected(&verdict, source, interface));
-    }
-    let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
-    let spirv = second_pass(source, interface)?;
-    let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, &inputs, &interface.output.name)?;
-    diagnostics.extend(interface::check(&shader, source, interface)?);
-    Ok(Translation { shader, diagnostics })
+    })
 }
 
-fn rejected(verdict: &Outcome, source: &Source, interface: &Interface) -> Refusal {
+fn rejected(verdict: Outcome, source: &Source, interface: &Interface) -> Refusal {
+    // With `#line` the compiler counts as the student tells it to; a person counts lines of the file.
+    let plain = hints::without_line_directives(&source.text).map(|text| first_pass(&text, interface));
+    let verdict = plain.filter(|plain| plain.reached == verdict.reached).unwrap_or(verdict);
     match verdict.reached {
         Reached::Vertex => Refusal::Rejected(log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface)),
         Reached::Link => Refusal::Rejected(log::link_diagnostics(&verdict.link_log, &source.text, interface)),
@@ -87,15 +108,11 @@ fn second_pass(source: &Source, interface: &Interface) -> Result<Vec<u32>, Fault
         vertex: &reworked.text,
         fragment: &interface.fragment,
         preamble: &reworked.preamble,
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: reworked.version,
         emit: Stage::Vertex,
     };
-    let mut outcome = compile(&request);
-    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-    if let Some(text) = rework::initialised_uniforms(&source.text, source.code(), &outcome.vertex_log, &set) {
-        outcome = compile(&Request { vertex: &text, ..request });
-    }
+    let outcome = compile(&request);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
     }
@@ -109,7 +126,7 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
         vertex: &rework::c_text(vertex),
         fragment: &interface.fragment,
         preamble: c"",
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: None,
         emit: Stage::Fragment,
     });
@@ -121,12 +138,5 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
 pub fn warm(interface: &Interface, vertex: &str) {
-    compile(&Request {
-        vertex: &rework::c_text(vertex),
-        fragment: &interface.fragment,
-        preamble: c"",
-        rules: Rules::OpenGl,
-        version: None,
-        emit: Stage::Vertex,
-    });
+    first_pass(vertex, interface);
 }

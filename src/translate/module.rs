@@ -1,9 +1,14 @@
 //! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
 
+use super::Refusal;
 use super::entry::{self, Attribute};
-use super::spirv::{self, Lines};
+use super::fuel::{self, Meter};
+use super::gate::{self, Costs};
+use super::spirv::{self, Lines, Reworked, Unset};
+use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::source::Source;
 use naga::{AddressSpace, Handle, Module, ResourceBinding, Type, TypeInner};
 
 /// A uniform variable of the default block, or a member of a block of the student's own.
@@ -39,20 +44,41 @@ pub struct Shader {
     pub attributes: Vec<Attribute>,
     /// Its uniform blocks in order of binding.
     pub uniforms: Vec<UniformBlock>,
+    /// Uniforms that it reads and the program does not set.
+    pub(super) unset: Vec<Unset>,
     /// From a span of the module to the line of the student's file.
     pub lines: Lines,
+    /// Its loops, numbered from 1 where the capture's header names one.
+    pub meters: Vec<Meter>,
 }
 
-/// Name that the compiler gives to the block of OpenGL's default-block uniforms.
-const DEFAULT_BLOCK: &str = "gl_DefaultUniformBlock";
+impl Shader {
+    /// What to say where the capture's header is not 0.
+    pub fn out_of_fuel(&self, ran_out: u32) -> Diagnostic {
+        fuel::out_of_fuel(&self.meters, ran_out)
+    }
+}
 
-/// Makes the module. An error here is our limit, not the student's.
-pub(super) fn build(words: &[u32], inputs: &[&str], output: &str) -> Result<Shader, Fault> {
-    let spirv::Reworked { words, lines } = spirv::rework(words);
+/// Makes the module. A fault here is our limit, not the student's. `set` are the uniforms that the program sets.
+pub(super) fn build(
+    written: &[u32],
+    source: &Source,
+    inputs: &[&str],
+    set: &[&str],
+    output: &str,
+) -> Result<Shader, Refusal> {
+    let Reworked { words, lines, unset } = rework(written, set)?;
     let mut module = parse(&words)?;
-    let attributes = entry::rebuild(&mut module, inputs, output);
+    let costs = Costs::of(&module);
+    gate::check_module(&module, &costs, &lines, source)?;
+    let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
+    let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref());
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader { module, attributes, uniforms, lines })
+    Ok(Shader { module, attributes, uniforms, unset, lines, meters })
+}
+
+fn rework(words: &[u32], set: &[&str]) -> Result<Reworked, Fault> {
+    spirv::rework(words, set).ok_or_else(|| unsupported("a `switch` of this size"))
 }
 
 fn parse(words: &[u32]) -> Result<Module, Fault> {
@@ -106,7 +132,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
     UniformBlock {
         binding,
         size: *span,
-        is_default: types[ty].name.as_deref() == Some(DEFAULT_BLOCK),
+        is_default: types[ty].name.as_deref() == Some(spirv::DEFAULT_BLOCK),
         members: members
             .iter()
             .map(|member| Uniform {
@@ -120,7 +146,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
 
 /// Makes the module of the assignment's fixed fragment stage; it reads `varying` at location 0.
 pub(super) fn build_fixed_stage(words: &[u32], varying: &str) -> Result<Module, Fault> {
-    let mut module = parse(&spirv::rework(words).words)?;
+    let mut module = parse(&rework(words, &[])?.words)?;
     for argument in &mut module.entry_points[0].function.arguments {
         if let Some(naga::Binding::Location { location, .. }) = &mut argument.binding
             && argument.name.as_deref() == Some(varying)

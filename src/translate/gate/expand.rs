@@ -1,0 +1,194 @@
+//! Macro expansion as far as counting needs it: what the preprocessor would write, or a little more.
+//!
+//! Conditions are not decided: every `#define` of the file holds from its line on, and of several for one name the
+//! longest. A file that deceives this count meets the worker's limits of time and memory instead.
+
+use super::text::{Excess, MAX_TOKENS};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// A name, a number, or one other character.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Token {
+    pub text: Rc<str>,
+    /// Line from 1; for what a macro writes, the line of its use.
+    pub line: u32,
+}
+
+/// The tokens of one line.
+pub(super) fn tokens(line: &str, number: u32) -> Vec<Token> {
+    let mut found = Vec::new();
+    let mut rest = line.trim_start();
+    while !rest.is_empty() {
+        let (text, others) = rest.split_at(token_length(rest));
+        found.push(Token { text: text.into(), line: number });
+        rest = others.trim_start();
+    }
+    found
+}
+
+/// Bytes of the token that `text` begins with.
+fn token_length(text: &str) -> usize {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let length = |is_part: &dyn Fn(char) -> bool| text.find(|c| !is_part(c)).unwrap_or(text.len());
+    match text.chars().next() {
+        Some(first) if first.is_ascii_digit() => length(&|c| is_word(c) || c == '.'),
+        Some(first) if is_word(first) => length(&is_word),
+        // These compare; a single `=` assigns.
+        Some('=' | '!' | '<' | '>') if text[1..].starts_with('=') => 2,
+        first => first.map_or(1, char::len_utf8),
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Macro {
+    /// `None` for a macro without parentheses.
+    parameters: Option<Vec<Rc<str>>>,
+    body: Vec<Rc<str>>,
+}
+
+/// What is still to be read.
+#[derive(Clone, Debug)]
+enum Item {
+    Token(Token),
+    /// From here on the macro's name is not expanded (−1: it may be again).
+    Hide(Rc<str>, i32),
+}
+
+/// Receives the tokens that are left when all macros are expanded.
+pub(super) type Sink<'a> = dyn FnMut(&Token) -> Result<(), (Excess, u32)> + 'a;
+
+/// The macros of a file, and how many tokens they have written.
+#[derive(Debug, Default)]
+pub(super) struct Expander {
+    macros: HashMap<Rc<str>, Macro>,
+    hidden: HashMap<Rc<str>, i32>,
+    written: usize,
+}
+
+impl Expander {
+    /// Takes what stands after `#define`.
+    pub fn define(&mut self, text: &str) {
+        let text = text.trim_start();
+        let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
+        let (name, rest) = text.split_at(end);
+        let (parameters, body) = match rest.strip_prefix('(').and_then(|list| list.split_once(')')) {
+            Some((list, body)) => (Some(list.split(',').map(|parameter| parameter.trim().into()).collect()), body),
+            None => (None, rest),
+        };
+        let body: Vec<Rc<str>> = tokens(body, 0).into_iter().map(|token| token.text).collect();
+        if self.macros.get(name).is_none_or(|known| known.body.len() <= body.len()) {
+            self.macros.insert(name.into(), Macro { parameters, body });
+        }
+    }
+
+    /// Expands `tokens` and gives each that is left to `sink`.
+    pub fn expand(&mut self, tokens: Vec<Token>, sink: &mut Sink<'_>) -> Result<(), (Excess, u32)> {
+        // The next item is the last: what a macro writes is pushed in front of what is still to come.
+        let mut items: Vec<Item> = tokens.into_iter().rev().map(Item::Token).collect();
+        self.hidden.clear();
+        while let Some(item) = items.pop() {
+            match item {
+                Item::Hide(name, change) => *self.hidden.entry(name).or_default() += change,
+                Item::Token(token) => match self.written_by(&token, &mut items)? {
+                    true => {}
+                    false => sink(&token)?,
+                },
+            }
+        }
+        Ok(())
+    }
+
+    /// Pushes what the macro `token` writes; false where it names none.
+    fn written_by(&mut self, token: &Token, items: &mut Vec<Item>) -> Result<bool, (Excess, u32)> {
+        let is_hidden = self.hidden.get(&token.text).is_some_and(|count| *count > 0);
+        let Some(found) = self.macros.get(&token.text).filter(|_| !is_hidden) else { return Ok(false) };
+        let arguments = match &found.parameters {
+            None => Vec::new(),
+            Some(_) => match arguments(items, &mut self.hidden) {
+                Some(arguments) => arguments,
+                None => return Ok(false),
+            },
+        };
+        let mut pushed = vec![Item::Hide(token.text.clone(), 1)];
+        for text in paste(&found.body) {
+            let parameter = found.parameters.iter().flatten().position(|name| *name == text);
+            match parameter.and_then(|index| arguments.get(index)) {
+                // Inside its own argument a macro's name is expanded.
+                Some(argument) => {
+                    pushed.push(Item::Hide(token.text.clone(), -1));
+                    pushed.extend(argument.iter().cloned());
+                    pushed.push(Item::Hide(token.text.clone(), 1));
+                }
+                None => pushed.push(Item::Token(Token { text, line: token.line })),
+            }
+            if self.written + pushed.len() > MAX_TOKENS {
+                return Err((Excess::Tokens, token.line));
+            }
+        }
+        pushed.push(Item::Hide(token.text.clone(), -1));
+        self.written += pushed.len();
+        items.extend(pushed.into_iter().rev());
+        Ok(true)
+    }
+}
+
+/// Takes `( … )` from the items and splits it at its commas; none where no parenthesis follows.
+fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Option<Vec<Vec<Item>>> {
+    let next = items.iter().rev().find_map(|item| match item {
+        Item::Token(token) => Some(&*token.text == "("),
+        Item::Hide(..) => None,
+    })?;
+    if !next {
+        return None;
+    }
+    let mut depth = 0_u32;
+    let mut found = vec![Vec::new()];
+    while let Some(item) = items.pop() {
+        let Item::Token(token) = &item else {
+            // A macro that ends among the arguments is not hidden in what comes after them.
+            if let Item::Hide(name, change) = item {
+                *hidden.entry(name).or_default() += change;
+            }
+            continue;
+        };
+        match (&*token.text, depth) {
+            ("(", 0) => {
+                depth = 1;
+                continue;
+            }
+            ("(", _) => depth += 1,
+            (")", 1) => break,
+            (")", _) => depth -= 1,
+            (",", 1) => {
+                found.push(Vec::new());
+                continue;
+            }
+            _ => {}
+        }
+        if let Some(last) = found.last_mut() {
+            last.push(item);
+        }
+    }
+    Some(found)
+}
+
+/// The body with `a ## b` made one token.
+fn paste(body: &[Rc<str>]) -> Vec<Rc<str>> {
+    let mut pasted: Vec<Rc<str>> = Vec::with_capacity(body.len());
+    let mut at = 0;
+    while at < body.len() {
+        let is_paste = &*body[at] == "#" && body.get(at + 1).is_some_and(|next| &**next == "#");
+        match (is_paste, body.get(at + 2), pasted.last_mut()) {
+            (true, Some(right), Some(left)) => {
+                *left = format!("{left}{right}").into();
+                at += 3;
+            }
+            _ => {
+                pasted.push(body[at].clone());
+                at += 1;
+            }
+        }
+    }
+    pasted
+}

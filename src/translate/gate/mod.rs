@@ -1,0 +1,31 @@
+//! Bounds on what is compiled and run, each named to the student with its line.
+//!
+//! Three looks at three stages, because each stage can be made to eat all time or memory by the one before it:
+//! [`text`] before the compiler, [`storage`] on its SPIR-V, [`cost`] on the module that the driver compiles.
+//! Every bound stands far above what a shading homework needs; what is measured for it stands at the constant.
+
+mod cost;
+mod expand;
+mod nesting;
+mod storage;
+mod text;
+
+pub(super) use cost::{Costs, check_module, each_statement};
+pub(super) use storage::check_words;
+pub(super) use text::check_text;
+
+use super::Refusal;
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+
+/// The answer to a file that exceeds a bound.
+fn stopped(stage: Stage, line: Option<u32>, message: Text) -> Refusal {
+    Refusal::Stopped(vec![placed(Diagnostic::error(stage, message), line)])
+}
+
+fn placed(diagnostic: Diagnostic, line: Option<u32>) -> Diagnostic {
+    match line {
+        Some(line) => diagnostic.at(line, None),
+        None => diagnostic,
+    }
+}

@@ -1,0 +1,103 @@
+//! The look at the compiler's SPIR-V: variables that the homework's program never provides.
+//!
+//! A vertex shader of this homework reads attributes and uniforms. Buffers that shaders write, images, textures and
+//! atomic counters compile on real drivers, but the program binds none, so what a shader makes of them is chance.
+
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::source::Source;
+use crate::translate::Refusal;
+use crate::translate::interface::place;
+use crate::translate::spirv::{instructions, op, text};
+use std::collections::{HashMap, HashSet};
+
+/// What the program does not provide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Texture,
+    Buffer,
+    Shared,
+    Other,
+}
+
+/// Refuses a shader that uses such a variable. One that only declares it draws the same picture without it.
+pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Result<(), Refusal> {
+    let names: HashMap<u32, String> =
+        instructions(words).filter(|i| i.opcode == op::NAME).map(|i| (i.words[1], text(&i.words[2..]))).collect();
+    let buffers: HashSet<u32> = instructions(words)
+        .filter(|i| i.opcode == op::DECORATE && i.words.get(2) == Some(&BUFFER_BLOCK))
+        .map(|i| i.words[1])
+        .collect();
+    let mut textures = HashSet::new();
+    let mut pointers = HashMap::new();
+    let mut arrays = HashMap::new();
+    let mut found = HashMap::new();
+    let mut in_function = false;
+    for instruction in instructions(words) {
+        let words = instruction.words;
+        match (instruction.opcode, words) {
+            (op::TYPE_IMAGE | op::TYPE_SAMPLER | op::TYPE_SAMPLED_IMAGE, [_, id, ..]) => {
+                textures.insert(*id);
+            }
+            (op::TYPE_ARRAY, [_, id, element, ..]) => {
+                arrays.insert(*id, *element);
+            }
+            (op::TYPE_POINTER, [_, id, _, pointee]) => {
+                pointers.insert(*id, *pointee);
+            }
+            (op::VARIABLE, [_, ty, id, class, ..]) if !in_function => {
+                let pointee = pointers.get(ty).map(|ty| arrays.get(ty).unwrap_or(ty));
+                let is = |set: &HashSet<u32>| pointee.is_some_and(|ty| set.contains(ty));
+                if let Some(kind) = kind(*class, is(&textures), is(&buffers)) {
+                    found.insert(*id, (kind, pointee.copied().unwrap_or(0)));
+                }
+            }
+            (op::FUNCTION, _) => in_function = true,
+            _ if in_function => {
+                if let Some((id, (kind, ty))) = words[1..].iter().find_map(|id| found.get_key_value(id)) {
+                    let name = names.get(id).filter(|name| !name.is_empty()).or_else(|| names.get(ty));
+                    return Err(refusal(*kind, name.map_or("", String::as_str), source));
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// `BufferBlock` (SPIR-V specification, section 3.20).
+const BUFFER_BLOCK: u32 = 3;
+
+/// What a variable in this storage class is (SPIR-V specification, section 3.7).
+///
+/// A plain uniform of OpenGL's default block is in the class of textures.
+fn kind(class: u32, is_texture: bool, is_buffer: bool) -> Option<Kind> {
+    match class {
+        0 if is_texture => Some(Kind::Texture),
+        2 if is_buffer => Some(Kind::Buffer),
+        12 => Some(Kind::Buffer),
+        4 => Some(Kind::Shared),
+        5 | 9 | 10 | 11 => Some(Kind::Other),
+        _ => None,
+    }
+}
+
+fn refusal(kind: Kind, name: &str, source: &Source) -> Refusal {
+    let (en, ja) = match kind {
+        Kind::Texture => ("a texture or an image", "テクスチャや画像"),
+        Kind::Buffer => {
+            ("a shader storage buffer or an atomic counter", "シェーダストレージバッファやアトミックカウンタ")
+        }
+        Kind::Shared => ("shared memory", "共有メモリ"),
+        Kind::Other => ("a resource", "リソース"),
+    };
+    let message = Text::new(
+        format!("`{name}` is {en}, and the program provides none to the vertex shader"),
+        format!("`{name}` は{ja}ですが、プログラムはそのようなものを頂点シェーダに用意していません"),
+    );
+    let hint = Text::new(
+        "This homework needs only the attributes and uniforms of the handed-out file.",
+        "この課題は、配布されたファイルにある頂点属性と uniform 変数だけで解けます。",
+    );
+    Refusal::Rejected(vec![place(Diagnostic::error(Stage::Interface, message).hint(hint), source, name)])
+}

@@ -1,0 +1,136 @@
+//! The look before the compiler: it is the compiler that a macro bomb or a tower of parentheses kills.
+
+use super::expand::{Expander, Token, tokens};
+use super::nesting::{MAX_NESTING, Nesting};
+use super::stopped;
+use crate::diagnostic::Stage;
+use crate::language::Text;
+use crate::source::Source;
+use crate::translate::Refusal;
+
+/// Most tokens that the macros of a file may write, those in between included.
+///
+/// Homework has under 2,000 tokens and few macros. The compiler takes a microsecond a token.
+pub(super) const MAX_TOKENS: usize = 100_000;
+
+/// What is wrong at a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Excess {
+    Tokens,
+    Nesting,
+}
+
+/// Refuses a text whose macros write too much, or that nests too deeply after they did.
+pub(in crate::translate) fn check_text(source: &Source) -> Result<(), Refusal> {
+    check(source.code()).map_err(|(excess, line)| refusal(excess, line))
+}
+
+fn check(code: &str) -> Result<(), (Excess, u32)> {
+    let mut expander = Expander::default();
+    let mut nesting = Nesting::default();
+    // Plain lines are expanded together: a macro's arguments may go on to the next line.
+    let mut plain = Vec::new();
+    for (number, line) in logical_lines(code) {
+        let tokens = tokens(&line, number);
+        let is_directive = tokens.first().is_some_and(|token| &*token.text == "#");
+        if !is_directive {
+            plain.extend(tokens);
+            continue;
+        }
+        measure(&mut expander, &mut nesting, std::mem::take(&mut plain))?;
+        let directive = line.trim_start().trim_start_matches('#').trim_start();
+        if let Some(text) = directive.strip_prefix("define") {
+            expander.define(text);
+        } else if directive.starts_with("if") || directive.starts_with("elif") {
+            measure(&mut expander, &mut Nesting::default(), tokens.into_iter().skip(2).collect())?;
+        }
+    }
+    measure(&mut expander, &mut nesting, plain)
+}
+
+fn measure(expander: &mut Expander, nesting: &mut Nesting, tokens: Vec<Token>) -> Result<(), (Excess, u32)> {
+    expander.expand(tokens, &mut |token| {
+        nesting.take(&token.text);
+        if nesting.depth() > MAX_NESTING { Err((Excess::Nesting, token.line)) } else { Ok(()) }
+    })
+}
+
+/// The lines with continuations joined, each with the number of its first, from 1.
+fn logical_lines(code: &str) -> Vec<(u32, String)> {
+    let mut joined: Vec<(u32, String)> = Vec::new();
+    let mut goes_on = false;
+    for (line, number) in code.lines().zip(1..) {
+        let (text, continues) = line.strip_suffix('\\').map_or((line, false), |text| (text, true));
+        match joined.last_mut() {
+            Some((_, whole)) if goes_on => whole.push_str(text),
+            _ => joined.push((number, text.to_owned())),
+        }
+        goes_on = continues;
+    }
+    joined
+}
+
+fn refusal(excess: Excess, line: u32) -> Refusal {
+    let message = match excess {
+        Excess::Tokens => Text::new(
+            format!("the macros of this file expand to more than {MAX_TOKENS} tokens (limit of the grader)"),
+            format!("マクロの展開結果が {MAX_TOKENS} トークンを超えました (採点システムの上限)"),
+        ),
+        Excess::Nesting => Text::new(
+            format!("parentheses, blocks and operators are nested more than {MAX_NESTING} deep (limit of the grader)"),
+            format!("括弧、ブロック、演算子の入れ子が {MAX_NESTING} 段を超えています (採点システムの上限)"),
+        ),
+    };
+    stopped(Stage::Compile, Some(line), message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn homework_passes() {
+        let starter = include_str!("../../../reference/assignments/ggsample06/starter.vert");
+        assert_eq!(check(starter), Ok(()));
+        let macros = "#define MAX0(x) max((x), 0.0)\n#define LIT(a, b) MAX0(dot(a, b))\nfloat f = LIT(n, l);\n";
+        assert_eq!(check(macros), Ok(()));
+    }
+
+    // Line 20 doubles line 1 nineteen times: 2^19 = 524,288 tokens from 20 lines.
+    #[test]
+    fn macros_that_double_each_other_are_stopped_where_they_are_used() {
+        let mut code = String::from("#define a0 x\n");
+        for n in 1..20 {
+            code.push_str(&format!("#define a{n} a{0} a{0}\n", n - 1));
+        }
+        assert_eq!(check(&code), Ok(()), "nothing is used yet");
+        code.push_str("a19\n");
+        assert_eq!(check(&code), Err((Excess::Tokens, 21)));
+    }
+
+    #[test]
+    fn arguments_that_double_are_stopped() {
+        let nested = format!("#define D(x) x x\n{}y{}\n", "D(".repeat(20), ")".repeat(20));
+        assert_eq!(check(&nested), Err((Excess::Tokens, 2)));
+    }
+
+    #[test]
+    fn nesting_that_macros_write_counts() {
+        let open = "#define O ((((((((((((((((\n#define P O O O O\nfloat x =\nP P P P P 1;\n";
+        // 16 × 4 × 5 = 320 parentheses.
+        assert_eq!(check(open), Err((Excess::Nesting, 4)));
+    }
+
+    #[test]
+    fn a_condition_is_measured_by_itself() {
+        let code = format!("#if {}1\n#endif\n", "!".repeat(MAX_NESTING + 1));
+        assert_eq!(check(&code), Err((Excess::Nesting, 1)));
+    }
+
+    #[test]
+    fn a_macro_that_names_itself_ends() {
+        assert_eq!(check("#define x x + x\nx\n"), Ok(()));
+        assert_eq!(check("#define f(x) f(x) f(x)\nf(f(f(1)))\n"), Ok(()));
+        assert_eq!(check("#define a b\n#define b a\na b\n"), Ok(()));
+    }
+}

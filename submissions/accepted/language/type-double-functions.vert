@@ -1,0 +1,31 @@
+#version 410
+// Double versions of built-in functions: floor, fract, mix, clamp, sqrt, length, step, packDouble2x32.
+const float kshi=80.0;
+const vec4 kspec=vec4(0.4,0.4,0.4,1.0);
+const vec4 kdiff=vec4(0.6,0.0,0.0,1.0);
+const vec4 kamb=vec4(0.6,0.0,0.0,1.0);
+const vec4 lspec=vec4(1.0,1.0,1.0,0.0);
+const vec4 ldiff=vec4(1.0,1.0,1.0,0.0);
+const vec4 lamb=vec4(0.2,0.2,0.2,1.0);
+const vec4 pl=vec4(0.0,0.0,1.0,0.0);
+uniform mat4 mg;
+uniform mat4 mc;
+uniform mat4 mw;
+out vec4 vc;
+in vec4 cv;
+in vec4 pv;
+void main()
+{
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+	double d = double(dot(n, l));
+	d = clamp(d, 0.0lf, 1.0lf);
+	d = floor(d * 2.0lf) / 2.0lf + fract(d * 2.0lf) / 2.0lf;
+	d = mix(0.0lf, 2.0lf, d) * 0.5lf;
+	d = sqrt(d * d) * length(dvec2(0.6lf, 0.8lf));
+	uvec2 bits = unpackDouble2x32(d);
+	d = packDouble2x32(bits);
+	float s = pow(max(dot(n, normalize(l + v)), 0.0), kshi);
+	vc = kamb * lamb + float(d) * kdiff * ldiff + s * kspec * lspec;
+	gl_Position = mc * pv;
+}
