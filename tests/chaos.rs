@@ -3,6 +3,7 @@
 
 mod workers;
 
+use ggrade::grade::Order;
 use ggrade::report::{Report, Verdict};
 use ggrade::sandbox::{Pool, Settings, Submission};
 use nix::sys::signal::{Signal, kill};
@@ -94,7 +95,8 @@ fn grade_all(pool: &Pool, files: &[Vec<u8>], done: &AtomicUsize) -> Vec<(usize, 
 }
 
 fn grade(pool: &Pool, name: &str, bytes: &[u8]) -> Result<Report, String> {
-    let answer = pool.grade(Submission { name, bytes, seed: 7, wants_frames: true });
+    let answer =
+        pool.grade(Submission { name, bytes, order: Order { seed: 7, ..Order::default() }, wants_frames: true });
     let mut report = answer.map(workers::timeless).map_err(|fault| fault.message.en)?;
     assert_eq!(report.source.name, name, "the report of another submission");
     report.source.name = "quiet".into();

@@ -107,13 +107,23 @@ fn the_deadline_holds_while_the_file_is_sent() {
 }
 
 #[test]
-fn memory_is_bounded_for_each_file() {
+fn limits_are_named() {
     let _alone = alone();
-    // Drawing the frames takes tens of megabytes.
-    let pool = Pool::start(Settings { memory: 4 << 20, ..settings() }, 1).unwrap();
-    let report = grade(&pool, &honest()).unwrap().report;
-    assert_eq!(report.verdict, Verdict::Stopped);
-    assert!(words(&report).contains("more than 4 MiB of memory (memory limit)"), "{}", words(&report));
+    // What Rust and C++ say where an allocation fails, what Rust says of an overflowed stack, and the kernel's signals.
+    let endings = [
+        ("echo 'memory allocation of 64 bytes failed' >&2; kill -ABRT $$", "768 MiB of memory (memory limit)"),
+        ("echo \"what():  std::bad_alloc\" >&2; kill -ABRT $$", "768 MiB of memory (memory limit)"),
+        ("echo \"thread 'grader' has overflowed its stack\" >&2; kill -ABRT $$", "(stack limit)"),
+        ("kill -XCPU $$", "(CPU time limit)"),
+        ("kill -SYS $$", "forbidden system call (SIGSYS)"),
+    ];
+    for (ending, name) in endings {
+        let ended = Impostor::new(&format!("hello \"$@\"; head -c 1 >/dev/null; {ending}"));
+        let pool = Pool::start(ended.settings(), 1).unwrap();
+        let report = grade(&pool, &honest()).unwrap().report;
+        assert_eq!(report.verdict, Verdict::Stopped, "{ending}");
+        assert!(words(&report).contains(name), "{ending}: {}", words(&report));
+    }
 }
 
 #[test]

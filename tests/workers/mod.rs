@@ -3,6 +3,7 @@
 // Each test program uses a part of it.
 #![allow(dead_code)]
 
+use ggrade::grade::Order;
 use ggrade::report::Report;
 use ggrade::sandbox::{Answer, Pool, Settings, Submission};
 use std::fs;
@@ -41,7 +42,12 @@ pub fn honest() -> Vec<u8> {
 
 /// Grades bytes with a fixed seed and without frames.
 pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<Answer, ggrade::fault::Fault> {
-    pool.grade(Submission { name: "ggsample06.vert", bytes, seed: 7, wants_frames: false })
+    pool.grade(Submission {
+        name: "ggsample06.vert",
+        bytes,
+        order: Order { seed: 7, ..Order::default() },
+        wants_frames: false,
+    })
 }
 
 /// The report without its timing.
