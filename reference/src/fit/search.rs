@@ -12,8 +12,8 @@ use std::rc::Rc;
 const HALVINGS: usize = 60;
 
 /// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
-/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need a third.
-const MOST_COLOURS: u64 = 300_000;
+/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need a half.
+const MOST_COLOURS: u64 = 800_000;
 
 /// Significant digits to which a free parameter is rounded if that still explains every sample: what a person would write.
 const DIGITS: [i32; 3] = [1, 2, 3];

@@ -36,7 +36,7 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
     for instruction in instructions(words) {
         let words = instruction.words;
         match (instruction.opcode, words) {
-            (op::TYPE_IMAGE | op::TYPE_SAMPLED_IMAGE, [_, id, ..]) => {
+            (op::TYPE_IMAGE, [_, id, ..]) => {
                 textures.insert(*id);
             }
             (op::TYPE_ARRAY, [_, id, element, ..]) => {
