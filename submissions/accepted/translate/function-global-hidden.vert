@@ -24,7 +24,7 @@ void main()
   vec3 h = normalize(l + v);
   float d = max(dot(n, l), 0.0);
   float s = pow(max(dot(n, h), 0.0), kshi);
-  float x = 1.0; { float x = 5.0; x += 1.0; } for (int x = 0; x < 2; x++) { float x = 7.0; } d *= x * f(2.0) / 2.0 * vcx;
+  float x = 1.0; { float x = 5.0; x += 1.0; } for (int x = 0; x < 2; x++) { { float x = 7.0; } } d *= x * f(2.0) / 2.0 * vcx;
   vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
   gl_Position = mc * pv;
 }

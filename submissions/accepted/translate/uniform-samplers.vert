@@ -1,5 +1,5 @@
 #version 410 core
-// Samplers without a texture read 0, 0, 0, 1; others are not used.
+// Samplers of all kinds are declared, one in a function that nobody calls.
 const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
 const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
 const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
@@ -25,7 +25,7 @@ void main()
   vec3 h = normalize(l + v);
   float d = max(dot(n, l), 0.0);
   float s = pow(max(dot(n, h), 0.0), kshi);
-  d *= texture(t2, vec2(0.5)).w * textureLod(ts[1], vec2(1.0), 0.0).a * read(t2);
+
   vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
   gl_Position = mc * pv;
 }
