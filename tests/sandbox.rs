@@ -8,7 +8,8 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 use workers::{
-    Impostor, alone, children, descriptors, grade, honest, is_running, sample, say, settings, timeless, words,
+    Impostor, alone, children, children_of, descriptors, grade, honest, is_running, sample, say, settings, timeless,
+    words,
 };
 
 /// What a busy machine may add to a deadline: the promise of docs/security.md.
@@ -212,6 +213,23 @@ fn a_worker_that_cannot_start_is_a_fault_with_its_own_words() {
     let missing = Settings { program: Some("/nonexistent/ggrade".into()), ..settings() };
     assert!(Pool::start(missing, 1).is_err());
     assert_eq!(children(), []);
+}
+
+#[test]
+fn workers_die_with_their_parent() {
+    let _alone = alone();
+    let mut corpus = Command::new(workers::GGRADE)
+        .args(["corpus", "submissions/accepted"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let orphans = until(|| Some(children_of(corpus.id())).filter(|workers| workers.len() >= 2));
+    // SIGKILL: the parent has no say in what becomes of them.
+    corpus.kill().unwrap();
+    corpus.wait().unwrap();
+    let is_gone = |worker: u32| !std::path::Path::new(&format!("/proc/{worker}")).exists();
+    until(|| orphans.iter().all(|&(worker, _)| is_gone(worker)).then_some(()));
 }
 
 #[test]

@@ -105,16 +105,21 @@ impl Impostor {
 
 /// This process's children: number and state, `Z` for one that is dead and not reaped.
 pub fn children() -> Vec<(u32, char)> {
+    children_of(std::process::id())
+}
+
+/// The children of a process.
+pub fn children_of(process: u32) -> Vec<(u32, char)> {
     let processes = fs::read_dir("/proc").unwrap().flatten();
     processes
-        .filter_map(|process| {
-            let id: u32 = process.file_name().to_str()?.parse().ok()?;
-            let stat = fs::read_to_string(process.path().join("stat")).ok()?;
+        .filter_map(|entry| {
+            let id: u32 = entry.file_name().to_str()?.parse().ok()?;
+            let stat = fs::read_to_string(entry.path().join("stat")).ok()?;
             // `man 5 proc`: the name in parentheses, the state, the parent.
             let mut fields = stat.rsplit_once(')')?.1.split_ascii_whitespace();
             let state = fields.next()?.chars().next()?;
             let parent: u32 = fields.next()?.parse().ok()?;
-            (parent == std::process::id()).then_some((id, state))
+            (parent == process).then_some((id, state))
         })
         .collect()
 }
