@@ -16,7 +16,6 @@ pub const TYPE_FLOAT: u16 = 22;
 pub const TYPE_VECTOR: u16 = 23;
 pub const TYPE_MATRIX: u16 = 24;
 pub const TYPE_IMAGE: u16 = 25;
-pub const TYPE_SAMPLER: u16 = 26;
 pub const TYPE_SAMPLED_IMAGE: u16 = 27;
 pub const TYPE_ARRAY: u16 = 28;
 pub const TYPE_RUNTIME_ARRAY: u16 = 29;
