@@ -4,7 +4,7 @@
 //! compiler's messages are the student's own.
 
 use crate::source::Source;
-use std::ffi::{CStr, CString};
+use std::ffi::CString;
 use std::ops::Range;
 
 /// The text of `source` for both passes.
@@ -116,7 +116,7 @@ pub(super) fn version(code: &str) -> i32 {
 
 /// A text without NUL as C text; a [`Source`] never has one.
 pub(super) fn c_text(text: &str) -> CString {
-    CString::new(text).unwrap_or_else(|_| CStr::from_bytes_with_nul(b"\0").unwrap_or_default().to_owned())
+    CString::new(text).unwrap_or_default()
 }
 
 /// What the second pass needs besides the text that the first accepts.
