@@ -21,7 +21,7 @@ use naga::{
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
 pub const CAPTURE_GROUP: u32 = 1;
-/// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, and room.
+/// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, a zero, and room.
 pub const CAPTURE_HEADER: u64 = 32;
 /// Bytes of one captured vertex: clip-space position and colour, four f32 each.
 pub const CAPTURE_STRIDE: u64 = 32;
@@ -41,15 +41,24 @@ pub struct Attribute {
     pub width: u8,
 }
 
+/// What the entry point does around the call of `main`.
+#[derive(Clone, Debug)]
+pub(super) struct Hooks {
+    /// The counters of the module's loops, where it has loops.
+    pub gauge: Option<Gauge>,
+    /// A variable to fill from the header's zero; see [`super::opaque`].
+    pub zero: Option<Handle<GlobalVariable>>,
+}
+
 /// Rebuilds the only entry point of `module`; gives the attributes that it reads.
 ///
 /// `inputs` are the names that the assignment's program feeds, `output` is the varying that the
-/// fixed fragment shader reads, `gauge` are the counters of the module's loops.
-pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, gauge: Option<&Gauge>) -> Vec<Attribute> {
+/// fixed fragment shader reads, `hooks` is what stands around the call of `main`.
+pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, hooks: &Hooks) -> Vec<Attribute> {
     let mut entry = module.entry_points.remove(0);
     let outputs = Outputs::of(module, &entry.function, output);
     let (attributes, instance) = feed(module, &mut entry.function, inputs);
-    finish(module, &mut entry.function, &outputs, instance, gauge);
+    finish(module, &mut entry.function, &outputs, instance, hooks);
     entry.name = "main".into();
     module.entry_points.push(entry);
     attributes
@@ -216,7 +225,7 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
 }
 
 /// Replaces what follows the call of `main`: capture, clip range, return.
-fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, gauge: Option<&Gauge>) {
+fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, hooks: &Hooks) {
     let types = Types::new(module);
     let capture = module.global_variables.append(
         GlobalVariable {
@@ -236,10 +245,16 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     }
     let mut build = Build::new(&mut function.expressions);
     let capture = build.leaf(Expression::GlobalVariable(capture));
+    if let Some(zero) = hooks.zero {
+        let header = build.member(capture, 1);
+        let value = build.load(header);
+        let zero = build.leaf(Expression::GlobalVariable(zero));
+        build.store(zero, value);
+    }
     // Those that call `main`; what is loaded to be returned stays outside, where it is used.
     let call = statements.iter().rposition(|(statement, _)| matches!(statement, Statement::Call { .. }));
     let behind = statements.split_off(call.map_or(0, |call| call + 1));
-    match gauge {
+    match &hooks.gauge {
         Some(gauge) => {
             let turns = LocalVariable { name: None, ty: types.u32, init: None };
             let turns = function.local_variables.append(turns, Span::UNDEFINED);
@@ -279,7 +294,7 @@ fn write_record(
     let colour = outputs.colour.unwrap_or(zero);
 
     let index = build.binary(BinaryOperator::Add, instance, vertex);
-    let records = build.member(capture, 1);
+    let records = build.member(capture, 2);
     let record = build.node(Expression::Access { base: records, index });
     let to_position = build.member(record, 0);
     let to_colour = build.member(record, 1);
@@ -311,11 +326,12 @@ impl Types {
         );
         let records =
             insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
-        let header = StructMember { name: Some("ran_out".into()), ty: u32, binding: None, offset: 0 };
+        let number = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
+        let header = [number("ran_out", 0), number("zero", 4)];
         let behind =
             StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
         let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
-        let capture = insert(module, TypeInner::Struct { members: vec![header, behind], span });
+        let capture = insert(module, TypeInner::Struct { members: header.into_iter().chain([behind]).collect(), span });
         let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
         let colour = Binding::Location {
             location: 0,

@@ -12,6 +12,7 @@ mod interface;
 mod limits;
 mod log;
 mod module;
+mod opaque;
 mod rework;
 mod spirv;
 

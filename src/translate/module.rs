@@ -4,6 +4,7 @@ use super::Refusal;
 use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
+use super::opaque;
 use super::spirv::{self, Lines};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -66,8 +67,9 @@ pub(super) fn build(written: &[u32], source: &Source, inputs: &[&str], output: &
     let mut module = parse(&words)?;
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
+    let zero = opaque::hide_conditions(&mut module);
     let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
-    let attributes = entry::rebuild(&mut module, inputs, output, gauge.as_ref());
+    let attributes = entry::rebuild(&mut module, inputs, output, &entry::Hooks { gauge, zero });
     let uniforms = bind_uniforms(&mut module);
     Ok(Shader { module, attributes, uniforms, lines, meters })
 }

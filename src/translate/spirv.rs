@@ -9,12 +9,17 @@ pub(super) mod op {
     pub const UNDEF: u16 = 1;
     pub const NAME: u16 = 5;
     pub const LINE: u16 = 8;
+    pub const TYPE_VECTOR: u16 = 23;
+    pub const TYPE_MATRIX: u16 = 24;
     pub const TYPE_ARRAY: u16 = 28;
+    pub const TYPE_STRUCT: u16 = 30;
     pub const TYPE_POINTER: u16 = 32;
+    pub const CONSTANT: u16 = 43;
     pub const CONSTANT_NULL: u16 = 46;
     pub const FUNCTION: u16 = 54;
     pub const VARIABLE: u16 = 59;
     pub const DECORATE: u16 = 71;
+    pub const MEMORY_BARRIER: u16 = 225;
     pub const LOOP_MERGE: u16 = 246;
     pub const NO_LINE: u16 = 317;
 }
@@ -56,6 +61,7 @@ pub(super) struct Reworked {
 ///
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant before the first
 ///   function: any value is allowed there, and zero is the same each time.
+/// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
 /// - `OpLine`, which naga takes in functions only, moves to a table beside the words.
 pub(super) fn rework(words: &[u32]) -> Reworked {
     let nulls: Vec<u32> = instructions(words)
@@ -72,7 +78,7 @@ pub(super) fn rework(words: &[u32]) -> Reworked {
                 lines.insert(out.len() as u32 * 4, instruction.words.get(2).copied());
                 continue;
             }
-            op::NO_LINE => continue,
+            op::NO_LINE | op::MEMORY_BARRIER => continue,
             op::FUNCTION => {
                 lines.insert(out.len() as u32 * 4, None);
                 if !placed {
