@@ -93,7 +93,7 @@ fn split(frames: Frames, captured: &[u8], scene: &Scene) -> Rendering {
         let bytes = header.get(index * 4..)?.first_chunk()?;
         Some(u32::from_le_bytes(*bytes)).filter(|number| *number != 0)
     };
-    let (ran_out, undefined) = (word(0), word(1));
+    let (ran_out, undefined) = (word(0), word(2));
     let samples: Vec<Sample> = bytemuck::pod_collect_to_vec(records);
     let mut rest = samples.as_slice();
     let mut take = |batches: &[Batch]| {

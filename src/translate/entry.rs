@@ -21,11 +21,13 @@ use naga::{
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
 pub const CAPTURE_GROUP: u32 = 1;
-/// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, and room.
+/// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, a zero, what is
+/// undefined, and room.
 pub const CAPTURE_HEADER: u64 = 32;
 /// Members of the capture buffer behind the number of the loop that ran out of fuel.
-const UNDEFINED_MEMBER: u32 = 1;
-const RECORDS_MEMBER: u32 = 2;
+const ZERO_MEMBER: u32 = 1;
+const UNDEFINED_MEMBER: u32 = 2;
+const RECORDS_MEMBER: u32 = 3;
 /// Bytes of one captured vertex: clip-space position and colour, four f32 each.
 pub const CAPTURE_STRIDE: u64 = 32;
 
@@ -44,21 +46,26 @@ pub struct Attribute {
     pub width: u8,
 }
 
+/// What the entry point does around the call of `main`.
+#[derive(Clone, Debug)]
+pub(super) struct Hooks {
+    /// The counters of the module's loops, where it has loops.
+    pub gauge: Option<Gauge>,
+    /// A variable to fill from the header's zero; see [`super::opaque`].
+    pub zero: Option<Handle<GlobalVariable>>,
+    /// A variable whose value is told in the header; see [`super::undefined`].
+    pub undefined: Option<Handle<GlobalVariable>>,
+}
+
 /// Rebuilds the only entry point of `module`; gives the attributes that it reads.
 ///
 /// `inputs` are the names that the assignment's program feeds, `output` is the varying that the
-/// fixed fragment shader reads, `gauge` are the counters of the module's loops.
-pub(super) fn rebuild(
-    module: &mut Module,
-    inputs: &[&str],
-    output: &str,
-    gauge: Option<&Gauge>,
-    undefined: Option<Handle<GlobalVariable>>,
-) -> Vec<Attribute> {
+/// fixed fragment shader reads, `hooks` is what stands around the call of `main`.
+pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, hooks: &Hooks) -> Vec<Attribute> {
     let mut entry = module.entry_points.remove(0);
     let outputs = Outputs::of(module, &entry.function, output);
     let (attributes, instance) = feed(module, &mut entry.function, inputs);
-    finish(module, &mut entry.function, &outputs, instance, Extras { gauge, undefined });
+    finish(module, &mut entry.function, &outputs, instance, hooks);
     entry.name = "main".into();
     module.entry_points.push(entry);
     attributes
@@ -224,12 +231,6 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
     module.global_variables[global].init = Some(init);
 }
 
-/// What is counted and watched while `main` runs.
-struct Extras<'a> {
-    gauge: Option<&'a Gauge>,
-    undefined: Option<Handle<GlobalVariable>>,
-}
-
 /// Tells in the capture's header what [`super::undefined`] met. Any vertex's answer will do.
 fn tell_undefined(build: &mut Build<'_>, capture: Handle<Expression>, undefined: Handle<GlobalVariable>) {
     let undefined = build.leaf(Expression::GlobalVariable(undefined));
@@ -243,7 +244,7 @@ fn tell_undefined(build: &mut Build<'_>, capture: Handle<Expression>, undefined:
 }
 
 /// Replaces what follows the call of `main`: capture, clip range, return.
-fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, extras: Extras<'_>) {
+fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, hooks: &Hooks) {
     let types = Types::new(module);
     let capture = module.global_variables.append(
         GlobalVariable {
@@ -263,10 +264,16 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     }
     let mut build = Build::new(&mut function.expressions);
     let capture = build.leaf(Expression::GlobalVariable(capture));
+    if let Some(zero) = hooks.zero {
+        let header = build.member(capture, ZERO_MEMBER);
+        let value = build.load(header);
+        let zero = build.leaf(Expression::GlobalVariable(zero));
+        build.store(zero, value);
+    }
     // Those that call `main`; what is loaded to be returned stays outside, where it is used.
     let call = statements.iter().rposition(|(statement, _)| matches!(statement, Statement::Call { .. }));
     let behind = statements.split_off(call.map_or(0, |call| call + 1));
-    match extras.gauge {
+    match &hooks.gauge {
         Some(gauge) => {
             let turns = LocalVariable { name: None, ty: types.u32, init: None };
             let turns = function.local_variables.append(turns, Span::UNDEFINED);
@@ -275,7 +282,7 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
         None => build.append(statements),
     }
     build.append(behind);
-    if let Some(undefined) = extras.undefined {
+    if let Some(undefined) = hooks.undefined {
         tell_undefined(&mut build, capture, undefined);
     }
     let result = write_record(&mut build, &types, outputs, capture, [instance, vertex]);
@@ -341,14 +348,12 @@ impl Types {
         );
         let records =
             insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
-        let header = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
+        let number = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
+        let header = [number("ran_out", 0), number("zero", 4), number("undefined", 8)];
         let behind =
             StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
         let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
-        let capture = insert(
-            module,
-            TypeInner::Struct { members: vec![header("ran_out", 0), header("undefined", 4), behind], span },
-        );
+        let capture = insert(module, TypeInner::Struct { members: header.into_iter().chain([behind]).collect(), span });
         let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
         let colour = Binding::Location {
             location: 0,

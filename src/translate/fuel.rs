@@ -324,6 +324,7 @@ pub(super) fn run(
 /// What a student is told whose loops ran out of fuel.
 pub(super) fn out_of_fuel(meters: &[Meter], ran_out: u32) -> Diagnostic {
     let meter = meters.get((ran_out as usize).wrapping_sub(1)).copied();
+    let line = meter.or(meters.first().copied()).and_then(|meter| meter.line);
     let turns = meter.map_or(MAX_TURNS, |meter| meter.turns);
     let message = match meter {
         Some(_) => Text::new(
@@ -343,7 +344,7 @@ pub(super) fn out_of_fuel(meters: &[Meter], ran_out: u32) -> Diagnostic {
         "Does the loop's condition ever become false? Look at the variable that it tests.",
         "ループの条件はいつか偽になりますか。条件で調べている変数の変わり方を確かめてください。",
     ));
-    match meter.and_then(|meter| meter.line) {
+    match line {
         Some(line) => diagnostic.at(line, None),
         None => diagnostic,
     }

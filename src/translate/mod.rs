@@ -14,6 +14,7 @@ mod interface;
 mod limits;
 mod log;
 mod module;
+mod opaque;
 mod spirv;
 mod strict;
 mod text;

@@ -3,6 +3,7 @@
 use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
+use super::opaque;
 use super::spirv::{self, Lines, Reworked, Unset};
 use super::undefined;
 use super::{Interface, Refusal, Variable};
@@ -81,10 +82,12 @@ pub(super) fn build(
     let mut module = parse(&words)?;
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
+    let zero = opaque::hide_conditions(&mut module);
     let (meters, gauge) = fuel::meter(&mut module, &costs, &written, &lines);
     let undefined = undefined::watch(&mut module, &lines);
     let inputs: Vec<&str> = inputs.iter().map(String::as_str).collect();
-    let attributes = entry::rebuild(&mut module, &inputs, &interface.output.name, gauge.as_ref(), undefined);
+    let hooks = entry::Hooks { gauge, zero, undefined };
+    let attributes = entry::rebuild(&mut module, &inputs, &interface.output.name, &hooks);
     let uniforms = bind_uniforms(&mut module);
     Ok(Shader { module, attributes, uniforms, unset, lines, meters, written })
 }

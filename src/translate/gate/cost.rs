@@ -15,7 +15,7 @@ use naga::{
     AddressSpace, ArraySize, BinaryOperator, Block, Expression, Function, Handle, MathFunction, Module, Span,
     Statement, TypeInner,
 };
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Most operations on scalars that are compiled, all calls inlined; see the weights below.
 ///
@@ -53,10 +53,9 @@ pub(in crate::translate) fn check_module(
     lines: &Lines,
     source: &Source,
 ) -> Result<(), Refusal> {
-    check_variables(module, costs, source)?;
     let entry = &module.entry_points[0].function;
     if costs.of_entry <= MAX_OPERATIONS {
-        return Ok(());
+        return check_variables(module, costs, source);
     }
     Err(stopped(
         Stage::Compile,
@@ -103,22 +102,29 @@ fn check_variables(module: &Module, costs: &Costs, source: &Source) -> Result<()
     Err(too_much_memory(all.saturating_mul(4), name, source))
 }
 
-fn too_much_memory(bytes: u64, name: &str, source: &Source) -> Refusal {
+pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source) -> Refusal {
     let limit = MAX_SCALARS * 4;
+    // The compiler makes variables of its own, whose names say nothing.
+    let is_known = source.words().any(|(_, word)| word == name);
+    let (en, ja) = if is_known {
+        (format!(": `{name}` is the largest"), format!("。最も大きい変数は `{name}` です"))
+    } else {
+        Default::default()
+    };
     let message = Text::new(
         format!(
-            "the variables of the shader need {bytes} bytes, and a vertex has at most {limit} (memory limit of the \
-             grader); `{name}` is the largest"
+            "the variables of the shader, with those of all calls, need {bytes} bytes, and a vertex has at most \
+             {limit} (memory limit of the grader){en}"
         ),
         format!(
-            "変数に {bytes} バイト必要ですが、頂点 1 個あたり {limit} バイトまでです (採点システムのメモリ上限)。\
-             最も大きい変数は `{name}` です"
+            "変数に、呼び出すすべての関数の分も合わせて {bytes} バイト必要ですが、頂点 1 個あたり {limit} バイトまでです \
+             (採点システムのメモリ上限){ja}"
         ),
     );
     Refusal::Stopped(vec![place(crate::diagnostic::Diagnostic::error(Stage::Compile, message), source, name)])
 }
 
-fn too_many_uniforms(bytes: u64) -> Refusal {
+pub(super) fn too_many_uniforms(bytes: u64) -> Refusal {
     let message = Text::new(
         format!("the uniform variables need {bytes} bytes; OpenGL drivers have room for {MAX_UNIFORM_BYTES}"),
         format!(
@@ -267,16 +273,16 @@ impl Walk<'_> {
         found
     }
 
-    /// The line of the most expensive call or expression of the shader's `main`.
+    /// The line of the shader's `main` whose calls and expressions cost most.
     fn heaviest(&self, entry: &Function, lines: &Lines) -> Option<u32> {
         let main = self.called(&entry.body).into_iter().next_back();
         let function = main.map_or(entry, |main| &self.module.functions[main]);
         let weights = self.weights(function);
-        let mut heaviest = (0, None);
+        let mut costs: BTreeMap<u32, u64> = BTreeMap::new();
         let mut consider = |cost, span| {
-            let line = lines.line(span);
-            if cost > heaviest.0 && line.is_some() {
-                heaviest = (cost, line);
+            if let Some(line) = lines.line(span) {
+                let sum = costs.entry(line).or_default();
+                *sum = sum.saturating_add(cost);
             }
         };
         each_statement(&function.body, &mut |statement, span| match statement {
@@ -288,7 +294,7 @@ impl Walk<'_> {
             Statement::Call { .. } => consider(self.statement(&weights, statement), span),
             _ => {}
         });
-        heaviest.1
+        costs.into_iter().max_by_key(|(_, cost)| *cost).map(|(line, _)| line)
     }
 }
 

@@ -3,6 +3,7 @@
 //! A vertex shader of this homework reads attributes and uniforms. Buffers that shaders write, images, textures and
 //! atomic counters compile on real drivers, but the program binds none, so what a shader makes of them is chance.
 
+use super::cost::{MAX_SCALARS, MAX_UNIFORM_BYTES, too_many_uniforms, too_much_memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
@@ -28,6 +29,7 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
         .filter(|i| i.opcode == op::DECORATE && i.words.get(2) == Some(&BUFFER_BLOCK))
         .map(|i| i.words[1])
         .collect();
+    check_sizes(words, &names, source)?;
     let mut textures = HashSet::new();
     let mut pointers = HashMap::new();
     let mut arrays = HashMap::new();
@@ -61,6 +63,44 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
             }
             _ => {}
         }
+    }
+    Ok(())
+}
+
+/// Refuses a variable that is too large by itself; naga counts bytes in 32 bits and gives up beyond.
+fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> Result<(), Refusal> {
+    let mut lengths: HashMap<u32, u64> = HashMap::new();
+    let mut sizes: HashMap<u32, u64> = HashMap::new();
+    for instruction in instructions(words) {
+        let size = |id: &u32| sizes.get(id).copied().unwrap_or(1);
+        let (id, scalars) = match (instruction.opcode, instruction.words) {
+            (op::CONSTANT, [_, _, id, value, ..]) => {
+                lengths.insert(*id, u64::from(*value));
+                continue;
+            }
+            (op::TYPE_VECTOR | op::TYPE_MATRIX, [_, id, part, count]) => (*id, size(part) * u64::from(*count)),
+            (op::TYPE_ARRAY, [_, id, element, length]) => {
+                (*id, size(element).saturating_mul(lengths.get(length).copied().unwrap_or(1)))
+            }
+            (op::TYPE_STRUCT, [_, id, members @ ..]) => (*id, members.iter().map(size).fold(0, u64::saturating_add)),
+            (op::TYPE_POINTER, [_, id, _, pointee]) => (*id, size(pointee)),
+            (op::VARIABLE, [_, ty, id, class, ..]) => {
+                let name = names.get(id).map_or("", String::as_str);
+                match class {
+                    2 if size(ty).saturating_mul(4) > MAX_UNIFORM_BYTES => {
+                        return Err(too_many_uniforms(size(ty).saturating_mul(4)));
+                    }
+                    2 => {}
+                    _ if size(ty) > MAX_SCALARS => {
+                        return Err(too_much_memory(size(ty).saturating_mul(4), name, source));
+                    }
+                    _ => {}
+                }
+                continue;
+            }
+            _ => continue,
+        };
+        sizes.insert(id, scalars);
     }
     Ok(())
 }

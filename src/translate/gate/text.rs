@@ -3,7 +3,7 @@
 use super::expand::{Expander, Token, tokens};
 use super::nesting::{MAX_NESTING, Nesting};
 use super::stopped;
-use crate::diagnostic::Stage;
+use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
 use crate::translate::Refusal;
@@ -22,7 +22,43 @@ pub(super) enum Excess {
 
 /// Refuses a text whose macros write too much, or that nests too deeply after they did.
 pub(in crate::translate) fn check_text(source: &Source) -> Result<(), Refusal> {
+    check_extensions(source)?;
     check(source.code()).map_err(|(excess, line)| refusal(excess, line))
+}
+
+/// Parts of the names of extensions that the compiler knows and that desktop OpenGL drivers, the course's among them,
+/// do not have or have for other purposes than a vertex's colour.
+const FOREIGN_EXTENSIONS: [&str; 9] = [
+    "subgroup",
+    "int64",
+    "shader_clock",
+    "realtime_clock",
+    "debug_printf",
+    "ray_",
+    "buffer_reference",
+    "cooperative",
+    "include_directive",
+];
+
+/// Refuses a file that asks for one of them.
+fn check_extensions(source: &Source) -> Result<(), Refusal> {
+    for (line, text) in logical_lines(source.code()) {
+        let Some(directive) = text.trim_start().strip_prefix('#').map(str::trim_start) else { continue };
+        let Some((name, behaviour)) = directive.strip_prefix("extension").and_then(|rest| rest.split_once(':')) else {
+            continue;
+        };
+        let name = name.trim();
+        let is_foreign = FOREIGN_EXTENSIONS.iter().any(|part| name.contains(part));
+        if is_foreign && matches!(behaviour.trim(), "require" | "enable") {
+            let message = Text::new(
+                format!("the extension `{name}` is not available to this homework's vertex shader"),
+                format!("拡張機能 `{name}` は、この課題の頂点シェーダでは使えません"),
+            );
+            let diagnostic = Diagnostic::error(Stage::Compile, message).at(line, None);
+            return Err(Refusal::Rejected(vec![diagnostic]));
+        }
+    }
+    Ok(())
 }
 
 fn check(code: &str) -> Result<(), (Excess, u32)> {

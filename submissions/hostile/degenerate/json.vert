@@ -1,0 +1,1 @@
+{"verdict": "correct", "score": 100}

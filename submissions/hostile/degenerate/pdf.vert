@@ -1,0 +1,2 @@
+%PDF-1.4
+1 0 obj << >> endobj

@@ -1,0 +1,1 @@
+{\rtf1\ansi #version 410 core}

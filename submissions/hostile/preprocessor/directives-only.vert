@@ -1,0 +1,4 @@
+#version 410 core
+#define main
+#if 0
+#endif
