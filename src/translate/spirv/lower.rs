@@ -6,7 +6,8 @@ use std::collections::HashMap;
 
 /// Lowers the functions of `code`.
 pub(super) fn lower(code: &mut Code) {
-    code.functions.retain(|instruction| instruction.opcode != op::IMAGE_WRITE);
+    // A vertex shader here shares no memory with anybody.
+    code.functions.retain(|instruction| !matches!(instruction.opcode, op::IMAGE_WRITE | op::MEMORY_BARRIER));
     rewrite(code, lowered);
 }
 

@@ -77,6 +77,7 @@ pub const BITWISE_OR: u16 = 197;
 pub const BITWISE_AND: u16 = 199;
 pub const BIT_REVERSE: u16 = 204;
 pub const BIT_COUNT: u16 = 205;
+pub const MEMORY_BARRIER: u16 = 225;
 pub const LOOP_MERGE: u16 = 246;
 pub const SELECTION_MERGE: u16 = 247;
 pub const LABEL: u16 = 248;
