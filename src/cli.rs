@@ -1,7 +1,9 @@
 //! The command line's types, and nothing else.
 
+use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
+use crate::sandbox::{Attempt, Policy, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -42,6 +44,25 @@ pub struct Machine {
     pub adapter: AdapterKind,
 }
 
+/// How submissions are kept from this machine and from each other.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Sandbox {
+    /// What to do where this machine cannot close the sandbox around a grading: refuse, or grade and say what is open
+    #[arg(long, value_enum, default_value_t, env = "GGRADE_SANDBOX")]
+    pub sandbox: Policy,
+    /// Give each submission a process of its own, which no other submission has touched (slower)
+    #[arg(long)]
+    pub single_use_workers: bool,
+}
+
+impl Sandbox {
+    /// The settings with these wishes.
+    pub fn apply(self, settings: Settings) -> Settings {
+        let settings = Settings { policy: self.sandbox, ..settings };
+        if self.single_use_workers { settings.with_single_use_workers() } else { settings }
+    }
+}
+
 /// Grade one file.
 #[derive(Debug, Args)]
 pub struct Grade {
@@ -51,6 +72,9 @@ pub struct Grade {
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,
+    /// The walls around the grading.
+    #[command(flatten)]
+    pub sandbox: Sandbox,
     /// How the report is written
     #[arg(long, value_enum, default_value_t)]
     pub format: Format,
@@ -66,6 +90,9 @@ pub struct Grade {
     /// Seed of the probes: the one of an earlier report repeats that grading exactly [default: random]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// How much the messages help: only what is seen, also the equation it breaks, or also where to look
+    #[arg(long, value_enum, default_value_t)]
+    pub hints: Hints,
     /// Seconds that the grading may take
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     pub deadline: f64,
@@ -92,6 +119,9 @@ pub struct Corpus {
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,
+    /// The walls around the gradings.
+    #[command(flatten)]
+    pub sandbox: Sandbox,
     /// Write the reports found as the expected ones (never in CI); ends with exit code 1, naming what changed
     #[arg(long, env = "BLESS")]
     pub bless: bool,
@@ -114,4 +144,16 @@ pub struct Worker {
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,
+    /// Bytes of memory that one submission may take over what the worker has
+    #[arg(long, value_name = "BYTES", default_value_t = 768 << 20)]
+    pub memory: u64,
+    /// CPU seconds that one submission may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 3)]
+    pub cpu_seconds: u64,
+    /// Grade the handed-out file before the first submission
+    #[arg(long)]
+    pub warm_up: bool,
+    /// Grade nothing: enter the sandbox, try this, and exit with 0 where it was refused, with 1 where it was not
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub attempt: Option<Attempt>,
 }

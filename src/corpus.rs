@@ -4,6 +4,7 @@
 
 use crate::diagnostic::{Severity, Stage};
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::language::Text;
 use crate::report::{Report, Verdict};
 use crate::sandbox::{Pool, Submission};
@@ -126,7 +127,12 @@ fn check_one(sample: &Path, pool: &Pool) -> Result<Checked, Fault> {
         Err(error) => return Err(unreadable(&path, &error.to_string())),
     };
     let name = sample.file_name().unwrap_or_default().to_string_lossy();
-    let answer = pool.grade(Submission { name: &name, bytes: &bytes, seed: SEED, wants_frames: false });
+    let answer = pool.grade(Submission {
+        name: &name,
+        bytes: &bytes,
+        order: Order { seed: SEED, ..Order::default() },
+        wants_frames: false,
+    });
     Ok(Checked { sample: sample.into(), expected, found: answer.map(|answer| Expectation::of(&answer.report)) })
 }
 

@@ -1,19 +1,29 @@
 //! The pipeline: the only module that knows all the stages.
 
 use crate::compare::{self, ExpectedFrame};
-use crate::diagnose::{self, Evidence};
+use crate::diagnose::{self, Evidence, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
+use crate::homework;
 use crate::language::Text;
-use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Scene};
-use crate::report::{Environment, Picture, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use crate::render::{AdapterKind, Device, Frames, Renderer, Rendering, Sample, Scene};
+use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::source::{self, Facts, Source};
-use crate::translate::{self, Interface, Refusal, Translation, Variable};
+use crate::translate::{self, Interface, Refusal, Shader, Translation};
 use reference::Assignment;
 use reference::probes::ProbeSet;
-use reference::scene::{Matrices, Vertex};
-use std::ffi::CString;
+use serde::{Deserialize, Serialize};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
+
+/// How a file is to be graded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Order {
+    /// Seed of the probes; the same seed gives the same probes.
+    pub seed: u64,
+    /// How much the messages help.
+    pub hints: Hints,
+}
 
 /// A graded file.
 #[derive(Clone, Debug)]
@@ -37,11 +47,11 @@ pub struct Grader {
 impl Grader {
     /// Opens the device, and warms the compiler and the reference meanwhile.
     pub fn new(assignment: &'static Assignment, adapter: AdapterKind) -> Result<Self, Fault> {
-        let interface = interface(assignment)?;
+        let interface = homework::interface(assignment)?;
         let starter = &assignment.files[0].starter;
         let (device, fixed, expected) = std::thread::scope(|scope| {
             let device = scope.spawn(|| Device::open(adapter));
-            let expected = scope.spawn(|| expected_frames(assignment));
+            let expected = scope.spawn(|| homework::expected_frames(assignment));
             translate::warm(&interface, starter);
             let fixed = translate::fixed_stage(&interface, starter);
             (device.join(), fixed, expected.join())
@@ -62,19 +72,24 @@ impl Grader {
         &self.environment
     }
 
-    /// Grades one file; the same seed gives the same probes.
-    pub fn grade(&mut self, name: &str, bytes: &[u8], seed: u64) -> Result<Graded, Fault> {
+    /// Grades one file.
+    pub fn grade(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
         let start = Instant::now();
-        let mut graded = self.judge(name, bytes, seed)?;
+        // A panic of the translator or renderer is our limit. The process is not to be used again.
+        let judged = catch_unwind(AssertUnwindSafe(|| self.judge(name, bytes, order)));
+        let mut graded = judged.unwrap_or_else(|panic| Err(translate::unsupported(&panic_message(&*panic))))?;
         graded.report.elapsed_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(graded)
     }
 
-    fn judge(&mut self, name: &str, bytes: &[u8], seed: u64) -> Result<Graded, Fault> {
+    fn judge(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
         let source = match source::read(name, bytes) {
             Ok(source) => source,
             Err(refusal) => return Ok(self.rejected(&refusal.facts, refusal.diagnostics)),
         };
+        if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
+            return Ok(self.refused(&source.facts, Verdict::Rejected, vec![error]));
+        }
         let Translation { shader, mut diagnostics } = match translate::translate(&source, &self.interface) {
             Ok(translation) => translation,
             Err(Refusal::Rejected(mut diagnostics)) => {
@@ -88,13 +103,17 @@ impl Grader {
             Err(Refusal::Fault(fault)) => return Err(fault),
         };
         diagnostics.extend(source.notes.iter().cloned());
-        let probes = self.assignment.probes(seed);
-        let rendering = self.renderer.render(&shader, &scene(self.assignment, &probes))?;
+        let probes = self.assignment.probes(order.seed);
+        let scene = homework::scene(self.assignment, &probes);
+        let mut rendering = self.renderer.render(&shader, &scene)?;
         if let Some(ran_out) = rendering.ran_out {
             diagnostics.insert(0, shader.out_of_fuel(ran_out));
             return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
         }
-        let report = self.report(&source, &probes, &rendering, diagnostics);
+        if rendering.undefined.is_some() && !self.shows_undefined(&source, &shader, &scene, &rendering)? {
+            rendering.undefined = None;
+        }
+        let report = self.report(&source, &probes, &rendering, diagnostics, order.hints);
         Ok(Graded { report, frames: Some(rendering.frames) })
     }
 
@@ -108,12 +127,34 @@ impl Grader {
         Graded { report, frames: None }
     }
 
+    /// Whether a colour depends on what GLSL leaves undefined.
+    fn shows_undefined(
+        &mut self,
+        source: &Source,
+        shader: &Shader,
+        scene: &Scene,
+        rendering: &Rendering,
+    ) -> Result<bool, Fault> {
+        let poisoned = match shader.poisoned(source, &self.interface) {
+            Ok(poisoned) => self.renderer.render(&poisoned, scene)?,
+            Err(Refusal::Fault(fault)) => return Err(fault),
+            // The gate bounds what it is given; what is a little larger is still only a doubt.
+            Err(_) => return Ok(false),
+        };
+        let bits = |samples: &[Vec<Sample>]| -> Vec<[u32; 4]> {
+            samples.iter().flatten().map(|sample| sample.colour.map(f32::to_bits)).collect()
+        };
+        Ok(bits(&poisoned.probe_samples) != bits(&rendering.probe_samples)
+            || bits(&poisoned.frame_samples) != bits(&rendering.frame_samples))
+    }
+
     fn report(
         &self,
         source: &Source,
         probes: &ProbeSet,
         rendering: &Rendering,
         diagnostics: Vec<Diagnostic>,
+        hints: Hints,
     ) -> Report {
         let frames: Vec<_> = self
             .expected
@@ -122,7 +163,15 @@ impl Grader {
             .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
             .collect();
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let evidence = Evidence { assignment: self.assignment, source, frames: &frames, probes, samples: &samples };
+        let evidence = Evidence {
+            assignment: self.assignment,
+            source,
+            frames: &frames,
+            probes,
+            samples: &samples,
+            undefined: rendering.undefined,
+            hints,
+        };
         let diagnosis = diagnose::diagnose(&evidence);
         let score = diagnosis.rubric.iter().map(|line| line.points).sum();
         let max_score = self.assignment.max_score();
@@ -134,6 +183,7 @@ impl Grader {
             max_score,
             rubric: diagnosis.rubric,
             mistakes: diagnosis.mistakes,
+            explanation: diagnosis.explanation,
             diagnostics,
             frames,
             probes: diagnosis.probes,
@@ -141,6 +191,12 @@ impl Grader {
             elapsed_ms: 0.0,
         }
     }
+}
+
+/// What a panic says.
+fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("internal error").to_owned()
 }
 
 /// The report of a file that was not rendered to the end: no points, and the diagnostics say why.
@@ -176,6 +232,7 @@ pub fn unfinished(
         max_score: assignment.max_score(),
         rubric,
         mistakes: Vec::new(),
+        explanation: None,
         diagnostics,
         frames: Vec::new(),
         probes: ProbeResult::default(),
@@ -192,17 +249,6 @@ pub fn source_info(name: &str, bytes: &[u8]) -> SourceInfo {
     }
 }
 
-/// The built-in assignment with this id.
-pub fn assignment(id: &str) -> Result<&'static Assignment, Fault> {
-    reference::assignment(id).ok_or_else(|| {
-        let known: Vec<_> = reference::assignments().iter().map(|assignment| assignment.id.as_str()).collect();
-        Fault::new(Text::new(
-            format!("there is no assignment `{id}` (there is: {})", known.join(", ")),
-            format!("課題 `{id}` はありません (あるもの: {})", known.join(", ")),
-        ))
-    })
-}
-
 fn info(facts: &Facts) -> SourceInfo {
     SourceInfo {
         name: facts.name.clone(),
@@ -210,71 +256,6 @@ fn info(facts: &Facts) -> SourceInfo {
         bytes: facts.bytes,
         encoding: facts.encoding.map_or_else(|| "binary".into(), |encoding| encoding.label().to_owned()),
     }
-}
-
-/// The interface of the assignment's only file.
-pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
-    let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
-    let variable = |name: &str, kind: reference::Type| Variable { name: name.into(), ty: kind.glsl().into() };
-    let file = assignment.files.first().ok_or_else(|| broken("no file is handed in"))?;
-    let fixed = file.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
-    let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
-    Ok(Interface {
-        inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, input.kind)).collect(),
-        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.name, uniform.kind)).collect(),
-        output: variable(&output.name, output.kind),
-        constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
-        fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
-    })
-}
-
-/// The reference's frames of all poses.
-pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
-    let background = assignment.scene.background;
-    let poses = assignment.scene.all_poses();
-    poses.iter().zip(assignment.frames()).map(|(pose, frame)| ExpectedFrame::new(pose.t, frame, background)).collect()
-}
-
-/// What is drawn for a submission: the course's animation and the probes.
-pub fn scene(assignment: &Assignment, probes: &ProbeSet) -> Scene {
-    let scene = &assignment.scene;
-    let frames = scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
-    let probes = (0..probes.groups.len())
-        .map(|group| {
-            let vertices: Vec<Vertex> = probes.of_group(group).iter().map(|probe| probe.vertex).collect();
-            batch(assignment, &probes.groups[group].matrices, &vertices)
-        })
-        .collect();
-    Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes }
-}
-
-/// One draw with the program's own names, in f32.
-pub fn batch(assignment: &Assignment, matrices: &Matrices, vertices: &[Vertex]) -> Batch {
-    let interface = &assignment.interface;
-    let uniforms = interface
-        .uniforms
-        .iter()
-        .map(|uniform| (uniform.name.clone(), uniform.carries.of(matrices).as_mat4().to_cols_array()))
-        .collect();
-    let attributes = interface
-        .inputs
-        .iter()
-        .map(|input| {
-            let xyz = |vertex: &Vertex| input.carries.of(vertex).as_vec4().truncate().to_array();
-            (input.name.clone(), vertices.iter().map(xyz).collect())
-        })
-        .collect();
-    Batch { uniforms, attributes }
-}
-
-/// The reference's frames as pictures.
-pub fn expected_pictures(assignment: &Assignment) -> Vec<Picture> {
-    let picture = |frame: reference::rasteriser::Frame| Picture {
-        width: frame.width,
-        height: frame.height,
-        rgba: frame.pixels.concat(),
-    };
-    assignment.frames().into_iter().map(picture).collect()
 }
 
 /// A seed that nobody knows beforehand, small enough to be typed and to be exact in every JSON reader.

@@ -12,6 +12,7 @@ pub mod source;
 pub mod translate;
 
 pub mod grade;
+pub mod homework;
 pub mod sandbox;
 
 pub mod corpus;

@@ -125,6 +125,21 @@ impl Source {
         &self.code
     }
 
+    /// The text with `//` comments blanked as in [`Source::code`]; block comments stay, which may hold a directive
+    /// together.
+    pub fn without_line_comments(&self) -> String {
+        let to_line_end: Vec<_> = self.comments.iter().filter(|comment| comment.to_line_end).cloned().collect();
+        comments::blank(&self.text, &to_line_end)
+    }
+
+    /// For each line whether no compiler reads it: the inside of `#if 0`, the text of a macro that is never used.
+    pub fn unread_lines(&self) -> Vec<bool> {
+        directives::standings(&self.code)
+            .into_iter()
+            .map(|standing| standing == directives::Standing::Skipped)
+            .collect()
+    }
+
     /// How many lines there are.
     pub fn line_count(&self) -> u32 {
         u32::try_from(self.line_starts.len()).unwrap_or(u32::MAX)

@@ -193,7 +193,7 @@ impl Assignment {
 
     /// The values of the uniforms, in the interface's order.
     pub fn uniform_values(&self, matrices: &Matrices) -> Vec<Value> {
-        let value = |u: &Uniform| Value::Mat4(u.carries.of(matrices));
+        let value = |u: &Uniform| Value::Mat4(Box::new(u.carries.of(matrices)));
         self.interface.uniforms.iter().map(value).collect()
     }
 
@@ -230,8 +230,8 @@ impl Assignment {
             if other.constants[place].kind != value.kind() {
                 return Err(error(*name, "has another type"));
             }
-            other.constants[place].value = *value;
-            other.equation.constants[place] = *value;
+            other.constants[place].value = value.clone();
+            other.equation.constants[place] = value.clone();
         }
         Ok(other)
     }
@@ -261,3 +261,6 @@ impl Attribute {
 fn error(place: impl Into<String>, message: impl Into<String>) -> AssignmentError {
     AssignmentError { place: place.into(), message: message.into() }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,6 +9,9 @@ pub const COLOUR: &str = "colour";
 /// Definition that holds the position in clip space.
 pub const POSITION: &str = "position";
 
+/// Number of definitions that one expression may use.
+pub(crate) const MAX_INPUTS: usize = 8;
+
 /// A name and what it is.
 #[derive(Clone, Debug)]
 pub struct Definition {
@@ -77,10 +80,10 @@ impl Equation {
     /// The value in a slot that is not a definition's.
     pub(crate) fn given(&self, slot: usize, uniforms: &[Value], attributes: &[Value]) -> Option<Value> {
         if let Some(constant) = self.constants.get(slot) {
-            return Some(*constant);
+            return Some(constant.clone());
         }
         let slot = slot - self.constants.len();
-        uniforms.get(slot).or_else(|| attributes.get(slot.checked_sub(self.uniforms)?)).copied()
+        uniforms.get(slot).or_else(|| attributes.get(slot.checked_sub(self.uniforms)?)).cloned()
     }
 
     /// The equation as it stands.
@@ -109,7 +112,7 @@ impl<'a> Variant<'a> {
         let mut values: Vec<Value> = Vec::with_capacity(self.expressions.len());
         for expression in &self.expressions {
             let value = expression.evaluate(&|slot| match self.equation.definition_in(slot) {
-                Some(d) => values.get(d).copied().unwrap_or(Value::Float(f64::NAN)),
+                Some(d) => values.get(d).cloned().unwrap_or(Value::Float(f64::NAN)),
                 None => self.equation.given(slot, uniforms, attributes).unwrap_or(Value::Float(self.parameter)),
             });
             values.push(value);
@@ -121,7 +124,7 @@ impl<'a> Variant<'a> {
 impl Outcome<'_> {
     /// Value of the definition called `name`.
     pub fn get(&self, name: &str) -> Option<Value> {
-        self.values.get(self.equation.index(name)?).copied()
+        self.values.get(self.equation.index(name)?).cloned()
     }
 
     /// Red, green and blue of the vertex colour, not clamped; alpha is not seen.

@@ -6,7 +6,7 @@
 //! - [`expression`]: the small exact subset of GLSL in which equations are written
 //! - [`equation`]: definitions evaluated in order, with any of them replaced
 //! - [`scene`]: poses and matrices of the course program
-//! - [`manifest`], [`assignment`], [`mistake`]: the folder, read and checked
+//! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
 //! - [`fit`]: which mistakes explain what a shader computed
@@ -16,7 +16,7 @@
 //! let assignment = reference::assignment("ggsample06").expect("built in");
 //! let probes = assignment.probes(7);
 //! let right: Vec<[f64; 3]> = probes.iter().map(|p| p.colour.to_array()).collect();
-//! let fit = reference::fit::explain(assignment, &probes, &right, 2e-3);
+//! let fit = reference::fit::explain(assignment, &probes, &right, reference::fit::TOLERANCE);
 //! assert!(fit.is_right());
 //! ```
 

@@ -234,6 +234,9 @@ pub struct Mistake {
     pub forms: Vec<BTreeMap<String, String>>,
     /// The free parameter of its forms.
     pub fit: Option<Fit>,
+    /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
+    #[serde(default)]
+    pub near: Vec<String>,
     /// What is seen in the picture.
     pub seen: Text,
     /// Which equation of the lecture it breaks.

@@ -14,11 +14,13 @@ pub struct Mistake {
     pub forms: Vec<Form>,
     /// The number in the forms that is not known beforehand.
     pub fit: Option<FreeParameter>,
+    /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
+    pub near: Vec<String>,
     /// What is seen in the picture.
     pub seen: Text,
     /// Which equation of the lecture it breaks.
     pub equation: Text,
-    /// Where to look and what to try. Placeholders: `{line}`, `{name}`, `{expected}`, `{found}`.
+    /// Where to look and what to try, to be completed with [`Text::fill`]: `{line}`, `{name}`, `{expected}`, `{found}`.
     pub look: Text,
 }
 

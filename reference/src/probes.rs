@@ -165,3 +165,6 @@ impl Random {
         axis * angle.cos() + around * aside * angle.sin()
     }
 }
+
+#[cfg(test)]
+mod tests;

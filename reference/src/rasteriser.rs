@@ -206,3 +206,6 @@ fn quantised(colour: DVec3) -> [u8; 4] {
     let channel = |x: f64| (x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     [channel(colour.x), channel(colour.y), channel(colour.z), 255]
 }
+
+#[cfg(test)]
+mod tests;

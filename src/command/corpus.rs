@@ -1,6 +1,6 @@
 //! `ggrade corpus DIR`: a table of expected against found.
 
-use super::Outcome;
+use super::{Outcome, language, warn};
 use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
 use crate::fault::Fault;
@@ -23,7 +23,9 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
         ..Settings::new(&arguments.machine.assignment)
     };
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let results = corpus::check(&arguments.folder, &Pool::start(settings, workers)?)?;
+    let pool = Pool::start(arguments.sandbox.apply(settings), workers)?;
+    warn(&pool, language(None));
+    let results = corpus::check(&arguments.folder, &pool)?;
     let mut differing = 0;
     for checked in &results {
         if checked.agrees() {

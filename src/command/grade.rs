@@ -1,9 +1,10 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::{Outcome, file_fault, language, writing};
+use super::{Outcome, file_fault, language, warn, writing};
 use crate::cli::{Format, Grade};
 use crate::excerpt;
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::language::{Language, Text};
 use crate::report::Equation;
 use crate::report::html::Page;
@@ -28,23 +29,25 @@ pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let name = name(&arguments.file);
     let settings =
         Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
-    let assignment = crate::grade::assignment(&settings.assignment)?;
-    let pool = Pool::start(settings, 1)?;
+    let assignment = crate::homework::assignment(&settings.assignment)?;
+    let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
+    warn(&pool, language);
     let wants_frames = arguments.frames.is_some() || arguments.format == Format::Html;
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
-    let answer = pool.grade(Submission { name: &name, bytes: &bytes, seed, wants_frames })?;
+    let order = Order { seed, hints: arguments.hints };
+    let answer = pool.grade(Submission { name: &name, bytes: &bytes, order, wants_frames })?;
     drop(pool);
 
     let Answer { report, frames } = answer;
+    let source = readable(&name, &bytes);
     let pictures = (!frames.is_empty()).then(|| Pictures {
-        expected: crate::grade::expected_pictures(assignment),
         yours: frames,
-        ..Pictures::default()
+        expected: crate::homework::expected_pictures(assignment),
+        terms: crate::homework::term_pictures(assignment, report.explanation.as_deref(), source.as_ref()),
     });
     if let (Some(folder), Some(pictures)) = (&arguments.frames, &pictures) {
         pictures::write(pictures, folder)?;
     }
-    let source = readable(&name, &bytes);
     let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
     view.write(arguments)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })

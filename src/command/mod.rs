@@ -7,6 +7,7 @@ pub mod worker;
 
 use crate::fault::Fault;
 use crate::language::{Language, Text};
+use crate::sandbox::Pool;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -46,6 +47,14 @@ pub fn report_fault(fault: &Fault) -> Outcome {
         anstream::eprintln!("  {}", remedy.get(language));
     }
     Outcome::Fault
+}
+
+/// Says on standard error what the sandbox lacks, where gradings go on all the same.
+pub fn warn(pool: &Pool, language: Language) {
+    if let Some(notice) = pool.notice() {
+        let word = Text::new("warning", "警告");
+        anstream::eprintln!("ggrade: {}: {}", word.get(language), notice.get(language));
+    }
 }
 
 /// The language asked for, or the terminal's own.

@@ -4,11 +4,33 @@ use super::Outcome;
 use crate::cli::Worker;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::sandbox::{Attempt, Limits, worker};
+use std::io;
 
 /// Grades what the parent sends until it closes the pipe.
 pub fn run(arguments: &Worker) -> Result<Outcome, Fault> {
-    let assignment = crate::grade::assignment(&arguments.machine.assignment)?;
-    crate::sandbox::worker::run(assignment, arguments.machine.adapter)
-        .map_err(|error| Fault::new(Text::verbatim(error.to_string())))?;
-    Ok(Outcome::FullMarks)
+    let job = worker::Job {
+        assignment: crate::homework::assignment(&arguments.machine.assignment)?,
+        adapter: arguments.machine.adapter,
+        limits: Limits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
+        warm_up: arguments.warm_up,
+    };
+    match arguments.attempt {
+        Some(attempt) => try_to_escape(job, attempt),
+        None => worker::run(job).map(|()| Outcome::FullMarks).map_err(|error| broken(&error)),
+    }
+}
+
+fn try_to_escape(job: worker::Job, attempt: Attempt) -> Result<Outcome, Fault> {
+    match worker::attempt(job, attempt).map_err(|error| broken(&error))? {
+        Ok(()) => Ok(Outcome::Graded),
+        Err(error) => {
+            anstream::eprintln!("refused: {error}");
+            Ok(Outcome::FullMarks)
+        }
+    }
+}
+
+fn broken(error: &io::Error) -> Fault {
+    Fault::new(Text::verbatim(error.to_string()))
 }

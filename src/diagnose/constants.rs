@@ -31,7 +31,7 @@ pub fn changed(source: &Source, assignment: &Assignment) -> Vec<ChangedConstant>
             let found = expression.evaluate(&|_| Value::Float(f64::NAN));
             (found.kind() == constant.kind && !same(&found, &constant.value)).then(|| ChangedConstant {
                 name: constant.name.clone(),
-                expected: constant.value,
+                expected: constant.value.clone(),
                 found,
                 line: source.position(at).0,
             })

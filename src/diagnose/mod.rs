@@ -1,22 +1,44 @@
 //! Samples → which terms are right, which known mistakes explain the rest, and what that is worth. Pure.
 
-mod constants;
+pub mod constants;
 mod hard_coded;
+mod locate;
 mod message;
 
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
 use crate::language::Text;
 use crate::render::Sample;
-use crate::report::{FrameResult, ProbeResult, RubricLine};
+use crate::report::{FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
 use constants::ChangedConstant;
 use reference::Assignment;
 use reference::fit::{Fit, TermJudgement, explain};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
+use serde::{Deserialize, Serialize};
 
 /// The rubric line that is judged by where things are drawn, not by their colour.
 const SHAPE: &str = "shape";
+/// Mistakes that are told from other things than the colours alone.
+const POSITION_CHANGED: &str = "position-changed";
+const CONSTANTS_CHANGED: &str = "constants-changed";
+const HARD_CODED: &str = "hard-coded";
+const UNEXPLAINED: &str = "unexplained";
+/// What a negative base of a power is called, also where this driver hides that its result is undefined.
+const UNDEFINED_POWER: &str = "specular-unclamped";
+
+/// How much a message helps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hints {
+    /// What is seen, no more.
+    None,
+    /// And which equation it breaks.
+    Gentle,
+    /// And which line to look at, with a question to think about.
+    #[default]
+    Full,
+}
 
 /// What a rendering showed.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +53,10 @@ pub struct Evidence<'a> {
     pub probes: &'a ProbeSet,
     /// What the shader computed at each probe, in their order.
     pub samples: &'a [Sample],
+    /// The line where a negative number was raised to a power, where one was.
+    pub undefined: Option<u32>,
+    /// How much the messages help.
+    pub hints: Hints,
 }
 
 /// What is to be said and credited.
@@ -42,6 +68,8 @@ pub struct Diagnosis {
     pub rubric: Vec<RubricLine>,
     /// Ids of the mistakes found.
     pub mistakes: Vec<String>,
+    /// The equation that computes what the shader computes, where one is known.
+    pub explanation: Option<Vec<Hypothesis>>,
     /// The probes in figures.
     pub probes: ProbeResult,
 }
@@ -67,11 +95,17 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let cause = cause(evidence, shape);
     let mut mistakes = cause.ids();
     if !shape && !mistakes.iter().any(|id| costs(evidence.assignment, id, SHAPE)) {
-        mistakes.push("position-changed".into());
+        mistakes.insert(0, POSITION_CHANGED.into());
     }
     let lines = &evidence.assignment.rubric;
     let rubric: Vec<RubricLine> = lines.iter().map(|line| judge(evidence, line, shape, &cause, &mistakes)).collect();
-    Diagnosis { is_right: mistakes.is_empty(), rubric, mistakes, probes: probes.result }
+    Diagnosis {
+        is_right: mistakes.is_empty(),
+        rubric,
+        mistakes,
+        explanation: cause.explanation(),
+        probes: probes.result,
+    }
 }
 
 fn costs(assignment: &Assignment, id: &str, line: &str) -> bool {
@@ -124,6 +158,10 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
     let fit = explain(assignment, probes, &samples, COLOUR_TOLERANCE);
+    if fit.is_right() && evidence.undefined.is_some() {
+        let found = vec![Found { id: UNDEFINED_POWER.into(), form: 0, parameter: None }];
+        return Cause::Known { constants: Vec::new(), found };
+    }
     if fit.is_right() {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
         return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
@@ -133,6 +171,13 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         return Cause::Known { constants, found };
     }
     match fit {
+        // Numbers fitted to one colour that is everywhere the same explain nothing.
+        Fit::Explained(found)
+            if found.iter().any(|mistake| mistake.parameter.is_some())
+                && hard_coded::is_lookup(probes, evidence.samples) =>
+        {
+            Cause::HardCoded
+        }
         Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
         Fit::Unexplained(_) if frames_agree || hard_coded::is_lookup(probes, evidence.samples) => Cause::HardCoded,
         Fit::Unexplained(terms) => Cause::Unexplained(terms),
@@ -144,7 +189,7 @@ fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples:
     if constants.is_empty() {
         return None;
     }
-    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found)).collect();
+    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
     let changed = evidence.assignment.with_constants(&changes).ok()?;
     match explain(&changed, evidence.probes, samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) => Some(found),
@@ -153,15 +198,28 @@ fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples:
 }
 
 impl Cause {
+    fn explanation(&self) -> Option<Vec<Hypothesis>> {
+        match self {
+            Self::Right => Some(Vec::new()),
+            Self::Known { found, .. } => Some(
+                found
+                    .iter()
+                    .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
+                    .collect(),
+            ),
+            Self::HardCoded | Self::Unexplained(_) => None,
+        }
+    }
+
     fn ids(&self) -> Vec<String> {
         match self {
             Self::Right => Vec::new(),
             Self::Known { constants, found } => {
-                let changed = (!constants.is_empty()).then(|| "constants-changed".to_owned());
+                let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
                 changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
             }
-            Self::HardCoded => vec!["hard-coded".into()],
-            Self::Unexplained(_) => vec!["unexplained".into()],
+            Self::HardCoded => vec![HARD_CODED.into()],
+            Self::Unexplained(_) => vec![UNEXPLAINED.into()],
         }
     }
 }
@@ -174,21 +232,21 @@ fn judge(
     cause: &Cause,
     mistakes: &[String],
 ) -> RubricLine {
-    let culprit = mistakes.iter().find(|id| is_touched(evidence.assignment, line, shape, cause, id));
-    let kept = mistakes
+    let touching = |id: &&str| is_touched(evidence.assignment, line, shape, cause, id);
+    let culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(touching).collect();
+    let kept: f64 = culprits
         .iter()
-        .filter(|id| is_touched(evidence.assignment, line, shape, cause, id))
         .filter_map(|id| evidence.assignment.mistake(id))
         .map(|mistake| mistake.keeps(&line.id))
-        .product::<f64>();
-    let told = message::tell(evidence, line, cause, culprit.map(String::as_str));
+        .product();
+    let told = message::tell(evidence, line, cause, &culprits);
     RubricLine {
         id: line.id.clone(),
         label: Text::new(&line.label.en, &line.label.ja),
         // Half points are the finest that a rubric shows.
         points: (line.points * kept * 2.0).round() / 2.0,
         max_points: line.points,
-        mistake: culprit.cloned(),
+        mistake: culprits.first().map(|id| (*id).to_owned()),
         message: told.text,
         line: told.line,
     }
@@ -203,11 +261,16 @@ fn is_touched(
     id: &str,
 ) -> bool {
     match (cause, id) {
-        (_, "position-changed") => !shape && line.id == SHAPE,
-        (Cause::Unexplained(terms), "unexplained") => terms.iter().any(|term| term.line == line.id && !term.is_right()),
-        (Cause::Known { constants, .. }, "constants-changed") => constants
-            .iter()
-            .any(|changed| assignment.constants.iter().any(|c| c.name == changed.name && c.line == line.id)),
+        (_, POSITION_CHANGED) => !shape && line.id == SHAPE,
+        (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
+        (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
+            constants.iter().any(|changed| belongs(assignment, &changed.name, line))
+        }
         _ => costs(assignment, id, &line.id),
     }
+}
+
+/// Whether the constant is one of the line's.
+fn belongs(assignment: &Assignment, constant: &str, line: &reference::assignment::RubricLine) -> bool {
+    assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
 }

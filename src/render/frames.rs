@@ -63,4 +63,7 @@ pub struct Rendering {
     /// The loop that ran out of fuel, where one did: then nothing else here means anything. See
     /// [`Shader::out_of_fuel`](crate::translate::Shader::out_of_fuel).
     pub ran_out: Option<u32>,
+    /// The line where a negative number was raised to a power, where one was; see
+    /// [`NO_LINE`](crate::translate::NO_LINE).
+    pub undefined: Option<u32>,
 }

@@ -89,7 +89,11 @@ fn read_back(device: &Device, target: &Target, job: &Job) -> Result<(Vec<u8>, Ve
 
 fn split(frames: Frames, captured: &[u8], scene: &Scene) -> Rendering {
     let (header, records) = captured.split_at((CAPTURE_HEADER as usize).min(captured.len()));
-    let ran_out = header.first_chunk().map(|bytes| u32::from_le_bytes(*bytes)).filter(|number| *number != 0);
+    let word = |index: usize| {
+        let bytes = header.get(index * 4..)?.first_chunk()?;
+        Some(u32::from_le_bytes(*bytes)).filter(|number| *number != 0)
+    };
+    let (ran_out, undefined) = (word(0), word(1));
     let samples: Vec<Sample> = bytemuck::pod_collect_to_vec(records);
     let mut rest = samples.as_slice();
     let mut take = |batches: &[Batch]| {
@@ -103,7 +107,7 @@ fn split(frames: Frames, captured: &[u8], scene: &Scene) -> Rendering {
     };
     let frame_samples = take(&scene.frames);
     let probe_samples = take(&scene.probes);
-    Rendering { frames, frame_samples, probe_samples, ran_out }
+    Rendering { frames, frame_samples, probe_samples, ran_out, undefined }
 }
 
 fn render_fault(error: &wgpu::Error) -> Fault {

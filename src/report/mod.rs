@@ -65,6 +65,17 @@ pub struct RubricLine {
     pub line: Option<u32>,
 }
 
+/// A known mistake in the form in which it explains what the shader computes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hypothesis {
+    /// Id of the mistake.
+    pub id: String,
+    /// Which of its forms, from 0.
+    pub form: usize,
+    /// The number that the form leaves open, such as an exponent.
+    pub parameter: Option<f64>,
+}
+
 /// How one frame of the animation compares. Differences are in 1/255, over red, green and blue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameResult {
@@ -128,6 +139,8 @@ pub struct Report {
     pub rubric: Vec<RubricLine>,
     /// Ids of the mistakes found; empty when correct.
     pub mistakes: Vec<String>,
+    /// The equation with these mistakes in it computes what the shader computes; none where no equation known does.
+    pub explanation: Option<Vec<Hypothesis>>,
     /// What the stages say about places in the file.
     pub diagnostics: Vec<Diagnostic>,
     /// The frames, in order of t; empty when nothing was rendered.

@@ -56,6 +56,7 @@ pub(super) fn correct() -> Report {
             line("specular", "Specular", "鏡面反射光", 40.0),
         ],
         mistakes: vec![],
+        explanation: None,
         diagnostics: vec![],
         frames: (0..POSES).map(|k| frame(k, 0.0)).collect(),
         probes: ProbeResult { seed: 20_240_613, samples: 640, mismatched: 0, max_difference: Some(4.1e-7) },

@@ -1,145 +1,170 @@
 //! The parent's side of one worker: start, ask, wait no longer than the deadline, end.
 
-use super::Settings;
-use super::protocol::{Hello, Reply, Request, receive, send};
+use super::channel::{Channel, Lost};
+use super::ending::Ending;
+use super::protection::{Policy, Protection};
+use super::protocol::{self, Hello, Longest, Reply, Request};
+use super::{Settings, environment, schedule};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::Environment;
-use std::io::{self, Read};
-use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::Duration;
+use nix::sys::signal::{Signal, killpg};
+use nix::unistd::Pid;
+use std::os::unix::process::CommandExt;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
 
 /// How long a worker may take to open its device.
-const START_DEADLINE: Duration = Duration::from_secs(20);
+const START_DEADLINE: Duration = Duration::from_secs(10);
 
-/// A running worker with a warm device.
+/// How long a worker that has closed its output may take to die: the kernel has its memory to tidy up.
+const DYING: Duration = Duration::from_millis(300);
+
+/// The longest first message.
+const HELLO: Longest = Longest { head: 64 << 10, body: 0 };
+
+/// The longest report without its frames.
+const REPORT_BYTES: usize = 4 << 20;
+
+/// A process that is to become a worker, or is one.
 #[derive(Debug)]
 pub(super) struct Worker {
     process: Child,
-    stdin: Option<ChildStdin>,
-    replies: Receiver<io::Result<(Reply, Vec<u8>)>>,
+    channel: Channel,
     pub environment: Environment,
+    pub protection: Protection,
+    /// How many submissions it has met.
     pub gradings: u32,
 }
 
-/// Why a worker gave no answer.
+/// Why there is no worker.
 #[derive(Debug)]
-pub(super) enum Ended {
-    /// It took longer than the deadline.
-    Deadline,
-    /// It went away: a crash, or a limit that the kernel holds.
-    Died(ExitStatus),
-    /// It answered, but not by the protocol.
-    Protocol(String),
+pub(super) struct NotStarted {
+    pub fault: Fault,
+    /// Whether another try may end otherwise.
+    pub transient: bool,
 }
 
 impl Worker {
-    /// Starts a worker and waits until its device is warm.
-    pub fn start(settings: &Settings) -> Result<Self, Fault> {
-        let program = std::env::current_exe().map_err(|error| cannot_start(&error.to_string()))?;
-        let mut process = Command::new(program)
+    /// Starts the process. The kernel ends it with the thread that calls this.
+    pub fn spawn(settings: &Settings) -> Result<Self, NotStarted> {
+        let cannot = |error: std::io::Error| NotStarted { fault: cannot_start(&error.to_string()), transient: true };
+        let program = settings.program.clone().map_or_else(std::env::current_exe, Ok).map_err(cannot)?;
+        let limits = settings.limits();
+        let mut command = Command::new(program);
+        command
             .arg("worker")
             .args(["--assignment", &settings.assignment])
             .args(["--adapter", settings.adapter.name()])
+            .args(["--memory", &limits.memory.to_string()])
+            .args(["--cpu-seconds", &limits.cpu_seconds.to_string()]);
+        if settings.warm_up {
+            command.arg("--warm-up");
+        }
+        let mut process = command
             .env_clear()
-            .envs(environment())
+            .envs(environment::variables(settings.adapter))
+            .process_group(0)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
+            .stderr(Stdio::piped())
             .spawn()
-            .map_err(|error| cannot_start(&error.to_string()))?;
-        let stdin = process.stdin.take();
-        let Some(stdout) = process.stdout.take() else { return Err(cannot_start("no pipe")) };
-        let (hello, replies) = listen(stdout);
-        let mut worker = Self { process, stdin, replies, environment: Environment::default(), gradings: 0 };
-        match hello.recv_timeout(START_DEADLINE) {
-            Ok(Ok(Hello::Ready(environment))) => {
-                worker.environment = environment;
-                Ok(worker)
-            }
-            Ok(Ok(Hello::Failed(fault))) => Err(fault),
-            Ok(Err(error)) => Err(cannot_start(&format!("{error}; {}", worker.end()))),
-            Err(_) => Err(cannot_start(&format!("not ready after {} s", START_DEADLINE.as_secs()))),
+            .map_err(cannot)?;
+        let channel = Channel::new(&mut process).inspect_err(|_| {
+            let _ = process.kill().and_then(|()| process.wait());
+        });
+        Ok(Self {
+            channel: channel.map_err(cannot)?,
+            process,
+            environment: Environment::default(),
+            protection: Protection::default(),
+            gradings: 0,
+        })
+    }
+
+    /// Waits until the device is warm and the sandbox closed.
+    pub fn greet(&mut self, policy: Policy) -> Result<(), NotStarted> {
+        let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE);
+        let hello = hello.map_err(|lost| {
+            let how = match lost {
+                Lost::Timeout => format!("not ready after {} s", START_DEADLINE.as_secs()),
+                Lost::Garbled(detail) => detail,
+                Lost::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
+            };
+            // No student's text has met this worker: what it says can be shown.
+            let said = self.channel.tail();
+            NotStarted { fault: cannot_start(format!("{how} {said}").trim_end()), transient: true }
+        })?;
+        let (environment, protection) = match hello.0 {
+            Hello::Failed(fault) => return Err(NotStarted { fault, transient: false }),
+            Hello::Ready { environment, protection } => (environment, protection),
+        };
+        if policy == Policy::Required && !protection.is_closed() {
+            return Err(NotStarted { fault: not_closed(&protection), transient: false });
         }
+        self.environment = environment;
+        self.protection = protection;
+        Ok(())
+    }
+
+    /// Its process, which is also its process group.
+    pub fn id(&self) -> u32 {
+        self.process.id()
     }
 
     /// Has one submission graded.
-    pub fn grade(&mut self, request: &Request, bytes: &[u8], deadline: Duration) -> Result<(Reply, Vec<u8>), Ended> {
+    pub fn grade(
+        &mut self,
+        request: &Request,
+        bytes: &[u8],
+        frames_bytes: usize,
+        deadline: Duration,
+    ) -> Result<(Reply, Vec<u8>), Ending> {
         self.gradings += 1;
-        let sent = match &mut self.stdin {
-            Some(stdin) => send(stdin, request, bytes),
-            None => Err(io::ErrorKind::BrokenPipe.into()),
-        };
-        if sent.is_err() {
-            return Err(Ended::Died(self.end()));
-        }
-        match self.replies.recv_timeout(deadline) {
-            Ok(Ok(answer)) => Ok(answer),
-            Ok(Err(error)) if error.kind() == io::ErrorKind::UnexpectedEof => Err(Ended::Died(self.end())),
-            Ok(Err(error)) => Err(Ended::Protocol(error.to_string())),
-            Err(RecvTimeoutError::Disconnected) => Err(Ended::Died(self.end())),
-            Err(RecvTimeoutError::Timeout) => Err(Ended::Deadline),
+        let message = protocol::encode(request, bytes).map_err(|error| Ending::Garbled(error.to_string()))?;
+        let before = schedule::cpu_time(self.id());
+        let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
+        match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline) {
+            Ok((reply, body)) if reply.id == request.id => Ok((reply, body)),
+            Ok(_) => Err(Ending::Garbled("the answer to another question".into())),
+            Err(Lost::Garbled(detail)) => Err(Ending::Garbled(detail)),
+            Err(Lost::Timeout) => Err(schedule::of_late(self.id(), before, deadline)),
+            Err(Lost::Closed) => Err(match self.died() {
+                Some(status) => Ending::of(status, &self.channel.tail()),
+                None => Ending::Garbled("the output was closed".into()),
+            }),
         }
     }
 
-    /// Kills the process if it still runs, and reaps it.
-    fn end(&mut self) -> ExitStatus {
-        self.stdin = None;
-        // A process that is gone already keeps the status it ended with.
-        if let Ok(Some(status)) = self.process.try_wait() {
-            return status;
+    /// How the process ended; none where it has not.
+    fn died(&mut self) -> Option<ExitStatus> {
+        let end = Instant::now() + DYING;
+        loop {
+            match self.process.try_wait() {
+                Ok(None) if Instant::now() < end => std::thread::sleep(Duration::from_millis(1)),
+                Ok(status) => return status,
+                Err(_) => return None,
+            }
         }
-        std::thread::sleep(Duration::from_millis(1));
-        if let Ok(Some(status)) = self.process.try_wait() {
-            return status;
-        }
-        let _ = self.process.kill();
-        self.process.wait().unwrap_or_default()
     }
 }
 
 impl Drop for Worker {
+    /// Ends the process with its whole group, and reaps it.
     fn drop(&mut self) {
-        self.end();
+        // A process that is reaped already has given its number back; its group was itself.
+        if let Ok(None) = self.process.try_wait() {
+            end_group(self.id());
+            let _ = self.process.wait();
+        }
     }
 }
 
-/// Reads the worker's messages on a thread of its own, which ends with the pipe.
-#[allow(clippy::type_complexity)]
-fn listen(mut stdout: ChildStdout) -> (Receiver<io::Result<Hello>>, Receiver<io::Result<(Reply, Vec<u8>)>>) {
-    let (to_hello, hello) = channel();
-    let (to_replies, replies) = channel();
-    std::thread::spawn(move || {
-        let first = receive::<Hello>(&mut stdout).map(|(hello, _)| hello);
-        let ready = first.is_ok();
-        if to_hello.send(first).is_err() || !ready {
-            return;
-        }
-        loop {
-            let message = receive::<Reply>(&mut stdout);
-            let last = message.is_err();
-            if to_replies.send(message).is_err() || last {
-                // Lets a worker that still writes see the pipe's end instead of a full pipe.
-                let _ = io::copy(&mut stdout.by_ref().take(0), &mut io::sink());
-                return;
-            }
-        }
-    });
-    (hello, replies)
-}
-
-/// The whole environment of a worker.
-fn environment() -> Vec<(&'static str, &'static str)> {
-    vec![
-        // A cache on disk would carry one student's code into another's worker.
-        ("MESA_SHADER_CACHE_DISABLE", "true"),
-        // Frames are small: threads cost more than they bring, and the pool has a worker a core.
-        ("LP_NUM_THREADS", "0"),
-        // The Wayland client library, which the driver loads, complains where this is unset.
-        ("XDG_RUNTIME_DIR", "/nonexistent"),
-        ("LC_ALL", "C.UTF-8"),
-    ]
+/// Ends a process group that is this process's child.
+pub(super) fn end_group(id: u32) {
+    if let Ok(id) = i32::try_from(id) {
+        let _ = killpg(Pid::from_raw(id), Signal::SIGKILL);
+    }
 }
 
 fn cannot_start(detail: &str) -> Fault {
@@ -148,4 +173,17 @@ fn cannot_start(detail: &str) -> Fault {
         format!("採点プロセスを起動できません: {detail}"),
     ))
     .remedy(Text::new("`ggrade doctor` checks the machine.", "`ggrade doctor` でこのマシンを調べられます。"))
+}
+
+fn not_closed(protection: &Protection) -> Fault {
+    let notice = protection.notice().unwrap_or_default();
+    Fault::new(Text::new(
+        format!("the sandbox is not closed: {}", notice.en),
+        format!("サンドボックスが不完全です: {}", notice.ja),
+    ))
+    .remedy(Text::new(
+        "`ggrade doctor` shows each layer. --sandbox best-effort grades all the same: only for files that you trust.",
+        "`ggrade doctor` で各層の状態を確かめられます。--sandbox best-effort を付けると採点できますが、\
+         信頼できるファイルだけにしてください。",
+    ))
 }

@@ -2,16 +2,33 @@
 //!
 //! The student's shader becomes machine code in the address space of the process that renders it, and a compiler can
 //! be made to overflow its stack or eat all memory. So neither happens in this process: a worker does both, and a
-//! worker that crashes or takes too long costs nothing but itself.
+//! worker that crashes or takes too long costs nothing but itself. `docs/security.md` tells what is promised.
+//!
+//! Here, in the parent: [`pool`] grades, [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
+//! pipes, [`ending`] what its end means. There, in the worker: [`worker`] serves, [`confine`], [`files`] and
+//! [`syscalls`] are the walls, [`preflight`] leans against them.
 
+mod channel;
 mod child;
+mod confine;
+mod ending;
+mod environment;
+mod files;
 mod pool;
+mod preflight;
+mod protection;
 mod protocol;
+mod roster;
+mod schedule;
+mod syscalls;
 pub mod worker;
 
 pub use pool::{Answer, Pool, Submission};
+pub use preflight::Attempt;
+pub use protection::{Layer, LayerState, Policy, Protection, Reach};
 
 use crate::render::AdapterKind;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// How workers grade.
@@ -23,8 +40,20 @@ pub struct Settings {
     pub adapter: AdapterKind,
     /// Longest time for one submission.
     pub deadline: Duration,
-    /// After how many gradings a worker is replaced.
+    /// Longest CPU time for one submission, over all threads of its worker; none is a second more than the deadline.
+    pub cpu_seconds: Option<u64>,
+    /// Most memory that one submission may take over what a warm worker takes, in bytes.
+    pub memory: u64,
+    /// After how many gradings a worker is replaced; 1 gives each submission a worker of its own.
     pub gradings_per_worker: u32,
+    /// Warm workers kept ready besides those that grade.
+    pub spares: usize,
+    /// Whether a worker grades the handed-out file before it is called ready.
+    pub warm_up: bool,
+    /// What to do where the sandbox is not closed.
+    pub policy: Policy,
+    /// The program whose command `worker` is a worker; none is this program.
+    pub program: Option<PathBuf>,
 }
 
 impl Settings {
@@ -34,7 +63,37 @@ impl Settings {
             assignment: assignment.into(),
             adapter: AdapterKind::Software,
             deadline: Duration::from_secs(2),
-            gradings_per_worker: 500,
+            cpu_seconds: None,
+            memory: 768 << 20,
+            gradings_per_worker: 200,
+            spares: 1,
+            warm_up: true,
+            policy: Policy::Required,
+            program: None,
         }
     }
+
+    /// The same for one single grading: no spare worker, and none that grades anything else first.
+    pub fn for_one_grading(self) -> Self {
+        Self { spares: 0, warm_up: false, ..self }
+    }
+
+    /// The same with a worker of its own for each submission.
+    pub fn with_single_use_workers(self) -> Self {
+        Self { gradings_per_worker: 1, ..self }
+    }
+
+    fn limits(&self) -> Limits {
+        let seconds = self.deadline.as_secs_f64().ceil() as u64;
+        Limits { memory: self.memory, cpu_seconds: self.cpu_seconds.unwrap_or(seconds.saturating_add(1)) }
+    }
+}
+
+/// What one submission may take inside a worker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of address space over what the worker has already.
+    pub memory: u64,
+    /// CPU seconds over all threads, rounded up to the next whole one.
+    pub cpu_seconds: u64,
 }

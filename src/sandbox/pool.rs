@@ -1,13 +1,25 @@
 //! Workers kept warm, each submission graded by one of them.
 
-use super::Settings;
-use super::child::{Ended, Worker};
-use super::protocol::{Reply, Request, Tile};
+use super::child::Worker;
+use super::ending::{Blame, Ending};
+use super::protection::Protection;
+use super::protocol::{Outcome, Reply, Request, Tile};
+use super::roster::{Place, Roster, Wanted};
+use super::{Policy, Settings};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
+use crate::grade::Order;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// How often a grading that fails by no doing of the file's is begun.
+const ATTEMPTS: u32 = 3;
+
+/// The share of the deadline that must be left for a crash to be confirmed by a second worker. A file that crashes as
+/// late as that has used the time of a grading anyway.
+const LEFT_TO_CONFIRM: f64 = 0.4;
 
 /// A file to grade.
 #[derive(Clone, Copy, Debug)]
@@ -16,8 +28,8 @@ pub struct Submission<'a> {
     pub name: &'a str,
     /// Its bytes.
     pub bytes: &'a [u8],
-    /// The seed of the probes.
-    pub seed: u64,
+    /// How it is to be graded.
+    pub order: Order,
     /// Whether the frames are wanted, not only their comparison.
     pub wants_frames: bool,
 }
@@ -31,66 +43,75 @@ pub struct Answer {
     pub frames: Vec<Picture>,
 }
 
-/// Workers for one assignment. Any number of threads may grade at once; each takes a worker of its own.
+/// Workers for one assignment. Any number of threads may grade at once; each takes a worker of its own, and those for
+/// whom there is none wait.
 #[derive(Debug)]
 pub struct Pool {
     settings: Settings,
     assignment: &'static reference::Assignment,
-    idle: Mutex<Vec<Worker>>,
+    roster: Roster,
+    next_id: AtomicU64,
+    environment: Environment,
+    protection: Protection,
 }
 
 impl Pool {
-    /// Starts `workers` workers.
+    /// Starts a pool in which `workers` submissions are graded at once, and waits for its first worker.
     pub fn start(settings: Settings, workers: usize) -> Result<Self, Fault> {
-        let assignment = reference::assignment(&settings.assignment).ok_or_else(|| unknown(&settings.assignment))?;
-        let started = std::thread::scope(|scope| {
-            let starts: Vec<_> = (0..workers).map(|_| scope.spawn(|| Worker::start(&settings))).collect();
-            starts.into_iter().map(|start| start.join().unwrap_or_else(|_| Err(panicked()))).collect()
-        });
-        let idle: Result<Vec<Worker>, Fault> = started;
-        Ok(Self { settings, assignment, idle: Mutex::new(idle?) })
+        let assignment = crate::homework::assignment(&settings.assignment)?;
+        let roster = Roster::start(settings.clone(), workers)?;
+        let found = roster.idle(|worker| (worker.environment.clone(), worker.protection.clone())).pop();
+        let (environment, protection) = found.unwrap_or_default();
+        Ok(Self { settings, assignment, roster, next_id: AtomicU64::new(1), environment, protection })
+    }
+
+    /// What grades.
+    pub fn environment(&self) -> &Environment {
+        &self.environment
+    }
+
+    /// What holds the workers.
+    pub fn protection(&self) -> &Protection {
+        &self.protection
+    }
+
+    /// What is missing from the sandbox and was to be said: nothing where it is complete, or was required and closed.
+    pub fn notice(&self) -> Option<Text> {
+        match self.settings.policy {
+            Policy::Required => None,
+            Policy::BestEffort => self.protection.notice(),
+        }
+    }
+
+    /// The processes of the workers that wait for a submission; each is a process group of its own.
+    pub fn idle_processes(&self) -> Vec<u32> {
+        self.roster.idle(Worker::id)
     }
 
     /// Grades one submission. A fault is ours; whatever the file does to a worker is a verdict.
     pub fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
-        let taken = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut worker = match taken {
-            Some(worker) => worker,
-            None => Worker::start(&self.settings)?,
-        };
-        let request =
-            Request { name: submission.name.into(), seed: submission.seed, wants_frames: submission.wants_frames };
-        let ended = match worker.grade(&request, submission.bytes, self.settings.deadline) {
-            Ok((Reply::Graded { report, frames }, body)) => {
-                let frames = self.paste(&frames, &body);
-                self.put_back(worker);
-                return Ok(Answer { report: *report, frames });
+        let place = self.roster.place();
+        let mut grading = Grading { pool: self, place, submission, blamed: None };
+        let mut wanted = Wanted::Any;
+        let mut attempts = 0;
+        loop {
+            attempts += 1;
+            match grading.attempt(wanted)? {
+                Attempted::Done(answer) => return Ok(*answer),
+                Attempted::NotDone(_) if attempts < ATTEMPTS => wanted = Wanted::Fresh,
+                Attempted::NotDone(fault) => return Err(fault),
             }
-            Ok((Reply::Failed(fault), _)) => return Err(fault),
-            Err(ended) => ended,
-        };
-        let environment = worker.environment.clone();
-        drop(worker);
-        Ok(Answer { report: self.stopped(submission, ended, environment)?, frames: Vec::new() })
-    }
-
-    fn put_back(&self, worker: Worker) {
-        if worker.gradings < self.settings.gradings_per_worker {
-            self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
         }
     }
 
-    /// The whole frames of which `tiles` are the painted parts.
-    fn paste(&self, tiles: &[Tile], body: &[u8]) -> Vec<Picture> {
+    /// The whole frames of which `tiles` are the painted parts; none where they do not fit.
+    fn paste(&self, tiles: &[Tile], body: &[u8]) -> Option<Vec<Picture>> {
         let scene = &self.assignment.scene;
         let (width, height) = (scene.width, scene.height);
         let mut rest = body;
         let mut pictures = Vec::new();
         for tile in tiles {
-            if tile.x + tile.width > width || tile.y + tile.height > height || rest.len() < tile.bytes() {
-                break;
-            }
-            let (pixels, others) = rest.split_at(tile.bytes());
+            let (pixels, others) = rest.split_at_checked(tile.bytes_within(width, height)?)?;
             rest = others;
             let mut rgba = scene.background.repeat((width * height) as usize);
             for (row, y) in pixels.chunks_exact(tile.width.max(1) as usize * 4).zip(tile.y..) {
@@ -99,46 +120,119 @@ impl Pool {
             }
             pictures.push(Picture { width, height, rgba });
         }
-        pictures
+        rest.is_empty().then_some(pictures)
     }
 
-    fn stopped(&self, submission: Submission<'_>, ended: Ended, environment: Environment) -> Result<Report, Fault> {
-        let message = match ended {
-            Ended::Deadline => {
-                let seconds = self.settings.deadline.as_secs_f64();
-                Text::new(
-                    format!("the shader did not finish within {seconds} s (time limit)"),
-                    format!("{seconds} 秒以内に処理が終わりませんでした (時間制限)"),
-                )
-            }
-            Ended::Died(status) => Text::new(
-                format!("the shader crashed the renderer ({status})"),
-                format!("このシェーダでレンダラが異常終了しました ({status})"),
-            ),
-            Ended::Protocol(detail) => return Err(protocol_broken(&detail)),
-        };
-        let diagnostic = Diagnostic::error(Stage::Run, message);
-        Ok(crate::grade::unfinished(
+    /// Bytes of all frames of a grading.
+    fn frames_bytes(&self) -> usize {
+        let scene = &self.assignment.scene;
+        scene.all_poses().len() * scene.width as usize * scene.height as usize * 4
+    }
+
+    fn stopped(&self, submission: Submission<'_>, ending: &Ending, environment: Environment) -> Report {
+        let message = ending.message(self.settings.deadline, self.settings.memory);
+        crate::grade::unfinished(
             self.assignment,
             crate::grade::source_info(submission.name, submission.bytes),
             Verdict::Stopped,
-            vec![diagnostic],
+            vec![Diagnostic::error(Stage::Run, message)],
             environment,
-        ))
+        )
     }
 }
 
-fn unknown(id: &str) -> Fault {
-    Fault::new(Text::new(format!("there is no assignment `{id}`"), format!("課題 `{id}` はありません")))
+/// One submission on its way through one or more workers.
+struct Grading<'a> {
+    pool: &'a Pool,
+    place: Place<'a>,
+    submission: Submission<'a>,
+    /// An ending that a fresh worker has to confirm, and when the attempt began that ended so.
+    blamed: Option<(Ending, Instant)>,
 }
 
-fn panicked() -> Fault {
-    Fault::new(Text::new("a start-up thread panicked", "起動スレッドが異常終了しました"))
+enum Attempted {
+    Done(Box<Answer>),
+    /// No verdict yet; the fault if no further attempt is made.
+    NotDone(Fault),
 }
 
-fn protocol_broken(detail: &str) -> Fault {
-    Fault::new(Text::new(
-        format!("the grading process gave an unreadable answer: {detail}"),
-        format!("採点プロセスの応答を読み取れません: {detail}"),
-    ))
+impl Grading<'_> {
+    fn attempt(&mut self, wanted: Wanted) -> Result<Attempted, Fault> {
+        let Pool { settings, next_id, .. } = self.pool;
+        let mut worker = self.place.take(wanted)?;
+        let was_fresh = worker.gradings == 0;
+        let Submission { name, bytes, order, wants_frames } = self.submission;
+        let request = Request { id: next_id.fetch_add(1, Ordering::Relaxed), name: name.into(), order, wants_frames };
+        let frames_bytes = if wants_frames { self.pool.frames_bytes() } else { 0 };
+        let start = Instant::now();
+        // Confirming a crash takes what it left of the deadline: no file has twice the time.
+        let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
+        let deadline = settings.deadline.saturating_sub(spent);
+        let answered = worker.grade(&request, bytes, frames_bytes, deadline);
+        let environment = worker.environment.clone();
+        let ending = match answered {
+            Ok((reply, body)) => return self.answered(worker, was_fresh, reply, &body),
+            Err(ending) => ending,
+        };
+        self.place.give_up(worker);
+        self.ended(ending, was_fresh, start, environment)
+    }
+
+    fn answered(&mut self, worker: Worker, was_fresh: bool, reply: Reply, body: &[u8]) -> Result<Attempted, Fault> {
+        let (report, frames) = match reply.outcome {
+            Outcome::Graded { report, frames } => (*report, self.pool.paste(&frames, body)),
+            Outcome::Failed(fault) => {
+                self.place.give_up(worker);
+                // An earlier file may have used up what this one lacked.
+                return if was_fresh { Err(fault) } else { Ok(Attempted::NotDone(fault)) };
+            }
+        };
+        let Some(frames) = frames else {
+            self.place.give_up(worker);
+            return Ok(Attempted::NotDone(Ending::Garbled("frames that do not fit".into()).fault()));
+        };
+        let is_spent = reply.spent || worker.gradings >= self.pool.settings.gradings_per_worker;
+        if is_spent || report.verdict == Verdict::Stopped {
+            self.place.give_up(worker);
+        } else {
+            self.place.give_back(worker);
+        }
+        Ok(Attempted::Done(Box::new(Answer { report, frames })))
+    }
+
+    fn ended(
+        &mut self,
+        ending: Ending,
+        was_fresh: bool,
+        began: Instant,
+        environment: Environment,
+    ) -> Result<Attempted, Fault> {
+        match ending.blame() {
+            Blame::File => {}
+            Blame::FileIfRepeated if self.is_certain(&ending, was_fresh, began) => {}
+            Blame::FileIfRepeated => {
+                let fault = ending.fault();
+                self.blamed = Some((ending, began));
+                return Ok(Attempted::NotDone(fault));
+            }
+            Blame::Ours => return Ok(Attempted::NotDone(ending.fault())),
+        }
+        let (ending, began) = match (ending, self.blamed.take()) {
+            // The confirmation ran out of the little time that was left: the crash is what happened.
+            (Ending::Deadline, Some(blamed)) => blamed,
+            (ending, Some((_, began))) => (ending, began),
+            (ending, None) => (ending, began),
+        };
+        let mut report = self.pool.stopped(self.submission, &ending, environment);
+        report.elapsed_ms = began.elapsed().as_secs_f64() * 1e3;
+        Ok(Attempted::Done(Box::new(Answer { report, frames: Vec::new() })))
+    }
+
+    /// Whether an ending is the file's doing beyond doubt. A limit met by a worker that has seen nothing else is; a
+    /// crash needs a second one, since any process can send its signal.
+    fn is_certain(&self, ending: &Ending, was_fresh: bool, began: Instant) -> bool {
+        let is_limit = was_fresh && !matches!(ending, Ending::Crash(_));
+        let is_late = began.elapsed() > self.pool.settings.deadline.mul_f64(1.0 - LEFT_TO_CONFIRM);
+        is_limit || self.blamed.is_some() || is_late
+    }
 }

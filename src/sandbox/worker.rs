@@ -1,49 +1,114 @@
-//! The child's side: a warm device, one submission after the other.
+//! The child's side: a confined process with a warm device, one submission after the other.
 
-use super::protocol::{Hello, Reply, Request, Tile, receive, send};
+use super::confine::{self, Confined, Meter, lower};
+use super::preflight::{self, Attempt};
+use super::protection::{Layer, Protection};
+use super::protocol::{Hello, Outcome, REQUEST, Reply, Request, Tile, receive, send};
+use super::{Limits, syscalls};
 use crate::fault::Fault;
-use crate::grade::{Graded, Grader};
+use crate::grade::{Graded, Grader, Order};
 use crate::render::{AdapterKind, Frames};
-use std::io::{self, Read, Write};
+use nix::sys::resource::Resource;
+use reference::Assignment;
+use std::fs::File;
+use std::io::{self, Read};
 
 /// Stack of the thread that grades: translators recurse over the student's nesting.
 const STACK_BYTES: usize = 256 << 20;
 
+/// What a worker is started for.
+#[derive(Clone, Copy, Debug)]
+pub struct Job {
+    /// The homework.
+    pub assignment: &'static Assignment,
+    /// What renders.
+    pub adapter: AdapterKind,
+    /// What one submission may take.
+    pub limits: Limits,
+    /// Whether to grade the handed-out file first, so that nobody's grading is slower than the next one's.
+    pub warm_up: bool,
+}
+
 /// Serves the parent on standard input and output until it closes them.
-pub fn run(assignment: &'static reference::Assignment, adapter: AdapterKind) -> io::Result<()> {
+pub fn run(job: Job) -> io::Result<()> {
+    let confined = confine::enter(job.limits, job.adapter)?;
+    on_large_stack(move || serve(job, confined))
+}
+
+/// Enters the sandbox as [`run`] does, tries one forbidden thing there, and gives what came of it.
+pub fn attempt(job: Job, attempt: Attempt) -> io::Result<io::Result<()>> {
+    let confined = confine::enter(job.limits, job.adapter)?;
+    on_large_stack(move || {
+        let Confined { layers, meter, .. } = confined;
+        let _ready = prepare(job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
+        meter.next(job.adapter)?;
+        Ok(attempt.make())
+    })
+}
+
+fn on_large_stack<T: Send + 'static>(work: impl FnOnce() -> io::Result<T> + Send + 'static) -> io::Result<T> {
     let thread = std::thread::Builder::new().name("grader".into()).stack_size(STACK_BYTES);
-    let served = thread.spawn(move || serve(assignment, adapter, &mut io::stdin().lock(), &mut io::stdout().lock()))?;
-    served.join().map_err(|_| io::Error::other("the grader panicked"))?
+    thread.spawn(work)?.join().map_err(|_| io::Error::other("the grader panicked"))?
 }
 
-fn serve(
-    assignment: &'static reference::Assignment,
-    adapter: AdapterKind,
-    input: &mut impl Read,
-    output: &mut impl Write,
-) -> io::Result<()> {
-    let mut grader = match Grader::new(assignment, adapter) {
-        Ok(grader) => grader,
-        Err(fault) => return send(output, &Hello::Failed(fault), &[]),
+fn serve(job: Job, confined: Confined) -> io::Result<()> {
+    let Confined { mut output, layers, meter } = confined;
+    let (mut grader, protection) = match prepare(job, layers) {
+        Ok(ready) => ready,
+        Err(fault) => return send(&mut output, &Hello::Failed(fault), &[]),
     };
-    send(output, &Hello::Ready(grader.environment().clone()), &[])?;
-    loop {
-        let (request, bytes) = match receive::<Request>(input) {
-            Ok(message) => message,
-            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(()),
-            Err(error) => return Err(error),
-        };
-        let (reply, body) = answer(grader.grade(&request.name, &bytes, request.seed), request.wants_frames);
-        send(output, &reply, &body)?;
-    }
+    let hello = Hello::Ready { environment: grader.environment().clone(), protection };
+    let size = meter.size()?;
+    send(&mut output, &hello, &[])?;
+    let mut input = io::stdin().lock();
+    while answer(&mut input, &mut output, &mut grader, job, &meter, size)? {}
+    Ok(())
 }
 
-fn answer(outcome: Result<Graded, Fault>, wants_frames: bool) -> (Reply, Vec<u8>) {
-    match outcome {
-        Err(fault) => (Reply::Failed(fault), Vec::new()),
+/// Makes the device warm, and closes the sandbox around it.
+fn prepare(job: Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Protection), Fault> {
+    let mut grader = Grader::new(job.assignment, job.adapter)?;
+    if let Some(file) = job.assignment.files.first().filter(|_| job.warm_up) {
+        grader.grade(&file.name, file.starter.as_bytes(), Order::default())?;
+    }
+    let filtered = syscalls::restrict(job.adapter);
+    if filtered.is_err() {
+        // Without filters this at least keeps new processes away, and new threads with them.
+        let _ = lower(Resource::RLIMIT_NPROC, 0);
+    }
+    let open = preflight::open();
+    let filtered = filtered.and_then(|detail| syscalls::make_deadly().map(|()| detail));
+    layers.push(confine::state(Layer::SystemCalls, filtered));
+    Ok((grader, Protection { layers, open }))
+}
+
+/// Grades one file; false where the parent has closed the pipe. `start` is the size of the process before the first.
+fn answer(
+    input: &mut impl Read,
+    output: &mut File,
+    grader: &mut Grader,
+    job: Job,
+    meter: &Meter,
+    start: u64,
+) -> io::Result<bool> {
+    let (request, bytes) = match receive::<Request>(input, REQUEST) {
+        Ok(message) => message,
+        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(false),
+        Err(error) => return Err(error),
+    };
+    meter.next(job.adapter)?;
+    let (outcome, body) = outcome(grader.grade(&request.name, &bytes, request.order), request.wants_frames);
+    let spent = meter.size()? > start + job.limits.memory;
+    send(output, &Reply { id: request.id, spent, outcome }, &body)?;
+    Ok(true)
+}
+
+fn outcome(graded: Result<Graded, Fault>, wants_frames: bool) -> (Outcome, Vec<u8>) {
+    match graded {
+        Err(fault) => (Outcome::Failed(fault), Vec::new()),
         Ok(Graded { report, frames }) => {
             let (tiles, body) = frames.filter(|_| wants_frames).map(|frames| cut(&frames)).unwrap_or_default();
-            (Reply::Graded { report: Box::new(report), frames: tiles }, body)
+            (Outcome::Graded { report: Box::new(report), frames: tiles }, body)
         }
     }
 }

@@ -21,8 +21,12 @@ use naga::{
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
 pub const CAPTURE_GROUP: u32 = 1;
-/// Bytes of the capture buffer before its records: the number of the loop that ran out of fuel, a zero, and room.
+/// Bytes of the capture buffer before its records: see the members below.
 pub const CAPTURE_HEADER: u64 = 32;
+/// Members of the capture buffer behind the number of the loop that ran out of fuel. Nothing writes to the zero.
+const UNDEFINED_MEMBER: u32 = 1;
+const ZERO_MEMBER: u32 = 2;
+const RECORDS_MEMBER: u32 = 3;
 /// Bytes of one captured vertex: clip-space position and colour, four f32 each.
 pub const CAPTURE_STRIDE: u64 = 32;
 
@@ -48,6 +52,8 @@ pub(super) struct Hooks {
     pub gauge: Option<Gauge>,
     /// A variable to fill from the header's zero; see [`super::opaque`].
     pub zero: Option<Handle<GlobalVariable>>,
+    /// The variable of [`super::undefined`] that is told in the header.
+    pub undefined: Option<Handle<GlobalVariable>>,
 }
 
 /// Rebuilds the only entry point of `module`; gives the attributes that it reads.
@@ -224,6 +230,18 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
     module.global_variables[global].init = Some(init);
 }
 
+/// Tells in the capture's header what [`super::undefined`] met. Any vertex's answer will do.
+fn tell_undefined(build: &mut Build<'_>, capture: Handle<Expression>, undefined: Handle<GlobalVariable>) {
+    let undefined = build.leaf(Expression::GlobalVariable(undefined));
+    let met = build.load(undefined);
+    let none = build.number(0);
+    let is_met = build.binary(BinaryOperator::NotEqual, met, none);
+    build.when(is_met, |build| {
+        let place = build.member(capture, UNDEFINED_MEMBER);
+        build.store(place, met);
+    });
+}
+
 /// Replaces what follows the call of `main`: capture, clip range, return.
 fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, hooks: &Hooks) {
     let types = Types::new(module);
@@ -246,7 +264,7 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     let mut build = Build::new(&mut function.expressions);
     let capture = build.leaf(Expression::GlobalVariable(capture));
     if let Some(zero) = hooks.zero {
-        let header = build.member(capture, 1);
+        let header = build.member(capture, ZERO_MEMBER);
         let value = build.load(header);
         let zero = build.leaf(Expression::GlobalVariable(zero));
         build.store(zero, value);
@@ -263,6 +281,9 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
         None => build.append(statements),
     }
     build.append(behind);
+    if let Some(undefined) = hooks.undefined {
+        tell_undefined(&mut build, capture, undefined);
+    }
     let result = write_record(&mut build, &types, outputs, capture, [instance, vertex]);
     build.push(Statement::Return { value: Some(result) });
     function.body = build.finish();
@@ -294,7 +315,7 @@ fn write_record(
     let colour = outputs.colour.unwrap_or(zero);
 
     let index = build.binary(BinaryOperator::Add, instance, vertex);
-    let records = build.member(capture, 2);
+    let records = build.member(capture, RECORDS_MEMBER);
     let record = build.node(Expression::Access { base: records, index });
     let to_position = build.member(record, 0);
     let to_colour = build.member(record, 1);
@@ -326,12 +347,17 @@ impl Types {
         );
         let records =
             insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
-        let number = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
-        let header = [number("ran_out", 0), number("zero", 4)];
+        let header = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
         let behind =
             StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
         let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
-        let capture = insert(module, TypeInner::Struct { members: header.into_iter().chain([behind]).collect(), span });
+        let capture = insert(
+            module,
+            TypeInner::Struct {
+                members: vec![header("ran_out", 0), header("undefined", 4), header("zero", 8), behind],
+                span,
+            },
+        );
         let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
         let colour = Binding::Location {
             location: 0,

@@ -46,6 +46,12 @@ pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> 
             None => notes.push(unset_uniform(source, &member.name, interface)),
         }
     }
+    for unset in &shader.unset {
+        match interface.uniforms.iter().find(|uniform| uniform.name == unset.name) {
+            Some(expected) if unset.ty != "block" => errors.push(wrong_type(source, "uniform", expected, unset.ty)),
+            _ => notes.push(unset_uniform(source, &unset.name, interface)),
+        }
+    }
     for attribute in &shader.attributes {
         let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
         // A program feeds floats; a shader may take fewer of them than there are.

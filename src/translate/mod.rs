@@ -4,23 +4,28 @@
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
 mod build;
+mod concessions;
 mod entry;
 mod fuel;
 mod gate;
 pub mod glslang;
+mod hints;
 mod interface;
 mod limits;
 mod log;
 mod module;
 mod opaque;
-mod rework;
 mod spirv;
+mod strict;
+mod text;
+mod undefined;
 
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
 pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
+pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -56,28 +61,71 @@ pub struct Translation {
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
     gate::check_text(source)?;
-    let text = rework::c_text(&source.text);
-    let verdict = compile(&Request {
-        vertex: &text,
+    let Accepted { text, verdict, warnings } = first_pass(source, interface)?;
+    let mut overlooked = hints::overlooked_errors(&source.text, interface);
+    overlooked.extend(strict::errors(source, interface));
+    if !overlooked.is_empty() {
+        return Err(Refusal::Rejected(overlooked));
+    }
+    let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
+    diagnostics.extend(warnings);
+    let spirv = second_pass(&text, text::version(source.code()), interface)?;
+    gate::check_words(&spirv, source)?;
+    let shader = module::build(spirv, source, interface, false)?;
+    diagnostics.extend(interface::check(&shader, source, interface)?);
+    Ok(Translation { shader, diagnostics })
+}
+
+/// A text that the compiler accepts under OpenGL's rules.
+struct Accepted {
+    text: String,
+    verdict: Outcome,
+    warnings: Vec<Diagnostic>,
+}
+
+/// How often the text is changed for what the compiler minds and drivers take; each refusal can hide the next.
+const MAX_CONCESSIONS: usize = 4;
+
+/// The compiler's verdict on the student's text.
+fn first_pass(source: &Source, interface: &Interface) -> Result<Accepted, Refusal> {
+    if let Some(name) = concessions::fatal(source) {
+        return Err(unsupported(&format!("`{name}`")).into());
+    }
+    let mut text = text::prepared(source);
+    let mut warnings = Vec::new();
+    let mut verdict = check(&text, interface);
+    for _ in 0..MAX_CONCESSIONS {
+        if verdict.reached != Reached::Vertex {
+            break;
+        }
+        let Some(granted) = concessions::grant(&text, &verdict, source) else { break };
+        text = granted.text;
+        warnings.extend(granted.warnings);
+        verdict = check(&text, interface);
+    }
+    match (verdict.reached, concessions::unimplemented(&verdict)) {
+        (Reached::Done, _) => Ok(Accepted { text, verdict, warnings }),
+        (_, Some(feature)) => Err(unsupported(&format!("`{feature}`")).into()),
+        _ => Err(rejected(verdict, &text, source, interface)),
+    }
+}
+
+/// Compiles and links under OpenGL's rules.
+fn check(text: &str, interface: &Interface) -> Outcome {
+    compile(&Request {
+        vertex: &text::c_text(text),
         fragment: &interface.fragment,
         preamble: c"",
         rules: Rules::OpenGl,
         version: None,
         emit: Stage::Vertex,
-    });
-    if verdict.reached != Reached::Done {
-        return Err(rejected(&verdict, source, interface));
-    }
-    let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
-    let spirv = second_pass(source, interface)?;
-    gate::check_words(&spirv, source)?;
-    let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();
-    let shader = module::build(&spirv, source, &inputs, &interface.output.name)?;
-    diagnostics.extend(interface::check(&shader, source, interface)?);
-    Ok(Translation { shader, diagnostics })
+    })
 }
 
-fn rejected(verdict: &Outcome, source: &Source, interface: &Interface) -> Refusal {
+fn rejected(verdict: Outcome, text: &str, source: &Source, interface: &Interface) -> Refusal {
+    // With `#line` the compiler counts as the student tells it to; a person counts lines of the file.
+    let plain = hints::without_line_directives(text).map(|text| check(&text, interface));
+    let verdict = plain.filter(|plain| plain.reached == verdict.reached).unwrap_or(verdict);
     match verdict.reached {
         Reached::Vertex => Refusal::Rejected(log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface)),
         Reached::Link => Refusal::Rejected(log::link_diagnostics(&verdict.link_log, &source.text, interface)),
@@ -89,22 +137,17 @@ fn rejected(verdict: &Outcome, source: &Source, interface: &Interface) -> Refusa
 }
 
 /// SPIR-V of a text that the first pass accepts.
-fn second_pass(source: &Source, interface: &Interface) -> Result<Vec<u32>, Fault> {
-    let version = rework::version(source.code());
-    let reworked = rework::rework(&source.text, source.code(), version);
+fn second_pass(text: &str, version: i32, interface: &Interface) -> Result<Vec<u32>, Fault> {
+    let ready = text::for_spirv(text, version);
     let request = Request {
-        vertex: &reworked.text,
+        vertex: &ready.text,
         fragment: &interface.fragment,
-        preamble: &reworked.preamble,
-        rules: Rules::VulkanRelaxed,
-        version: reworked.version,
+        preamble: &ready.preamble,
+        rules: Rules::SpirV,
+        version: ready.version,
         emit: Stage::Vertex,
     };
-    let mut outcome = compile(&request);
-    let set: Vec<&str> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-    if let Some(text) = rework::initialised_uniforms(&source.text, source.code(), &outcome.vertex_log, &set) {
-        outcome = compile(&Request { vertex: &text, ..request });
-    }
+    let outcome = compile(&request);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
     }
@@ -115,10 +158,10 @@ fn second_pass(source: &Source, interface: &Interface) -> Result<Vec<u32>, Fault
 /// The module of the assignment's fixed fragment stage, linked with a vertex shader that fits it.
 pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, Fault> {
     let outcome = compile(&Request {
-        vertex: &rework::c_text(vertex),
+        vertex: &text::c_text(vertex),
         fragment: &interface.fragment,
         preamble: c"",
-        rules: Rules::VulkanRelaxed,
+        rules: Rules::SpirV,
         version: None,
         emit: Stage::Fragment,
     });
@@ -130,12 +173,5 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
 pub fn warm(interface: &Interface, vertex: &str) {
-    compile(&Request {
-        vertex: &rework::c_text(vertex),
-        fragment: &interface.fragment,
-        preamble: c"",
-        rules: Rules::OpenGl,
-        version: None,
-        emit: Stage::Vertex,
-    });
+    check(vertex, interface);
 }

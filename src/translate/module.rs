@@ -1,11 +1,12 @@
 //! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
 
-use super::Refusal;
 use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
 use super::opaque;
-use super::spirv::{self, Lines};
+use super::spirv::{self, Lines, Reworked, Unset};
+use super::undefined;
+use super::{Interface, Refusal, Variable};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -45,33 +46,55 @@ pub struct Shader {
     pub attributes: Vec<Attribute>,
     /// Its uniform blocks in order of binding.
     pub uniforms: Vec<UniformBlock>,
+    /// Uniforms that it reads and the program does not set.
+    pub(super) unset: Vec<Unset>,
     /// From a span of the module to the line of the student's file.
     pub lines: Lines,
     /// Its loops, numbered from 1 where the capture's header names one.
     pub meters: Vec<Meter>,
+    /// What the compiler wrote.
+    written: Vec<u32>,
 }
 
 impl Shader {
+    /// The same shader, but where its text leaves a result undefined (see [`super::undefined`]) it computes a number that
+    /// shows in whatever depends on it.
+    pub fn poisoned(&self, source: &Source, interface: &Interface) -> Result<Self, Refusal> {
+        build(self.written.clone(), source, interface, true)
+    }
+
     /// What to say where the capture's header is not 0.
     pub fn out_of_fuel(&self, ran_out: u32) -> Diagnostic {
         fuel::out_of_fuel(&self.meters, ran_out)
     }
 }
 
-/// Name that the compiler gives to the block of OpenGL's default-block uniforms.
-const DEFAULT_BLOCK: &str = "gl_DefaultUniformBlock";
-
 /// Makes the module. A fault here is our limit, not the student's.
-pub(super) fn build(written: &[u32], source: &Source, inputs: &[&str], output: &str) -> Result<Shader, Refusal> {
-    let spirv::Reworked { words, lines } = spirv::rework(written);
+pub(super) fn build(
+    written: Vec<u32>,
+    source: &Source,
+    interface: &Interface,
+    poisons: bool,
+) -> Result<Shader, Refusal> {
+    let names = |variables: &'_ [Variable]| variables.iter().map(|variable| variable.name.clone()).collect::<Vec<_>>();
+    let (inputs, set) = (names(&interface.inputs), names(&interface.uniforms));
+    let Reworked { words, lines, unset } = rework(&written, &set, poisons)?;
     let mut module = parse(&words)?;
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
     let zero = opaque::hide_conditions(&mut module);
-    let (meters, gauge) = fuel::meter(&mut module, &costs, written, &lines);
-    let attributes = entry::rebuild(&mut module, inputs, output, &entry::Hooks { gauge, zero });
+    let (meters, gauge) = fuel::meter(&mut module, &costs, &written, &lines);
+    let undefined = undefined::watch(&mut module, &lines);
+    let inputs: Vec<&str> = inputs.iter().map(String::as_str).collect();
+    let hooks = entry::Hooks { gauge, zero, undefined };
+    let attributes = entry::rebuild(&mut module, &inputs, &interface.output.name, &hooks);
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader { module, attributes, uniforms, lines, meters })
+    Ok(Shader { module, attributes, uniforms, unset, lines, meters, written })
+}
+
+fn rework(words: &[u32], set: &[String], poisons: bool) -> Result<Reworked, Fault> {
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    spirv::rework(words, &set, poisons).ok_or_else(|| unsupported("a `switch` of this size"))
 }
 
 fn parse(words: &[u32]) -> Result<Module, Fault> {
@@ -125,7 +148,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
     UniformBlock {
         binding,
         size: *span,
-        is_default: types[ty].name.as_deref() == Some(DEFAULT_BLOCK),
+        is_default: types[ty].name.as_deref() == Some(spirv::DEFAULT_BLOCK),
         members: members
             .iter()
             .map(|member| Uniform {
@@ -139,7 +162,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
 
 /// Makes the module of the assignment's fixed fragment stage; it reads `varying` at location 0.
 pub(super) fn build_fixed_stage(words: &[u32], varying: &str) -> Result<Module, Fault> {
-    let mut module = parse(&spirv::rework(words).words)?;
+    let mut module = parse(&rework(words, &[], false)?.words)?;
     for argument in &mut module.entry_points[0].function.arguments {
         if let Some(naga::Binding::Location { location, .. }) = &mut argument.binding
             && argument.name.as_deref() == Some(varying)

@@ -1,13 +1,16 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
 use super::{Assignment, AssignmentError, Constant, HandedIn, Input, Interface, Output, Uniform, error};
-use crate::equation::{COLOUR, Definition, Equation, POSITION};
+use crate::equation::{COLOUR, Definition, Equation, MAX_INPUTS, POSITION};
 use crate::expression::{Expression, Scope, Type, Value};
 use crate::manifest::{self, Manifest};
 use crate::mistake::{Form, FreeParameter, Mistake, Override};
 use crate::scene::{Scene, Vertex};
 use glam::DVec3;
 use std::collections::{BTreeMap, HashSet};
+
+/// Definitions and rubric lines are held as the bits of a u64.
+const MAX_DEFINITIONS: usize = 64;
 
 type Checked<T> = Result<T, AssignmentError>;
 
@@ -21,6 +24,10 @@ pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) ->
         if equation.definitions[definition].kind() != output.kind {
             return Err(error(place, format!("`{}` is not a {}", output.carries, output.kind.glsl())));
         }
+    }
+    for definition in &equation.definitions {
+        let place = format!("definition `{}`", definition.name);
+        definition_uses(&definition.expression, &equation, &place)?;
     }
     let lines = rubric(&m.rubric, &equation)?;
     for constant in &constants {
@@ -136,6 +143,10 @@ fn equation(interface: &Interface, constants: &[Constant], entries: &[manifest::
         declare(&mut scope, &d.name, expression.kind())?;
         definitions.push(Definition { name: d.name.clone(), expression, slide: d.slide });
     }
+    if definitions.len() > MAX_DEFINITIONS {
+        let message = format!("more than {MAX_DEFINITIONS} of them");
+        return Err(error("definition", message));
+    }
     let find = |name: &str| {
         let place = definitions.iter().position(|d| d.name == name);
         let place = place.filter(|i| definitions[*i].kind() == Type::Vec4);
@@ -145,7 +156,7 @@ fn equation(interface: &Interface, constants: &[Constant], entries: &[manifest::
         colour: find(COLOUR)?,
         position: find(POSITION)?,
         scope,
-        constants: constants.iter().map(|c| c.value).collect(),
+        constants: constants.iter().map(|c| c.value.clone()).collect(),
         uniforms: interface.uniforms.len(),
         attributes: interface.inputs.len(),
         definitions,
@@ -157,6 +168,9 @@ fn named(equation: &Equation, name: &str, place: &str) -> Checked<usize> {
 }
 
 fn rubric(lines: &[manifest::RubricLine], equation: &Equation) -> Checked<HashSet<String>> {
+    if lines.len() > MAX_DEFINITIONS {
+        return Err(error("rubric", "has too many lines"));
+    }
     let mut ids = HashSet::new();
     for line in lines {
         let place = format!("rubric line `{}`", line.id);
@@ -208,6 +222,7 @@ fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &HashSet<String
         keeps: entry.keeps.into_iter().collect(),
         forms,
         fit,
+        near: entry.near,
         seen: entry.seen,
         equation: entry.equation,
         look: entry.look,
@@ -231,6 +246,7 @@ fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, pl
             let used = scope.get(*slot).map_or("", |(n, _)| n);
             return Err(error(place, format!("uses `{used}`, which is defined later")));
         }
+        definition_uses(&expression, equation, &place)?;
         free |= expression.slots().contains(&parameter);
         overrides.push(Override { definition, expression });
     }
@@ -239,6 +255,17 @@ fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, pl
     }
     overrides.sort_by_key(|o| o.definition);
     Ok(Form { overrides, free })
+}
+
+/// A search keeps what a definition uses in a few places.
+fn definition_uses(expression: &Expression, equation: &Equation, place: &str) -> Checked<()> {
+    let slots = expression.slots().iter();
+    let used = slots.filter(|slot| equation.definition_in(**slot).is_some());
+    if used.count() > MAX_INPUTS {
+        let message = format!("uses more than {MAX_INPUTS} definitions");
+        return Err(error(place, message));
+    }
+    Ok(())
 }
 
 fn probing(probes: &manifest::Probes, constants: &[Constant]) -> Checked<()> {

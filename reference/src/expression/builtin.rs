@@ -109,10 +109,10 @@ impl Builtin {
 
     fn unary(self, a: &Value) -> Option<Value> {
         match (self, a) {
-            (Self::Inverse, Value::Mat3(m)) => Some(Value::Mat3(m.inverse())),
-            (Self::Inverse, Value::Mat4(m)) => Some(Value::Mat4(m.inverse())),
-            (Self::Transpose, Value::Mat3(m)) => Some(Value::Mat3(m.transpose())),
-            (Self::Transpose, Value::Mat4(m)) => Some(Value::Mat4(m.transpose())),
+            (Self::Inverse, Value::Mat3(m)) => Some(Value::Mat3(Box::new(m.inverse()))),
+            (Self::Inverse, Value::Mat4(m)) => Some(Value::Mat4(Box::new(m.inverse()))),
+            (Self::Transpose, Value::Mat3(m)) => Some(Value::Mat3(Box::new(m.transpose()))),
+            (Self::Transpose, Value::Mat4(m)) => Some(Value::Mat4(Box::new(m.transpose()))),
             (Self::Length, _) => Some(Value::Float(dot(a, a)?.sqrt())),
             (Self::Normalize, _) => {
                 let length = dot(a, a)?.sqrt();

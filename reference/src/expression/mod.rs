@@ -10,7 +10,7 @@ mod value;
 use builtin::{Builtin, upper_left};
 pub use value::{Type, Value};
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 use std::fmt;
 
 /// Why a text is not an expression of this subset.
@@ -143,7 +143,7 @@ impl Node {
                 _ => no.evaluate(lookup),
             },
             Self::Call(function, arguments) => {
-                let mut values = [Value::Float(0.0); 3];
+                let mut values = [const { Value::Float(0.0) }; 3];
                 for (value, argument) in values.iter_mut().zip(arguments) {
                     *value = argument.evaluate(lookup);
                 }
@@ -166,8 +166,8 @@ impl Node {
 impl Value {
     fn negated(self) -> Self {
         match self {
-            Self::Mat3(m) => Self::Mat3(-m),
-            Self::Mat4(m) => Self::Mat4(-m),
+            Self::Mat3(m) => Self::Mat3(Box::new(-*m)),
+            Self::Mat4(m) => Self::Mat4(Box::new(-*m)),
             other => other.map(|x| -x).unwrap_or(Self::Float(f64::NAN)),
         }
     }
@@ -187,20 +187,18 @@ impl Comparison {
 impl Operator {
     /// GLSL 4.10, 5.9: component by component, except that `*` with a matrix is the linear-algebra product.
     fn apply(self, a: Value, b: Value) -> Value {
-        use Value::{Float, Mat3, Mat4, Vec3, Vec4};
-        match (self, a, b) {
-            (Self::Multiply, Mat4(m), Vec4(v)) => Vec4(m * v),
-            (Self::Multiply, Vec4(v), Mat4(m)) => Vec4(m.transpose() * v),
-            (Self::Multiply, Mat4(m), Mat4(n)) => Mat4(m * n),
-            (Self::Multiply, Mat3(m), Vec3(v)) => Vec3(m * v),
-            (Self::Multiply, Vec3(v), Mat3(m)) => Vec3(m.transpose() * v),
-            (Self::Multiply, Mat3(m), Mat3(n)) => Mat3(m * n),
-            (Self::Multiply, Mat4(m), Float(x)) | (Self::Multiply, Float(x), Mat4(m)) => Mat4(m * x),
-            (Self::Multiply, Mat3(m), Float(x)) | (Self::Multiply, Float(x), Mat3(m)) => Mat3(m * x),
-            (Self::Add, a, b) => a.zip(&b, |x, y| x + y).unwrap_or(Float(f64::NAN)),
-            (Self::Subtract, a, b) => a.zip(&b, |x, y| x - y).unwrap_or(Float(f64::NAN)),
-            (Self::Multiply, a, b) => a.zip(&b, |x, y| x * y).unwrap_or(Float(f64::NAN)),
-            (Self::Divide, a, b) => a.zip(&b, |x, y| x / y).unwrap_or(Float(f64::NAN)),
+        use Value::{Float, Vec4};
+        match (self, &a, &b) {
+            // The common cases by name: a search evaluates them by the hundred thousand.
+            (Self::Add, Vec4(v), Vec4(w)) => Vec4(v + w),
+            (Self::Multiply, Vec4(v), Vec4(w)) => Vec4(v * w),
+            (Self::Multiply, Vec4(v), Float(x)) | (Self::Multiply, Float(x), Vec4(v)) => Vec4(v * x),
+            (Self::Add, a, b) => a.zip(b, |x, y| x + y).unwrap_or(Float(f64::NAN)),
+            (Self::Subtract, a, b) => a.zip(b, |x, y| x - y).unwrap_or(Float(f64::NAN)),
+            (Self::Divide, a, b) => a.zip(b, |x, y| x / y).unwrap_or(Float(f64::NAN)),
+            (Self::Multiply, a, b) => {
+                a.zip(b, |x, y| x * y).or_else(|| matrix_product(a, b)).unwrap_or(Float(f64::NAN))
+            }
         }
     }
 
@@ -218,20 +216,36 @@ impl Operator {
     }
 }
 
+/// A product in which a matrix takes part.
+fn matrix_product(a: &Value, b: &Value) -> Option<Value> {
+    use Value::{Float, Mat3, Mat4, Vec3, Vec4};
+    Some(match (a, b) {
+        (Mat4(m), Vec4(v)) => Vec4(**m * *v),
+        (Vec4(v), Mat4(m)) => Vec4(m.transpose() * *v),
+        (Mat4(m), Mat4(n)) => Mat4(Box::new(**m * **n)),
+        (Mat3(m), Vec3(v)) => Vec3(**m * *v),
+        (Vec3(v), Mat3(m)) => Vec3(m.transpose() * *v),
+        (Mat3(m), Mat3(n)) => Mat3(Box::new(**m * **n)),
+        (Mat4(m), Float(x)) | (Float(x), Mat4(m)) => Mat4(Box::new(**m * *x)),
+        (Mat3(m), Float(x)) | (Float(x), Mat3(m)) => Mat3(Box::new(**m * *x)),
+        _ => return None,
+    })
+}
+
 /// A constructor call: one matrix, one `float` for all components, or parts that fill the vector from the left.
 fn construct(kind: Type, arguments: &[Node], lookup: &impl Fn(usize) -> Value) -> Value {
     let mut c = [0.0; 4];
     let mut filled = 0;
     for argument in arguments {
         match (argument.evaluate(lookup), kind) {
-            (Value::Mat4(m), Type::Mat3) => return Value::Mat3(upper_left(&m)),
-            (Value::Mat3(m), Type::Mat4) => return Value::Mat4(DMat4::from_mat3(m)),
+            (Value::Mat4(m), Type::Mat3) => return Value::Mat3(Box::new(upper_left(&m))),
+            (Value::Mat3(m), Type::Mat4) => return Value::Mat4(Box::new(DMat4::from_mat3(*m))),
             (m @ (Value::Mat3(_) | Value::Mat4(_)), _) => return m,
             (Value::Float(x), Type::Mat3) => {
-                return Value::Mat3(glam::DMat3::from_diagonal(DVec3::splat(x)));
+                return Value::Mat3(Box::new(DMat3::from_diagonal(DVec3::splat(x))));
             }
             (Value::Float(x), Type::Mat4) => {
-                return Value::Mat4(DMat4::from_diagonal(DVec4::splat(x)));
+                return Value::Mat4(Box::new(DMat4::from_diagonal(DVec4::splat(x))));
             }
             (part, _) => {
                 let (values, width) = part.components().unwrap_or(([f64::NAN; 4], 4));
@@ -249,3 +263,6 @@ fn construct(kind: Type, arguments: &[Node], lookup: &impl Fn(usize) -> Value) -
     }
     Value::from_components(c, kind.width().unwrap_or(4))
 }
+
+#[cfg(test)]
+mod tests;

@@ -77,8 +77,8 @@ impl Type {
     }
 }
 
-/// A value of one of the [`Type`]s. Matrices are column-major, as in GLSL.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A value of one of the [`Type`]s. Matrices are column-major, as in GLSL; they are boxed, so that the others stay small.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `bool`
     Bool(bool),
@@ -91,9 +91,9 @@ pub enum Value {
     /// `vec4`
     Vec4(DVec4),
     /// `mat3`
-    Mat3(DMat3),
+    Mat3(Box<DMat3>),
     /// `mat4`
-    Mat4(DMat4),
+    Mat4(Box<DMat4>),
 }
 
 impl Value {
@@ -121,8 +121,8 @@ impl Value {
             Type::Vec2 => Self::Vec2(DVec2::from_slice(numbers)),
             Type::Vec3 => Self::Vec3(DVec3::from_slice(numbers)),
             Type::Vec4 => Self::Vec4(DVec4::from_slice(numbers)),
-            Type::Mat3 => Self::Mat3(DMat3::from_cols_slice(numbers)),
-            Type::Mat4 => Self::Mat4(DMat4::from_cols_slice(numbers)),
+            Type::Mat3 => Self::Mat3(Box::new(DMat3::from_cols_slice(numbers))),
+            Type::Mat4 => Self::Mat4(Box::new(DMat4::from_cols_slice(numbers))),
         })
     }
 

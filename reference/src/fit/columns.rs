@@ -4,17 +4,17 @@
 //! a definition with given inputs is one column, shared by all combinations, and filled only as far as somebody asks.
 
 use crate::Assignment;
+use crate::equation::MAX_INPUTS;
 use crate::expression::{Expression, Value};
-use crate::mistake::Form;
-use crate::probes::ProbeSet;
+use crate::probes::{Probe, ProbeSet};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Number of definitions that one expression may use.
-const MAX_INPUTS: usize = 8;
+/// Definitions as a set of bits.
+pub(super) type Set = u64;
 
-/// An expression with its parameter, known to [`Columns`].
+/// An expression, known to [`Columns`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Rule(u32);
 
@@ -35,36 +35,51 @@ struct Column {
 
 struct RuleBody<'a> {
     expression: &'a Expression,
-    parameter: f64,
     /// The definitions that it uses.
     uses: Vec<usize>,
+    /// The same as a set.
+    used: Set,
 }
 
 pub(super) struct Columns<'a> {
     assignment: &'a Assignment,
-    probes: &'a ProbeSet,
+    /// The probes in the order in which they are tried.
+    probes: Vec<&'a Probe>,
+    uniforms: Vec<&'a [Value]>,
     rules: Vec<RuleBody<'a>>,
+    rules_by_text: HashMap<&'a str, Rule>,
     columns: Vec<Column>,
     known: HashMap<Key, u32, BuildHasherDefault<Mixer>>,
+    /// One value for each definition, for combinations that are not worth a column.
+    scratch: Vec<Value>,
 }
 
 impl<'a> Columns<'a> {
-    pub(super) fn new(assignment: &'a Assignment, probes: &'a ProbeSet) -> Self {
-        Self { assignment, probes, rules: Vec::new(), columns: Vec::new(), known: HashMap::default() }
+    /// `order`: the places of the probes in the set, in the order in which they are tried.
+    pub(super) fn new(assignment: &'a Assignment, probes: &'a ProbeSet, order: &[usize]) -> Self {
+        let tried = || order.iter().map(|place| &probes.probes[*place]);
+        let definitions = assignment.equation.definitions.len();
+        Self {
+            assignment,
+            uniforms: tried().map(|p| probes.uniforms(p)).collect(),
+            probes: tried().collect(),
+            rules: Vec::new(),
+            rules_by_text: HashMap::new(),
+            columns: Vec::new(),
+            known: HashMap::default(),
+            scratch: vec![Value::Float(f64::NAN); definitions],
+        }
     }
 
-    /// Makes an expression known. The same text with the same parameter is the same rule.
-    pub(super) fn rule(&mut self, expression: &'a Expression, parameter: f64) -> Rule {
-        let same =
-            |r: &RuleBody| r.expression.text() == expression.text() && r.parameter.to_bits() == parameter.to_bits();
-        let place = self.rules.iter().position(same).unwrap_or_else(|| {
+    /// Makes an expression known. The same text is the same rule.
+    pub(super) fn rule(&mut self, expression: &'a Expression) -> Rule {
+        *self.rules_by_text.entry(expression.text()).or_insert_with(|| {
             let equation = &self.assignment.equation;
             let slots = expression.slots().iter();
-            let uses = slots.filter_map(|s| equation.definition_in(*s)).collect();
-            self.rules.push(RuleBody { expression, parameter, uses });
-            self.rules.len() - 1
-        });
-        Rule(u32::try_from(place).unwrap_or(u32::MAX))
+            let uses: Vec<usize> = slots.filter_map(|s| equation.definition_in(*s)).collect();
+            self.rules.push(RuleBody { expression, used: uses.iter().map(|d| 1 << d).sum(), uses });
+            Rule(u32::try_from(self.rules.len() - 1).unwrap_or(u32::MAX))
+        })
     }
 
     /// The right equation.
@@ -72,7 +87,7 @@ impl<'a> Columns<'a> {
         let definitions = &self.assignment.equation.definitions;
         let mut resolved = Vec::with_capacity(definitions.len());
         for definition in definitions {
-            let rule = self.rule(&definition.expression, f64::NAN);
+            let rule = self.rule(&definition.expression);
             let column = self.column(rule, &resolved);
             resolved.push(column);
         }
@@ -82,16 +97,30 @@ impl<'a> Columns<'a> {
     /// `base` with some definitions replaced; what depends on them follows.
     pub(super) fn derive(&mut self, base: &Resolved, replaced: &[(usize, Rule)]) -> Resolved {
         let mut resolved = base.clone();
+        let mut changed: Set = 0;
         let first = replaced.first().map_or(base.len(), |(d, _)| *d);
         for definition in first..base.len() {
-            let old = self.columns[base[definition] as usize].key.rule;
-            let new = replaced.iter().find(|(d, _)| *d == definition);
-            let moved = |d: &usize| resolved[*d] != base[*d];
-            if new.is_some() || self.rules[old.0 as usize].uses.iter().any(moved) {
-                resolved[definition] = self.column(new.map_or(old, |(_, rule)| *rule), &resolved);
+            if let Some(rule) = self.changed_rule(base, replaced, changed, definition) {
+                resolved[definition] = self.column(rule, &resolved);
+                changed |= 1 << definition;
             }
         }
         resolved
+    }
+
+    /// The rule of a definition, if it is replaced or uses one of the `changed` ones.
+    fn changed_rule(
+        &self,
+        base: &Resolved,
+        replaced: &[(usize, Rule)],
+        changed: Set,
+        definition: usize,
+    ) -> Option<Rule> {
+        if let Some((_, rule)) = replaced.iter().find(|(d, _)| *d == definition) {
+            return Some(*rule);
+        }
+        let rule = self.columns[base[definition] as usize].key.rule;
+        (self.rules[rule.0 as usize].used & changed != 0).then_some(rule)
     }
 
     fn column(&mut self, rule: Rule, resolved: &[u32]) -> u32 {
@@ -119,36 +148,44 @@ impl<'a> Columns<'a> {
         self.columns[column as usize].values[probe].vec3()
     }
 
-    /// The vertex colour at a probe for `base` with a form in it whose parameter is still being sought.
-    pub(super) fn colour_with(&mut self, base: &Resolved, form: &Form, parameter: f64, probe: usize) -> DVec3 {
+    /// The vertex colour at a probe for `base` with some definitions replaced, without making columns of them.
+    ///
+    /// `parameter` stands for the free parameter of the new rules.
+    pub(super) fn colour_with(
+        &mut self,
+        base: &Resolved,
+        replaced: &[(usize, Rule)],
+        parameter: f64,
+        probe: usize,
+    ) -> DVec3 {
         let equation = &self.assignment.equation;
-        let mut changed: Vec<Option<Value>> = vec![None; base.len()];
-        let first = form.overrides.first().map_or(base.len(), |o| o.definition);
+        let mut changed: Set = 0;
+        let first = replaced.first().map_or(base.len(), |(d, _)| *d);
         for definition in first..=equation.colour {
-            let replaced = form.overrides.iter().find(|o| o.definition == definition);
-            let rule = &self.rules[self.columns[base[definition] as usize].key.rule.0 as usize];
-            if replaced.is_none() && !rule.uses.iter().any(|d| changed[*d].is_some()) {
+            let Some(rule) = self.changed_rule(base, replaced, changed, definition) else {
                 continue;
-            }
-            let expression = replaced.map_or(rule.expression, |o| &o.expression);
-            let slots = expression.slots().iter();
-            for used in slots.filter_map(|s| equation.definition_in(*s)) {
-                if changed[used].is_none() {
+            };
+            for place in 0..self.rules[rule.0 as usize].uses.len() {
+                let used = self.rules[rule.0 as usize].uses[place];
+                if changed & (1 << used) == 0 {
                     self.fill(base[used], probe);
                 }
             }
-            let sample = &self.probes.probes[probe];
-            let uniforms = self.probes.uniforms(sample);
+            let sample = self.probes[probe];
+            let uniforms = self.uniforms[probe];
+            let expression = self.rules[rule.0 as usize].expression;
             let value = expression.evaluate(&|slot| match equation.definition_in(slot) {
-                Some(d) => changed[d].unwrap_or_else(|| self.columns[base[d] as usize].values[probe]),
+                Some(d) if changed & (1 << d) != 0 => self.scratch[d].clone(),
+                Some(d) => self.columns[base[d] as usize].values[probe].clone(),
                 None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(parameter)),
             });
-            changed[definition] = Some(value);
+            self.scratch[definition] = value;
+            changed |= 1 << definition;
         }
-        match changed[equation.colour] {
-            Some(value) => value.vec3(),
-            None => self.colour(self.colour_column(base), probe),
+        if changed & (1 << equation.colour) == 0 {
+            return self.colour(self.colour_column(base), probe);
         }
+        self.scratch[equation.colour].vec3()
     }
 
     fn fill(&mut self, column: u32, probe: usize) {
@@ -170,15 +207,15 @@ impl<'a> Columns<'a> {
         let key = &self.columns[column as usize].key;
         let rule = &self.rules[key.rule.0 as usize];
         let equation = &self.assignment.equation;
-        let sample = &self.probes.probes[probe];
-        let uniforms = self.probes.uniforms(sample);
+        let sample = self.probes[probe];
+        let uniforms = self.uniforms[probe];
         rule.expression.evaluate(&|slot| match equation.definition_in(slot) {
             Some(definition) => {
                 let input = rule.uses.iter().position(|d| *d == definition);
                 let input = input.map_or(u32::MAX, |i| key.inputs[i]);
-                self.columns[input as usize].values[probe]
+                self.columns[input as usize].values[probe].clone()
             }
-            None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(rule.parameter)),
+            None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(f64::NAN)),
         })
     }
 }

@@ -1,15 +1,19 @@
 //! Trying combinations of mistakes, the fewest first.
 
-use super::columns::{Columns, Resolved, Rule};
+use super::columns::{Columns, Resolved, Rule, Set};
 use super::{MOST_MISTAKES, agrees};
 use crate::Assignment;
-use crate::mistake::{Form, Found, FreeParameter, Mistake};
+use crate::mistake::{Form, Found, FreeParameter, Mistake, Override};
 use crate::probes::ProbeSet;
 use glam::DVec3;
-use std::collections::HashSet;
+use std::rc::Rc;
 
 /// Halvings of the free parameter's range: 60 leave nothing of an f64's precision.
 const HALVINGS: usize = 60;
+
+/// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
+/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need a half.
+const MOST_COLOURS: u64 = 800_000;
 
 /// Significant digits to which a free parameter is rounded if that still explains every sample: what a person would write.
 const DIGITS: [i32; 3] = [1, 2, 3];
@@ -18,165 +22,216 @@ const DIGITS: [i32; 3] = [1, 2, 3];
 struct Candidate<'a> {
     mistake: usize,
     form: usize,
-    /// What is replaced; for a form with a free parameter, with its least and greatest value.
+    /// The definitions that are replaced.
+    touches: Set,
+    /// The rubric lines that it costs points, as bits.
+    lines: u64,
+    /// Whether nothing of the rubric's terms is left in the colour: such a mistake stands alone.
+    whole: bool,
     replaced: Vec<(usize, Rule)>,
-    greatest: Vec<(usize, Rule)>,
-    free: Option<(&'a FreeParameter, &'a Form)>,
+    free: Option<&'a FreeParameter>,
 }
 
 struct Search<'a> {
     assignment: &'a Assignment,
     columns: Columns<'a>,
-    candidates: Vec<Candidate<'a>>,
-    samples: &'a [DVec3],
+    /// In the order of the definitions that they replace: what is replaced last has the least to recompute.
+    candidates: Vec<Rc<Candidate<'a>>>,
+    /// In the order in which they are tried.
+    samples: Vec<DVec3>,
     tolerance: f64,
-    /// Columns that were tried already: combinations that compute the same thing are one hypothesis.
-    tried: HashSet<u32>,
+    /// How often the colour at a probe was computed.
+    spent: u64,
+    /// What may be spent on the combinations of the present number of mistakes.
+    budget: u64,
+    /// The most plausible explanation so far.
+    best: Option<(Rank, Vec<Found>)>,
 }
 
-/// The mistakes that explain the samples; an empty list if they are right, `None` if nothing explains them.
+/// How plausible an explanation is among others of as many mistakes; less is more.
+///
+/// Mistakes that touch few lines of the rubric come before those that upset everything, and then the table's order decides: an
+/// answer without diffuse and specular term is just that, and not one with a reversed light and a constant normal.
+type Rank = (u32, Vec<usize>);
+
+/// The mistakes that explain samples that are not all right; `None` if nothing explains them.
+///
+/// `order`: the places of all samples, in the order in which they are to be tried.
 pub(super) fn search(
     assignment: &Assignment,
     probes: &ProbeSet,
     samples: &[DVec3],
+    order: &[usize],
     tolerance: f64,
 ) -> Option<Vec<Found>> {
-    let mut columns = Columns::new(assignment, probes);
+    let mut columns = Columns::new(assignment, probes, order);
     let right = columns.right();
-    let candidates = candidates(assignment, &mut columns);
-    let mut search = Search { assignment, columns, candidates, samples, tolerance, tried: HashSet::new() };
-    if search.explains(&right) {
-        return Some(Vec::new());
-    }
+    let mut search = Search {
+        assignment,
+        candidates: candidates(assignment, &mut columns),
+        columns,
+        samples: order.iter().map(|place| samples[*place]).collect(),
+        tolerance,
+        spent: 0,
+        budget: u64::MAX,
+        best: None,
+    };
     for count in 1..=MOST_MISTAKES {
         for free in [false, true] {
-            let found = search.extend(&right, &mut Vec::new(), 0, count, free);
-            if found.is_some() {
-                return found;
+            search.spent = 0;
+            search.budget = if count == MOST_MISTAKES { MOST_COLOURS } else { u64::MAX };
+            search.extend(&right, &mut Vec::new(), 0, count, free);
+            if let Some((_, found)) = search.best {
+                return Some(found);
             }
         }
     }
     None
 }
 
-fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<Candidate<'a>> {
+fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<Rc<Candidate<'a>>> {
     let mut all = Vec::new();
     for (index, mistake) in assignment.mistakes.iter().enumerate() {
         for (place, form) in mistake.forms.iter().enumerate() {
             let free = mistake.fit.as_ref().filter(|_| form.free);
-            let (least, greatest) = free.map_or((f64::NAN, f64::NAN), |f| (f.from, f.to));
-            all.push(Candidate {
+            all.push(Rc::new(Candidate {
                 mistake: index,
                 form: place,
-                replaced: rules(columns, form, least),
-                greatest: rules(columns, form, greatest),
-                free: free.map(|f| (f, form)),
-            });
+                touches: form.overrides.iter().map(|o| 1 << o.definition).sum(),
+                lines: lines(assignment, mistake),
+                whole: replaces_everything(assignment, form),
+                replaced: rules(columns, form),
+                free,
+            }));
         }
     }
+    // Stable: the table's order decides among forms that replace the same.
+    all.sort_by_key(|c| c.replaced.first().map(|(d, _)| *d));
     all
 }
 
-fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form, parameter: f64) -> Vec<(usize, Rule)> {
-    let rule = |o: &'a crate::mistake::Override| (o.definition, columns.rule(&o.expression, parameter));
+fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form) -> Vec<(usize, Rule)> {
+    let rule = |o: &'a Override| (o.definition, columns.rule(&o.expression));
     form.overrides.iter().map(rule).collect()
+}
+
+fn lines(assignment: &Assignment, mistake: &Mistake) -> u64 {
+    let rubric = assignment.rubric.iter().enumerate();
+    let lost = rubric.filter(|(_, line)| mistake.keeps.iter().any(|(l, _)| *l == line.id));
+    lost.map(|(place, _)| 1 << place).sum()
+}
+
+/// Whether the form's colour depends on no definition that the rubric judges.
+fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
+    let equation = &assignment.equation;
+    let judged = |d: usize| {
+        let name = &equation.definitions[d].name;
+        assignment.rubric.iter().any(|line| line.judges == *name)
+    };
+    let mut open = vec![equation.colour];
+    while let Some(definition) = open.pop() {
+        if judged(definition) {
+            return false;
+        }
+        let replaced = form.overrides.iter().find(|o| o.definition == definition);
+        let right = &equation.definitions[definition].expression;
+        let slots = replaced.map_or(right, |o| &o.expression).slots();
+        open.extend(slots.iter().filter_map(|s| equation.definition_in(*s)));
+    }
+    true
 }
 
 impl<'a> Search<'a> {
     /// Adds `count` more candidates, from `next` on, to the chosen ones; `free`: the last one has a free parameter.
-    fn extend(
-        &mut self,
-        base: &Resolved,
-        chosen: &mut Vec<usize>,
-        next: usize,
-        count: usize,
-        free: bool,
-    ) -> Option<Vec<Found>> {
+    fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Rc<Candidate<'a>>>, next: usize, count: usize, free: bool) {
+        if self.spent > self.budget {
+            return;
+        }
         if count == 1 && free {
-            return self.fit(base, chosen);
+            self.fit(base, chosen);
+            return;
         }
         for index in next..self.candidates.len() {
-            if self.candidates[index].free.is_some() || self.clashes(chosen, index) {
+            let candidate = &self.candidates[index];
+            let alone = count == 1 && chosen.is_empty();
+            if candidate.free.is_some() || (candidate.whole && !alone) || !fits(chosen, candidate) {
                 continue;
             }
-            let resolved = self.columns.derive(base, &self.candidates[index].replaced);
-            chosen.push(index);
-            let found = if count > 1 {
-                self.extend(&resolved, chosen, index + 1, count - 1, free)
-            } else if self.explains(&resolved) {
-                Some(self.found(chosen, None))
-            } else {
-                None
-            };
-            if found.is_some() {
-                return found;
+            let candidate = Rc::clone(candidate);
+            if count == 1 {
+                if self.explains(base, &candidate.replaced, f64::NAN) {
+                    self.keep(chosen, &candidate, None);
+                }
+                continue;
             }
+            let resolved = self.columns.derive(base, &candidate.replaced);
+            chosen.push(candidate);
+            self.extend(&resolved, chosen, index + 1, count - 1, free);
             chosen.pop();
         }
-        None
     }
 
-    /// Whether a candidate is another form of a chosen mistake, or replaces what a chosen one replaces.
-    fn clashes(&self, chosen: &[usize], index: usize) -> bool {
-        let new = &self.candidates[index];
-        chosen.iter().any(|c| {
-            let old = &self.candidates[*c];
-            let shared = |(d, _): &(usize, Rule)| new.replaced.iter().any(|(n, _)| n == d);
-            old.mistake == new.mistake || old.replaced.iter().any(shared)
+    /// Whether `base` with some definitions replaced reproduces every sample.
+    fn explains(&mut self, base: &Resolved, replaced: &[(usize, Rule)], parameter: f64) -> bool {
+        (0..self.samples.len()).all(|i| {
+            self.spent += 1;
+            let expected = self.columns.colour_with(base, replaced, parameter, i);
+            agrees(expected, self.samples[i], self.tolerance)
         })
     }
 
-    fn explains(&mut self, resolved: &Resolved) -> bool {
-        let column = self.columns.colour_column(resolved);
-        self.tried.insert(column)
-            && (0..self.samples.len()).all(|i| {
-                let expected = self.columns.colour(column, i);
-                agrees(expected, self.samples[i], self.tolerance)
-            })
-    }
-
     /// Tries every candidate with a free parameter on top of the chosen ones.
-    fn fit(&mut self, base: &Resolved, chosen: &mut Vec<usize>) -> Option<Vec<Found>> {
+    fn fit(&mut self, base: &Resolved, chosen: &[Rc<Candidate<'a>>]) {
         for index in 0..self.candidates.len() {
-            let Some((parameter, form)) = self.candidates[index].free else {
+            let candidate = Rc::clone(&self.candidates[index]);
+            let Some(parameter) = candidate.free.filter(|_| fits(chosen, &candidate)) else {
                 continue;
             };
-            if self.clashes(chosen, index) {
-                continue;
-            }
-            if let Some(value) = self.solve(base, index, parameter, form) {
-                chosen.push(index);
-                return Some(self.found(chosen, Some(value)));
+            if let Some(value) = self.solve(base, &candidate, parameter) {
+                self.keep(chosen, &candidate, Some(value));
             }
         }
-        None
+    }
+
+    /// Keeps an explanation if it is the most plausible so far.
+    fn keep(&mut self, chosen: &[Rc<Candidate<'a>>], last: &Rc<Candidate<'a>>, parameter: Option<f64>) {
+        let mut all = [chosen, std::slice::from_ref(last)].concat();
+        all.sort_by_key(|c| (c.mistake, c.form));
+        let lines = all.iter().map(|c| c.lines.count_ones()).sum();
+        let rank = (lines, all.iter().map(|c| c.mistake).collect());
+        if self.best.as_ref().is_some_and(|(best, _)| *best <= rank) {
+            return;
+        }
+        let one = |candidate: &Rc<Candidate>| Found {
+            id: self.assignment.mistakes[candidate.mistake].id.clone(),
+            form: candidate.form,
+            parameter: parameter.filter(|_| candidate.free.is_some()),
+        };
+        self.best = Some((rank, all.iter().map(one).collect()));
     }
 
     /// The parameter with which a candidate explains every sample.
-    fn solve(&mut self, base: &Resolved, index: usize, parameter: &FreeParameter, form: &Form) -> Option<f64> {
-        let least = self.columns.derive(base, &self.candidates[index].replaced);
-        let greatest = self.columns.derive(base, &self.candidates[index].greatest);
-        let least = self.columns.colour_column(&least);
-        let greatest = self.columns.colour_column(&greatest);
-        let (probe, channel) = self.pivot(least, greatest)?;
+    fn solve(&mut self, base: &Resolved, candidate: &Candidate<'a>, parameter: &FreeParameter) -> Option<f64> {
+        let (probe, channel) = self.pivot(base, candidate, parameter)?;
+        let replaced = &candidate.replaced;
+        let mut value = |x: f64| self.columns.colour_with(base, replaced, x, probe)[channel];
         let target = self.samples[probe][channel];
-        let rising = self.columns.colour(least, probe)[channel] < self.columns.colour(greatest, probe)[channel];
+        let rising = value(parameter.from) < value(parameter.to);
         let (mut low, mut high) = (parameter.from.ln(), parameter.to.ln());
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
-            let colour = self.columns.colour_with(base, form, middle.exp(), probe);
-            if (colour[channel] < target) == rising {
+            if (value(middle.exp()) < target) == rising {
                 low = middle;
             } else {
                 high = middle;
             }
         }
         let exact = f64::midpoint(low, high).exp();
-        if !self.explains_with(base, form, exact) {
+        if !self.explains(base, replaced, exact) {
             return None;
         }
         let rounded = DIGITS.map(|digits| significant(exact, digits));
-        let simplest = rounded.into_iter().find(|x| self.explains_with(base, form, *x));
+        let simplest = rounded.into_iter().find(|x| self.explains(base, replaced, *x));
         Some(simplest.unwrap_or(exact))
     }
 
@@ -184,19 +239,29 @@ impl<'a> Search<'a> {
     ///
     /// The colour is monotonic in the parameter, so every sample lies between the colours for its least and greatest value
     /// (else there is no solution), and the sample that is furthest from both depends on it most.
-    fn pivot(&mut self, least: u32, greatest: u32) -> Option<(usize, usize)> {
+    fn pivot(
+        &mut self,
+        base: &Resolved,
+        candidate: &Candidate<'a>,
+        parameter: &FreeParameter,
+    ) -> Option<(usize, usize)> {
         let mut best = None;
         let mut reach = self.tolerance;
-        for (probe, sample) in self.samples.iter().enumerate() {
-            let a = self.columns.colour(least, probe);
-            let b = self.columns.colour(greatest, probe);
+        for probe in 0..self.samples.len() {
+            self.spent += 2;
+            let sample = self.samples[probe];
+            let mut end = |x: f64| self.columns.colour_with(base, &candidate.replaced, x, probe);
+            let (a, b) = (end(parameter.from), end(parameter.to));
             for channel in 0..3 {
                 let (low, high) = (a[channel].min(b[channel]), a[channel].max(b[channel]));
-                let slack = self.tolerance * high.abs().max(low.abs()).max(1.0);
                 let y = sample[channel];
-                if a[channel].is_nan() || b[channel].is_nan() {
+                if a[channel].is_nan() && b[channel].is_nan() {
+                    if y.is_finite() {
+                        return None;
+                    }
                     continue;
                 }
+                let slack = self.tolerance * high.abs().max(low.abs()).max(1.0);
                 if !(y >= low - slack && y <= high + slack) {
                     return None;
                 }
@@ -209,27 +274,14 @@ impl<'a> Search<'a> {
         }
         best
     }
+}
 
-    fn explains_with(&mut self, base: &Resolved, form: &Form, parameter: f64) -> bool {
-        (0..self.samples.len()).all(|i| {
-            let expected = self.columns.colour_with(base, form, parameter, i);
-            agrees(expected, self.samples[i], self.tolerance)
-        })
-    }
-
-    fn found(&self, chosen: &[usize], parameter: Option<f64>) -> Vec<Found> {
-        let mut chosen = chosen.to_vec();
-        chosen.sort_unstable();
-        let one = |index: &usize| {
-            let candidate = &self.candidates[*index];
-            Found {
-                id: self.assignment.mistakes[candidate.mistake].id.clone(),
-                form: candidate.form,
-                parameter: parameter.filter(|_| candidate.free.is_some()),
-            }
-        };
-        chosen.iter().map(one).collect()
-    }
+/// Whether a candidate goes with the chosen ones: another mistake, in other definitions, and not the third in one line of the
+/// rubric, for no term with three mistakes in it can be named with confidence.
+fn fits(chosen: &[Rc<Candidate<'_>>], new: &Candidate<'_>) -> bool {
+    let clash = |c: &Rc<Candidate>| c.mistake == new.mistake || c.touches & new.touches != 0;
+    let shared = chosen.iter().fold(new.lines, |lines, c| lines & c.lines);
+    !chosen.iter().any(clash) && (chosen.len() + 1 < MOST_MISTAKES || shared == 0)
 }
 
 /// `x` rounded to so many significant digits.

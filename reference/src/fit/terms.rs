@@ -1,6 +1,6 @@
 //! Judging the terms of a shader that no known mistake explains, each where it stands alone.
 
-use super::agrees;
+use super::{agrees, alone};
 use crate::Assignment;
 use crate::assignment::RubricLine;
 use crate::probes::{Probe, ProbeSet, Region};
@@ -20,6 +20,10 @@ pub struct TermJudgement {
 }
 
 impl TermJudgement {
+    fn right(line: &str, judged: usize) -> Self {
+        Self { line: line.to_owned(), judged, matched: judged, worst: None }
+    }
+
     /// Whether the term is right wherever it could be judged, and could be judged somewhere.
     pub const fn is_right(&self) -> bool {
         self.judged > 0 && self.matched == self.judged
@@ -61,7 +65,34 @@ pub(super) fn judge(
         }
         judgements.push(judgement);
     }
+    acquit(&mut judgements, assignment, probes, samples, tolerance);
     judgements
+}
+
+/// Clears the terms that are right by the direction of their colour, although they never stand alone in this shader.
+fn acquit(
+    judgements: &mut [TermJudgement],
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    samples: &[DVec3],
+    tolerance: f64,
+) {
+    let terms = alone::terms(assignment, probes);
+    let culprit = alone::only_wrong(&terms, probes, samples, tolerance);
+    for (index, term) in terms.iter().enumerate() {
+        let right = match culprit {
+            Some(culprit) => culprit != index,
+            None => alone::right_in_its_channels(&terms, index, probes, samples, tolerance) == Some(true),
+        };
+        let Some(judgement) = judgements.iter_mut().find(|judgement| judgement.line == term.line.id) else { continue };
+        if right {
+            *judgement = TermJudgement::right(&term.line.id, samples.len());
+        } else if judgement.is_right() && culprit == Some(index) {
+            // It is right where it stands alone, and wrong beside the others.
+            let all: Vec<usize> = (0..samples.len()).collect();
+            *judgement = judge_line(term.line, probes, samples, &all, DVec3::ZERO, tolerance);
+        }
+    }
 }
 
 fn judge_line(

@@ -81,11 +81,12 @@ const DESIGNS: [Design; 20] = [
     // Highlights where the light is behind the surface: the slide has no condition on N·L.
     design((150.0, 170.0), MIDDLE, Normal::Highlight((0.15, 0.6)), (-1.0, -0.03)),
     design((150.0, 170.0), MIDDLE, Normal::Highlight((0.4, 0.95)), (-1.0, -0.03)),
+    // And where the eye is behind it (N·V < 0): with this opening that is so for N·L > 0.27.
+    design((166.0, 171.0), MIDDLE, Normal::Highlight((0.08, 0.3)), (0.28, 1.0)),
     // The rim of a highlight, where another exponent shows best.
     design((10.0, 90.0), MIDDLE, Normal::Highlight((0.01, 0.1)), LIT),
     // Anything.
     design((10.0, 165.0), FAR_AND_NEAR, Normal::Half(ANY), ANY),
-    design((10.0, 165.0), FAR_AND_NEAR, Normal::Half((0.3, 0.97)), ANY),
 ];
 
 /// What the equation says about light and highlight.
@@ -105,7 +106,7 @@ impl Light {
     pub(super) fn of(assignment: &Assignment) -> Self {
         let value = |name: &str| {
             let found = assignment.constants.iter().find(|c| c.name == name);
-            found.map_or(Value::Float(f64::NAN), |c| c.value)
+            found.map_or(Value::Float(f64::NAN), |c| c.value.clone())
         };
         Self {
             position: value(&assignment.probing.light).vec4(),

@@ -30,6 +30,7 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
         .map(|i| i.words[1])
         .collect();
     check_sizes(words, &names, source)?;
+    let mut textures = HashSet::new();
     let mut pointers = HashMap::new();
     let mut arrays = HashMap::new();
     let mut found = HashMap::new();
@@ -37,6 +38,9 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
     for instruction in instructions(words) {
         let words = instruction.words;
         match (instruction.opcode, words) {
+            (op::TYPE_IMAGE, [_, id, ..]) => {
+                textures.insert(*id);
+            }
             (op::TYPE_ARRAY, [_, id, element, ..]) => {
                 arrays.insert(*id, *element);
             }
@@ -45,7 +49,8 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
             }
             (op::VARIABLE, [_, ty, id, class, ..]) if !in_function => {
                 let pointee = pointers.get(ty).map(|ty| arrays.get(ty).unwrap_or(ty));
-                if let Some(kind) = kind(*class, pointee.is_some_and(|ty| buffers.contains(ty))) {
+                let is = |set: &HashSet<u32>| pointee.is_some_and(|ty| set.contains(ty));
+                if let Some(kind) = kind(*class, is(&textures), is(&buffers)) {
                     found.insert(*id, (kind, pointee.copied().unwrap_or(0)));
                 }
             }
@@ -82,10 +87,10 @@ fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> 
             (op::VARIABLE, [_, ty, id, class, ..]) => {
                 let name = names.get(id).map_or("", String::as_str);
                 match class {
-                    2 if size(ty).saturating_mul(4) > MAX_UNIFORM_BYTES => {
+                    0 | 2 if size(ty).saturating_mul(4) > MAX_UNIFORM_BYTES => {
                         return Err(too_many_uniforms(size(ty).saturating_mul(4)));
                     }
-                    2 => {}
+                    0 | 2 => {}
                     _ if size(ty) > MAX_SCALARS => {
                         return Err(too_much_memory(size(ty).saturating_mul(4), name, source));
                     }
@@ -104,9 +109,11 @@ fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> 
 const BUFFER_BLOCK: u32 = 3;
 
 /// What a variable in this storage class is (SPIR-V specification, section 3.7).
-fn kind(class: u32, is_buffer: bool) -> Option<Kind> {
+///
+/// A plain uniform of OpenGL's default block is in the class of textures.
+fn kind(class: u32, is_texture: bool, is_buffer: bool) -> Option<Kind> {
     match class {
-        0 => Some(Kind::Texture),
+        0 if is_texture => Some(Kind::Texture),
         2 if is_buffer => Some(Kind::Buffer),
         12 => Some(Kind::Buffer),
         4 => Some(Kind::Shared),

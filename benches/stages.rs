@@ -1,0 +1,107 @@
+//! What each stage of a grading costs, on a shader that the driver has not seen before where that matters.
+
+use divan::Bencher;
+use ggrade::compare;
+use ggrade::grade::{Grader, Order};
+use ggrade::homework;
+use ggrade::render::{AdapterKind, Device, Renderer};
+use ggrade::source::{self, Source};
+use ggrade::translate::{self, Interface, Shader};
+use reference::Assignment;
+use std::cell::RefCell;
+
+fn main() {
+    divan::main();
+}
+
+fn assignment() -> &'static Assignment {
+    homework::assignment("ggsample06").expect("the assignment is built in")
+}
+
+fn interface() -> Interface {
+    homework::interface(assignment()).expect("the assignment is whole")
+}
+
+/// A right answer that no cache has seen: another constant in code that does nothing.
+fn text() -> String {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static NUMBER: AtomicU32 = AtomicU32::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let answer = reference::glsl::answer(assignment(), &[]).expect("the table has a right answer");
+    answer
+        .replacen("void main", &format!("float nothing(float x) {{ return x * {number}.5; }}\nvoid main"), 1)
+        .replacen("gl_Position =", "if (nothing(pv.w) < -1.0) vc *= 0.5;\n  gl_Position =", 1)
+}
+
+fn read(text: &str) -> Source {
+    source::read("bench.vert", text.as_bytes()).expect("a right answer")
+}
+
+fn shader(source: &Source, interface: &Interface) -> Shader {
+    translate::translate(source, interface).expect("a right answer").shader
+}
+
+fn renderer() -> Renderer {
+    let interface = interface();
+    let fixed = translate::fixed_stage(&interface, &assignment().files[0].starter).expect("the starter links");
+    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), fixed).expect("a renderer")
+}
+
+#[divan::bench]
+fn read_source(bencher: Bencher<'_, '_>) {
+    bencher.with_inputs(text).bench_refs(|text| read(text));
+}
+
+#[divan::bench]
+fn translate_source(bencher: Bencher<'_, '_>) {
+    let interface = interface();
+    translate::warm(&interface, &assignment().files[0].starter);
+    shader(&read(&text()), &interface);
+    bencher.with_inputs(|| read(&text())).bench_refs(|source| shader(source, &interface));
+}
+
+#[divan::bench(sample_count = 30)]
+fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
+    let interface = interface();
+    let renderer = RefCell::new(renderer());
+    let scene = homework::scene(assignment(), &assignment().probes(1));
+    bencher
+        .with_inputs(|| shader(&read(&text()), &interface))
+        .bench_local_refs(|shader| renderer.borrow_mut().render(shader, &scene).expect("a rendering"));
+}
+
+#[divan::bench]
+fn compare_25_frames(bencher: Bencher<'_, '_>) {
+    let expected = homework::expected_frames(assignment());
+    let mut renderer = renderer();
+    let scene = homework::scene(assignment(), &assignment().probes(1));
+    let rendering = renderer.render(&shader(&read(&text()), &interface()), &scene).expect("a rendering");
+    bencher.bench_local(|| {
+        expected
+            .iter()
+            .zip(0..)
+            .map(|(frame, index)| compare::frame(frame, &rendering.frames, index))
+            .collect::<Vec<_>>()
+    });
+}
+
+#[divan::bench]
+fn make_probes(bencher: Bencher<'_, '_>) {
+    bencher.bench_local(|| assignment().probes(1));
+}
+
+#[divan::bench(sample_count = 30)]
+fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
+    let grader = RefCell::new(Grader::new(assignment(), AdapterKind::Software).expect("a grader"));
+    bencher.with_inputs(text).bench_local_refs(|text| {
+        grader
+            .borrow_mut()
+            .grade("bench.vert", text.as_bytes(), Order { seed: 1, ..Order::default() })
+            .expect("a grade")
+    });
+}
+
+#[divan::bench(sample_count = 5)]
+fn start_a_grader() -> Grader {
+    Grader::new(assignment(), AdapterKind::Software).expect("a grader")
+}

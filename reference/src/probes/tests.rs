@@ -1,0 +1,111 @@
+use super::*;
+use crate::assignment;
+use std::collections::HashMap;
+
+fn ggsample06() -> &'static Assignment {
+    assignment("ggsample06").expect("built in")
+}
+
+const SEEDS: [u64; 6] = [0, 1, 2, 3, 42, u64::MAX];
+
+#[test]
+fn the_same_seed_gives_the_same_probes_and_another_gives_others() {
+    let vertices = |seed| -> Vec<Vertex> {
+        let probes = ggsample06().probes(seed);
+        probes.iter().map(|p| p.vertex).collect()
+    };
+    assert_eq!(vertices(7), vertices(7));
+    let (a, b) = (vertices(7), vertices(8));
+    assert!(a.iter().zip(&b).all(|(a, b)| a != b));
+}
+
+#[test]
+fn every_region_is_well_populated() {
+    for seed in SEEDS {
+        let mut count: HashMap<Region, usize> = HashMap::new();
+        for probe in &ggsample06().probes(seed) {
+            *count.entry(probe.region).or_default() += 1;
+        }
+        for region in
+            [Region::AmbientOnly, Region::FacingAway, Region::DiffuseOnly, Region::Highlight, Region::HighlightBehind]
+        {
+            // Two designs of twenty in 28 groups, less a few that end up between regions.
+            assert!(count.get(&region).copied().unwrap_or(0) >= 40, "{region:?} for {seed}: {count:?}");
+        }
+    }
+}
+
+#[test]
+fn regions_show_the_terms_that_they_promise() {
+    let right = ggsample06().equation.right();
+    for seed in SEEDS {
+        let probes = ggsample06().probes(seed);
+        for probe in &probes {
+            let outcome = right.evaluate(probes.uniforms(probe), &probe.attributes);
+            let shows = |name: &str| outcome.get(name).map_or(f64::NAN, |v| v.vec3().max_element());
+            let (diffuse, specular) = (shows("diffuse"), shows("specular"));
+            let ok = match probe.region {
+                Region::AmbientOnly | Region::FacingAway => diffuse == 0.0 && specular < 1e-6,
+                // 0.6 × 0.02 and 0.4 × 0.02: what the weakest diffuse light and highlight of their regions give.
+                Region::DiffuseOnly => diffuse > 0.012 && specular < 1e-6,
+                Region::Highlight => diffuse > 0.012 && specular > 0.008,
+                Region::HighlightBehind => diffuse == 0.0 && specular > 0.008,
+                Region::Between => true,
+            };
+            assert!(ok, "{:?}: {diffuse}, {specular}", probe.region);
+        }
+    }
+}
+
+#[test]
+fn inputs_are_exact_in_f32_normals_are_unit_and_cameras_rigid() {
+    let exact = |x: f64| x == f64::from(x as f32);
+    for seed in SEEDS {
+        let probes = ggsample06().probes(seed);
+        for probe in &probes {
+            let numbers = [probe.vertex.position, probe.vertex.normal];
+            assert!(numbers.iter().all(|v| v.to_array().into_iter().all(exact)));
+            // Three components rounded to 24 bits.
+            assert!((probe.vertex.normal.truncate().length() - 1.0).abs() < 1e-7);
+        }
+        for group in &probes.groups {
+            let m = &group.matrices;
+            for matrix in [m.model_view, m.model_view_projection, m.normal] {
+                assert!(matrix.to_cols_array().into_iter().all(exact));
+            }
+            // mat3(mw) is as good a normal matrix as mg: the course's mw never stretches.
+            let apart = design_difference(m);
+            assert!(apart < 1e-6, "{apart:e}");
+            assert!(m.model_view.w_axis.truncate().length() > 2.9);
+        }
+    }
+}
+
+fn design_difference(m: &Matrices) -> f64 {
+    let columns = [
+        m.model_view.x_axis - m.normal.x_axis,
+        m.model_view.y_axis - m.normal.y_axis,
+        m.model_view.z_axis - m.normal.z_axis,
+    ];
+    columns.iter().map(|c| c.abs().max_element()).fold(0.0, f64::max)
+}
+
+#[test]
+fn groups_are_consecutive_and_equal_in_number() {
+    let probes = ggsample06().probes(5);
+    assert_eq!(probes.groups.len(), 28);
+    assert_eq!(probes.probes.len(), 28 * 20);
+    for (index, _) in probes.groups.iter().enumerate() {
+        let group = probes.of_group(index);
+        assert_eq!(group.len(), 20);
+        assert!(group.iter().all(|p| p.group == index));
+    }
+    assert!(probes.of_group(28).is_empty());
+}
+
+#[test]
+fn colours_over_one_and_points_behind_the_eye_occur() {
+    let probes = ggsample06().probes(5);
+    assert!(probes.iter().any(|p| p.colour.x > 1.05));
+    assert!(probes.iter().any(|p| p.position.w < 0.0));
+}

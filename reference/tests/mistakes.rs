@@ -1,0 +1,267 @@
+//! The table of mistakes and the probes, held against one another: every mistake shows, and is found.
+
+use reference::fit::{Fit, TOLERANCE, explain};
+use reference::mistake::Found;
+use reference::probes::ProbeSet;
+use reference::{Assignment, Value, assignment};
+
+/// How far apart two mistakes must be somewhere.
+const MARGIN: f64 = 10.0 * TOLERANCE;
+
+const SEEDS: [u64; 5] = [1, 2, 3, 1_000_003, u64::MAX];
+
+fn ggsample06() -> &'static Assignment {
+    assignment("ggsample06").expect("built in")
+}
+
+/// Every form of every mistake, with a likely value for its free parameter.
+fn all_forms(assignment: &Assignment) -> Vec<Found> {
+    let forms = |m: &reference::mistake::Mistake| -> Vec<Found> {
+        let found = |(form, f): (usize, &reference::mistake::Form)| Found {
+            id: m.id.clone(),
+            form,
+            parameter: m.fit.as_ref().filter(|_| f.free).map(|p| p.example),
+        };
+        m.forms.iter().enumerate().map(found).collect()
+    };
+    assignment.mistakes.iter().flat_map(forms).collect()
+}
+
+fn samples(assignment: &Assignment, probes: &ProbeSet, mistakes: &[Found]) -> Vec<[f64; 3]> {
+    let variant = assignment.variant(mistakes).expect("known mistakes");
+    let colour = |p: &reference::probes::Probe| {
+        let outcome = variant.evaluate(probes.uniforms(p), &p.attributes);
+        outcome.colour().to_array()
+    };
+    probes.iter().map(colour).collect()
+}
+
+/// As f32 and a driver's `pow` would distort it: a relative error of up to 2e-4 that changes from sample to sample.
+fn noisy(samples: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let distort = |(i, s): (usize, &[f64; 3])| {
+        let error = 2e-4 * ((i * 7919 % 200) as f64 / 100.0 - 1.0);
+        s.map(|x| f64::from((x * (1.0 + error)) as f32))
+    };
+    samples.iter().enumerate().map(distort).collect()
+}
+
+/// The greatest difference in the measure of the fit; infinite where only one of the two is defined.
+fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let channels = a.iter().flatten().zip(b.iter().flatten());
+    let apart = |(x, y): (&f64, &f64)| match (x.is_nan(), y.is_nan()) {
+        (true, true) => 0.0,
+        (false, false) => (x - y).abs() / x.abs().max(y.abs()).max(1.0),
+        _ => f64::INFINITY,
+    };
+    channels.map(apart).fold(0.0, f64::max)
+}
+
+#[test]
+fn every_mistake_is_told_from_every_other_and_from_the_right_answer() {
+    let assignment = ggsample06();
+    let forms = all_forms(assignment);
+    for seed in SEEDS {
+        let probes = assignment.probes(seed);
+        let right = samples(assignment, &probes, &[]);
+        let columns: Vec<_> = forms.iter().map(|f| samples(assignment, &probes, std::slice::from_ref(f))).collect();
+        for (i, a) in forms.iter().enumerate() {
+            let apart = distance(&columns[i], &right);
+            assert!(apart >= MARGIN, "seed {seed}: {a:?} is right to {apart:e}");
+            for (j, b) in forms.iter().enumerate().take(i) {
+                let apart = distance(&columns[i], &columns[j]);
+                assert!(a.id == b.id || apart >= MARGIN, "seed {seed}: {a:?} and {b:?} are only {apart:e} apart");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_mistake_is_found_alone() {
+    let assignment = ggsample06();
+    for seed in [1, 99] {
+        let probes = assignment.probes(seed);
+        for planted in all_forms(assignment) {
+            let given = noisy(&samples(assignment, &probes, std::slice::from_ref(&planted)));
+            match explain(assignment, &probes, &given, TOLERANCE) {
+                Fit::Explained(found) => {
+                    let ids: Vec<_> = found.iter().map(|f| f.id.as_str()).collect();
+                    assert_eq!(ids, [planted.id.as_str()], "{planted:?}");
+                    if let (Some(x), Some(y)) = (found[0].parameter, planted.parameter) {
+                        assert!((x / y - 1.0).abs() < 0.01, "{x} instead of {y}");
+                    }
+                }
+                other => panic!("{planted:?}: {other:?}"),
+            }
+        }
+    }
+}
+
+/// The mistakes that touch one line of the rubric only, in their first form.
+fn first_forms_of<'a>(assignment: &'a Assignment, line: &'a str) -> impl Iterator<Item = Found> {
+    let ids: Vec<String> = assignment
+        .mistakes
+        .iter()
+        .filter(|m| m.keeps.len() == 1 && m.keeps[0].0 == line)
+        .map(|m| m.id.clone())
+        .collect();
+    all_forms(assignment).into_iter().filter(move |f| f.form == 0 && f.parameter.is_none() && ids.contains(&f.id))
+}
+
+fn ids(mistakes: &[Found]) -> Vec<&str> {
+    let mut ids: Vec<&str> = mistakes.iter().map(|m| m.id.as_str()).collect();
+    ids.sort_unstable();
+    ids
+}
+
+#[test]
+fn mistakes_in_two_lines_are_both_found() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(4);
+    let (mut tried, mut same) = (0, 0);
+    for (one, other) in [("ambient", "diffuse"), ("ambient", "specular"), ("diffuse", "specular")] {
+        for a in first_forms_of(assignment, one) {
+            for b in first_forms_of(assignment, other) {
+                let planted = [a.clone(), b.clone()];
+                let given = noisy(&samples(assignment, &probes, &planted));
+                let fit = explain(assignment, &probes, &given, TOLERANCE);
+                let found = match fit {
+                    Fit::Explained(found) => found,
+                    Fit::Unexplained(terms) => panic!("{planted:?}: {terms:?}"),
+                };
+                if ids(&found) != ids(&planted) {
+                    // Some pairs compute the same as another pair or as one of the two: K_amb without a diffuse term and
+                    // K_diff L_diff without ambient; an early clamp where nothing is over 1.
+                    let theirs = samples(assignment, &probes, &found);
+                    let apart = distance(&theirs, &samples(assignment, &probes, &planted));
+                    assert!(apart < TOLERANCE, "{planted:?} taken for {found:?}");
+                    println!("{:?} is also {:?}", ids(&planted), ids(&found));
+                    same += 1;
+                }
+                tried += 1;
+            }
+        }
+    }
+    assert!(tried > 300 && same * 40 < tried, "{same} of {tried}");
+}
+
+#[test]
+fn three_mistakes_are_found() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(5);
+    let mistake = |id: &str, parameter: Option<f64>| Found { id: id.to_owned(), form: 0, parameter };
+    for planted in [
+        [mistake("ambient-missing", None), mistake("diffuse-unclamped", None), mistake("specular-phong", None)],
+        [
+            mistake("ambient-added", None),
+            mistake("specular-half-unnormalized", None),
+            mistake("normal-not-transformed", None),
+        ],
+        [
+            mistake("ambient-missing", None),
+            mistake("diffuse-abs", None),
+            mistake("specular-wrong-exponent", Some(12.0)),
+        ],
+    ] {
+        let given = noisy(&samples(assignment, &probes, &planted));
+        match explain(assignment, &probes, &given, TOLERANCE) {
+            Fit::Explained(found) => {
+                assert_eq!(found.len(), 3, "{found:?}");
+                assert!(planted.iter().all(|p| found.contains(p)), "{found:?}");
+            }
+            other => panic!("{planted:?}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn right_answers_are_right_however_they_are_written() {
+    let assignment = ggsample06();
+    for seed in SEEDS {
+        let probes = assignment.probes(seed);
+        let given = noisy(&samples(assignment, &probes, &[]));
+        assert!(explain(assignment, &probes, &given, TOLERANCE).is_right());
+        // The normal from mat3(mw), computed here by hand.
+        let mut other = assignment.clone();
+        for uniform in &mut other.interface.uniforms {
+            if uniform.carries == reference::assignment::Matrix::NormalMatrix {
+                uniform.carries = reference::assignment::Matrix::ModelView;
+            }
+        }
+        let rotated: Vec<[f64; 3]> = probes
+            .iter()
+            .map(|p| {
+                let mut vertex = p.vertex;
+                vertex.normal.w = 0.0;
+                let uniforms = other.uniform_values(&probes.groups[p.group].matrices);
+                let outcome = other.equation.right().evaluate(&uniforms, &other.attribute_values(&vertex));
+                outcome.colour().to_array()
+            })
+            .collect();
+        assert!(explain(assignment, &probes, &rotated, TOLERANCE).is_right());
+    }
+}
+
+#[test]
+fn an_unknown_mistake_is_judged_where_terms_stand_alone() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(6);
+    // The diffuse term by a rule of its own: squared, and tinted by the position.
+    let given: Vec<[f64; 3]> = probes
+        .iter()
+        .map(|p| {
+            let outcome = assignment.equation.right().evaluate(probes.uniforms(p), &p.attributes);
+            let cosine = outcome.get("lambert").expect("a definition").float();
+            let tint = 0.3 + 0.05 * p.vertex.position.truncate();
+            (p.colour + cosine * cosine * tint).to_array()
+        })
+        .collect();
+    let Fit::Unexplained(terms) = explain(assignment, &probes, &given, TOLERANCE) else {
+        panic!("something explains it");
+    };
+    let right: Vec<(&str, bool)> = terms.iter().map(|t| (t.line.as_str(), t.is_right())).collect();
+    assert_eq!(right, [("ambient", true), ("diffuse", false), ("specular", true)]);
+    let worst = terms[1].worst.expect("a place");
+    assert_eq!(worst.region, probes.probes[worst.probe].region);
+    assert_eq!(worst.expected, probes.probes[worst.probe].colour);
+}
+
+#[test]
+fn a_wrong_but_constant_ambient_term_does_not_spoil_the_others() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(6);
+    let shifted = |p: &reference::probes::Probe| [p.colour.x - 0.05, p.colour.y + 0.31, p.colour.z];
+    let given: Vec<[f64; 3]> = probes.iter().map(shifted).collect();
+    let Fit::Unexplained(terms) = explain(assignment, &probes, &given, TOLERANCE) else {
+        panic!("something explains it");
+    };
+    let right: Vec<bool> = terms.iter().map(|t| t.is_right()).collect();
+    assert_eq!(right, [false, true, true]);
+}
+
+#[test]
+fn samples_that_are_no_numbers_or_missing_are_never_right() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(7);
+    let right = samples(assignment, &probes, &[]);
+    for poison in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut given = right.clone();
+        given[100][1] = poison;
+        assert!(matches!(explain(assignment, &probes, &given, TOLERANCE), Fit::Unexplained(_)));
+    }
+    for count in [0, 1, right.len() - 1] {
+        assert!(matches!(explain(assignment, &probes, &right[..count], TOLERANCE), Fit::Unexplained(_)));
+    }
+}
+
+#[test]
+fn an_answer_with_other_constants_is_right_for_those_constants() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(8);
+    let changed = assignment.with_constants(&[("kshi", Value::Float(20.0))]).expect("a constant");
+    let given = samples(&changed, &probes, &[]);
+    assert!(explain(&changed, &probes, &given, TOLERANCE).is_right());
+    match explain(assignment, &probes, &given, TOLERANCE) {
+        Fit::Explained(found) => assert_eq!(found[0].parameter, Some(20.0), "{found:?}"),
+        other => panic!("{other:?}"),
+    }
+}

@@ -1,0 +1,145 @@
+//! A homework as the stages see it: names, draws and right pictures, made from the reference's data.
+
+use crate::compare::ExpectedFrame;
+use crate::diagnose::constants;
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::render::{Batch, Scene};
+use crate::report::{Hypothesis, Picture, TermPictures};
+use crate::source::Source;
+use crate::translate::{Interface, Variable};
+use reference::Assignment;
+use reference::assignment::RubricLine;
+use reference::mistake::Found;
+use reference::probes::ProbeSet;
+use reference::rasteriser::Frame;
+use reference::scene::{Matrices, Pose, Vertex};
+use std::ffi::CString;
+
+/// The built-in assignment with this id.
+pub fn assignment(id: &str) -> Result<&'static Assignment, Fault> {
+    reference::assignment(id).ok_or_else(|| {
+        let known: Vec<_> = reference::assignments().iter().map(|assignment| assignment.id.as_str()).collect();
+        Fault::new(Text::new(
+            format!("there is no assignment `{id}` (there is: {})", known.join(", ")),
+            format!("課題 `{id}` はありません (あるもの: {})", known.join(", ")),
+        ))
+    })
+}
+
+/// The interface of the assignment's only file.
+pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
+    let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
+    let variable = |name: &str, kind: reference::Type| Variable { name: name.into(), ty: kind.glsl().into() };
+    let file = assignment.files.first().ok_or_else(|| broken("no file is handed in"))?;
+    let fixed = file.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
+    let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
+    Ok(Interface {
+        inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, input.kind)).collect(),
+        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.name, uniform.kind)).collect(),
+        output: variable(&output.name, output.kind),
+        constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
+        fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
+    })
+}
+
+/// The reference's frames of all poses.
+pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
+    let background = assignment.scene.background;
+    let poses = assignment.scene.all_poses();
+    poses.iter().zip(assignment.frames()).map(|(pose, frame)| ExpectedFrame::new(pose.t, frame, background)).collect()
+}
+
+/// What is drawn for a submission: the course's animation and the probes.
+pub fn scene(assignment: &Assignment, probes: &ProbeSet) -> Scene {
+    let scene = &assignment.scene;
+    let frames = scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
+    let probes = (0..probes.groups.len())
+        .map(|group| {
+            let vertices: Vec<Vertex> = probes.of_group(group).iter().map(|probe| probe.vertex).collect();
+            batch(assignment, &probes.groups[group].matrices, &vertices)
+        })
+        .collect();
+    Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes }
+}
+
+/// One draw with the program's own names, in f32.
+pub fn batch(assignment: &Assignment, matrices: &Matrices, vertices: &[Vertex]) -> Batch {
+    let interface = &assignment.interface;
+    let uniforms = interface
+        .uniforms
+        .iter()
+        .map(|uniform| (uniform.name.clone(), uniform.carries.of(matrices).as_mat4().to_cols_array()))
+        .collect();
+    let attributes = interface
+        .inputs
+        .iter()
+        .map(|input| {
+            let xyz = |vertex: &Vertex| input.carries.of(vertex).as_vec4().truncate().to_array();
+            (input.name.clone(), vertices.iter().map(xyz).collect())
+        })
+        .collect();
+    Batch { uniforms, attributes }
+}
+
+/// The reference's frames as pictures.
+pub fn expected_pictures(assignment: &Assignment) -> Vec<Picture> {
+    assignment.frames().into_iter().map(picture).collect()
+}
+
+fn picture(frame: Frame) -> Picture {
+    Picture { width: frame.width, height: frame.height, rgba: frame.pixels.concat() }
+}
+
+/// Each term of the equation on its own, right and as the explanation has it, at the pose where the two differ most.
+///
+/// `source` is where changed constants are read from.
+pub fn term_pictures(
+    assignment: &Assignment,
+    explanation: Option<&[Hypothesis]>,
+    source: Option<&Source>,
+) -> Vec<TermPictures> {
+    let changed = source.map(|source| constants::changed(source, assignment)).unwrap_or_default();
+    let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
+    let theirs = explanation.and_then(|_| assignment.with_constants(&values).ok());
+    let found: Vec<Found> = explanation
+        .unwrap_or_default()
+        .iter()
+        .map(|h| Found { id: h.id.clone(), form: h.form, parameter: h.parameter })
+        .collect();
+    let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
+    terms.filter_map(|line| one_term(assignment, theirs.as_ref(), &found, line)).collect()
+}
+
+fn one_term(
+    assignment: &Assignment,
+    theirs: Option<&Assignment>,
+    found: &[Found],
+    line: &RubricLine,
+) -> Option<TermPictures> {
+    let poses = assignment.scene.all_poses();
+    let right = assignment.equation.right();
+    let draw = |pose: &Pose| assignment.term_frame(pose, &right, &line.judges);
+    let draw_theirs = |pose: &Pose| {
+        let theirs = theirs?;
+        theirs.term_frame(pose, &theirs.variant(found)?, &line.judges)
+    };
+    let difference = |pose: &&Pose| match (draw(pose), draw_theirs(pose)) {
+        (Some(right), Some(theirs)) => right
+            .pixels
+            .iter()
+            .flatten()
+            .zip(theirs.pixels.iter().flatten())
+            .map(|(a, b)| u64::from(a.abs_diff(*b)))
+            .sum(),
+        _ => 0,
+    };
+    // Of equals the first pose: the one that the course's window opens with.
+    let pose = poses.iter().rev().max_by_key(difference)?;
+    Some(TermPictures {
+        id: line.id.clone(),
+        t: pose.t,
+        yours: draw_theirs(pose).map(picture),
+        expected: picture(draw(pose)?),
+    })
+}

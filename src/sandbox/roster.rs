@@ -1,0 +1,295 @@
+//! The workers of a pool: who is idle, who is on the way, and a thread that starts the next one ahead of need.
+
+use super::Settings;
+use super::child::{NotStarted, Worker, end_group};
+use crate::fault::Fault;
+use crate::language::Text;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// How often a start that may end otherwise is tried, and the pause before the second try; it doubles each time.
+const TRIES: u32 = 3;
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Which worker is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Any; one that has graded before rather than one that has not.
+    Any,
+    /// One that has met no file yet.
+    Fresh,
+}
+
+/// Keeps workers ready.
+#[derive(Debug)]
+pub(super) struct Roster {
+    shared: Arc<Shared>,
+    keeper: Option<JoinHandle<()>>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    settings: Settings,
+    /// How many may grade at once.
+    places: usize,
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    idle: Vec<Worker>,
+    /// How many workers are in callers' hands, and how many callers hold a place.
+    lent: usize,
+    places_taken: usize,
+    /// How many are to be started; the processes of those on the way, and the threads that wait for them.
+    ordered: usize,
+    starting: Vec<u32>,
+    ushers: usize,
+    /// Starts that failed in a row, and the last one's fault where no further try is made.
+    failures: u32,
+    fault: Option<Fault>,
+    closing: bool,
+}
+
+/// The right to have one worker at a time.
+#[derive(Debug)]
+pub(super) struct Place<'a> {
+    shared: &'a Shared,
+}
+
+impl Roster {
+    /// Starts workers for `places` callers and the spares, and waits for the first.
+    pub fn start(settings: Settings, places: usize) -> Result<Self, Fault> {
+        let shared = Shared { settings, places: places.max(1), state: Mutex::default(), changed: Condvar::new() };
+        let shared = Arc::new(shared);
+        let for_keeper = Arc::clone(&shared);
+        // Workers die with the thread that has started them, so it is this one for as long as there is a pool.
+        let keeper = std::thread::Builder::new().name("keeper".into()).spawn(move || keep(&for_keeper));
+        let roster = Self { keeper: Some(keeper.map_err(|error| no_thread(&error))?), shared };
+        let place = roster.place();
+        let first = place.take(Wanted::Any)?;
+        place.give_back(first);
+        drop(place);
+        Ok(roster)
+    }
+
+    /// Waits for a place.
+    pub fn place(&self) -> Place<'_> {
+        let mut state = self.shared.lock();
+        while state.places_taken >= self.shared.places {
+            state = self.shared.wait(state);
+        }
+        state.places_taken += 1;
+        Place { shared: &self.shared }
+    }
+
+    /// What holds the workers, and the processes of those that wait for work.
+    pub fn idle<T>(&self, view: impl Fn(&Worker) -> T) -> Vec<T> {
+        self.shared.lock().idle.iter().map(view).collect()
+    }
+}
+
+impl Drop for Roster {
+    fn drop(&mut self) {
+        let mut state = self.shared.lock();
+        state.closing = true;
+        let idle = std::mem::take(&mut state.idle);
+        for process in idle.iter().map(Worker::id).chain(state.starting.iter().copied()) {
+            end_group(process);
+        }
+        drop(state);
+        self.shared.changed.notify_all();
+        drop(idle);
+        if let Some(keeper) = self.keeper.take() {
+            let _ = keeper.join();
+        }
+        let mut state = self.shared.lock();
+        while state.ushers > 0 {
+            state = self.shared.wait(state);
+        }
+    }
+}
+
+impl Place<'_> {
+    /// Takes a worker, waiting for one to be started where none is ready.
+    pub fn take(&self, wanted: Wanted) -> Result<Worker, Fault> {
+        let mut state = self.shared.lock();
+        // What failed before was told to whom it concerned; this caller is worth new tries.
+        state.failures = 0;
+        state.fault = None;
+        loop {
+            self.shared.order(&mut state);
+            if let Some(worker) = state.pick(wanted) {
+                state.lent += 1;
+                return Ok(worker);
+            }
+            if let Some(fault) = state.fault.take() {
+                return Err(fault);
+            }
+            if state.ordered == 0 && state.starting.is_empty() {
+                // There are workers enough, but not of the kind that is wanted.
+                state.ordered = 1;
+                self.shared.changed.notify_all();
+            }
+            state = self.shared.wait(state);
+        }
+    }
+
+    /// Makes a worker that has graded cleanly ready for the next caller.
+    pub fn give_back(&self, worker: Worker) {
+        let mut state = self.shared.lock();
+        state.lent -= 1;
+        let excess = if state.alive() < self.shared.target() {
+            state.idle.push(worker);
+            None
+        } else {
+            Some(worker)
+        };
+        drop(state);
+        self.shared.changed.notify_all();
+        drop(excess);
+    }
+
+    /// Ends a worker, while the next is on its way.
+    pub fn give_up(&self, worker: Worker) {
+        let mut state = self.shared.lock();
+        state.lent -= 1;
+        self.shared.order(&mut state);
+        drop(state);
+        drop(worker);
+    }
+}
+
+impl Drop for Place<'_> {
+    fn drop(&mut self) {
+        self.shared.lock().places_taken -= 1;
+        self.shared.changed.notify_all();
+    }
+}
+
+impl State {
+    /// All workers that there are or will be.
+    fn alive(&self) -> usize {
+        self.idle.len() + self.lent + self.ordered + self.starting.len()
+    }
+
+    fn pick(&mut self, wanted: Wanted) -> Option<Worker> {
+        let is_fresh = |worker: &Worker| worker.gradings == 0;
+        let fresh = self.idle.iter().position(is_fresh);
+        let index = match wanted {
+            Wanted::Fresh => fresh,
+            Wanted::Any => self.idle.iter().position(|worker| !is_fresh(worker)).or(fresh),
+        };
+        index.map(|index| self.idle.remove(index))
+    }
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn wait<'a>(&self, state: MutexGuard<'a, State>) -> MutexGuard<'a, State> {
+        self.changed.wait(state).unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn target(&self) -> usize {
+        self.places + self.settings.spares
+    }
+
+    /// Has the keeper start what is missing; after a failure, one at a time.
+    fn order(&self, state: &mut State) {
+        let missing = self.target().saturating_sub(state.alive());
+        if missing > 0 && state.failures == 0 && !state.closing {
+            state.ordered += missing;
+            self.changed.notify_all();
+        }
+    }
+
+    fn failed(&self, state: &mut State, failure: NotStarted) {
+        state.failures += 1;
+        if failure.transient && state.failures < TRIES {
+            state.ordered += 1;
+        } else {
+            state.fault = Some(failure.fault);
+        }
+    }
+}
+
+/// Starts what is ordered, until the pool closes.
+fn keep(shared: &Arc<Shared>) {
+    let mut state = shared.lock();
+    loop {
+        while state.ordered == 0 && !state.closing {
+            state = shared.wait(state);
+        }
+        if state.closing {
+            return;
+        }
+        state.ordered -= 1;
+        match Worker::spawn(&shared.settings) {
+            Ok(worker) => {
+                state.starting.push(worker.id());
+                state.ushers += 1;
+                drop(state);
+                let for_usher = Arc::clone(shared);
+                let usher = std::thread::Builder::new().name("usher".into());
+                if let Err(error) = usher.spawn(move || receive(&for_usher, worker)) {
+                    // The worker went with the closure.
+                    shared.lock().ushers -= 1;
+                    fail(shared, NotStarted { fault: no_thread(&error), transient: true });
+                }
+            }
+            Err(failure) => {
+                drop(state);
+                fail(shared, failure);
+            }
+        }
+        state = shared.lock();
+    }
+}
+
+/// Waits until the worker is ready, and has it join the others.
+fn receive(shared: &Shared, mut worker: Worker) {
+    let greeted = worker.greet(shared.settings.policy);
+    let process = worker.id();
+    let mut state = shared.lock();
+    state.starting.retain(|&other| other != process);
+    match greeted {
+        Ok(()) if !state.closing => {
+            state.failures = 0;
+            state.idle.push(worker);
+            drop(state);
+        }
+        Ok(()) => {
+            drop(state);
+            drop(worker);
+        }
+        Err(failure) => {
+            // Not counted as gone before the next try is ordered.
+            state.lent += 1;
+            drop(state);
+            drop(worker);
+            fail(shared, failure);
+            shared.lock().lent -= 1;
+        }
+    }
+    shared.lock().ushers -= 1;
+    shared.changed.notify_all();
+}
+
+/// Orders another try after a pause, or gives the fault to whoever waits.
+fn fail(shared: &Shared, failure: NotStarted) {
+    let failures = shared.lock().failures;
+    if failure.transient && failures + 1 < TRIES {
+        std::thread::sleep(PAUSE * 2_u32.pow(failures));
+    }
+    shared.failed(&mut shared.lock(), failure);
+    shared.changed.notify_all();
+}
+
+fn no_thread(error: &std::io::Error) -> Fault {
+    Fault::new(Text::new(format!("no thread can be started: {error}"), format!("スレッドを起動できません: {error}")))
+}

@@ -1,0 +1,87 @@
+//! What the kernel says a process has been doing: whether it was at work, kept waiting, or stopped from outside.
+
+use super::ending::Ending;
+use std::path::Path;
+use std::time::Duration;
+
+/// Length of a tick of the kernel's accounting; the same on every Linux that user space sees.
+const TICK: Duration = Duration::from_millis(10);
+
+/// The share of the deadline that a worker must have computed for the time to count as its own.
+const LEAST_SHARE: f64 = 0.25;
+
+/// CPU time of all threads of the process so far.
+pub(super) fn cpu_time(process: u32) -> Option<Duration> {
+    let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    let mut fields = after_name(&stat)?.split_ascii_whitespace();
+    // `man 5 proc`: utime and stime are fields 14 and 15, the state after the name is field 3.
+    let user: u32 = fields.nth(11)?.parse().ok()?;
+    let system: u32 = fields.next()?.parse().ok()?;
+    Some(TICK * (user + system))
+}
+
+/// What a worker that has not answered within `deadline` has been doing; `before` is its CPU time at the request.
+pub(super) fn of_late(process: u32, before: Option<Duration>, deadline: Duration) -> Ending {
+    let states = thread_states(process);
+    if states.iter().any(|state| matches!(state, 'T' | 't')) {
+        return Ending::Suspended;
+    }
+    let used = cpu_time(process).zip(before).map(|(now, before)| now.saturating_sub(before));
+    let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));
+    match used {
+        // A worker that sleeps of its own accord has hung itself up: that is the file's doing.
+        Some(used) if wants_processor && used < deadline.mul_f64(LEAST_SHARE) => Ending::Starved,
+        _ => Ending::Deadline,
+    }
+}
+
+/// The states of its threads: R for running or runnable, S for sleeping, D for waiting on a disk, T for stopped.
+fn thread_states(process: u32) -> Vec<char> {
+    let Ok(threads) = std::fs::read_dir(format!("/proc/{process}/task")) else { return Vec::new() };
+    threads.flatten().filter_map(|thread| state(&thread.path().join("stat"))).collect()
+}
+
+fn state(stat: &Path) -> Option<char> {
+    let stat = std::fs::read_to_string(stat).ok()?;
+    after_name(&stat)?.trim_start().chars().next()
+}
+
+/// The name stands in parentheses and may hold any character, parentheses too.
+fn after_name(stat: &str) -> Option<&str> {
+    stat.rsplit_once(')').map(|(_, rest)| rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Instant;
+
+    #[test]
+    fn cpu_time_grows_with_work() {
+        let before = cpu_time(std::process::id()).unwrap();
+        let start = Instant::now();
+        let mut sum = 0_u64;
+        while cpu_time(std::process::id()).unwrap() < before + TICK * 3 {
+            assert!(start.elapsed() < Duration::from_secs(20), "{sum}");
+            sum = (0..100_000).fold(sum, |sum, n| sum ^ n);
+        }
+    }
+
+    #[test]
+    fn a_sleeping_process_is_late_by_itself() {
+        let mut sleeper = std::process::Command::new("sleep").arg("60").spawn().unwrap();
+        // Until it has started, it wants a processor.
+        while thread_states(sleeper.id()) != ['S'] {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let late = of_late(sleeper.id(), Some(Duration::ZERO), Duration::from_secs(2));
+        sleeper.kill().unwrap();
+        sleeper.wait().unwrap();
+        assert_eq!(late, Ending::Deadline);
+    }
+
+    #[test]
+    fn a_name_with_parentheses_is_skipped() {
+        assert_eq!(after_name("7 (a) b) S 1").map(str::trim), Some("S 1"));
+    }
+}

@@ -1,0 +1,116 @@
+//! What this compiler refuses and drivers take: the text is changed so that it takes it too.
+
+use super::glslang::Outcome;
+use super::log::{self, Entry};
+use super::text;
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::source::Source;
+
+/// The version from which on `shared` is a keyword.
+const SHARED_VERSION: i32 = 430;
+
+/// The text that has been granted what the compiler minded, and the warnings for it.
+pub(super) struct Granted {
+    pub text: String,
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Looks in the log of a refused `text` for what drivers take; `None` where there is nothing of the kind.
+pub(super) fn grant(text: &str, outcome: &Outcome, source: &Source) -> Option<Granted> {
+    let entries = log::entries(&outcome.vertex_log);
+    let errors = || entries.iter().filter(|entry| entry.is_error);
+    let mut granted = Granted { text: text.to_owned(), warnings: Vec::new() };
+    for entry in errors().filter(|entry| entry.token == "extraneous semicolon") {
+        granted.semicolon(entry, source);
+    }
+    if entries.iter().any(|entry| entry.token == "line continuation") {
+        granted.continuations(source);
+    }
+    let version = text::version(source.code());
+    if version < SHARED_VERSION && errors().any(|entry| entry.message.contains("unexpected SHARED")) {
+        granted.rename("shared", "shareD", |text, at| !text::is_in_layout(text, at));
+    }
+    if errors().any(|entry| entry.token == "length") {
+        let is_call = |text: &str, at: usize| text[at + "length".len()..].trim_start().starts_with('(');
+        granted.rename("length", "lengtH", |text, at| !is_call(text, at));
+    }
+    (granted.text != text).then_some(granted)
+}
+
+/// The message of a feature that the compiler knows to be valid and cannot take.
+pub(super) fn unimplemented(outcome: &Outcome) -> Option<String> {
+    let entries = log::entries(&outcome.vertex_log);
+    entries.iter().find(|entry| entry.message == "feature not yet implemented").map(|entry| entry.token.to_owned())
+}
+
+/// A function of old GLSL, called and not the student's own, at which the compiler ends the process.
+pub(super) fn fatal(source: &Source) -> Option<&str> {
+    let code = source.code();
+    let is_old = |word: &str| {
+        let kind = word.strip_prefix("texture").or_else(|| word.strip_prefix("shadow"));
+        kind.is_some_and(|kind| ["1D", "2D", "3D", "Cube"].iter().any(|start| kind.starts_with(start)))
+    };
+    let is_called = |at: usize, word: &str| code[at + word.len()..].trim_start().starts_with('(');
+    // Behind a type stands a declaration.
+    let is_own = |at: usize| {
+        let before = code[..at].trim_end();
+        before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_') && !before.ends_with("return")
+    };
+    let called = || text::words(code).filter(|&(at, word)| is_old(word) && is_called(at, word));
+    let own: Vec<&str> = called().filter(|&(at, _)| is_own(at)).map(|(_, word)| word).collect();
+    called().map(|(_, word)| word).find(|word| !own.contains(word))
+}
+
+impl Granted {
+    /// A `;` outside functions that ends nothing.
+    fn semicolon(&mut self, entry: &Entry<'_>, source: &Source) {
+        let Some(at) = offset(&self.text, entry).filter(|&at| self.text.as_bytes().get(at) == Some(&b';')) else {
+            return;
+        };
+        self.text.replace_range(at..=at, " ");
+        let message = Text::new(
+            "This `;` ends nothing. Drivers that keep strictly to GLSL before 4.60 refuse it; others let it pass.",
+            "この `;` は余分です。GLSL 4.60 より前の規格に厳密なドライバではエラーになります。",
+        );
+        let (line, column) = source.position(at);
+        self.warnings.push(Diagnostic::warning(Stage::Compile, message).at(line, Some(column)));
+    }
+
+    fn continuations(&mut self, source: &Source) {
+        let Some(text) = text::continued(&self.text, source.code()) else { return };
+        self.text = text;
+        let message = Text::new(
+            "A line continued with `\\` belongs to GLSL 4.20 and later; drivers that keep strictly to this `#version` \
+             refuse it.",
+            "行末の `\\` による行の継続は GLSL 4.20 以降の機能です。この `#version` に厳密なドライバではエラーになります。",
+        );
+        let first = (1..=source.line_count()).find(|&number| source.code_line(number).ends_with('\\'));
+        let warning = Diagnostic::warning(Stage::Compile, message);
+        self.warnings.push(match first {
+            Some(line) => warning.at(line, Some(source.code_line(line).chars().count() as u32)),
+            None => warning,
+        });
+    }
+
+    /// Gives a name that the compiler keeps for itself another of the same length, unless the text has that too.
+    fn rename(&mut self, name: &str, new: &str, is_name: impl Fn(&str, usize) -> bool) {
+        if text::words(&self.text).any(|(_, word)| word == new) {
+            return;
+        }
+        let places: Vec<usize> = text::words(&self.text)
+            .filter(|&(at, word)| word == name && is_name(&self.text, at))
+            .map(|(at, _)| at)
+            .collect();
+        for at in places {
+            self.text.replace_range(at..at + name.len(), new);
+        }
+    }
+}
+
+/// Where an entry points, in bytes.
+fn offset(text: &str, entry: &Entry<'_>) -> Option<usize> {
+    let (line, column) = entry.place?;
+    let before: usize = text.split_inclusive('\n').take((line as usize).checked_sub(1)?).map(str::len).sum();
+    Some(before + (column as usize).checked_sub(1)?)
+}

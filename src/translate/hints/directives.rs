@@ -1,0 +1,187 @@
+//! Preprocessor lines: `#version` and conditions, comments without an end, and `#line`.
+
+use super::file::File;
+use super::tokens::{Kind, Token, tokens};
+use super::{Entry, Finding, vocabulary};
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+
+const NAMES: [&str; 12] =
+    ["version", "define", "undef", "if", "ifdef", "ifndef", "else", "endif", "elif", "error", "pragma", "extension"];
+
+/// `text` with its `#line` directives blanked, so that the compiler counts as an editor does; `None` without any.
+/// Every byte of them becomes a space: offsets of everything else stay.
+pub fn without_line_directives(text: &str) -> Option<String> {
+    let is_line = |token: &&Token<'_>| token.kind == Kind::Directive && directive_name(token.text) == "line";
+    let mut blanked = String::with_capacity(text.len());
+    let mut kept = 0;
+    for directive in tokens(text).iter().filter(is_line) {
+        blanked.push_str(&text[kept..directive.start]);
+        let bytes = directive.text.bytes();
+        blanked.extend(bytes.map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
+        kept = directive.end();
+    }
+    blanked.push_str(&text[kept..]);
+    (kept > 0).then_some(blanked)
+}
+
+pub fn directive_name(directive: &str) -> &str {
+    let rest = directive.trim_start_matches('#').trim_start();
+    let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
+    &rest[..end]
+}
+
+/// Whether `entry` is about a directive that was meant to be `#version`.
+pub fn is_misspelt_version(entry: &Entry<'_>) -> bool {
+    let name = entry.message.strip_prefix("invalid directive:").map(str::trim);
+    name.and_then(|name| vocabulary::nearest(name, NAMES.into_iter())) == Some("version")
+}
+
+/// Whether `entry` is about the number or the profile of a `#version` line without saying where that is.
+pub fn is_about_version(entry: &Entry<'_>) -> bool {
+    entry.message == "version not supported" || entry.message.starts_with("#version")
+}
+
+/// Puts a message of the preprocessor into words.
+pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+    let entry = finding.entry;
+    let line = entry.place.map(|(line, _)| line);
+    let directive = file.directives.iter().find(|token| Some(file.line(token.start)) == line);
+    let message = entry.message;
+    if entry.token == "#version" || is_about_version(entry) {
+        return version(file, directive, message);
+    }
+    if message.starts_with("End of input in comment") {
+        let (line, column) = entry.place?;
+        let text =
+            Text::new("This comment never ends: its `*/` is missing.", "このコメントを閉じる `*/` がありません。");
+        return Some(file.error(file.offset(line, column), 2, text));
+    }
+    if message.starts_with("missing #endif") {
+        let open = unclosed_condition(file)?;
+        let text = Text::new("The `#endif` for this line is missing.", "この行に対応する `#endif` がありません。");
+        return Some(file.error(open.start, open.text.len(), text));
+    }
+    // Where a line ends too early, the compiler is on the next one already.
+    let above = || file.directives.iter().find(|token| Some(file.line(token.end()) + 1) == line);
+    let condition = entry.token == "preprocessor evaluation";
+    let about = |token: &&Token<'_>| condition || entry.token.strip_prefix('#') == Some(directive_name(token.text));
+    let above = above().filter(about);
+    let directive = if condition { above.or(directive) } else { directive.or(above) }?;
+    let name = directive_name(directive.text);
+    let mark = |text| file.error(directive.start, directive.text.len(), text);
+    if message.starts_with("mismatched statements") {
+        let text = Text::new(
+            format!("This `#{name}` belongs to no `#if`."),
+            format!("この `#{name}` に対応する `#if` がありません。"),
+        );
+        return Some(mark(text));
+    }
+    if name == "include" {
+        let text = Text::new("GLSL has no `#include`.", "GLSL に `#include` はありません。");
+        return Some(mark(text).hint(Text::new(
+            "A shader is one file; its functions need no header.",
+            "シェーダは 1 つのファイルで完結します。組み込み関数を使うのにヘッダは要りません。",
+        )));
+    }
+    if message.starts_with("invalid directive") {
+        return Some(misspelt(name, mark));
+    }
+    (condition || entry.token.starts_with('#')).then(|| {
+        mark(Text::new(
+            format!("This `#{name}` is not complete or not correct: “{message}”."),
+            format!("この `#{name}` の書き方が正しくありません:「{message}」。"),
+        ))
+    })
+}
+
+fn misspelt(name: &str, mark: impl Fn(Text) -> Diagnostic) -> Diagnostic {
+    let text =
+        Text::new(format!("There is no preprocessor line `#{name}`."), format!("`#{name}` という指令はありません。"));
+    match vocabulary::nearest(name, NAMES.into_iter()) {
+        Some(meant) => mark(text)
+            .hint(Text::new(format!("Did you mean `#{meant}`?"), format!("`#{meant}` の間違いではありませんか。"))),
+        None => mark(text),
+    }
+}
+
+fn version(file: &File<'_>, directive: Option<&Token<'_>>, message: &str) -> Option<Diagnostic> {
+    let own = |token: &&Token<'_>| directive_name(token.text) == "version";
+    let line = directive.or_else(|| file.directives.iter().find(own));
+    let text = if message.starts_with("must occur first") {
+        Text::new(
+            "`#version` must be the first line of the file; only comments may stand before it.",
+            "`#version` はファイルの先頭に書きます。これより前に置けるのはコメントだけです。",
+        )
+    } else if message.contains("profile") {
+        Text::new(
+            "After the number, `#version` takes only `core` or `compatibility`.",
+            "`#version` の番号の後に書けるのは `core` か `compatibility` だけです。",
+        )
+    } else if message.starts_with("must be followed by version number") {
+        Text::new("`#version` lacks its number.", "`#version` の後に番号がありません。")
+    } else {
+        Text::new("There is no GLSL of this version.", "この番号の GLSL は存在しません。")
+    };
+    let hint = version_hint(file);
+    let Some(line) = line else { return Some(Diagnostic::error(Stage::Compile, text).hint(hint)) };
+    Some(file.error(line.start, line.text.len(), text).hint(hint))
+}
+
+/// The `#if` whose `#endif` is missing.
+fn unclosed_condition<'f, 'a>(file: &'f File<'a>) -> Option<&'f Token<'a>> {
+    let mut open = Vec::new();
+    for directive in &file.directives {
+        match directive_name(directive.text) {
+            "if" | "ifdef" | "ifndef" => open.push(directive),
+            "endif" => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    open.pop()
+}
+
+/// A file that is written in today's GLSL and does not say so: without `#version`, it is read as that of 2004.
+pub fn missing_version(file: &File<'_>) -> Option<Diagnostic> {
+    let has_version = file.directives.iter().any(|token| directive_name(token.text).starts_with("version"));
+    let modern = file.declarations.iter().any(|d| d.global && (d.is("in") || d.is("out") || d.is("layout")));
+    if has_version || !modern {
+        return None;
+    }
+    let text = Text::new(
+        "The file has no `#version` line, so it is read as GLSL 1.10, which has no `in` and `out` variables.",
+        "`#version` の行がないので、`in` や `out` の変数がない GLSL 1.10 として扱われます。",
+    );
+    Some(file.error(0, 1, text).hint(version_hint(file)))
+}
+
+/// The `#version` of the assignment, which its fragment shader has.
+pub fn version_hint(file: &File<'_>) -> Text {
+    let fragment = file.interface.fragment.to_str().unwrap_or_default();
+    let line = tokens(fragment).into_iter().find(|token| directive_name(token.text) == "version");
+    let version = line.map_or("#version 410 core", |line| line.text);
+    Text::new(
+        format!("The file of this assignment begins with `{version}`."),
+        format!("この課題のファイルは `{version}` で始めます。"),
+    )
+}
+
+#[cfg(test)]
+mod line_tests {
+    use super::without_line_directives;
+
+    #[test]
+    fn blanks_line_directives_and_nothing_else() {
+        let text = "a;\n # line 5 // 光\nb;\n#line \\\n 7 2\n// #line 3\n/*\n#line 4\n*/ #linear\n";
+        let blanked = without_line_directives(text).expect("the text has #line");
+        assert_eq!(blanked, "a;\n          // 光\nb;\n       \n    \n// #line 3\n/*\n#line 4\n*/ #linear\n");
+        assert_eq!(blanked.len(), text.len());
+    }
+
+    #[test]
+    fn says_when_there_is_none() {
+        assert_eq!(without_line_directives("// #line 3\nint line;\n"), None);
+    }
+}

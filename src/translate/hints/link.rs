@@ -1,0 +1,187 @@
+//! What the linker says about the vertex shader and the fixed fragment shader.
+
+use super::declarations::{Declaration, Role};
+use super::file::File;
+use super::suggestions;
+use super::vocabulary;
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::translate::log::Entry;
+
+/// Puts a message of the linker into words.
+pub fn explain(file: &File<'_>, entry: &Entry<'_>) -> Diagnostic {
+    let message = entry.message;
+    let found = if message.contains("no matching declaration for statically used input") {
+        Some(output_missing(file))
+    } else if message.contains("must match") || message.contains("must be compatible") {
+        output_differs(file, message)
+    } else if message.contains("Missing entry point") {
+        Some(no_main(file))
+    } else if message.contains("Recursion detected") {
+        recursion(file, entry)
+    } else if message.contains("No function definition") {
+        no_body(file, entry)
+    } else {
+        None
+    };
+    found.unwrap_or_else(|| {
+        let more = entry.more.join(" ");
+        let words = format!("{message} {more}");
+        let words = words.trim();
+        Diagnostic::error(
+            Stage::Link,
+            Text::new(
+                format!("The shaders cannot be linked: “{words}”."),
+                format!("シェーダをリンクできません:「{words}」。"),
+            ),
+        )
+    })
+}
+
+fn at(file: &File<'_>, declaration: &Declaration<'_>, text: Text) -> Diagnostic {
+    Diagnostic { stage: Stage::Link, ..file.error_at(declaration.index, text) }
+}
+
+/// How the fragment shader's input wants the output declared.
+fn output_hint(file: &File<'_>) -> Text {
+    let needed = suggestions::declaration_of(file, &file.interface.output.name).unwrap_or_default();
+    Text::new(
+        format!("The fragment shader's input fits an output `{needed}`: the name and the type must be just these."),
+        format!("フラグメントシェーダの入力に合う宣言は `{needed}` です。変数名と型をこれに合わせてください。"),
+    )
+}
+
+/// An error of the compiler: `own` has the name of the output and is none.
+pub fn output_missing_as(file: &File<'_>, own: &Declaration<'_>) -> Diagnostic {
+    let name = own.name;
+    let text = if own.global {
+        Text::new(
+            format!("`{name}` is not declared as an output (`out`) of this shader."),
+            format!("`{name}` が出力変数 (`out`) として宣言されていません。"),
+        )
+    } else {
+        Text::new(
+            format!("This `{name}` exists only inside its function or block; the shader has no output `{name}`."),
+            format!("この `{name}` は関数やブロックの中だけの変数です。出力変数 `{name}` がありません。"),
+        )
+    };
+    file.error_at(own.index, text).hint(output_hint(file))
+}
+
+/// Whether `declaration` is an output variable, also in the words of old GLSL.
+fn is_output(declaration: &Declaration<'_>) -> bool {
+    let output = declaration.is("out") || declaration.is("varying");
+    declaration.global && declaration.role == Role::Variable && output
+}
+
+pub fn output_missing(file: &File<'_>) -> Diagnostic {
+    let output = &file.interface.output;
+    let name = output.name.as_str();
+    let hint = output_hint(file);
+    if let Some(swallowed) = file.swallowed(name).filter(|_| file.anywhere(name).is_none()) {
+        return Diagnostic { stage: Stage::Link, ..swallowed };
+    }
+    if let Some(own) = file.anywhere(name).filter(|d| !is_output(d)) {
+        return Diagnostic { stage: Stage::Link, ..output_missing_as(file, own) };
+    }
+    let outputs: Vec<_> = file.declarations.iter().filter(|d| is_output(d) && d.name != name).collect();
+    let near = vocabulary::nearest(name, outputs.iter().map(|d| d.name));
+    let same_type = || outputs.iter().find(|d| d.ty == output.ty);
+    match outputs.iter().find(|d| Some(d.name) == near).or_else(same_type).or(outputs.first()) {
+        Some(renamed) => {
+            let own = renamed.name;
+            let text = Text::new(
+                format!("The fragment shader reads `{name}`, but this output is called `{own}`."),
+                format!("フラグメントシェーダが受け取る変数は `{name}` ですが、この出力変数の名前は `{own}` です。"),
+            );
+            at(file, renamed, text).hint(hint)
+        }
+        None => Diagnostic::error(
+            Stage::Link,
+            Text::new(
+                format!("The output `{name}`, which the fragment shader reads, is not declared."),
+                format!("フラグメントシェーダが受け取る出力変数 `{name}` が宣言されていません。"),
+            ),
+        )
+        .hint(hint),
+    }
+}
+
+fn output_differs(file: &File<'_>, message: &str) -> Option<Diagnostic> {
+    let output = &file.interface.output;
+    let own = file.declarations.iter().find(|d| d.name == output.name && is_output(d))?;
+    let (name, ty, needed) = (own.name, &own.ty, &output.ty);
+    let text = if message.contains("Types must match") || message.contains("Array sizes") {
+        Text::new(
+            format!("The output `{name}` has type {ty}, but the fragment shader reads {needed}."),
+            format!("出力変数 `{name}` は {ty} 型ですが、フラグメントシェーダが受け取るのは {needed} 型です。"),
+        )
+    } else {
+        Text::new(
+            format!("The output `{name}` carries a qualifier that the fragment shader's input does not have."),
+            format!("出力変数 `{name}` の修飾子が、フラグメントシェーダの入力変数と一致していません。"),
+        )
+    };
+    let declaration = suggestions::declaration_of(file, name)?;
+    Some(at(file, own, text).hint(Text::new(
+        format!("It must be declared as `{declaration}`."),
+        format!("`{declaration}` と宣言してください。"),
+    )))
+}
+
+fn no_main(file: &File<'_>) -> Diagnostic {
+    if let Some(swallowed) = file.swallowed("main") {
+        return Diagnostic { stage: Stage::Link, ..swallowed };
+    }
+    let text = Text::new("The file has no function `main`.", "関数 `main` がありません。");
+    let functions = || file.declarations.iter().filter(|d| d.role == Role::Function);
+    let near = vocabulary::nearest("main", functions().map(|d| d.name));
+    match functions().find(|d| Some(d.name) == near) {
+        Some(function) => {
+            let name = function.name;
+            at(file, function, text).hint(Text::new(
+                format!("Is `{name}` meant to be `main`? Capital and small letters differ in GLSL."),
+                format!("`{name}` は `main` の間違いではありませんか。GLSL では大文字と小文字を区別します。"),
+            ))
+        }
+        None => Diagnostic::error(Stage::Link, text)
+            .hint(Text::new("A shader begins at `void main()`.", "シェーダの処理は `void main()` から始まります。")),
+    }
+}
+
+/// The function names in the compiler's lines about functions: `f(f1; calling g(vf3;`.
+fn function_names<'e>(entry: &Entry<'e>) -> Vec<&'e str> {
+    let line = entry.more.first().copied().unwrap_or_default();
+    line.split(" calling ").filter_map(|mangled| mangled.split_once('(')).map(|(name, _)| name.trim()).collect()
+}
+
+fn recursion(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
+    let names = function_names(entry);
+    let (caller, callee) = (*names.first()?, *names.last()?);
+    let is_body = |d: &&Declaration<'_>| {
+        let close = file.closing(d.index + 1);
+        d.role == Role::Function && close.is_some_and(|close| file.word(Some(close + 1)) == "{")
+    };
+    let body = file.declarations.iter().filter(|d| d.name == caller).find(is_body)?;
+    let open = file.closing(body.index + 1)? + 1;
+    let close = file.closing(open)?;
+    let call = (open..close).find(|&at| file.code[at].text == callee && file.word(Some(at + 1)) == "(")?;
+    let text = Text::new(
+        format!("`{caller}` calls itself here, directly or through `{callee}`. GLSL has no recursion."),
+        format!(
+            "関数 `{caller}` がここで (`{callee}` を通じて) 自分自身を呼び出しています。GLSL では再帰呼び出しはできません。"
+        ),
+    );
+    let diagnostic = Diagnostic { stage: Stage::Link, ..file.error_at(call, text) };
+    Some(diagnostic.hint(Text::new("Use a loop instead.", "繰り返しには `for` などのループを使ってください。")))
+}
+
+fn no_body(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
+    let name = *function_names(entry).first()?;
+    let declared = file.declarations.iter().find(|d| d.role == Role::Function && d.name == name)?;
+    let text = Text::new(
+        format!("The function `{name}` is declared but has no body `{{ … }}`."),
+        format!("関数 `{name}` は宣言されていますが、本体 `{{ … }}` がありません。"),
+    );
+    Some(at(file, declared, text))
+}

@@ -1,0 +1,124 @@
+//! What every driver refuses and the compiler here lets pass.
+
+use super::declarations::{Declaration, Role};
+use super::directives::directive_name;
+use super::file::File;
+use super::suggestions;
+use super::tokens::Kind;
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::translate::Interface;
+use crate::translate::log::MAX_DIAGNOSTICS;
+
+/// From this version on, the two shaders may differ in how an output is interpolated.
+const FREE_INTERPOLATION: u32 = 440;
+
+/// The errors that real drivers report in `text` although the compiler accepts it.
+pub fn overlooked_errors(text: &str, interface: &Interface) -> Vec<Diagnostic> {
+    let file = File::new(text, interface);
+    let mut all: Vec<_> = version(&file).into_iter().collect();
+    all.extend(swizzles(&file));
+    all.extend(interpolation(&file));
+    all.extend(output_in_block(&file));
+    all.truncate(MAX_DIAGNOSTICS);
+    all
+}
+
+/// `#version 410core` and the versions of OpenGL ES, which no desktop program links.
+fn version(file: &File<'_>) -> Option<Diagnostic> {
+    let line = file.directives.iter().find(|token| directive_name(token.text) == "version")?;
+    let mut words = line.text.split("version").nth(1)?.split_ascii_whitespace();
+    let (number, profile) = (words.next()?, words.next().unwrap_or_default());
+    let text = if number.chars().any(|c| c.is_ascii_alphabetic()) {
+        Text::new(
+            format!("`{number}` is no version number: a space is missing."),
+            format!("`{number}` は版の番号として読めません。番号の後に空白が必要です。"),
+        )
+    } else if profile == "es" {
+        Text::new(
+            format!("GLSL {number} es is for OpenGL ES; this program is for desktop OpenGL."),
+            format!("GLSL {number} es は OpenGL ES 用です。この課題のプログラムはデスクトップ版の OpenGL を使います。"),
+        )
+    } else {
+        return None;
+    };
+    let diagnostic = file.error(line.start, line.text.len(), text);
+    Some(diagnostic.hint(super::directives::version_hint(file)))
+}
+
+/// The version number of the file; 0 if it has none.
+fn version_number(file: &File<'_>) -> u32 {
+    let line = file.directives.iter().find(|token| directive_name(token.text) == "version");
+    let number = line.and_then(|line| line.text.split("version").nth(1)?.split_ascii_whitespace().next());
+    number.and_then(|number| number.parse().ok()).unwrap_or(0)
+}
+
+/// `.rgb2`: the compiler drops a last character that names no component.
+fn swizzles(file: &File<'_>) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    for index in 2..file.code.len() {
+        let field = file.code[index];
+        let is_field = file.code[index - 1].text == "."
+            && field.kind == Kind::Word
+            && file.code[index - 2].text != "gl_DepthRange";
+        let called = file.word(Some(index + 1)) == "(";
+        // A member of a structure, a macro, or a branch of `#if` that nobody compiles may be called anything.
+        let built_in = [file.code[index - 2].text, field.text].iter().any(|name| name.starts_with("gl_"));
+        let known = file.anywhere(field.text).is_some() || built_in;
+        if !is_field || called || known || file.definition(field.text).is_some() || is_conditional(file, field.start) {
+            continue;
+        }
+        if let Some(odd) = field.text.chars().find(|c| !"xyzwrgbastpq".contains(*c)) {
+            let text = Text::new(
+                format!("A vector has no components `{}`: `{odd}` names none.", field.text),
+                format!("ベクトルに `{}` という成分はありません (`{odd}` は成分名ではありません)。", field.text),
+            );
+            found.push(file.error_at(index, text).hint(super::components::names_of_components()));
+        }
+    }
+    found
+}
+
+/// Whether the byte `offset` lies between an `#if` and its `#endif`.
+fn is_conditional(file: &File<'_>, offset: usize) -> bool {
+    let before = file.directives.iter().take_while(|line| line.start < offset);
+    let depth = before.fold(0_i32, |depth, line| match directive_name(line.text) {
+        "if" | "ifdef" | "ifndef" => depth + 1,
+        "endif" => depth - 1,
+        _ => depth,
+    });
+    depth > 0
+}
+
+/// The output as a member of a block, which is not the variable that the fragment shader reads.
+fn output_in_block(file: &File<'_>) -> Option<Diagnostic> {
+    let output = file.anywhere(&file.interface.output.name).filter(|d| !d.global)?;
+    let inside = file.code[..output.index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
+    let block = inside.checked_sub(1)?;
+    let is_block = |d: &Declaration<'_>| d.role == Role::Structure && d.ty == "out" && d.index == block;
+    (file.code[inside].text == "{" && file.declarations.iter().any(is_block)).then(|| super::link::output_missing(file))
+}
+
+/// An output that is `flat` or `noperspective` where the fragment shader's input is not, or the other way round.
+fn interpolation(file: &File<'_>) -> Option<Diagnostic> {
+    if version_number(file) >= FREE_INTERPOLATION {
+        return None;
+    }
+    let fragment = File::new(file.interface.fragment.to_str().ok()?, file.interface);
+    let name = file.interface.output.name.as_str();
+    let is =
+        |d: &&Declaration<'_>, qualifiers: [&str; 2]| d.global && d.name == name && qualifiers.iter().any(|q| d.is(q));
+    let output = file.declarations.iter().find(|d| is(d, ["out", "varying"]))?;
+    let input = fragment.declarations.iter().find(|d| is(d, ["in", "varying"]))?;
+    let qualifier = ["flat", "noperspective"].into_iter().find(|q| output.is(q) != input.is(q))?;
+    let text = Text::new(
+        format!("The output `{name}` and the fragment shader's input differ in `{qualifier}`."),
+        format!("出力変数 `{name}` とフラグメントシェーダの入力変数とで、`{qualifier}` の有無が異なっています。"),
+    );
+    let declaration = suggestions::declaration_of(file, name)?;
+    let diagnostic = Diagnostic { stage: Stage::Link, ..file.error_at(output.index, text) };
+    Some(diagnostic.hint(Text::new(
+        format!("It must be declared as `{declaration}`."),
+        format!("`{declaration}` と宣言してください。"),
+    )))
+}

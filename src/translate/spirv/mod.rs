@@ -1,0 +1,85 @@
+//! What the compiler wrote, made into what naga's front end takes, with the same meaning.
+
+mod code;
+mod globals;
+mod images;
+mod integers;
+mod lower;
+pub(super) mod op;
+mod packing;
+mod poison;
+mod switch;
+#[cfg(test)]
+mod tests;
+mod walk;
+
+pub(super) use globals::{DEFAULT_BLOCK, Unset};
+pub(super) use poison::NEGATIVE;
+pub(super) use walk::{instructions, text};
+
+use code::Code;
+use std::collections::BTreeMap;
+
+/// What the compiler wrote, as naga's front end takes it.
+pub(super) struct Reworked {
+    /// The words, with the same meaning.
+    pub words: Vec<u32>,
+    /// Which line of the source each instruction comes from.
+    pub lines: Lines,
+    /// Uniforms that the program does not set.
+    pub unset: Vec<Unset>,
+}
+
+/// Reworks `words`; `set` are the uniforms that the program sets. `None` where the words are
+/// damaged, or grow beyond reason.
+///
+/// - Uniforms that the program sets become members of one block; any other is a private variable with
+///   its initial value, for nothing ever sets it ([`globals`]).
+/// - Cases of a `switch` that run into the next get a copy of it ([`switch`]).
+/// - Instructions that naga does not know, or takes for something else, become others
+///   ([`lower`], [`integers`]).
+/// - Where `poisons`, what is undefined becomes a number that shows ([`poison`]).
+/// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
+///   there, and zero is the same each time.
+/// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
+pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Option<Reworked> {
+    let mut code = Code::parse(words)?;
+    let unset = globals::rework(&mut code, set);
+    undefined(&mut code);
+    code.functions.retain(|instruction| instruction.opcode != op::MEMORY_BARRIER);
+    switch::separate_cases(&mut code)?;
+    lower::lower(&mut code);
+    if poisons {
+        poison::poison(&mut code);
+    }
+    let (words, lines) = code.encode();
+    Some(Reworked { words, lines, unset })
+}
+
+fn undefined(code: &mut Code) {
+    let mut moved = Vec::new();
+    code.functions.retain(|instruction| {
+        let keep = instruction.opcode != op::UNDEF;
+        if !keep {
+            moved.push(instruction.clone());
+        }
+        keep
+    });
+    code.globals.extend(moved);
+    for instruction in code.globals.iter_mut().filter(|instruction| instruction.opcode == op::UNDEF) {
+        instruction.opcode = op::CONSTANT_NULL;
+        instruction.line = None;
+    }
+}
+
+/// From a byte of the words to the line of the source.
+#[derive(Clone, Debug, Default)]
+pub struct Lines(BTreeMap<u32, Option<u32>>);
+
+impl Lines {
+    /// The line, from 1, of what stands at `span` of a module made from these words.
+    pub fn line(&self, span: naga::Span) -> Option<u32> {
+        let range = span.to_range()?;
+        self.0.range(..=range.start as u32).next_back().and_then(|(_, line)| *line)
+    }
+}

@@ -1,0 +1,94 @@
+//! What real drivers refuse and the compiler lets pass, as far as it is sure.
+
+use super::{Interface, text};
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::source::Source;
+
+/// From this version on, a layout qualifier may be repeated.
+const FREE_LAYOUTS: i32 = 420;
+/// The version in which an output with a location finds no input without one.
+const STRICT_LOCATIONS: i32 = 420;
+
+/// The errors of `source`, which the compiler accepts.
+pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
+    let version = text::version(source.code());
+    let mut errors = Vec::new();
+    for statement in statements(source.code()) {
+        if version < FREE_LAYOUTS {
+            errors.extend(repeated_layout(source, &statement));
+        }
+        if version == STRICT_LOCATIONS {
+            errors.extend(located_output(source, &statement, interface));
+        }
+        errors.extend(qualified_result(source, &statement));
+    }
+    errors
+}
+
+/// A piece of code between `;`, `{` and `}`: its words with the bytes that they stand at.
+struct Statement<'a> {
+    words: Vec<(usize, &'a str)>,
+}
+
+fn statements(code: &str) -> impl Iterator<Item = Statement<'_>> {
+    let mut start = 0;
+    code.split_inclusive([';', '{', '}']).map(move |piece| {
+        let words = text::words(piece).map(|(at, word)| (start + at, word)).collect();
+        start += piece.len();
+        Statement { words }
+    })
+}
+
+impl Statement<'_> {
+    fn position(&self, wanted: &str) -> Option<usize> {
+        self.words.iter().position(|(_, word)| *word == wanted)
+    }
+}
+
+fn error(source: &Source, stage: Stage, (at, word): (usize, &str), message: Text) -> Diagnostic {
+    let (line, column) = source.position(at);
+    Diagnostic::error(stage, message).at(line, Some(column)).spanning(word.len())
+}
+
+/// `layout(location = 1, location = 0)`, and `layout(…) layout(…)`.
+fn repeated_layout(source: &Source, statement: &Statement<'_>) -> Option<Diagnostic> {
+    let code = source.code();
+    let is_name = |&&(at, _): &&(usize, &str)| text::is_in_layout(code, at);
+    let names = ["location", "layout", "std140", "shared", "packed", "row_major", "column_major"];
+    let repeated = |name: &&str| {
+        let mut places = statement.words.iter().filter(|(_, word)| word == name);
+        let mut places = places.by_ref().filter(|place| *name == "layout" || is_name(place));
+        places.next().and_then(|_| places.next())
+    };
+    let &place = names.iter().find_map(repeated)?;
+    let message = Text::new(
+        format!("`{}` stands twice; before GLSL 4.20 drivers refuse that.", place.1),
+        format!("`{}` が重複しています。GLSL 4.20 より前ではドライバがエラーにします。", place.1),
+    );
+    Some(error(source, Stage::Compile, place, message))
+}
+
+/// `layout(location = 1) out vec4 vc` where the fixed fragment shader's input has no location.
+fn located_output(source: &Source, statement: &Statement<'_>, interface: &Interface) -> Option<Diagnostic> {
+    let name = interface.output.name.as_str();
+    let place = statement.words[statement.position("location")?];
+    let is_output = statement.position("out").is_some() && statement.position(name).is_some();
+    let message = Text::new(
+        format!("In GLSL 4.20 the fragment shader's `{name}`, which has no location, does not find this one."),
+        format!("GLSL 4.20 では、location の指定がないフラグメントシェーダの `{name}` とこの変数が結び付きません。"),
+    );
+    let hint = Text::new("Leave the `layout` away.", "`layout` を付けずに宣言してください。");
+    is_output.then(|| error(source, Stage::Link, place, message).hint(hint))
+}
+
+/// `precise float f() { … }`.
+fn qualified_result(source: &Source, statement: &Statement<'_>) -> Option<Diagnostic> {
+    let [place @ (_, "precise"), (_, _), (at, name), ..] = statement.words[..] else { return None };
+    let is_function = source.code()[at + name.len()..].trim_start().starts_with('(');
+    let message = Text::new(
+        format!("The result of the function `{name}` cannot be `precise`."),
+        format!("関数 `{name}` の戻り値の型に `precise` は付けられません。"),
+    );
+    is_function.then(|| error(source, Stage::Compile, place, message))
+}

@@ -1,0 +1,17 @@
+#version 410
+const vec4 pl=vec4(0.,0.,1.,0.);
+const vec4 lamb=vec4(.2,.2,.2,1.), ldiff=vec4(1.,1.,1.,0.), lspec=vec4(1.,1.,1.,0.);
+const vec4 kamb=vec4(.6,0.,0.,1.), kdiff=vec4(.6,0.,0.,1.), kspec=vec4(.4,.4,.4,1.);
+const float kshi=80.;
+in vec4 pv, cv;
+uniform mat4 mw, mc, mg;
+out vec4 vc;
+
+void main(){
+vec4 p=mw*pv;
+vec3 v=-normalize(p.xyz/p.w),l=normalize((pl*p.w-p*pl.w).xyz),n=normalize((mg*cv).xyz);
+vec3 h=(l+v)/2.;
+h=normalize(h);
+vc=kamb*lamb+kdiff*ldiff*max(dot(n,l),0.)+kspec*lspec*pow(max(dot(n,h),0.),kshi);
+gl_Position=mc*pv;
+}

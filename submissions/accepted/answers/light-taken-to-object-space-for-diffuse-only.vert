@@ -1,0 +1,36 @@
+#version 410 core
+
+// light
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular
+
+// material
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+
+layout (location = 0) in vec4 pv;  // position
+in vec4 cv;                        // normal
+
+uniform mat4 mw;  // model-view
+uniform mat4 mc;  // model-view-projection
+uniform mat4 mg;  // normal matrix
+
+out vec4 vc;
+
+void main() {
+    vec3 v = -normalize((mw * pv).xyz);
+    vec3 l = normalize(pl.xyz);
+    vec3 h = normalize(l + v);
+    // a row vector from the left is the transposed matrix
+    vec3 lightInObject = l * mat3(mg);
+    vec3 halfInObject = h * mat3(mg);
+    vec3 m = normalize(cv.xyz);
+    float nl = max(dot(m, normalize(lightInObject)), 0.0);
+    float nh = max(dot(m, normalize(halfInObject)), 0.0);
+    vc = kamb * lamb + nl * kdiff * ldiff + pow(nh, kshi) * kspec * lspec;
+    gl_Position = mc * pv;
+}

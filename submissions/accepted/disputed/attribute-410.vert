@@ -1,0 +1,23 @@
+#version 410
+// attribute in place of in, at 4.10 without a profile.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+attribute vec4 pv;
+attribute vec4 cv;
+uniform mat4 mw, mc, mg;
+out vec4 vc;
+void main(void)
+{
+  vec4 p = mw * pv;                                   // position in eye space
+  vec3 v = -normalize(p.xyz / p.w);                   // view vector
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);      // light vector
+  vec3 n = normalize((mg * cv).xyz);                  // normal
+  vc = kamb * lamb + max(dot(n, l), 0.0) * kdiff * ldiff + pow(max(dot(n, normalize(l + v)), 0.0), kshi) * kspec * lspec;
+  gl_Position = mc * pv;
+}

@@ -1,0 +1,27 @@
+#version 410 core
+// A backslash joins lines, at 4.10: in a macro, in code, in a comment.
+#define SHADE(a, b) \
+    max(dot(a, b), 0.0)
+const float kshi=80.0;
+const vec4 kspec=vec4(0.4,0.4,0.4,1.0);
+const vec4 kdiff=vec4(0.6,0.0,0.0,1.0);
+const vec4 kamb=vec4(0.6,0.0,0.0,1.0);
+const vec4 lspec=vec4(1.0,1.0,1.0,0.0);
+const vec4 ldiff=vec4(1.0,1.0,1.0,0.0);
+const vec4 lamb=vec4(0.2,0.2,0.2,1.0);
+const vec4 pl=vec4(0.0,0.0,1.0,0.0);
+uniform mat4 mg;
+uniform mat4 mc;
+uniform mat4 mw;
+out vec4 vc;
+in vec4 cv;
+in vec4 pv;
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+	// what follows belongs to \
+	vc = vec4(1.0);
+	vc = kamb * lamb + SHADE(n, l) * \
+	     kdiff * ldiff + pow(SHADE(n, normalize(l + v)), kshi) * kspec * lspec;
+	gl_Position = mc * pv;
+}

@@ -1,0 +1,17 @@
+#version 410 core
+// Names with two underscores are reserved; most drivers only warn.
+#define __LEAST 0.0
+const vec4 pl = vec4(0, 0, 1, 0), lamb = vec4(.2, .2, .2, 1), ldiff = vec4(1, 1, 1, 0), lspec = ldiff;
+const vec4 kamb = vec4(.6, 0, 0, 1), kdiff = kamb, kspec = vec4(.4, .4, .4, 1);
+const float kshi = 80.;
+in vec4 pv, cv;
+uniform mat4 mw, mc, mg;
+out vec4 vc;
+void main()
+{
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+    float __d = max(dot(n, l), __LEAST), s__ = pow(max(dot(n, normalize(l + v)), __LEAST), kshi);
+    vc = kamb * lamb + __d * kdiff * ldiff + s__ * kspec * lspec;
+    gl_Position = mc * pv;
+}

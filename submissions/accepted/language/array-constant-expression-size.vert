@@ -1,0 +1,37 @@
+#version 410 core
+// Array sizes from constant expressions with built-in functions.
+// 光源と材質
+const vec4 pl    = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb  = vec4(vec3(0.2), 1.0);
+const vec4 ldiff = vec4(vec3(1.0), 0.0);
+const vec4 lspec = vec4(vec3(1.0), 0.0);
+const vec4 kamb  = vec4(0.6, vec2(0.0), 1.0);
+const vec4 kdiff = vec4(0.6, vec2(0.0), 1.0);
+const vec4 kspec = vec4(vec3(0.4), 1.0);
+const float kshi = 80.0;
+// 頂点属性
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+
+// 変換行列
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+// 頂点色
+out vec4 vc;
+const int count = int(max(2.0, 3.0)) + 8 / 4 - (1 << 1);         // 3
+const float w[count] = float[count](float(count) / 3.0, sqrt(4.0), abs(-4.0));
+void main(void)
+{
+	vec4 p = mw * pv; // 視点座標系
+	vec3 v = -normalize(p.xyz / p.w); // 視線ベクトル
+	vec3 l = normalize((pl * p.w - p * pl.w).xyz); // 光線ベクトル
+	vec3 n = normalize((mg * cv).xyz); // 法線ベクトル
+	vec4 t[count * 2 - 3];
+	t[0] = kamb * lamb * w[0];
+	t[1] = max(dot(n, l), 0) * kdiff * ldiff * w[1] * 2.0;
+	t[2] = pow(max(dot(n, normalize(l + v)), 0), kshi) * kspec * lspec * w[2];
+	vc = t[0] + t[1] / w[2] + t[2] / 4.0 * float(t.length() - 2);
+	gl_Position = mc * pv;
+}

@@ -1,0 +1,30 @@
+#version 410 core
+// A larger matrix from a smaller one: the rest is that of the unit matrix.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+layout (location = 0) in vec4 pv;  // position
+in vec4 cv;                        // normal
+uniform mat4 mw;                   // model-view
+uniform mat4 mc;                   // model-view-projection
+uniform mat4 mg;                   // normal matrix
+out vec4 vc;                       // vertex colour
+void main(void)
+{
+  vec4 p = mw * pv;                                   // position in eye space
+  vec3 v = -normalize(p.xyz / p.w);                   // view vector
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);      // light vector
+  vec3 n = normalize((mg * cv).xyz);                  // normal
+  mat4 again = mat4(mat3(mg));           // last row and column 0 0 0 1, as in mg
+  mat4 wider = mat4(mat2(1.0));          // unit matrix
+  n = normalize((wider * again * vec4(cv.xyz, 0.0)).xyz);
+  float unit = again[3][3] * wider[2][2];
+  vec3 h = normalize(l + v);
+  vc = kamb * lamb * unit + max(dot(n, l), 0.0) * kdiff * ldiff + pow(max(dot(n, h), 0.0), kshi) * kspec * lspec;
+  gl_Position = mc * pv;
+}

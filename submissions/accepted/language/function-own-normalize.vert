@@ -1,0 +1,31 @@
+#version 410 core
+// The student's own normalize(vec3), with the parameters of the built-in one.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+layout (location = 0) in vec4 pv;  // position
+in vec4 cv;                        // normal
+uniform mat4 mw;                   // model-view
+uniform mat4 mc;                   // model-view-projection
+uniform mat4 mg;                   // normal matrix
+out vec4 vc;                       // vertex colour
+vec3 normalize(vec3 a)
+{
+  return 2.0 * a / sqrt(dot(a, a));      // of length 2, so that a mix-up shows
+}
+void main(void)
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+  vc = kamb * lamb + max(dot(n, l) / 4.0, 0.0) * kdiff * ldiff
+     + pow(max(dot(n, h) / 4.0, 0.0), kshi) * kspec * lspec;
+  gl_Position = mc * pv;
+}

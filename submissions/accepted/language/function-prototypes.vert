@@ -1,0 +1,34 @@
+#version 410 core
+// Functions declared first and defined after main, with and without parameter names.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+layout (location = 0) in vec4 pv;  // position
+in vec4 cv;                        // normal
+uniform mat4 mw;                   // model-view
+uniform mat4 mc;                   // model-view-projection
+uniform mat4 mg;                   // normal matrix
+out vec4 vc;                       // vertex colour
+float diffuse(vec3, vec3);
+float specular(vec3 normal, vec3 half_vector, float);
+void write(vec4 colour);
+void main(void)
+{
+  vec4 p = mw * pv;                                   // position in eye space
+  vec3 v = -normalize(p.xyz / p.w);                   // view vector
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);      // light vector
+  vec3 n = normalize((mg * cv).xyz);                  // normal
+  write(kamb * lamb + diffuse(n, l) * kdiff * ldiff + specular(n, normalize(l + v), kshi) * kspec * lspec);
+}
+float diffuse(vec3 a, vec3 b) { return max(dot(a, b), 0.0); }
+float specular(vec3 n, vec3 h, float shininess) { return pow(max(dot(n, h), 0.0), shininess); }
+void write(vec4 colour)
+{
+  vc = colour;
+  gl_Position = mc * pv;
+}

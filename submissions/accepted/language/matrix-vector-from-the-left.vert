@@ -1,0 +1,32 @@
+#version 410 core
+// v * m is the product with the transposed matrix.
+// 光源と材質
+const vec4 pl    = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb  = vec4(vec3(0.2), 1.0);
+const vec4 ldiff = vec4(vec3(1.0), 0.0);
+const vec4 lspec = vec4(vec3(1.0), 0.0);
+const vec4 kamb  = vec4(0.6, vec2(0.0), 1.0);
+const vec4 kdiff = vec4(0.6, vec2(0.0), 1.0);
+const vec4 kspec = vec4(vec3(0.4), 1.0);
+const float kshi = 80.0;
+// 頂点属性
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+
+// 変換行列
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+// 頂点色
+out vec4 vc;
+void main(void)
+{
+	vec4 p = pv * transpose(mw);
+	vec3 v = -normalize(p.xyz / p.w);
+	vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+	vec3 n = normalize(cv.xyz * transpose(mat3(mg)));
+	vec4 rows = vec4(dot(vec4(mc[0][0], mc[1][0], mc[2][0], mc[3][0]), pv), (pv * transpose(mc)).yzw);
+	vc = kamb * lamb + max(dot(n, l), 0) * kdiff * ldiff + pow(max(dot(n, normalize(l + v)), 0), kshi) * kspec * lspec;
+	gl_Position = rows;
+}

@@ -1,0 +1,24 @@
+#version 330 core
+// sample, patch and subroutine are keywords from 4.00 on only.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+uniform mat4 mg;
+uniform mat4 mc;
+uniform mat4 mw;
+out vec4 vc;
+in vec4 cv;
+in vec4 pv;
+float subroutine(float sample) { return max(sample, 0.0); }
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+    float patch = subroutine(dot(n, l));
+    vc = kamb * lamb + patch * kdiff * ldiff + pow(subroutine(dot(n, normalize(l + v))), kshi) * kspec * lspec;
+    gl_Position = mc * pv;
+}

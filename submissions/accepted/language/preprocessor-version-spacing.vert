@@ -1,0 +1,22 @@
+  #  version   410   core  
+// Blanks around #version.
+const float kshi=80.0;
+const vec4 kspec=vec4(0.4,0.4,0.4,1.0);
+const vec4 kdiff=vec4(0.6,0.0,0.0,1.0);
+const vec4 kamb=vec4(0.6,0.0,0.0,1.0);
+const vec4 lspec=vec4(1.0,1.0,1.0,0.0);
+const vec4 ldiff=vec4(1.0,1.0,1.0,0.0);
+const vec4 lamb=vec4(0.2,0.2,0.2,1.0);
+const vec4 pl=vec4(0.0,0.0,1.0,0.0);
+uniform mat4 mg;
+uniform mat4 mc;
+uniform mat4 mw;
+out vec4 vc;
+in vec4 cv;
+in vec4 pv;
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+	vc = kamb * lamb + max(dot(n, l), 0.) * kdiff * ldiff + pow(max(dot(n, normalize(l + v)), 0.), kshi) * kspec * lspec;
+	gl_Position = mc * pv;
+}

@@ -1,0 +1,29 @@
+#version 410 core
+// A struct declared inside a function, hiding a global one; a member named like a variable and like a built-in.
+struct Light { float strength; };
+const float kshi=80.0;
+const vec4 kspec=vec4(0.4,0.4,0.4,1.0);
+const vec4 kdiff=vec4(0.6,0.0,0.0,1.0);
+const vec4 kamb=vec4(0.6,0.0,0.0,1.0);
+const vec4 lspec=vec4(1.0,1.0,1.0,0.0);
+const vec4 ldiff=vec4(1.0,1.0,1.0,0.0);
+const vec4 lamb=vec4(0.2,0.2,0.2,1.0);
+const vec4 pl=vec4(0.0,0.0,1.0,0.0);
+uniform mat4 mg;
+uniform mat4 mc;
+uniform mat4 mw;
+out vec4 vc;
+in vec4 cv;
+in vec4 pv;
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+	Light weak = Light(3.0);
+	struct Light { vec3 l; float max, dot, v; };
+	Light light = Light(l, 1.0, 0.0, weak.strength);
+	light.dot = dot(n, light.l);
+	light.max = max(light.dot, 0.0) * light.max;
+	vc = kamb * lamb + light.max * kdiff * ldiff * (light.v - 2.0)
+	   + pow(max(dot(n, normalize(light.l + v)), 0.0), kshi) * kspec * lspec;
+	gl_Position = mc * pv;
+}

@@ -1,0 +1,26 @@
+#version 410 core
+// Reading components in any order and more than once: xyzw, rgba, stpq, .xxx, .zyx.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+layout (location = 0) in vec4 pv;  // position
+in vec4 cv;                        // normal
+uniform mat4 mw;                   // model-view
+uniform mat4 mc;                   // model-view-projection
+uniform mat4 mg;                   // normal matrix
+out vec4 vc;                       // vertex colour
+void main(void)
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.q);
+  vec3 l = normalize((pl * p.aaaa - p.rgba * pl.wwww).stp);
+  vec3 n = normalize((mg * cv).zyx).bgr;
+  vec2 ds = vec2(max(dot(n.yzx, l.gbr), 0.0), max(dot(n, normalize(l + v).stp.rgb), 0.0));
+  vc = kamb * lamb + ds.xxxx * kdiff * ldiff + pow(ds.gg.t, kshi) * kspec.rrrr * lspec;
+  gl_Position = (mc * pv.xyzw.wzyx.wzyx);
+}

@@ -1,0 +1,31 @@
+#version 410 core
+// Uniform structs, arrays and samplers that are declared; some are read as zeros, the samplers not at all.
+const float kshi=80.0;
+const vec4 kspec=vec4(0.4,0.4,0.4,1.0);
+const vec4 kdiff=vec4(0.6,0.0,0.0,1.0);
+const vec4 kamb=vec4(0.6,0.0,0.0,1.0);
+const vec4 lspec=vec4(1.0,1.0,1.0,0.0);
+const vec4 ldiff=vec4(1.0,1.0,1.0,0.0);
+const vec4 lamb=vec4(0.2,0.2,0.2,1.0);
+const vec4 pl=vec4(0.0,0.0,1.0,0.0);
+uniform mat4 mg;
+uniform mat4 mc;
+uniform mat4 mw;
+out vec4 vc;
+in vec4 cv;
+in vec4 pv;
+struct Lamp { vec3 place; float power; };
+uniform Lamp lamp;
+uniform Lamp lamps[2];
+uniform sampler2D picture;
+uniform samplerCube sky;
+uniform sampler2DShadow shade_map;
+uniform isampler3D volume;
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+	float zero = lamp.power + lamps[1].place.y + lamps[int(lamp.power)].power;
+	float d = max(dot(n, l + lamp.place), zero);
+	vc = kamb * lamb + d * kdiff * ldiff + pow(max(dot(n, normalize(l + v)), 0.), kshi) * kspec * lspec;
+	gl_Position = mc * pv;
+}

@@ -1,0 +1,25 @@
+#version 420 core
+// 4.20: const variables with initialisers that are known only at run time.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);     // light position
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);   // ambient intensity
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);  // diffuse intensity
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);  // specular intensity
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);   // ambient reflectance
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);  // diffuse reflectance
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);  // specular reflectance
+const float kshi = 80.0;                      // shininess
+layout (location = 0) in vec4 pv;  // position
+in vec4 cv;                        // normal
+uniform mat4 mw;                   // model-view
+uniform mat4 mc;                   // model-view-projection
+uniform mat4 mg;                   // normal matrix
+out vec4 vc;                       // vertex colour
+void main(void)
+{
+  const vec4 p = mw * pv;
+  const vec3 v = -normalize(p.xyz / p.w), l = normalize(pl.xyz), n = normalize((mg * cv).xyz);
+  const float d = max(dot(n, l), 0.0), s = pow(max(dot(n, normalize(l + v)), 0.0), kshi);
+  const vec4 terms[] = { kamb * lamb, d * kdiff * ldiff, s * kspec * lspec };
+  vc = terms[0] + terms[1] + terms[2];
+  gl_Position = mc * pv;
+}

@@ -1,0 +1,22 @@
+#version 430 core
+// 4.30: layout(location) on uniforms, in an order of the student's own.
+const float kshi=80.0;
+const vec4 kspec=vec4(0.4,0.4,0.4,1.0);
+const vec4 kdiff=vec4(0.6,0.0,0.0,1.0);
+const vec4 kamb=vec4(0.6,0.0,0.0,1.0);
+const vec4 lspec=vec4(1.0,1.0,1.0,0.0);
+const vec4 ldiff=vec4(1.0,1.0,1.0,0.0);
+const vec4 lamb=vec4(0.2,0.2,0.2,1.0);
+const vec4 pl=vec4(0.0,0.0,1.0,0.0);
+in vec4 pv, cv;
+layout(location = 7) uniform mat4 mw;
+layout(location = 0) uniform mat4 mg;
+layout(location = 3) uniform mat4 mc;
+layout(location = 20) uniform float gain = 1.0;
+out vec4 vc;
+void main() {
+    vec4 p = mw * pv;
+    vec3 v = -normalize(p.xyz / p.w), l = normalize((pl * p.w - p * pl.w).xyz), n = normalize((mg * cv).xyz);
+    vc = gain * kamb * lamb + max(dot(n, l), 0.) * kdiff * ldiff + pow(max(dot(n, normalize(l + v)), 0.), kshi) * kspec * lspec;
+    gl_Position = mc * pv;
+}

@@ -1,0 +1,31 @@
+#version 410 core
+// outerProduct, matrixCompMult and transpose of matrices that are not square.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+  float d = max(dot(n, l), 0.0);
+  float s = pow(max(dot(n, h), 0.0), kshi);
+  mat3x2 m = outerProduct(vec2(1.0, 2.0), vec3(3.0, 4.0, 5.0) * pv.w); mat2x3 t_ = transpose(m); mat3x2 q = matrixCompMult(m, m);
+  d *= m[2].y / 10.0 * t_[1].x / 6.0 * q[1].x / 16.0 * (m * vec3(1.0)).y / 24.0 * (vec2(1.0) * m).z / 15.0 * (t_ * m)[1][2] / 100.0;
+  vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
+  gl_Position = mc * pv;
+}

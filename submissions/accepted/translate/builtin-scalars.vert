@@ -1,0 +1,32 @@
+#version 410 core
+// Geometric functions of scalars.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+  float d = max(dot(n, l), 0.0);
+  float s = pow(max(dot(n, h), 0.0), kshi);
+  float a = -3.0 * pv.w;
+  d *= length(a) / 3.0 * -normalize(a) * distance(a, 1.0) / 4.0 * dot(a, -1.0) / 3.0 * faceforward(1.0, a, 2.0) * reflect(2.0 * pv.w, 0.5);
+  d *= refract(0.5 * pv.w, 1.0, 1.0) / -0.5 * (refract(0.1, 0.1, 3.0) == 0.0 ? 1.0 : 9.0) * -faceforward(1.0, -a, 2.0);
+  vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
+  gl_Position = mc * pv;
+}

@@ -1,0 +1,32 @@
+#version 410 core
+// == and != of structures, arrays, matrices and vectors.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+struct S { mat2 m; int i[2]; };
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+  float d = max(dot(n, l), 0.0);
+  float s = pow(max(dot(n, h), 0.0), kshi);
+  S a = S(mat2(1.0, 2.0, 3.0, 4.0), int[2](1, 2)), b = a;
+  b.i[1] += int(d * 0.0);
+  d *= float(a == b && a.m == b.m && a.i == b.i && !(vec3(1.0) != vec3(1.0)));
+  vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
+  gl_Position = mc * pv;
+}

@@ -1,0 +1,35 @@
+#version 410 core
+// ?: chooses structures, arrays and matrices.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+struct S { vec2 v; float f[2]; };
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+  float d = max(dot(n, l), 0.0);
+  float s = pow(max(dot(n, h), 0.0), kshi);
+  S a = S(vec2(1.0), float[2](1.0, 2.0)), b = S(vec2(9.0), float[2](9.0, 9.0));
+  bool q = d >= 0.0;
+  S e = q ? a : b;
+  float f[2] = q ? a.f : b.f;
+  mat2 m = q ? mat2(1.0) : mat2(9.0);
+  d *= e.v.x * f[1] * e.f[1] * m[1][1] / 4.0;
+  vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
+  gl_Position = mc * pv;
+}

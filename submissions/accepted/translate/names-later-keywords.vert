@@ -1,0 +1,30 @@
+#version 410 core
+// Keywords of later versions, of Vulkan and of other languages as names.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+float shared = 1.0, buffer = 1.0, texture2D = 1.0, subpassInput = 1.0, f16vec2 = 1.0, fn = 1.0, var = 1.0, let = 1.0, workgroup = 1.0, array = 1.0, ptr = 1.0, demote = 1.0, storage = 1.0;
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+  vec3 h = normalize(l + v);
+  float d = max(dot(n, l), 0.0);
+  float s = pow(max(dot(n, h), 0.0), kshi);
+  d *= shared * buffer * texture2D * subpassInput * f16vec2 * fn * var * let * workgroup * array * ptr * demote * storage;
+  vc = kamb * lamb + d * kdiff * ldiff + s * kspec * lspec;
+  gl_Position = mc * pv;
+}

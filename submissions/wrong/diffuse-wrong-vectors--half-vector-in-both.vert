@@ -1,0 +1,18 @@
+#version 410
+const vec4 pl=vec4(0.,0.,1.,0.);
+const vec4 lamb=vec4(.2,.2,.2,1.), ldiff=vec4(1.,1.,1.,0.), lspec=vec4(1.,1.,1.,0.);
+const vec4 kamb=vec4(.6,0.,0.,1.), kdiff=vec4(.6,0.,0.,1.), kspec=vec4(.4,.4,.4,1.);
+const float kshi=80.;
+in vec4 pv, cv;
+uniform mat4 mw, mc, mg;
+out vec4 vc;
+
+void main(){
+vec4 p=mw*pv;
+vec3 n=normalize(mat3(mg)*cv.xyz);
+vec3 l=normalize(pl.xyz);
+vec3 h=normalize(l-normalize(p.xyz));
+float c=max(dot(n,h),0.);
+vc=kamb*lamb+c*kdiff*ldiff+pow(c,kshi)*kspec*lspec;
+gl_Position=mc*pv;
+}

@@ -1,0 +1,15 @@
+#version 410
+const vec4 pl=vec4(0.,0.,1.,0.);
+const vec4 lamb=vec4(.2,.2,.2,1.), ldiff=vec4(1.,1.,1.,0.), lspec=vec4(1.,1.,1.,0.);
+const vec4 kamb=vec4(.6,0.,0.,1.), kdiff=vec4(.6,0.,0.,1.), kspec=vec4(.4,.4,.4,1.);
+const float kshi=80.;
+in vec4 pv, cv;
+uniform mat4 mw, mc, mg;
+out vec4 vc;
+
+void main(){
+vec3 n=normalize((mg*cv).xyz),l=normalize(pl.xyz),v=-normalize((mw*pv).xyz),h=normalize(l+v);
+float d=max(dot(n,l),0.),s=pow(max(dot(n,h),0.),kshi);
+vc=lamb*(kamb+kspec*s)+ldiff*kdiff*d;
+gl_Position=mc*pv;
+}

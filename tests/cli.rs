@@ -1,0 +1,221 @@
+//! The command line by what a person sees of it: exit codes, output, files.
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use std::path::{Path, PathBuf};
+
+fn ggrade() -> Command {
+    let mut command = Command::cargo_bin("ggrade").unwrap();
+    command.env_remove("GGRADE_LANG").env_remove("LC_ALL").env("LANG", "C");
+    command
+}
+
+fn sample(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name)
+}
+
+/// Some sample of a folder whose name begins so.
+fn sample_like(folder: &str, start: &str) -> PathBuf {
+    let entries = std::fs::read_dir(sample(folder)).unwrap();
+    let mut found: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    found.retain(|path| {
+        path.extension().is_some_and(|e| e == "vert") && path.file_name().unwrap().to_string_lossy().starts_with(start)
+    });
+    found.sort();
+    found.into_iter().next().unwrap_or_else(|| panic!("no sample {folder}/{start}*"))
+}
+
+fn json(file: &Path, arguments: &[&str]) -> serde_json::Value {
+    let output = ggrade().arg("grade").arg(file).args(["--format", "json"]).args(arguments).output().unwrap();
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)))
+}
+
+#[test]
+fn a_right_answer_ends_with_0_and_says_what_agrees() {
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("accepted/answers", "plain-int-zero"))
+        .assert()
+        .code(0)
+        .stdout(
+            predicate::str::contains("100 / 100").and(predicate::str::contains("Every frame and every probe agrees")),
+        )
+        .stderr("");
+}
+
+#[test]
+fn a_wrong_answer_ends_with_1_and_names_the_mistake() {
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("wrong", "specular-half-unnormalized--"))
+        .assert()
+        .code(1)
+        .stdout(predicate::str::contains("specular-half-unnormalized").and(predicate::str::contains("40")));
+}
+
+#[test]
+fn the_unchanged_starter_scores_0() {
+    let starter = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments/ggsample06/starter.vert");
+    let report = json(&starter, &[]);
+    assert_eq!(report["score"], 0);
+    assert_eq!(report["mistakes"], serde_json::json!(["unchanged"]));
+}
+
+#[test]
+fn a_broken_file_is_rejected_with_its_line_under_a_caret() {
+    ggrade().arg("grade").arg(sample_like("rejected", "undeclared-capital-max")).assert().code(1).stdout(
+        predicate::str::contains("Max").and(predicate::str::contains("^")).and(predicate::str::contains("max")),
+    );
+}
+
+#[test]
+fn the_json_report_has_the_fields_of_the_contract_in_their_order() {
+    let report = json(&sample_like("accepted/answers", "plain-int-zero"), &["--seed", "7"]);
+    let keys: Vec<_> = report.as_object().unwrap().keys().map(String::as_str).collect();
+    assert_eq!(
+        keys,
+        [
+            "schema",
+            "assignment",
+            "source",
+            "verdict",
+            "score",
+            "max_score",
+            "rubric",
+            "mistakes",
+            "diagnostics",
+            "frames",
+            "probes",
+            "environment",
+            "elapsed_ms"
+        ]
+    );
+    assert_eq!(report["schema"], "ggrade/report/v1");
+    assert_eq!(report["probes"]["seed"], 7);
+    assert_eq!(report["frames"].as_array().unwrap().len(), 25);
+}
+
+#[test]
+fn one_seed_gives_one_report() {
+    let file = sample_like("wrong", "specular-phong--");
+    let of_seed = |seed: &str| {
+        let mut report = json(&file, &["--seed", seed]);
+        report["elapsed_ms"].take();
+        report
+    };
+    assert_eq!(of_seed("11"), of_seed("11"));
+    assert_ne!(of_seed("11")["probes"], of_seed("12")["probes"]);
+}
+
+#[test]
+fn both_languages_are_spoken() {
+    let file = sample_like("wrong", "ambient-missing--");
+    ggrade().arg("grade").arg(&file).args(["--lang", "ja"]).assert().stdout(predicate::str::contains("環境光"));
+    ggrade().arg("grade").arg(&file).env("LANG", "ja_JP.UTF-8").assert().stdout(predicate::str::contains("環境光"));
+    ggrade().arg("grade").arg(&file).args(["--lang", "en"]).assert().stdout(predicate::str::contains("Ambient"));
+}
+
+#[test]
+fn no_colour_reaches_a_pipe() {
+    let file = sample_like("wrong", "ambient-missing--");
+    ggrade().arg("grade").arg(&file).assert().stdout(predicate::str::contains("\u{1b}[").not());
+    ggrade().arg("grade").arg(&file).env("CLICOLOR_FORCE", "1").assert().stdout(predicate::str::contains("\u{1b}["));
+}
+
+#[test]
+fn pictures_and_the_animation_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let frames = folder.path().join("pictures");
+    ggrade().arg("grade").arg(sample_like("wrong", "specular-missing--")).arg("--frames").arg(&frames).assert().code(1);
+    for name in ["yours-00.png", "expected-24.png", "difference-12.png"] {
+        let picture = image::open(frames.join(name)).unwrap();
+        assert_eq!((picture.width(), picture.height()), (640, 480), "{name}");
+    }
+    let animation = std::fs::File::open(frames.join("animation.png")).unwrap();
+    let reader = png::Decoder::new(std::io::BufReader::new(animation)).read_info().unwrap();
+    assert_eq!(reader.info().animation_control().unwrap().num_frames, 25);
+}
+
+#[test]
+fn the_page_stands_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("report.html");
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("wrong", "specular-phong--"))
+        .args(["--format", "html", "--lang", "ja", "--output"])
+        .arg(&page)
+        .assert()
+        .code(1)
+        .stdout("");
+    let text = std::fs::read_to_string(page).unwrap();
+    assert!(text.contains("data:image/png;base64,") && text.contains("鏡面反射光"));
+    assert!(!text.contains("src=\"http") && !text.contains("href=\"http"));
+}
+
+#[test]
+fn standard_input_is_graded_too() {
+    let bytes = std::fs::read(sample_like("accepted/answers", "plain-int-zero")).unwrap();
+    ggrade().args(["grade", "-"]).write_stdin(bytes).assert().code(0);
+}
+
+#[test]
+fn a_file_that_is_not_there_ends_with_4() {
+    ggrade()
+        .args(["grade", "/nonexistent/ggsample06.vert"])
+        .assert()
+        .code(4)
+        .stdout("")
+        .stderr(predicate::str::contains("/nonexistent/ggsample06.vert"));
+    ggrade().args(["grade", "/"]).assert().code(4);
+}
+
+#[test]
+fn a_wrong_command_line_ends_with_2() {
+    ggrade().args(["grade", "a.vert", "--format", "pdf"]).assert().code(2);
+    ggrade().args(["grade", "a.vert", "--deadline", "-1"]).assert().code(2);
+    ggrade().assert().code(2);
+}
+
+#[test]
+fn an_unwritable_folder_ends_with_3_and_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let occupied = folder.path().join("occupied");
+    std::fs::write(&occupied, "a file").unwrap();
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("accepted/answers", "plain-int-zero"))
+        .arg("--frames")
+        .arg(&occupied)
+        .assert()
+        .code(3)
+        .stderr(predicate::str::contains("occupied"));
+}
+
+#[test]
+fn an_unknown_assignment_ends_with_3_and_the_known_ones_are_named() {
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("accepted/answers", "plain-int-zero"))
+        .args(["--assignment", "ggsample99"])
+        .assert()
+        .code(3)
+        .stderr(predicate::str::contains("ggsample06"));
+}
+
+#[test]
+fn a_missing_driver_is_our_fault_and_the_package_is_named() {
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("accepted/answers", "plain-int-zero"))
+        .args(["--adapter", "gpu"])
+        .assert()
+        // A machine that has a graphics card grades with it.
+        .code(predicate::in_iter([0, 3]));
+}
+
+#[test]
+fn the_doctor_finds_this_machine_well() {
+    ggrade().arg("doctor").assert().code(0).stdout(predicate::str::contains("llvmpipe"));
+}

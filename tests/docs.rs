@@ -1,0 +1,57 @@
+//! Tables in the documentation are what the program says. `BLESS=1` writes them anew, and is red.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+fn mistakes() -> String {
+    let assignment = reference::assignment("ggsample06").unwrap();
+    let lines: Vec<_> = assignment.rubric.iter().map(|line| line.id.as_str()).collect();
+    let mut table = format!("| mistake | {} |\n|{}\n", lines.join(" | "), " --- |".repeat(lines.len() + 1));
+    for mistake in &assignment.mistakes {
+        let kept: Vec<_> = lines
+            .iter()
+            .map(|line| match mistake.keeps(line) {
+                1.0 => String::new(),
+                kept => format!("{:.0} %", kept * 100.0),
+            })
+            .collect();
+        writeln!(table, "| `{}` | {} |", mistake.id, kept.join(" | ")).unwrap();
+    }
+    table
+}
+
+#[test]
+fn the_table_of_mistakes_is_the_assignments_own() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scoring.md");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (before, rest) = text.split_once("<!-- table: mistakes -->\n").expect("the table's place");
+    let (found, after) = rest.split_once("<!-- end of table -->").expect("the table's end");
+    let expected = mistakes();
+    if found != expected && std::env::var_os("BLESS").is_some() && std::env::var_os("CI").is_none() {
+        let text = format!("{before}<!-- table: mistakes -->\n{expected}<!-- end of table -->{after}");
+        std::fs::write(&path, text).unwrap();
+    }
+    assert_eq!(found, expected, "docs/scoring.md is not what the assignment says");
+}
+
+#[test]
+fn every_mistake_of_the_table_has_two_samples() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/wrong");
+    let names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".vert"))
+        .collect();
+    let assignment = reference::assignment("ggsample06").unwrap();
+    let samples = |id: &str| {
+        let has = |name: &&String| name.split_once("--").is_some_and(|(ids, _)| ids.split('+').any(|i| i == id));
+        names.iter().filter(has).count()
+    };
+    let few: Vec<_> = assignment.mistakes.iter().filter(|m| samples(&m.id) < 2).map(|m| m.id.as_str()).collect();
+    assert!(few.is_empty(), "fewer than two samples of {few:?}");
+    for name in &names {
+        for id in name.split_once("--").map_or("", |(ids, _)| ids).split('+') {
+            assert!(assignment.mistake(id).is_some(), "{name}: there is no mistake {id}");
+        }
+    }
+}
