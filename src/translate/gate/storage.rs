@@ -87,10 +87,10 @@ fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> 
             (op::VARIABLE, [_, ty, id, class, ..]) => {
                 let name = names.get(id).map_or("", String::as_str);
                 match class {
-                    2 if size(ty).saturating_mul(4) > MAX_UNIFORM_BYTES => {
+                    0 | 2 if size(ty).saturating_mul(4) > MAX_UNIFORM_BYTES => {
                         return Err(too_many_uniforms(size(ty).saturating_mul(4)));
                     }
-                    2 => {}
+                    0 | 2 => {}
                     _ if size(ty) > MAX_SCALARS => {
                         return Err(too_much_memory(size(ty).saturating_mul(4), name, source));
                     }

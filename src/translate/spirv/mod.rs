@@ -41,10 +41,12 @@ pub(super) struct Reworked {
 /// - Where `poisons`, what is undefined becomes a number that shows ([`poison`]).
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
 ///   there, and zero is the same each time.
+/// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
 pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Option<Reworked> {
     let mut code = Code::parse(words)?;
     let unset = globals::rework(&mut code, set);
     undefined(&mut code);
+    code.functions.retain(|instruction| instruction.opcode != op::MEMORY_BARRIER);
     switch::separate_cases(&mut code)?;
     lower::lower(&mut code);
     if poisons {
