@@ -134,7 +134,10 @@ impl Source {
 
     /// For each line whether no compiler reads it: the inside of `#if 0`, the text of a macro that is never used.
     pub fn unread_lines(&self) -> Vec<bool> {
-        directives::standings(&self.code).into_iter().map(|standing| standing == directives::Standing::Skipped).collect()
+        directives::standings(&self.code)
+            .into_iter()
+            .map(|standing| standing == directives::Standing::Skipped)
+            .collect()
     }
 
     /// How many lines there are.

@@ -65,7 +65,9 @@ pub(super) fn fatal(source: &Source) -> Option<&str> {
 impl Granted {
     /// A `;` outside functions that ends nothing.
     fn semicolon(&mut self, entry: &Entry<'_>, source: &Source) {
-        let Some(at) = offset(&self.text, entry).filter(|&at| self.text.as_bytes().get(at) == Some(&b';')) else { return };
+        let Some(at) = offset(&self.text, entry).filter(|&at| self.text.as_bytes().get(at) == Some(&b';')) else {
+            return;
+        };
         self.text.replace_range(at..=at, " ");
         let message = Text::new(
             "This `;` ends nothing. Drivers that keep strictly to GLSL before 4.60 refuse it; others let it pass.",
@@ -96,8 +98,10 @@ impl Granted {
         if text::words(&self.text).any(|(_, word)| word == new) {
             return;
         }
-        let places: Vec<usize> =
-            text::words(&self.text).filter(|&(at, word)| word == name && is_name(&self.text, at)).map(|(at, _)| at).collect();
+        let places: Vec<usize> = text::words(&self.text)
+            .filter(|&(at, word)| word == name && is_name(&self.text, at))
+            .map(|(at, _)| at)
+            .collect();
         for at in places {
             self.text.replace_range(at..at + name.len(), new);
         }

@@ -171,7 +171,7 @@ impl Shader {
         let options = o::AUTO_MAP_BINDINGS | o::AUTO_MAP_LOCATIONS;
         // SAFETY: `raw` is live; the texts are NUL-terminated and copied by the callee.
         unsafe {
-            sys::glslang_shader_set_options(raw, options.0 as i32);
+            sys::glslang_shader_set_options(raw, options.0);
             if is_vertex {
                 sys::glslang_shader_set_preamble(raw, request.preamble.as_ptr());
                 if let Some(version) = request.version {
@@ -222,7 +222,7 @@ impl<'a> Program<'a> {
     fn link(&self, rules: Rules) -> bool {
         // SAFETY: `raw` is live and has two parsed shaders; map_io follows a successful link.
         unsafe {
-            sys::glslang_program_link(self.raw, rules.messages().0 as i32) != 0
+            sys::glslang_program_link(self.raw, rules.messages().0) != 0
                 && (rules == Rules::OpenGl || sys::glslang_program_map_io(self.raw) != 0)
         }
     }

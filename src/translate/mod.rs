@@ -14,8 +14,11 @@ mod interface;
 mod limits;
 mod log;
 mod module;
+mod portability;
 mod spirv;
 mod strict;
+#[cfg(test)]
+mod tests;
 mod text;
 mod undefined;
 
@@ -68,6 +71,7 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     }
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     diagnostics.extend(warnings);
+    diagnostics.extend(portability::warnings(source, interface));
     let spirv = second_pass(&text, text::version(source.code()), interface)?;
     gate::check_words(&spirv, source)?;
     let inputs: Vec<&str> = interface.inputs.iter().map(|variable| variable.name.as_str()).collect();

@@ -6,7 +6,9 @@ mod robustness;
 
 use crate::diagnostic::Diagnostic;
 use crate::translate::glslang::{self, Outcome, Request, Rules, Stage};
-use crate::translate::{Interface, Variable, link_diagnostics, overlooked_errors, vertex_diagnostics};
+use crate::translate::hints::overlooked_errors;
+use crate::translate::log::{link_diagnostics, vertex_diagnostics};
+use crate::translate::{Interface, Variable};
 use std::ffi::CString;
 
 /// A right shader for an assignment of its own.
