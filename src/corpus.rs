@@ -146,7 +146,9 @@ fn samples(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
     if samples.is_empty() {
         return Err(unreadable(folder, "there is no sample in it"));
     }
-    let keys: Vec<PathBuf> = samples.iter().map(|sample| sample.with_extension("")).collect();
+    let mut keys: Vec<PathBuf> = samples.iter().map(|sample| sample.with_extension("")).collect();
+    // An extension sorts otherwise than the end of a name.
+    keys.sort();
     if let Some(pair) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
         return Err(unreadable(&pair[0], "two samples have this name"));
     }

@@ -15,8 +15,11 @@ mod limits;
 mod log;
 mod module;
 mod opaque;
+mod portability;
 mod spirv;
 mod strict;
+#[cfg(test)]
+mod tests;
 mod text;
 mod undefined;
 
@@ -69,6 +72,7 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     }
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     diagnostics.extend(warnings);
+    diagnostics.extend(portability::warnings(source, interface));
     let spirv = second_pass(&text, text::version(source.code()), interface)?;
     gate::check_words(&spirv, source)?;
     let shader = module::build(spirv, source, interface, false)?;
@@ -157,6 +161,9 @@ fn second_pass(text: &str, version: i32, interface: &Interface) -> Result<Vec<u3
 
 /// The module of the assignment's fixed fragment stage, linked with a vertex shader that fits it.
 pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, Fault> {
+    // The compiler keeps one table of built-ins for both kinds of rules; it must be made under OpenGL's, or
+    // `gl_DepthRange` is missing from it.
+    warm(interface, vertex);
     let outcome = compile(&Request {
         vertex: &text::c_text(vertex),
         fragment: &interface.fragment,

@@ -14,7 +14,8 @@ const STRICT_LOCATIONS: i32 = 420;
 pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
     let version = text::version(source.code());
     let mut errors = Vec::new();
-    for statement in statements(source.code()) {
+    let code = text::without_directives(source.code());
+    for statement in statements(&code) {
         if version < FREE_LAYOUTS {
             errors.extend(repeated_layout(source, &statement));
         }
@@ -27,11 +28,12 @@ pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> 
 }
 
 /// A piece of code between `;`, `{` and `}`: its words with the bytes that they stand at.
-struct Statement<'a> {
-    words: Vec<(usize, &'a str)>,
+pub(super) struct Statement<'a> {
+    pub words: Vec<(usize, &'a str)>,
 }
 
-fn statements(code: &str) -> impl Iterator<Item = Statement<'_>> {
+/// The pieces of `code`, which has no directives.
+pub(super) fn statements(code: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut start = 0;
     code.split_inclusive([';', '{', '}']).map(move |piece| {
         let words = text::words(piece).map(|(at, word)| (start + at, word)).collect();
@@ -41,7 +43,8 @@ fn statements(code: &str) -> impl Iterator<Item = Statement<'_>> {
 }
 
 impl Statement<'_> {
-    fn position(&self, wanted: &str) -> Option<usize> {
+    /// Which of its words is `wanted`.
+    pub fn position(&self, wanted: &str) -> Option<usize> {
         self.words.iter().position(|(_, word)| *word == wanted)
     }
 }

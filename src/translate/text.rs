@@ -62,6 +62,15 @@ pub(super) fn continued(text: &str, code: &str) -> Option<String> {
     (done > 0).then_some(out)
 }
 
+/// `code` with the directives blanked, continuations left out of account.
+pub(super) fn without_directives(code: &str) -> String {
+    let blanked = |line: &str| match directive(line) {
+        Some(_) => line.bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }).collect(),
+        None => line.to_owned(),
+    };
+    code.split_inclusive('\n').map(blanked).collect()
+}
+
 /// The bytes of each line, without its end.
 fn lines(text: &str) -> Vec<Range<usize>> {
     let mut start = 0;
@@ -153,4 +162,62 @@ pub(super) fn for_spirv(text: &str, version: i32) -> ForSpirv {
 pub(super) fn is_in_layout(text: &str, at: usize) -> bool {
     let before = &text[..at];
     before.rfind('(').is_some_and(|open| !before[open..].contains(')') && before[..open].trim_end().ends_with("layout"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source;
+
+    fn prepared_text(text: &str) -> String {
+        let source = source::read("a.vert", text.as_bytes()).expect("a shader");
+        let prepared = prepared(&source);
+        assert_eq!(prepared.len(), source.text.len());
+        prepared
+    }
+
+    #[test]
+    fn comments_to_the_line_end_are_blank_and_others_stay() {
+        assert_eq!(
+            prepared_text("#version 410\nfloat a; // b \\\nc\n/* d */ void main() {}\n"),
+            "#version 410\nfloat a;       \n \n/* d */ void main() {}\n"
+        );
+    }
+
+    #[test]
+    fn pragmas_are_blank_with_their_continuations() {
+        assert_eq!(
+            prepared_text("#version 410\n # pragma a \\\n b /* c\n*/ void main() {}\n"),
+            "#version 410\n             \n   /* c\n*/ void main() {}\n"
+        );
+    }
+
+    #[test]
+    fn only_what_nobody_reads_is_blanked() {
+        assert_eq!(
+            prepared_text("#version 410\n#if 0\n it's \"光\"\n#endif\n#define NEVER 光\nvoid\x0cmain() {}\n"),
+            "#version 410\n#if 0\n it s      \n#endif\n#define NEVER    \nvoid main() {}\n"
+        );
+    }
+
+    #[test]
+    fn continued_lines_keep_their_numbers() {
+        let text = "#define A 1 \\\n 2\nfloat a = \\\n 1;\n";
+        assert_eq!(continued(text, text).as_deref(), Some("#define A 1 /*\n*/ 2\nfloat a =  \n 1;\n"));
+        assert_eq!(continued("float a;\n", "float a;\n"), None);
+    }
+
+    #[test]
+    fn version_is_that_of_the_directive() {
+        assert_eq!(version("\n # version 330 core\n"), 330);
+        assert_eq!(version("void main() {}"), 110);
+    }
+
+    #[test]
+    fn layouts_of_blocks_become_one_that_spirv_has() {
+        let ready = for_spirv("layout(shared) uniform B { float a; };\nfloat shared_;\n", 410);
+        assert_eq!(ready.text.to_str(), Ok("layout(std140) uniform B { float a; };\nfloat shared_;\n"));
+        assert_eq!(ready.version, None);
+        assert_eq!(for_spirv("varying vec4 a;", 120).version, Some(330));
+    }
 }

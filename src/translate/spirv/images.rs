@@ -7,8 +7,12 @@ use super::code::Code;
 use super::lower::Builder;
 use super::op::{self, storage};
 
+/// The capabilities that have nothing to do with images: Matrix, Shader, Float64, Int64, ClipDistance, CullDistance.
+const CAPABILITIES: [u32; 6] = [0, 1, 10, 11, 32, 33];
+
 /// Makes the types of samplers and images plain ones, so that variables of them are as any other.
 pub(super) fn plain_types(code: &mut Code) {
+    code.heads.retain(|i| i.opcode != op::CAPABILITY || CAPABILITIES.contains(&i.operands[0]));
     let mut plain = Vec::new();
     for declared in &mut code.globals {
         let first = |at: usize| declared.operands.get(at).copied().unwrap_or_default();

@@ -9,6 +9,7 @@ pub const EXTENSION: u16 = 10;
 pub const EXT_INST: u16 = 12;
 pub const ENTRY_POINT: u16 = 15;
 pub const EXECUTION_MODE: u16 = 16;
+pub const CAPABILITY: u16 = 17;
 pub const TYPE_VOID: u16 = 19;
 pub const TYPE_BOOL: u16 = 20;
 pub const TYPE_INT: u16 = 21;

@@ -1,0 +1,113 @@
+//! Valid shaders that take more than the two passes, and what only drivers refuse.
+
+use super::{Interface, Refusal, Translation, translate};
+use crate::diagnostic::Severity;
+use crate::{homework, source};
+
+fn interface() -> Interface {
+    homework::interface(homework::assignment("ggsample06").expect("it is built in")).expect("it is whole")
+}
+
+/// Translates a right shader at this version, with these globals, from line 5 on, and this body.
+fn run(version: &str, globals: &str, body: &str) -> Result<Translation, Refusal> {
+    let text = format!(
+        "#version {version}\nin vec4 pv, cv;\nuniform mat4 mw, mc, mg;\nout vec4 vc;\n{globals}\n\
+         void main() {{\nvc = mg * cv + mw * pv;\n{body}\ngl_Position = mc * pv;\n}}\n"
+    );
+    let source = source::read("a.vert", text.as_bytes()).expect("a text");
+    translate(&source, &interface())
+}
+
+/// The places of the warnings of a shader that must be accepted.
+fn warnings(version: &str, globals: &str, body: &str) -> Vec<(Option<u32>, Option<u32>)> {
+    let translation = run(version, globals, body).unwrap_or_else(|refusal| panic!("{globals}{body}: {refusal:?}"));
+    let warnings = translation.diagnostics.iter().filter(|d| d.severity == Severity::Warning);
+    warnings.map(|warning| (warning.line, warning.column)).collect()
+}
+
+/// The places of the errors of a shader that must be rejected.
+fn errors(version: &str, globals: &str, body: &str) -> Vec<(Option<u32>, Option<u32>)> {
+    match run(version, globals, body) {
+        Err(Refusal::Rejected(diagnostics)) => diagnostics.iter().map(|d| (d.line, d.column)).collect(),
+        other => panic!("{globals}{body}: {:?}", other.map(|_| "accepted")),
+    }
+}
+
+#[test]
+fn stray_semicolons_are_warned_of_where_they_stand() {
+    let expected = [(Some(5), Some(1)), (Some(5), Some(25))];
+    assert_eq!(warnings("410", "; struct S { float a; };;", ""), expected);
+    assert_eq!(warnings("460", ";", ""), []);
+}
+
+#[test]
+fn a_continued_line_is_warned_of_before_4_20() {
+    assert_eq!(warnings("410", "#define ONE \\\n 1.0", "vc *= ONE;"), [(Some(5), Some(13))]);
+    assert_eq!(warnings("420", "#define ONE \\\n 1.0", "vc *= ONE;"), []);
+}
+
+#[test]
+fn several_concessions_go_together() {
+    let globals = ";\n#define ONE \\\n 1.0\nfloat shared = ONE;\nstruct S { float length; };";
+    let places = warnings("410", globals, "S s; s.length = shared; vc *= s.length;");
+    assert!(places.contains(&(Some(5), Some(1))) && places.contains(&(Some(6), Some(13))), "{places:?}");
+}
+
+#[test]
+fn names_that_are_taken_later_are_no_errors() {
+    assert_eq!(warnings("410", "float shared = 1.0, buffer = 1.0;", "vc *= shared * buffer;"), []);
+    assert_eq!(warnings("410", "struct S { float length; };", "S s; s.length = length(pv); vc *= s.length;"), []);
+    errors("430", "float shared = 1.0;", "");
+}
+
+#[test]
+fn a_mistake_beside_a_concession_stays_one() {
+    assert_eq!(errors("410", ";", "vc = nothing;"), [(Some(8), Some(6))]);
+}
+
+#[test]
+fn own_functions_may_be_called_as_built_in_ones() {
+    let globals = "float max(float a, float b) { return a > b ? a : b; }\nvec3 normalize(vec3 a) { return a; }";
+    assert_eq!(warnings("410", globals, "vc *= max(vc.x, 0) * normalize(pv.xyz).x;"), []);
+}
+
+#[test]
+fn what_the_compiler_lacks_is_our_fault() {
+    let subroutine =
+        "subroutine float F(float a);\nsubroutine(F) float f(float a) { return a; }\nsubroutine uniform F g;";
+    assert!(matches!(run("410", subroutine, "vc *= g(1.0);"), Err(Refusal::Fault(_))));
+    assert!(matches!(run("410", "uniform sampler2D t;", "vc *= texture2D(t, pv.xy);"), Err(Refusal::Fault(_))));
+    // The student's own function of that name is none of the compiler's.
+    assert_eq!(warnings("410", "vec4 texture2D(vec2 a) { return a.xyxy; }", "vc *= texture2D(pv.xy);"), []);
+}
+
+#[test]
+fn what_drivers_surely_refuse_is_refused() {
+    assert_eq!(errors("410", "layout(location = 1, location = 2) in vec4 a;", ""), [(Some(5), Some(22))]);
+    assert_eq!(errors("410", "layout(location = 1) layout(location = 2) in vec4 a;", ""), [(Some(5), Some(29))]);
+    assert_eq!(errors("410", "precise float f() { return 1.0; }", ""), [(Some(5), Some(1))]);
+    assert_eq!(warnings("420", "layout(location = 1, location = 2) in vec4 a;", ""), []);
+    assert_eq!(warnings("410", "layout(location = 1) in vec4 a; precise float b;", ""), []);
+}
+
+/// The places of the warnings of a whole text.
+fn warnings_of(text: &str) -> Vec<(Option<u32>, Option<u32>)> {
+    let source = source::read("a.vert", text.as_bytes()).expect("a text");
+    let translation = translate(&source, &interface()).unwrap_or_else(|refusal| panic!("{text}: {refusal:?}"));
+    translation.diagnostics.iter().map(|warning| (warning.line, warning.column)).collect()
+}
+
+#[test]
+fn what_some_drivers_refuse_is_warned_of() {
+    let rest = "in vec4 pv;\nvoid main() { vc = pv; gl_Position = pv; }\n";
+    let at = |first: &str| warnings_of(&format!("{first}\n{rest}"));
+    assert_eq!(at("#version 410\nout vec4 vc;"), []);
+    assert_eq!(at("#version 410\nsmooth out vec4 vc;"), [(Some(2), Some(1))]);
+    assert_eq!(at("#version 440\nsmooth out vec4 vc;"), []);
+    assert_eq!(at("#version 410\nout vec4 vc; invariant vc;"), [(Some(2), Some(14))]);
+    assert_eq!(at("#version 410\nlayout(location = 2) out vec4 vc;"), [(Some(2), Some(8))]);
+    assert_eq!(at("#version 410\n#pragma STDGL invariant(all)\nout vec4 vc;"), [(Some(2), Some(15))]);
+    assert_eq!(at("#version 150\nout vec4 vc;"), [(Some(1), Some(10))]);
+    assert_eq!(at("#version 410 compatibility\nout vec4 vc;"), [(Some(1), Some(14))]);
+    assert_eq!(at("#version 410\nout vec4 vc;\n#extension GL_ARB_gpu_shader5 : enable"), [(Some(3), Some(12))]);
+}
