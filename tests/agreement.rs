@@ -204,22 +204,28 @@ fn a_right_answer_looks_the_same_everywhere() {
     assert!(clipped >= 40, "only {clipped} poses are cut by the near or far plane");
 }
 
+/// Samples that Mesa's OpenGL draws otherwise than OpenGL asks: it clips by planes that are not enabled, and reads a
+/// varying that has a location on one side only from nowhere.
+const DRAWN_OTHERWISE: [&str; 2] = ["clip-distance-negative", "output-location-410"];
+
 /// Every accepted sample, whatever language features it is written with, draws on wgpu what OpenGL draws.
 #[test]
 fn accepted_samples_look_as_on_opengl() {
     let mut bench = Bench::new();
-    let mut poses = poses(bench.assignment, 5, 3);
-    poses.truncate(8);
+    let poses = poses(bench.assignment, 3, 2);
     let mut compared = 0;
-    for folder in ["accepted/answers", "accepted/language", "accepted/disputed"] {
+    for folder in ["accepted/answers", "accepted/language", "accepted/translate", "accepted/disputed"] {
         for path in samples(folder) {
+            if DRAWN_OTHERWISE.iter().any(|name| path.to_string_lossy().contains(name)) {
+                continue;
+            }
             let source = read(&path);
             // A disputed file is one that some real driver refuses; it may be this one.
             let may_refuse = folder.ends_with("disputed");
             compared += usize::from(agrees_with_opengl(&mut bench, &path, &source, &poses, may_refuse));
         }
     }
-    assert!(compared > 150, "only {compared} samples were compared");
+    assert!(compared > 380, "only {compared} samples were compared");
 }
 
 /// Wrong answers are wrong in the same way: a translation must not mend or worsen them.
