@@ -2,7 +2,8 @@
 //!
 //! The modules stand in the order in which a submission flows through them:
 //! bytes → [`source`] → [`translate`] → [`render`] → [`compare`] → [`diagnose`] → [`report`].
-//! [`grade`] is the pipeline, [`sandbox`] the processes that it runs in, and [`command`] what a person calls.
+//! [`grade`] is the pipeline, [`sandbox`] the processes that it runs in. Many submissions at once are a [`batch`],
+//! uploads in a browser the [`service`]; [`command`] is what a person calls.
 
 pub mod compare;
 pub mod diagnose;
@@ -15,7 +16,9 @@ pub mod grade;
 pub mod homework;
 pub mod sandbox;
 
+pub mod batch;
 pub mod corpus;
+pub mod service;
 
 pub mod cli;
 pub mod command;

@@ -8,6 +8,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Grade(arguments) => command::grade::run(&arguments),
+        Command::Batch(arguments) => command::batch::run(&arguments),
+        Command::Watch(arguments) => command::watch::run(&arguments),
+        Command::Serve(arguments) => command::serve::run(&arguments),
         Command::Corpus(arguments) => command::corpus::run(&arguments),
         Command::Doctor(arguments) => command::doctor::run(&arguments),
         Command::Worker(arguments) => command::worker::run(&arguments),

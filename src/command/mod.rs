@@ -1,8 +1,11 @@
 //! What each command of the command line does.
 
+pub mod batch;
 pub mod corpus;
 pub mod doctor;
 pub mod grade;
+pub mod serve;
+pub mod watch;
 pub mod worker;
 
 use crate::fault::Fault;

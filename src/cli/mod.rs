@@ -1,5 +1,13 @@
 //! The command line's types, and nothing else.
 
+mod batch;
+mod serve;
+mod watch;
+
+pub use batch::Batch;
+pub use serve::Serve;
+pub use watch::Watch;
+
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
@@ -24,6 +32,12 @@ const EXIT_CODES: &str = "Exit codes: 0 graded, all full marks · 1 graded, some
 pub enum Command {
     /// Grade one file
     Grade(Grade),
+    /// Grade a whole class: folders, files, archives, a Moodle download
+    Batch(Batch),
+    /// Grade a file again whenever it is saved
+    Watch(Watch),
+    /// Serve the pages on which students upload and teachers see the class
+    Serve(Serve),
     /// Grade a folder of samples and hold each report against the expected one beside it
     Corpus(Corpus),
     /// Check this machine and say what to install

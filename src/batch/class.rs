@@ -1,0 +1,99 @@
+//! A graded class: what every format is a view of.
+
+use crate::fault::Fault;
+use crate::language::{Language, Text};
+use crate::report::Report;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Who handed in.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Student {
+    /// Tells students of a class apart and names their files: ASCII letters, digits, `-`, `_` and `.` only, unique in
+    /// the class, the same in every run on the same input.
+    pub key: String,
+    /// The name as shown; under `--anonymous` the pseudonym.
+    pub name: String,
+    /// How Moodle names them, where the file came out of a Moodle download.
+    pub moodle: Option<Participant>,
+}
+
+/// A student as Moodle's files name them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Participant {
+    /// What stands before the number in the download's names: the full name, or under blind marking `Participant`.
+    pub name: String,
+    /// The number in the download's names, which the worksheet's `Participant 1234` has too. Unique in an assignment.
+    pub number: u64,
+}
+
+/// What became of one student's submission.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// It was graded.
+    Graded(Box<Report>),
+    /// There is nothing to grade (no file, several files, a refused archive member), and why.
+    NotGraded(Text),
+    /// Grading it failed by no doing of the student's.
+    Fault(Fault),
+}
+
+/// One student of a class.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Who.
+    pub student: Student,
+    /// Where the file was, as a teacher would look for it: archive, folders, file name joined by `/`; none without file.
+    pub path: Option<String>,
+    /// The same as a file of this machine relative to the working folder, where it is one (not inside an archive).
+    pub local: Option<PathBuf>,
+    /// What became of it.
+    pub outcome: Outcome,
+    /// The file as text, where it can be read as text.
+    pub source: Option<String>,
+    /// A small PNG of what the shader draws, at the class's pose; none where nothing was drawn.
+    #[serde(skip)]
+    pub portrait: Option<Vec<u8>>,
+    /// The full report as a self-contained HTML page, on disk.
+    #[serde(skip)]
+    pub page: Option<PathBuf>,
+    /// Keys of the other students whose file is the same, comments, spacing and the hand-out's text left aside.
+    pub shares_with: Vec<String>,
+}
+
+impl Entry {
+    /// The report, where there is one.
+    pub fn report(&self) -> Option<&Report> {
+        match &self.outcome {
+            Outcome::Graded(report) => Some(report),
+            _ => None,
+        }
+    }
+}
+
+/// A member of the input that was left out, and why. The rest was graded.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refused {
+    /// Where it was.
+    pub path: String,
+    /// Why.
+    pub reason: Text,
+}
+
+/// A graded class.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Class {
+    /// Id of the assignment.
+    pub assignment: String,
+    /// Title, such as the name of the archive or folder.
+    pub title: String,
+    /// Everyone, in the order of the input.
+    pub entries: Vec<Entry>,
+    /// What was left out.
+    pub refused: Vec<Refused>,
+    /// The right picture at the class's pose, a PNG of the size of the portraits.
+    pub expected_portrait: Vec<u8>,
+    /// Language of every message.
+    pub language: Language,
+}

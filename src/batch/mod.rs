@@ -1,0 +1,4 @@
+//! Many files → many reports, in and out of the formats that courses use.
+
+pub mod class;
+pub mod formats;

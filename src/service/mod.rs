@@ -1,0 +1,1 @@
+//! The upload service: axum router, pages, store.
