@@ -11,7 +11,8 @@ pub(super) struct Located {
     pub name: Option<String>,
 }
 
-/// The first statement that contains the first of `telling` that any statement contains; spaces do not count.
+/// The first statement that contains the first of `telling` that any statement contains, or the last one where that is
+/// an assignment; spaces do not count.
 ///
 /// Declarations of the interface and constants are no statements: a mistake is in what is done with them.
 pub(super) fn find(source: &Source, telling: &[String]) -> Option<Located> {
@@ -22,7 +23,9 @@ pub(super) fn find(source: &Source, telling: &[String]) -> Option<Located> {
         .collect();
     telling.iter().find_map(|part| {
         let part: String = part.split_whitespace().collect();
-        let (number, line) = lines.iter().find(|(_, line)| contains(line, &part))?;
+        let mut showing = lines.iter().filter(|(_, line)| contains(line, &part));
+        // Of assignments to one name the last decides what is drawn.
+        let (number, line) = if part.ends_with('=') { showing.next_back()? } else { showing.next()? };
         Some(Located { line: *number, name: assigned(source.code_line(*number), line) })
     })
 }
@@ -92,6 +95,13 @@ mod tests {
     fn a_longer_name_is_another_name() {
         let code = "#version 410\nvoid main() {\n  float all = ball + value;\n  vec3 k = l + v;\n gl_Position = vec4(k, 1);\n}\n";
         assert_eq!(located(code, &["l+v"]), Some((4, Some("k".into()))));
+    }
+
+    #[test]
+    fn of_assignments_the_last_one_counts() {
+        let code = "#version 410\nvoid main() {\n  vc = cv;\n  vec4 a = kamb;\n  vc = a;\n gl_Position = a;\n}\n";
+        assert_eq!(located(code, &["vc="]), Some((5, Some("vc".into()))));
+        assert_eq!(located(code, &["vc=cv", "vc="]), Some((3, Some("vc".into()))));
     }
 
     #[test]

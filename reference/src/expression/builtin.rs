@@ -25,6 +25,9 @@ pub(super) enum Builtin {
     Fract,
     Sqrt,
     InverseSqrt,
+    Sin,
+    Cos,
+    Acos,
     Exp,
     Exp2,
     Log,
@@ -55,6 +58,9 @@ impl Builtin {
             "fract" => Self::Fract,
             "sqrt" => Self::Sqrt,
             "inversesqrt" => Self::InverseSqrt,
+            "sin" => Self::Sin,
+            "cos" => Self::Cos,
+            "acos" => Self::Acos,
             "exp" => Self::Exp,
             "exp2" => Self::Exp2,
             "log" => Self::Log,
@@ -87,6 +93,9 @@ impl Builtin {
                 | Self::Fract
                 | Self::Sqrt
                 | Self::InverseSqrt
+                | Self::Sin
+                | Self::Cos
+                | Self::Acos
                 | Self::Exp
                 | Self::Exp2
                 | Self::Log
@@ -124,6 +133,9 @@ impl Builtin {
             (Self::Fract, _) => a.map(|x| x - x.floor()),
             (Self::Sqrt, _) => a.map(f64::sqrt),
             (Self::InverseSqrt, _) => a.map(|x| 1.0 / x.sqrt()),
+            (Self::Sin, _) => a.map(f64::sin),
+            (Self::Cos, _) => a.map(f64::cos),
+            (Self::Acos, _) => a.map(f64::acos),
             (Self::Exp, _) => a.map(f64::exp),
             (Self::Exp2, _) => a.map(f64::exp2),
             (Self::Log, _) => a.map(f64::ln),
