@@ -4,7 +4,7 @@
 //! program: what counts is the size after both.
 
 use super::bounds::MAX_SCALARS;
-use super::weight::{BRANCH, CALL, LOOP, scalars, weight};
+use super::weight::{BRANCH, CALL, LOOP, LOOP_IN_LOOP, scalars, weight};
 use crate::translate::Lines;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
@@ -16,6 +16,8 @@ use std::collections::{BTreeMap, HashMap};
 pub(in crate::translate) struct Costs {
     functions: HashMap<Handle<Function>, u64>,
     scalars: HashMap<Handle<Function>, u64>,
+    /// How many loops there are in a call of each.
+    loops: HashMap<Handle<Function>, u64>,
     pub(super) of_entry: u64,
     pub(super) scalars_of_entry: u64,
 }
@@ -28,6 +30,8 @@ impl Costs {
             let (operations, scalars) = costs.function(module, function);
             costs.functions.insert(handle, operations);
             costs.scalars.insert(handle, scalars);
+            let loops = Walk { module, costs: &costs }.loops(&function.body);
+            costs.loops.insert(handle, loops);
         }
         (costs.of_entry, costs.scalars_of_entry) = costs.function(module, &module.entry_points[0].function);
         costs
@@ -105,7 +109,8 @@ impl Walk<'_> {
                 cases.iter().map(|case| block(&case.body).saturating_add(BRANCH)).fold(0, u64::saturating_add)
             }
             Statement::Loop { body, continuing, .. } => {
-                block(body).saturating_add(block(continuing)).saturating_add(LOOP)
+                let inner = self.loops(body).saturating_add(self.loops(continuing)).saturating_mul(LOOP_IN_LOOP);
+                block(body).saturating_add(block(continuing)).saturating_add(LOOP).saturating_add(inner)
             }
             Statement::Call { function, .. } => {
                 self.costs.functions.get(function).copied().unwrap_or(0).saturating_add(CALL)
@@ -114,6 +119,19 @@ impl Walk<'_> {
             Statement::Store { value, .. } => weights[value.index()].clamp(1, MAX_SCALARS),
             _ => 1,
         }
+    }
+
+    /// How many loops there are in a block and in what it calls.
+    fn loops(&self, block: &Block) -> u64 {
+        let mut found = 0_u64;
+        each_statement(block, &mut |statement, _| {
+            found = found.saturating_add(match statement {
+                Statement::Loop { .. } => 1,
+                Statement::Call { function, .. } => self.costs.loops.get(function).copied().unwrap_or(0),
+                _ => 0,
+            });
+        });
+        found
     }
 
     fn called(&self, block: &Block) -> Vec<Handle<Function>> {

@@ -15,6 +15,8 @@ const INTEGER_DIVISION: u64 = 6;
 pub(super) const BRANCH: u64 = 8;
 /// Measured: 100 loops, 0.2 s; 400 loops, 3.4 s.
 pub(super) const LOOP: u64 = 50;
+/// For each loop in a loop, however deep, on top. Measured: 40 loops in each other, 0.2 s; 80, 1.3 s.
+pub(super) const LOOP_IN_LOOP: u64 = 4;
 /// Measured: 1,000 calls, 0.2 s; 2,000 calls, 2.2 s.
 pub(super) const CALL: u64 = 10;
 
