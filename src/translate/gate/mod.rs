@@ -1,16 +1,19 @@
 //! Bounds on what is compiled and run, each named to the student with its line.
 //!
 //! Three looks at three stages, because each stage can be made to eat all time or memory by the one before it:
-//! [`text`] before the compiler, [`storage`] on its SPIR-V, [`cost`] on the module that the driver compiles.
+//! [`text`] before the compiler, [`storage`] on its SPIR-V, [`bounds`] on the module that the driver compiles.
 //! Every bound stands far above what a shading homework needs; what is measured for it stands at the constant.
 
+mod bounds;
 mod cost;
 mod expand;
 mod nesting;
 mod storage;
 mod text;
+mod weight;
 
-pub(super) use cost::{Costs, check_module, each_statement};
+pub(super) use bounds::check_module;
+pub(super) use cost::{Costs, each_statement};
 pub(super) use storage::check_words;
 pub(super) use text::check_text;
 

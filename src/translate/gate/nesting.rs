@@ -41,7 +41,10 @@ impl Nesting {
                 self.ended = true;
             }
             // The semicolons of `for (;;)` end nothing.
-            ";" if self.brackets == 0 => self.ended = true,
+            ";" if self.brackets == 0 => {
+                self.ended = true;
+                self.operators = 0;
+            }
             "," if self.brackets == 0 => self.operators = 0,
             "?" | "=" => self.operators += 1,
             "if" | "else" | "for" | "while" | "do" | "switch" => self.statements += 1,
@@ -84,8 +87,9 @@ mod tests {
         assert_eq!(deepest("a = b = c;"), 2);
         // Two loops, and the open parenthesis of the second.
         assert_eq!(deepest("for(;;) for(;;) x;"), 3);
-        // Two ifs and two elses hold the last assignment and its sign.
+        // Two ifs and two elses hold the last assignment and its sign; the assignments before have ended.
         assert_eq!(deepest("if (a) b; else if (c) d; else e = 1;"), 5);
+        assert_eq!(deepest("if (a) b = 1; else if (c) d = 1; else e = 1;"), 5);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! A vertex shader of this homework reads attributes and uniforms. Buffers that shaders write, images, textures and
 //! atomic counters compile on real drivers, but the program binds none, so what a shader makes of them is chance.
 
-use super::cost::{MAX_SCALARS, MAX_UNIFORM_BYTES, too_many_uniforms, too_much_memory};
+use super::bounds::{MAX_SCALARS, MAX_UNIFORM_BYTES, too_many_uniforms, too_much_memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;

@@ -13,11 +13,15 @@ use crate::translate::Refusal;
 /// Homework has under 2,000 tokens and few macros. The compiler takes a microsecond a token.
 pub(super) const MAX_TOKENS: usize = 100_000;
 
+/// Most `#if` that are open at once: the compiler counts no further, and blames the line that comes next.
+const MAX_CONDITIONS: usize = 64;
+
 /// What is wrong at a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Excess {
     Tokens,
     Nesting,
+    Conditions,
 }
 
 /// Refuses a text whose macros write too much, or that nests too deeply after they did.
@@ -64,6 +68,7 @@ fn check_extensions(source: &Source) -> Result<(), Refusal> {
 fn check(code: &str) -> Result<(), (Excess, u32)> {
     let mut expander = Expander::default();
     let mut nesting = Nesting::default();
+    let mut conditions = 0_usize;
     // Plain lines are expanded together: a macro's arguments may go on to the next line.
     let mut plain = Vec::new();
     for (number, line) in logical_lines(code) {
@@ -77,7 +82,13 @@ fn check(code: &str) -> Result<(), (Excess, u32)> {
         let directive = line.trim_start().trim_start_matches('#').trim_start();
         if let Some(text) = directive.strip_prefix("define") {
             expander.define(text);
+        } else if directive.starts_with("endif") {
+            conditions = conditions.saturating_sub(1);
         } else if directive.starts_with("if") || directive.starts_with("elif") {
+            conditions += usize::from(directive.starts_with("if"));
+            if conditions > MAX_CONDITIONS {
+                return Err((Excess::Conditions, number));
+            }
             measure(&mut expander, &mut Nesting::default(), tokens.into_iter().skip(2).collect())?;
         }
     }
@@ -115,6 +126,10 @@ fn refusal(excess: Excess, line: u32) -> Refusal {
         Excess::Nesting => Text::new(
             format!("parentheses, blocks and operators are nested more than {MAX_NESTING} deep (limit of the grader)"),
             format!("括弧、ブロック、演算子の入れ子が {MAX_NESTING} 段を超えています (採点システムの上限)"),
+        ),
+        Excess::Conditions => Text::new(
+            format!("#if, #ifdef and #ifndef are nested more than {MAX_CONDITIONS} deep (limit of the grader)"),
+            format!("#if、#ifdef、#ifndef の入れ子が {MAX_CONDITIONS} 段を超えています (採点システムの上限)"),
         ),
     };
     stopped(Stage::Compile, Some(line), message)
@@ -161,6 +176,13 @@ mod tests {
     fn a_condition_is_measured_by_itself() {
         let code = format!("#if {}1\n#endif\n", "!".repeat(MAX_NESTING + 1));
         assert_eq!(check(&code), Err((Excess::Nesting, 1)));
+    }
+
+    #[test]
+    fn conditions_in_conditions_are_counted_and_those_in_a_row_are_not() {
+        let deep = |depth| format!("{}{}", "#ifdef x\n".repeat(depth), "#endif\n".repeat(depth));
+        assert_eq!(check(&deep(MAX_CONDITIONS).repeat(3)), Ok(()));
+        assert_eq!(check(&deep(MAX_CONDITIONS + 1)), Err((Excess::Conditions, MAX_CONDITIONS as u32 + 1)));
     }
 
     #[test]

@@ -31,6 +31,7 @@ enum Place {
 /// Reworks the global variables; gives the uniforms that nothing sets.
 pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
     images::plain_types(code);
+    uncaught(code);
     let names = code.names();
     let never_set = draw_parameters(code);
     let variables: Vec<Instruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
@@ -49,7 +50,7 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
         }
         let is_block = class == storage::UNIFORM;
         let name_of = |id| names.get(&id).cloned().unwrap_or_default();
-        let name = name_of(if is_block { pointee } else { id });
+        let name = name_of(if is_block { element(code, pointee) } else { id });
         if !is_block && set.contains(&name.as_str()) && is_numeric(code, pointee) {
             places.insert(id, (Place::Member(members.len() as u32), pointee));
             members.push((name, pointee));
@@ -70,6 +71,19 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
     }
     uses(code, &places, block);
     unset
+}
+
+/// Takes away what says which outputs transform feedback catches: the program catches none.
+fn uncaught(code: &mut Code) {
+    use decoration::{OFFSET, XFB_BUFFER, XFB_STRIDE};
+    code.heads.retain(|head| {
+        !matches!(
+            (head.opcode, &head.operands[..]),
+            (op::EXECUTION_MODE, [_, execution_mode::XFB, ..])
+                | (op::DECORATE, [_, OFFSET | XFB_BUFFER | XFB_STRIDE, ..])
+                | (op::MEMBER_DECORATE, [_, _, XFB_BUFFER | XFB_STRIDE, ..])
+        )
+    });
 }
 
 /// The variables of `gl_BaseVertex`, `gl_BaseInstance` and `gl_DrawID`, zero in a plain draw; renames
@@ -110,6 +124,14 @@ fn depth_range(code: &mut Code, ty: u32) -> u32 {
 
 fn pointee(code: &Code, pointer: u32) -> Option<u32> {
     code.global(pointer).filter(|i| i.opcode == op::TYPE_POINTER).and_then(|i| i.operands.get(2).copied())
+}
+
+/// What an array of arrays has in it, or the type itself where it is none.
+fn element(code: &Code, mut ty: u32) -> u32 {
+    while let Some(array) = code.global(ty).filter(|declared| declared.opcode == op::TYPE_ARRAY) {
+        ty = array.operands[1];
+    }
+    ty
 }
 
 /// Whether it has a size, so that a private variable can hold it.

@@ -3,6 +3,7 @@
 mod code;
 mod globals;
 mod images;
+mod infinite;
 mod integers;
 mod lower;
 pub(super) mod op;
@@ -38,6 +39,7 @@ pub(super) struct Reworked {
 /// - Cases of a `switch` that run into the next get a copy of it ([`switch`]).
 /// - Instructions that naga does not know, or takes for something else, become others
 ///   ([`lower`], [`integers`]).
+/// - Constants that are infinite or no numbers are made where they are used ([`infinite`]).
 /// - Where `poisons`, what is undefined becomes a number that shows ([`poison`]).
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
 ///   there, and zero is the same each time.
@@ -52,6 +54,7 @@ pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Option<Rewor
     if poisons {
         poison::poison(&mut code);
     }
+    infinite::rework(&mut code);
     let (words, lines) = code.encode();
     Some(Reworked { words, lines, unset })
 }

@@ -27,6 +27,7 @@ pub const CONSTANT: u16 = 43;
 pub const CONSTANT_COMPOSITE: u16 = 44;
 pub const CONSTANT_NULL: u16 = 46;
 pub const FUNCTION: u16 = 54;
+pub const FUNCTION_PARAMETER: u16 = 55;
 pub const FUNCTION_END: u16 = 56;
 pub const VARIABLE: u16 = 59;
 pub const LOAD: u16 = 61;
@@ -48,6 +49,7 @@ pub const IMAGE_WRITE: u16 = 99;
 pub const IMAGE_LAST: u16 = 107;
 pub const CONVERT_F_TO_S: u16 = 110;
 pub const CONVERT_U_TO_F: u16 = 112;
+pub const F_CONVERT: u16 = 115;
 pub const BITCAST: u16 = 124;
 pub const F_NEGATE: u16 = 127;
 pub const I_ADD: u16 = 128;
@@ -93,6 +95,7 @@ pub mod storage {
     pub const UNIFORM_CONSTANT: u32 = 0;
     pub const UNIFORM: u32 = 2;
     pub const PRIVATE: u32 = 6;
+    pub const FUNCTION: u32 = 7;
 }
 
 /// Decorations.
@@ -104,12 +107,15 @@ pub mod decoration {
     pub const BINDING: u32 = 33;
     pub const DESCRIPTOR_SET: u32 = 34;
     pub const OFFSET: u32 = 35;
+    pub const XFB_BUFFER: u32 = 36;
+    pub const XFB_STRIDE: u32 = 37;
 }
 
 /// Execution modes.
 pub mod execution_mode {
     pub const ORIGIN_UPPER_LEFT: u32 = 7;
     pub const ORIGIN_LOWER_LEFT: u32 = 8;
+    pub const XFB: u32 = 11;
 }
 
 /// Built-in variables.

@@ -1,0 +1,34 @@
+//! What is said where the fuel is used up.
+
+use super::{MAX_TURNS, Meter};
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+
+/// What a student is told whose loops ran out of fuel.
+pub(in crate::translate) fn out_of_fuel(meters: &[Meter], ran_out: u32) -> Diagnostic {
+    let meter = meters.get((ran_out as usize).wrapping_sub(1)).copied();
+    let line = meter.or(meters.first().copied()).and_then(|meter| meter.line);
+    let turns = meter.map_or(MAX_TURNS, |meter| meter.turns);
+    let message = match meter {
+        Some(_) => Text::new(
+            format!(
+                "your loop ran more than {turns} times: it was stopped (the limit counts all loops of one vertex together)"
+            ),
+            format!(
+                "ループの繰り返しが {turns} 回を超えたため、打ち切りました (上限は頂点 1 個のすべてのループを合わせた回数です)"
+            ),
+        ),
+        None => Text::new(
+            format!("your loops ran more than {turns} times in all: they were stopped"),
+            format!("ループの繰り返しが合わせて {turns} 回を超えたため、打ち切りました"),
+        ),
+    };
+    let diagnostic = Diagnostic::error(Stage::Run, message).hint(Text::new(
+        "Does the loop's condition ever become false? Look at the variable that it tests.",
+        "ループの条件はいつか偽になりますか。条件で調べている変数の変わり方を確かめてください。",
+    ));
+    match line {
+        Some(line) => diagnostic.at(line, None),
+        None => diagnostic,
+    }
+}

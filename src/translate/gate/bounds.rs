@@ -1,0 +1,113 @@
+//! The look at the module: what it costs the driver to compile, and how much memory it asks for.
+
+use super::cost::{Costs, Walk};
+use super::stopped;
+use super::weight::scalars;
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::source::Source;
+use crate::translate::interface::place;
+use crate::translate::{Lines, Refusal};
+use naga::{AddressSpace, Module};
+
+/// Most operations on scalars that are compiled, all calls inlined; see the weights below.
+///
+/// Answers to the homework have 100 to 600. The driver's time grows with the square: 0.1 s more at 3,000,
+/// 0.7 s at this bound, 8 s at four times it.
+pub(super) const MAX_OPERATIONS: u64 = 10_000;
+
+/// Most scalars in variables and arrays of the shader's own, all calls inlined: 64 KiB.
+///
+/// Compiling their initial values takes 0.1 s at this bound.
+pub(super) const MAX_SCALARS: u64 = 16_384;
+
+/// Most bytes of uniforms. OpenGL drivers have at most this much for a vertex shader.
+pub(super) const MAX_UNIFORM_BYTES: u64 = 65_536;
+
+/// Refuses a module that costs too much.
+pub(in crate::translate) fn check_module(
+    module: &Module,
+    costs: &Costs,
+    lines: &Lines,
+    source: &Source,
+) -> Result<(), Refusal> {
+    let entry = &module.entry_points[0].function;
+    if costs.of_entry <= MAX_OPERATIONS {
+        return check_variables(module, costs, source);
+    }
+    Err(stopped(
+        Stage::Compile,
+        Walk { module, costs }.heaviest(entry, lines),
+        Text::new(
+            format!(
+                "the shader has about {} operations when all calls and array accesses are written out, and at most \
+                 {MAX_OPERATIONS} are compiled (limit of the grader); this line has most of them",
+                costs.of_entry
+            ),
+            format!(
+                "関数呼び出しと配列の参照をすべて展開すると約 {} 個の演算になり、上限の {MAX_OPERATIONS} 個を超えます \
+                 (採点システムの上限)。この行が最も多くを占めています",
+                costs.of_entry
+            ),
+        ),
+    ))
+}
+
+fn check_variables(module: &Module, costs: &Costs, source: &Source) -> Result<(), Refusal> {
+    let globals = || module.global_variables.iter().map(|(_, variable)| variable);
+    let uniform: u64 = globals()
+        .filter(|variable| variable.space == AddressSpace::Uniform)
+        .map(|variable| scalars(module, &module.types[variable.ty].inner) * 4)
+        .fold(0, u64::saturating_add);
+    if uniform > MAX_UNIFORM_BYTES {
+        return Err(too_many_uniforms(uniform));
+    }
+    let private: u64 = globals()
+        .filter(|variable| variable.space == AddressSpace::Private)
+        .map(|variable| scalars(module, &module.types[variable.ty].inner))
+        .fold(0, u64::saturating_add);
+    let all = private.saturating_add(costs.scalars_of_entry);
+    if all <= MAX_SCALARS {
+        return Ok(());
+    }
+    let locals = module.functions.iter().flat_map(|(_, function)| function.local_variables.iter());
+    let variables = globals()
+        .filter(|variable| variable.space == AddressSpace::Private)
+        .map(|variable| (&variable.name, variable.ty))
+        .chain(locals.map(|(_, variable)| (&variable.name, variable.ty)));
+    let largest = variables.max_by_key(|(_, ty)| scalars(module, &module.types[*ty].inner));
+    let name = largest.and_then(|(name, _)| name.as_deref()).unwrap_or_default();
+    Err(too_much_memory(all.saturating_mul(4), name, source))
+}
+
+pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source) -> Refusal {
+    let limit = MAX_SCALARS * 4;
+    // The compiler makes variables of its own, whose names say nothing.
+    let is_known = source.words().any(|(_, word)| word == name);
+    let (en, ja) = if is_known {
+        (format!(": `{name}` is the largest"), format!("。最も大きい変数は `{name}` です"))
+    } else {
+        Default::default()
+    };
+    let message = Text::new(
+        format!(
+            "the variables of the shader, with those of all calls, need {bytes} bytes, and a vertex has at most \
+             {limit} (memory limit of the grader){en}"
+        ),
+        format!(
+            "変数に、呼び出すすべての関数の分も合わせて {bytes} バイト必要ですが、頂点 1 個あたり {limit} バイトまでです \
+             (採点システムのメモリ上限){ja}"
+        ),
+    );
+    Refusal::Stopped(vec![place(Diagnostic::error(Stage::Compile, message), source, name)])
+}
+
+pub(super) fn too_many_uniforms(bytes: u64) -> Refusal {
+    let message = Text::new(
+        format!("the uniform variables need {bytes} bytes; OpenGL drivers have room for {MAX_UNIFORM_BYTES}"),
+        format!(
+            "uniform 変数に {bytes} バイト必要ですが、OpenGL のドライバで使えるのは {MAX_UNIFORM_BYTES} バイトまでです"
+        ),
+    );
+    Refusal::Rejected(vec![Diagnostic::error(Stage::Link, message)])
+}

@@ -1,0 +1,72 @@
+//! Every hostile file gets the verdict that is promised, whichever way it is handed in.
+
+use super::files::{self, Hostile, Seen};
+use super::workers::{GGRADE, children, grade, settings};
+use ggrade::sandbox::Pool;
+use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Hands in files one by one, from several threads; what goes wrong is said in words.
+type Surface<'a> = &'a (dyn Fn(&Hostile) -> Result<Seen, String> + Sync);
+
+/// Files handed in at once.
+const CALLERS: usize = 2;
+
+#[test]
+fn the_pool_gives_each_file_its_verdict() {
+    let pool = Pool::start(settings(), CALLERS).unwrap();
+    hold(&files::all(), &|file| match grade(&pool, &file.bytes) {
+        Ok(answer) => Ok(Seen::of(&answer.report)),
+        Err(fault) => Err(fault.message.en),
+    });
+    drop(pool);
+    assert_eq!(children(), []);
+}
+
+#[test]
+fn the_command_gives_each_file_its_verdict() {
+    let folder = tempfile::tempdir().unwrap();
+    hold(&files::all(), &|file| {
+        let path = folder.path().join(&file.name);
+        std::fs::write(&path, &file.bytes).map_err(|error| error.to_string())?;
+        let command = ["grade", "--format", "json", "--lang", "en", "--seed", "7", "--deadline", "10"];
+        let output = Command::new(GGRADE).args(command).arg(&path).output().map_err(|error| error.to_string())?;
+        let json = serde_json::from_slice(&output.stdout).ok().and_then(|json| Seen::of_json(&json));
+        json.ok_or_else(|| String::from_utf8_lossy(&output.stderr).into_owned())
+    });
+}
+
+/// Hands in every file, and holds each answer against what was promised.
+fn hold(files: &[Hostile], surface: Surface<'_>) {
+    let (next, broken) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for _ in 0..CALLERS {
+            scope.spawn(|| {
+                while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let seen = surface(file).map_err(|error| format!("{}: no verdict: {error}", file.name));
+                    if let Err(complaint) = seen.and_then(|seen| file.check(&seen)) {
+                        broken.lock().unwrap().push(complaint);
+                    }
+                }
+            });
+        }
+    });
+    let broken = broken.into_inner().unwrap();
+    assert!(broken.is_empty(), "{} of {} files:\n{}", broken.len(), files.len(), broken.join("\n"));
+}
+
+#[test]
+fn a_broken_promise_is_noticed() {
+    let files = files::all();
+    let file = files.iter().find(|file| file.name == "parentheses-1000").unwrap();
+    let said = |verdict, message: &str| Seen {
+        verdict,
+        errors: vec![(ggrade::diagnostic::Stage::Compile, message.to_owned())],
+    };
+    use ggrade::report::Verdict::{Rejected, Stopped};
+    assert!(file.check(&said(Stopped, "… are nested more than 256 deep …")).is_ok());
+    assert!(file.check(&said(Stopped, "the shader did not finish within 2 s (time limit)")).is_err());
+    assert!(file.check(&said(Rejected, "… are nested more than 256 deep …")).is_err());
+    assert!(file.check(&Seen { verdict: Stopped, errors: Vec::new() }).is_err());
+}
