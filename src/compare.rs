@@ -31,26 +31,48 @@ pub struct ExpectedFrame {
     /// Fraction of the animation cycle, in [0, 1).
     pub t: f64,
     frame: Frame,
-    background: [u8; 4],
-    /// For each row, the pixels from the first to the last that is not certainly outside.
-    spans: Vec<Range<usize>>,
+    background: Pixel,
+    /// The pixels that are not certainly outside, row by row from the left.
+    runs: Vec<Run>,
+    /// The runs of each row, as a range of `runs`.
+    rows: Vec<Range<usize>>,
+}
+
+/// RGBA8 as it lies in memory.
+type Pixel = u32;
+
+/// Red, green and blue of a [`Pixel`].
+const RGB: Pixel = Pixel::from_ne_bytes([255, 255, 255, 0]);
+
+/// Neighbours in a row that lie alike with respect to the triangle.
+#[derive(Clone, Debug)]
+struct Run {
+    coverage: Coverage,
+    columns: Range<usize>,
+    /// What is expected there.
+    pixels: Vec<Pixel>,
 }
 
 impl ExpectedFrame {
     /// Prepares the reference's frame of pose `t`.
     pub fn new(t: f64, frame: Frame, background: [u8; 4]) -> Self {
-        let spans = frame
-            .coverage
-            .chunks_exact(frame.width.max(1) as usize)
-            .map(|row| {
-                let inside = |coverage: &Coverage| *coverage != Coverage::Outside;
-                match (row.iter().position(inside), row.iter().rposition(inside)) {
-                    (Some(first), Some(last)) => first..last + 1,
-                    _ => 0..0,
+        let width = frame.width.max(1) as usize;
+        let mut runs: Vec<Run> = Vec::new();
+        let mut rows = Vec::new();
+        for (coverage, pixels) in frame.coverage.chunks_exact(width).zip(frame.pixels.chunks_exact(width)) {
+            let first = runs.len();
+            let mut column = 0;
+            for alike in coverage.chunk_by(|a, b| a == b) {
+                let columns = column..column + alike.len();
+                column = columns.end;
+                if alike[0] != Coverage::Outside {
+                    let pixels = pixels[columns.clone()].iter().map(|pixel| Pixel::from_ne_bytes(*pixel)).collect();
+                    runs.push(Run { coverage: alike[0], columns, pixels });
                 }
-            })
-            .collect();
-        Self { t, frame, background, spans }
+            }
+            rows.push(first..runs.len());
+        }
+        Self { t, frame, background: Pixel::from_ne_bytes(background), runs, rows }
     }
 
     /// The picture itself.
@@ -65,30 +87,29 @@ impl ExpectedFrame {
 /// Where the two have different sizes: a programming error of ours.
 pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameResult {
     assert_eq!((expected.frame.width, expected.frame.height), (candidate.width, candidate.height), "frame sizes");
-    let mut tally = Tally::default();
-    let blank = expected.background.repeat(candidate.width as usize);
-    for (y, span) in expected.spans.iter().enumerate() {
-        let row = candidate.row(index, y as u32);
-        let first = y * expected.frame.width as usize;
-        for outside in [0..span.start, span.end..candidate.width as usize] {
-            tally.outside(&row[bytes(&outside)], &blank[bytes(&outside)]);
+    let mut tally = Tally { background: expected.background, ..Tally::default() };
+    let area = candidate.area(index);
+    let mut row = vec![expected.background; candidate.width as usize];
+    let shown = area.x as usize..(area.x + area.width) as usize;
+    let mut is_blank = true;
+    for (y, runs) in expected.rows.iter().enumerate() {
+        if (area.y..area.y + area.height).contains(&(y as u32)) {
+            let pixels = candidate.row(index, y as u32).chunks_exact(4);
+            let place = &mut row[shown.clone()];
+            place.iter_mut().zip(pixels).for_each(|(to, p)| *to = Pixel::from_ne_bytes([p[0], p[1], p[2], p[3]]));
+            is_blank = false;
+        } else if !is_blank {
+            row[shown.clone()].fill(expected.background);
+            is_blank = true;
         }
-        let inside = first + span.start..first + span.end;
-        let pixels = &expected.frame.pixels[inside.clone()];
-        let coverage = &expected.frame.coverage[inside];
-        for ((expected_pixel, coverage), pixel) in pixels.iter().zip(coverage).zip(row[bytes(span)].chunks_exact(4)) {
-            tally.pixel(*expected_pixel, *coverage, pixel, &expected.background);
-        }
+        tally.row(&row, shown.clone(), &expected.runs[runs.clone()]);
     }
     tally.result(expected.t)
 }
 
-fn bytes(pixels: &Range<usize>) -> Range<usize> {
-    pixels.start * 4..pixels.end * 4
-}
-
 #[derive(Default)]
 struct Tally {
+    background: Pixel,
     coverage_mismatches: u32,
     mismatched: u32,
     max: u8,
@@ -96,32 +117,76 @@ struct Tally {
     covered: u64,
 }
 
+/// Pixels that are looked at together.
+const LANES: usize = 16;
+
 impl Tally {
-    fn outside(&mut self, row: &[u8], blank: &[u8]) {
-        if row == blank {
-            return;
-        }
-        for (pixel, blank) in row.chunks_exact(4).zip(blank.chunks_exact(4)) {
-            if pixel[..3] != blank[..3] {
-                self.coverage_mismatches += 1;
+    /// `shown`: the columns outside of which the row is background.
+    fn row(&mut self, row: &[Pixel], shown: Range<usize>, runs: &[Run]) {
+        let mut left = shown.start;
+        for run in runs {
+            self.outside(row.get(left..run.columns.start).unwrap_or_default());
+            left = left.max(run.columns.end);
+            match run.coverage {
+                Coverage::Outside => {}
+                // The rasteriser's rounding decides whether it is painted at all.
+                Coverage::Silhouette => {}
+                Coverage::Interior => self.inside(&run.pixels, &row[run.columns.clone()]),
             }
+        }
+        self.outside(row.get(left..shown.end).unwrap_or_default());
+    }
+
+    fn outside(&mut self, pixels: &[Pixel]) {
+        let painted = pixels.iter().map(|pixel| u32::from((pixel ^ self.background) & RGB != 0));
+        self.coverage_mismatches += painted.sum::<u32>();
+    }
+
+    fn inside(&mut self, expected: &[Pixel], found: &[Pixel]) {
+        let (expected, last_expected) = expected.as_chunks::<LANES>();
+        let (found, last_found) = found.as_chunks::<LANES>();
+        for (expected, found) in expected.iter().zip(found) {
+            // A pixel that nothing was painted to is rare; without one, none needs a decision of its own.
+            if found.iter().fold(false, |any, pixel| any | (*pixel == self.background)) {
+                self.one_by_one(expected, found);
+            } else {
+                self.together(expected, found);
+            }
+        }
+        self.one_by_one(last_expected, last_found);
+    }
+
+    fn together(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
+        let (expected, found) = (expected.map(|pixel| pixel & RGB), found.map(|pixel| pixel & RGB));
+        let (expected, found): (&[u8; LANES * 4], &[u8; LANES * 4]) =
+            (bytemuck::cast_ref(&expected), bytemuck::cast_ref(&found));
+        let mut differences = [0_u8; LANES * 4];
+        for index in 0..LANES * 4 {
+            differences[index] = expected[index].abs_diff(found[index]);
+        }
+        let largest = differences.iter().fold(0, |largest, difference| largest.max(*difference));
+        self.max = self.max.max(largest);
+        self.sum += u64::from(differences.iter().map(|difference| u32::from(*difference)).sum::<u32>());
+        self.covered += 3 * LANES as u64;
+        if largest > PIXEL_TOLERANCE {
+            let far = |pixel: &&[u8]| pixel.iter().any(|difference| *difference > PIXEL_TOLERANCE);
+            self.mismatched += differences.chunks_exact(4).filter(far).count() as u32;
         }
     }
 
-    fn pixel(&mut self, expected: [u8; 4], coverage: Coverage, pixel: &[u8], blank: &[u8; 4]) {
-        match coverage {
-            Coverage::Outside => self.outside(pixel, blank),
-            // The rasteriser's rounding decides whether it is painted at all.
-            Coverage::Silhouette => {}
-            Coverage::Interior if pixel == blank && expected[..3] != blank[..3] => self.coverage_mismatches += 1,
-            Coverage::Interior => {
-                let differences = [0, 1, 2].map(|channel| expected[channel].abs_diff(pixel[channel]));
-                let largest = differences.into_iter().max().unwrap_or(0);
-                self.max = self.max.max(largest);
-                self.sum += differences.iter().map(|d| u64::from(*d)).sum::<u64>();
-                self.covered += 3;
-                self.mismatched += u32::from(largest > PIXEL_TOLERANCE);
+    fn one_by_one(&mut self, expected: &[Pixel], found: &[Pixel]) {
+        for (expected, found) in expected.iter().zip(found) {
+            if *found == self.background && (expected ^ self.background) & RGB != 0 {
+                self.coverage_mismatches += 1;
+                continue;
             }
+            let (expected, found) = (expected.to_ne_bytes(), found.to_ne_bytes());
+            let differences = [0, 1, 2].map(|channel| expected[channel].abs_diff(found[channel]));
+            let largest = differences.into_iter().max().unwrap_or(0);
+            self.max = self.max.max(largest);
+            self.sum += differences.iter().map(|d| u64::from(*d)).sum::<u64>();
+            self.covered += 3;
+            self.mismatched += u32::from(largest > PIXEL_TOLERANCE);
         }
     }
 
@@ -163,3 +228,6 @@ pub fn position_difference(expected: glam::DVec4, candidate: &Sample, scale: f64
         .map(|(e, c)| if c.is_finite() { (e - c / scale).abs() / largest } else { f64::INFINITY })
         .fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,11 @@
 //! Uniforms and attributes by name, laid out as one shader reads them.
 
-use super::job::{ATTRIBUTE_STRIDE, Batch};
+use super::scene::Batch;
 use crate::translate::UniformBlock;
 use wgpu::util::DeviceExt;
+
+/// Bytes of one attribute of one vertex: xyz as f32; w is 1 where the shader reads it.
+pub(super) const ATTRIBUTE_STRIDE: u64 = 12;
 
 /// The uniform blocks of a shader, filled for every batch.
 pub(super) struct Uniforms {

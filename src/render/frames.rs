@@ -1,6 +1,9 @@
 //! What a rendering gives back.
 
+use super::scene::Scene;
+use super::tiles::{Area, Tile, Tiles};
 use crate::report::Picture;
+use std::sync::Arc;
 
 /// What the shader computed for one vertex.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -20,7 +23,7 @@ impl Sample {
     }
 }
 
-/// Tiles of one texture: frame k stands in column k mod `columns` of row k div `columns`.
+/// The frames of a rendering, each as far as it is not background.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     /// Pixels in a row of one frame.
@@ -31,22 +34,112 @@ pub struct Frames {
     pub count: u32,
     /// The colour that each is cleared to, RGBA8.
     pub background: [u8; 4],
-    pub(super) columns: u32,
-    pub(super) bytes_per_row: u32,
-    pub(super) bytes: Vec<u8>,
+    tiles: Vec<Tile>,
+    bytes_per_row: usize,
+    bytes: Bytes,
+}
+
+/// The texture as it was read back.
+#[derive(Clone, Debug)]
+enum Bytes {
+    Mapped(Arc<Mapped>),
+    Copied(Vec<u8>),
+}
+
+impl Default for Bytes {
+    fn default() -> Self {
+        Self::Copied(Vec::new())
+    }
+}
+
+/// The device's own memory, to be read in place for as long as this lives.
+#[derive(Debug)]
+pub(super) struct Mapped {
+    /// None once it is given back.
+    view: Option<wgpu::BufferView>,
+    buffer: wgpu::Buffer,
+}
+
+impl Mapped {
+    /// The bytes of a buffer that is mapped for reading.
+    pub fn new(buffer: &wgpu::Buffer) -> Result<Self, wgpu::MapRangeError> {
+        Ok(Self { view: Some(buffer.get_mapped_range(..)?), buffer: buffer.clone() })
+    }
+
+    pub fn bytes(&self) -> &[u8] {
+        self.view.as_deref().unwrap_or_default()
+    }
+}
+
+impl Drop for Mapped {
+    fn drop(&mut self) {
+        // The view borrows from the mapping.
+        self.view = None;
+        self.buffer.unmap();
+    }
 }
 
 impl Frames {
-    /// Row `y` (from the top) of frame `index`: `width` pixels of RGBA8.
+    /// The frames of a scene from the texture that they are tiles of.
+    pub(super) fn new(scene: &Scene, tiles: Tiles, bytes: Arc<Mapped>) -> Self {
+        Self {
+            width: scene.width,
+            height: scene.height,
+            count: tiles.tiles.len() as u32,
+            background: scene.background,
+            bytes_per_row: tiles.bytes_per_row() as usize,
+            tiles: tiles.tiles,
+            bytes: Bytes::Mapped(bytes),
+        }
+    }
+
+    /// Frames as they would be read back if these pictures had been drawn, each only within its area.
+    pub fn of(background: [u8; 4], pictures: &[(Picture, Area)]) -> Self {
+        let (width, height) = pictures.first().map_or((0, 0), |(picture, _)| (picture.width, picture.height));
+        let tile = |index: usize, area: Area| Tile { area, x: area.x, y: index as u32 * height + area.y };
+        Self {
+            width,
+            height,
+            count: pictures.len() as u32,
+            background,
+            tiles: pictures.iter().enumerate().map(|(index, (_, area))| tile(index, *area)).collect(),
+            bytes_per_row: width as usize * 4,
+            bytes: Bytes::Copied(pictures.iter().flat_map(|(picture, _)| &picture.rgba).copied().collect()),
+        }
+    }
+
+    fn bytes(&self) -> &[u8] {
+        match &self.bytes {
+            Bytes::Mapped(mapped) => mapped.bytes(),
+            Bytes::Copied(bytes) => bytes,
+        }
+    }
+
+    /// The part of frame `index` outside of which all is background.
+    pub fn area(&self, index: u32) -> Area {
+        self.tiles[index as usize].area
+    }
+
+    /// Row `y` of [`Frames::area`] of frame `index`, in RGBA8. Rows are counted from the top of the frame.
+    ///
+    /// # Panics
+    /// Where the area has no such row.
     pub fn row(&self, index: u32, y: u32) -> &[u8] {
-        let (column, row) = (index % self.columns, index / self.columns);
-        let start = ((row * self.height + y) * self.bytes_per_row + column * self.width * 4) as usize;
-        &self.bytes[start..start + self.width as usize * 4]
+        let Tile { area, x, y: top } = self.tiles[index as usize];
+        assert!((area.y..area.y + area.height).contains(&y), "row {y} of {area:?}");
+        let start = (top + y - area.y) as usize * self.bytes_per_row + x as usize * 4;
+        &self.bytes()[start..start + area.width as usize * 4]
     }
 
     /// A copy of frame `index`.
     pub fn picture(&self, index: u32) -> Picture {
-        let rgba = (0..self.height).flat_map(|y| self.row(index, y)).copied().collect();
+        let mut rgba = self.background.repeat((self.width * self.height) as usize);
+        let area = self.area(index);
+        for y in area.y..area.y + area.height {
+            let start = ((y * self.width + area.x) * 4) as usize;
+            let row = self.row(index, y);
+            rgba[start..start + row.len()].copy_from_slice(row);
+        }
         Picture { width: self.width, height: self.height, rgba }
     }
 }

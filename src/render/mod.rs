@@ -1,17 +1,20 @@
 //! Shader + scene → frames and samples, with wgpu.
 //!
-//! All frames of a submission are tiles of one texture, drawn in one render pass together with the
-//! probes, and read back once. Each vertex also writes its clip-space position and colour, as the
-//! shader computed them, to a buffer that is read back with the tiles.
+//! First the student's vertex stage runs alone, over the vertices of the frames and of the probes: it writes clip-space
+//! positions and colours to a buffer ([`capture`]). From that buffer a pipeline of our own paints the frames as tiles of
+//! one texture ([`painter`], [`tiles`]), each only as far as its triangles reach, which is read back once.
 
 mod buffers;
+mod capture;
 mod device;
 mod frames;
-mod job;
+mod painter;
 mod renderer;
-mod target;
+mod scene;
+mod tiles;
 
 pub use device::{AdapterKind, Device};
 pub use frames::{Frames, Rendering, Sample};
-pub use job::{Batch, Scene};
 pub use renderer::Renderer;
+pub use scene::{Batch, Scene};
+pub use tiles::Area;

@@ -1,34 +1,30 @@
 //! One device, one fixed fragment stage, one submission after the other.
 
+use super::capture::{self, Capture};
 use super::device::Device;
-use super::frames::{Frames, Rendering, Sample};
-use super::job::{Batch, Job, Scene};
-use super::target::{Target, Tiles};
+use super::frames::{Frames, Mapped, Rendering, Sample};
+use super::painter::Painter;
+use super::scene::{Batch, Scene};
+use super::tiles::{Area, Tiles};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::translate::{CAPTURE_HEADER, Shader};
-use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Renders submissions on one device.
 #[derive(Debug)]
 pub struct Renderer {
     device: Device,
-    fragment: wgpu::ShaderModule,
-    target: Option<Target>,
+    stage: capture::Stage,
+    painter: Painter,
 }
 
 impl Renderer {
     /// A renderer that runs this fixed fragment stage.
     pub fn new(device: Device, fragment: naga::Module) -> Result<Self, Fault> {
-        let scope = device.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let module = device.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("fixed fragment stage"),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(fragment)),
-        });
-        match pollster::block_on(scope.pop()) {
-            None => Ok(Self { device, fragment: module, target: None }),
-            Some(error) => Err(render_fault(&error)),
-        }
+        let (stage, painter) =
+            checked(&device.device, || (capture::Stage::new(&device.device), Painter::new(&device.device, fragment)))?;
+        Ok(Self { device, stage, painter })
     }
 
     /// The device.
@@ -38,56 +34,47 @@ impl Renderer {
 
     /// Draws the scene with the shader. An error is ours: the shader was found valid before.
     pub fn render(&mut self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
-        let tiles = Tiles::new(scene)?;
-        let scope = self.device.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let job = Job::new(&self.device.device, &self.fragment, shader, scene);
-        if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(render_fault(&error));
+        let device = &self.device;
+        let capture = checked(&device.device, || Capture::new(&device.device, &self.stage, shader, scene))?;
+        capture.submit(device, &self.stage, scene);
+        let rendering = split(map(device, &capture.readback)?.bytes(), scene);
+        if rendering.ran_out.is_some() {
+            return Ok(rendering);
         }
-        let target = match self.target.take() {
-            Some(target) if target.layout == tiles => target,
-            _ => Target::new(&self.device.device, tiles),
-        };
-        let target = self.target.insert(target);
-        job.submit(&self.device, target, scene);
-        let frames = Frames {
-            width: tiles.width,
-            height: tiles.height,
-            count: tiles.count,
-            background: scene.background,
-            columns: tiles.columns,
-            bytes_per_row: tiles.bytes_per_row(),
-            bytes: Vec::new(),
-        };
-        let (bytes, captured) = read_back(&self.device, target, &job)?;
-        Ok(split(Frames { bytes, ..frames }, &captured, scene))
+        let areas: Vec<Area> =
+            rendering.frame_samples.iter().map(|vertices| Area::painted(vertices, scene.width, scene.height)).collect();
+        let tiles = Tiles::place(&areas)?;
+        let painted = self.painter.submit(device, &capture.records, scene, &tiles);
+        let bytes = Arc::new(map(device, &painted.readback)?);
+        painted.reader = Arc::downgrade(&bytes);
+        Ok(Rendering { frames: Frames::new(scene, tiles, bytes), ..rendering })
     }
 }
 
-fn read_back(device: &Device, target: &Target, job: &Job) -> Result<(Vec<u8>, Vec<u8>), Fault> {
+/// What `make` makes, unless the device finds it invalid.
+fn checked<T>(device: &wgpu::Device, make: impl FnOnce() -> T) -> Result<T, Fault> {
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let made = make();
+    match pollster::block_on(scope.pop()) {
+        None => Ok(made),
+        Some(error) => Err(crate::translate::unsupported(&error.to_string())),
+    }
+}
+
+/// The buffer's bytes, once the device is done with it.
+fn map(device: &Device, buffer: &wgpu::Buffer) -> Result<Mapped, Fault> {
     let (sender, receiver) = std::sync::mpsc::channel();
-    for buffer in [&target.readback, &job.readback] {
-        let sender = sender.clone();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver outlives the poll below; where it does not, nobody waits for this.
-            let _ = sender.send(result);
-        });
-    }
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        // The receiver outlives the poll below; where it does not, nobody waits for this.
+        let _ = sender.send(result);
+    });
     device.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| lost(&error.to_string()))?;
-    for _ in 0..2 {
-        receiver.recv().map_err(|e| lost(&e.to_string()))?.map_err(|e| lost(&e.to_string()))?;
-    }
-    let copy = |buffer: &wgpu::Buffer| -> Result<Vec<u8>, Fault> {
-        let bytes = buffer.get_mapped_range(..).map_err(|error| lost(&error.to_string()))?.to_vec();
-        buffer.unmap();
-        Ok(bytes)
-    };
-    let frames = copy(&target.readback)?;
-    let captured = copy(&job.readback)?;
-    Ok((frames, captured))
+    receiver.recv().map_err(|e| lost(&e.to_string()))?.map_err(|e| lost(&e.to_string()))?;
+    Mapped::new(buffer).map_err(|error| lost(&error.to_string()))
 }
 
-fn split(frames: Frames, captured: &[u8], scene: &Scene) -> Rendering {
+/// The captured header and records; there are no frames yet.
+fn split(captured: &[u8], scene: &Scene) -> Rendering {
     let (header, records) = captured.split_at((CAPTURE_HEADER as usize).min(captured.len()));
     let word = |index: usize| {
         let bytes = header.get(index * 4..)?.first_chunk()?;
@@ -107,11 +94,7 @@ fn split(frames: Frames, captured: &[u8], scene: &Scene) -> Rendering {
     };
     let frame_samples = take(&scene.frames);
     let probe_samples = take(&scene.probes);
-    Rendering { frames, frame_samples, probe_samples, ran_out, undefined }
-}
-
-fn render_fault(error: &wgpu::Error) -> Fault {
-    crate::translate::unsupported(&error.to_string())
+    Rendering { frames: Frames::default(), frame_samples, probe_samples, ran_out, undefined }
 }
 
 fn lost(detail: &str) -> Fault {

@@ -119,9 +119,11 @@ fn cut(frames: &Frames) -> (Vec<Tile>, Vec<u8>) {
     let tiles = (0..frames.count)
         .map(|index| {
             let tile = painted(frames, index);
+            let area = frames.area(index);
             for y in tile.y..tile.y + tile.height {
                 let row = frames.row(index, y);
-                body.extend_from_slice(&row[tile.x as usize * 4..][..tile.width as usize * 4]);
+                let start = (tile.x - area.x) as usize * 4;
+                body.extend_from_slice(&row[start..start + tile.width as usize * 4]);
             }
             tile
         })
@@ -132,14 +134,15 @@ fn cut(frames: &Frames) -> (Vec<Tile>, Vec<u8>) {
 /// The least rectangle that holds every pixel that was painted.
 fn painted(frames: &Frames, index: u32) -> Tile {
     let blank = frames.background.as_slice();
+    let area = frames.area(index);
     let (mut left, mut right, mut top, mut bottom) = (frames.width, 0, frames.height, 0);
-    for y in 0..frames.height {
+    for y in area.y..area.y + area.height {
         let row = frames.row(index, y);
         let unlike = |pixel: &[u8]| pixel != blank;
         let Some(first) = row.chunks_exact(4).position(unlike) else { continue };
         let last = row.chunks_exact(4).rposition(unlike).unwrap_or(first);
-        left = left.min(first as u32);
-        right = right.max(last as u32 + 1);
+        left = left.min(area.x + first as u32);
+        right = right.max(area.x + last as u32 + 1);
         top = top.min(y);
         bottom = y + 1;
     }

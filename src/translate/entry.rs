@@ -8,15 +8,14 @@
 //!   record a vertex, at `instance_index + vertex_index`, behind a header of [`CAPTURE_HEADER`] bytes;
 //! - tell in the header, a u32, which loop ran out of fuel (see [`super::fuel`]), 0 where none did;
 //!   every vertex after the first to say so finds no fuel, so that they all end quickly;
-//! - return the position with OpenGL's clip range of z, [−w, w], brought to wgpu's [0, w], and the
-//!   colour at location 0.
+//! - return one and the same position for every vertex: nothing is to be painted, and the driver has nothing to clip.
 
 use super::build::Build;
 use super::fuel::{self, Gauge};
 use naga::{
     AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function, FunctionArgument,
-    FunctionResult, GlobalVariable, Handle, Interpolation, Literal, LocalVariable, Module, ResourceBinding, Sampling,
-    Scalar, Span, Statement, StorageAccess, StructMember, Type, TypeInner, VectorSize,
+    FunctionResult, GlobalVariable, Handle, Literal, LocalVariable, Module, ResourceBinding, Scalar, Span, Statement,
+    StorageAccess, StructMember, Type, TypeInner, VectorSize,
 };
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
@@ -243,7 +242,7 @@ fn tell_undefined(build: &mut Build<'_>, capture: Handle<Expression>, undefined:
     });
 }
 
-/// Replaces what follows the call of `main`: capture, clip range, return.
+/// Replaces what follows the call of `main`: capture and return.
 fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, instance: u32, hooks: &Hooks) {
     let types = Types::new(module);
     let capture = module.global_variables.append(
@@ -285,10 +284,13 @@ fn finish(module: &mut Module, function: &mut Function, outputs: &Outputs, insta
     if let Some(undefined) = hooks.undefined {
         tell_undefined(&mut build, capture, undefined);
     }
-    let result = write_record(&mut build, &types, outputs, capture, [instance, vertex]);
-    build.push(Statement::Return { value: Some(result) });
+    write_record(&mut build, &types, outputs, capture, [instance, vertex]);
+    let [zero, one] = [0.0, 1.0].map(|number| build.leaf(Expression::Literal(Literal::F32(number))));
+    let middle = build.node(Expression::Compose { ty: types.vec4, components: vec![zero, zero, zero, one] });
+    build.push(Statement::Return { value: Some(middle) });
     function.body = build.finish();
-    function.result = Some(FunctionResult { ty: types.result, binding: None });
+    let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
+    function.result = Some(FunctionResult { ty: types.vec4, binding: Some(position) });
 }
 
 /// The argument that carries the vertex's index; made where the shader does not read it.
@@ -307,10 +309,9 @@ fn write_record(
     outputs: &Outputs,
     capture: Handle<Expression>,
     [instance, vertex]: [u32; 2],
-) -> Handle<Expression> {
+) {
     let instance = build.leaf(Expression::FunctionArgument(instance));
     let vertex = build.leaf(Expression::FunctionArgument(vertex));
-    let half = build.leaf(Expression::Literal(Literal::F32(0.5)));
     let zero = build.leaf(Expression::ZeroValue(types.vec4));
     let position = outputs.position.unwrap_or(zero);
     let colour = outputs.colour.unwrap_or(zero);
@@ -322,19 +323,12 @@ fn write_record(
     let to_colour = build.member(record, 1);
     build.store(to_position, position);
     build.store(to_colour, colour);
-
-    let [x, y, z, w] = [0, 1, 2, 3].map(|index| build.member(position, index));
-    let sum = build.binary(BinaryOperator::Add, z, w);
-    let depth = build.binary(BinaryOperator::Multiply, sum, half);
-    let clip = build.node(Expression::Compose { ty: types.vec4, components: vec![x, y, depth, w] });
-    build.node(Expression::Compose { ty: types.result, components: vec![clip, colour] })
 }
 
 struct Types {
     u32: Handle<Type>,
     vec4: Handle<Type>,
     capture: Handle<Type>,
-    result: Handle<Type>,
 }
 
 impl Types {
@@ -354,22 +348,7 @@ impl Types {
             StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
         let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
         let capture = insert(module, TypeInner::Struct { members: header.into_iter().chain([behind]).collect(), span });
-        let position = Binding::BuiltIn(BuiltIn::Position { invariant: false });
-        let colour = Binding::Location {
-            location: 0,
-            interpolation: Some(Interpolation::Perspective),
-            sampling: Some(Sampling::Center),
-            blend_src: None,
-            per_primitive: false,
-        };
-        let result = insert(
-            module,
-            TypeInner::Struct {
-                members: vec![member("position", Some(position), 0), member("colour", Some(colour), 16)],
-                span: 32,
-            },
-        );
-        Self { u32, vec4, capture, result }
+        Self { u32, vec4, capture }
     }
 }
 

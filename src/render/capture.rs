@@ -1,0 +1,167 @@
+//! The student's vertex stage on its own: what it computes for every vertex of the scene goes to a buffer.
+//!
+//! The pipeline has no fragment stage and paints nothing, so that the driver compiles the student's text and no more.
+
+use super::buffers::{ATTRIBUTE_STRIDE, Uniforms, layout_entry, vertex_buffer};
+use super::device::Device;
+use super::scene::{Batch, Scene};
+use crate::translate::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE, Shader};
+use std::borrow::Cow;
+
+/// Of the texture that a pass cannot be without.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
+
+/// What is the same for every submission.
+#[derive(Debug)]
+pub(super) struct Stage {
+    layout: wgpu::BindGroupLayout,
+    /// A pixel that nothing is painted to.
+    nothing: wgpu::TextureView,
+}
+
+impl Stage {
+    pub fn new(device: &wgpu::Device) -> Self {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("capture"),
+            entries: &[layout_entry(0, wgpu::BufferBindingType::Storage { read_only: false }, false)],
+        });
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("nothing"),
+            size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        Self { layout, nothing: texture.create_view(&wgpu::TextureViewDescriptor::default()) }
+    }
+}
+
+/// Pipeline and buffers of one submission.
+pub(super) struct Capture {
+    pipeline: wgpu::RenderPipeline,
+    bind_groups: [wgpu::BindGroup; 2],
+    vertices: Vec<wgpu::Buffer>,
+    /// The header, and the records of all vertices drawn.
+    pub records: wgpu::Buffer,
+    pub readback: wgpu::Buffer,
+    /// Bytes from one batch's uniforms to the next, by block.
+    strides: Vec<u32>,
+}
+
+impl Capture {
+    pub fn new(device: &wgpu::Device, stage: &Stage, shader: &Shader, scene: &Scene) -> Self {
+        let batches: Vec<&Batch> = scene.batches().collect();
+        let uniforms = Uniforms::new(device, &shader.uniforms, &batches);
+        let size = CAPTURE_HEADER + u64::from(scene.drawn().max(1)) * CAPTURE_STRIDE;
+        let buffer = |label, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+        };
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_SRC;
+        let records = buffer("capture", usage);
+        let readback = buffer("capture, read back", wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("capture"),
+            layout: &stage.layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: records.as_entire_binding() }],
+        });
+        Self {
+            pipeline: pipeline(device, shader, [&uniforms.layout, &stage.layout]),
+            bind_groups: [uniforms.group, group],
+            vertices: shader.attributes.iter().map(|a| vertex_buffer(device, &a.name, &batches)).collect(),
+            records,
+            readback,
+            strides: uniforms.strides,
+        }
+    }
+
+    /// Runs the vertices of the whole scene.
+    pub fn submit(&self, device: &Device, stage: &Stage, scene: &Scene) {
+        let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.draw(&mut encoder, stage, scene);
+        encoder.copy_buffer_to_buffer(&self.records, 0, &self.readback, 0, self.records.size());
+        device.queue.submit([encoder.finish()]);
+    }
+
+    fn draw(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, scene: &Scene) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("vertices"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &stage.nothing,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(CAPTURE_GROUP, &self.bind_groups[1], &[]);
+        for (slot, buffer) in self.vertices.iter().enumerate() {
+            pass.set_vertex_buffer(slot as u32, buffer.slice(..));
+        }
+        let mut first = 0;
+        let mut offsets = vec![0; self.strides.len()];
+        for batch in scene.batches() {
+            pass.set_bind_group(0, &self.bind_groups[0], &offsets);
+            for (slot, buffer) in self.vertices.iter().enumerate() {
+                pass.set_vertex_buffer(slot as u32, buffer.slice(u64::from(first) * ATTRIBUTE_STRIDE..));
+            }
+            // The instance index tells the shader where its records go; see translate::entry.
+            pass.draw(0..batch.drawn(), first..first + 1);
+            first += batch.drawn();
+            offsets.iter_mut().zip(&self.strides).for_each(|(offset, stride)| *offset += stride);
+        }
+    }
+}
+
+fn pipeline(device: &wgpu::Device, shader: &Shader, groups: [&wgpu::BindGroupLayout; 2]) -> wgpu::RenderPipeline {
+    let vertex = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("submission"),
+        source: wgpu::ShaderSource::Naga(Cow::Owned(shader.module.clone())),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("submission"),
+        bind_group_layouts: &groups.map(Some),
+        immediate_size: 0,
+    });
+    let attributes: Vec<[wgpu::VertexAttribute; 1]> = shader
+        .attributes
+        .iter()
+        .map(|a| {
+            [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x3, offset: 0, shader_location: a.location }]
+        })
+        .collect();
+    let buffers: Vec<_> = attributes
+        .iter()
+        .map(|attributes| {
+            Some(wgpu::VertexBufferLayout {
+                array_stride: ATTRIBUTE_STRIDE,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes,
+            })
+        })
+        .collect();
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("submission"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &vertex,
+            entry_point: None,
+            compilation_options: Default::default(),
+            buffers: &buffers,
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: FORMAT,
+            depth_write_enabled: Some(false),
+            depth_compare: Some(wgpu::CompareFunction::Always),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: None,
+        multiview_mask: None,
+        cache: None,
+    })
+}
