@@ -1,29 +1,25 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::{Outcome, file_fault, language, warn, writing};
+use super::view::{View, readable};
+use super::{Outcome, language, warn};
 use crate::cli::{Format, Grade};
-use crate::excerpt;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::{Language, Text};
-use crate::report::Equation;
-use crate::report::html::Page;
-use crate::report::{Pictures, Report, Verdict, json, pictures, text};
+use crate::report::{Pictures, Verdict, pictures};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
-use crate::source::{self, Source};
-use std::io::{IsTerminal, Read, Write};
+use std::io::Read;
 use std::path::Path;
 use std::time::Duration;
 
 /// Longest input that is read: a file over the source stage's limit is refused there, by its own message.
-const MAX_READ: u64 = 1 << 20;
+pub(super) const MAX_READ: u64 = 1 << 20;
 
 /// Grades one file and writes its report.
 pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else {
-        anstream::eprintln!("ggrade: --deadline takes seconds above 0, such as 2 or 0.5");
-        return Ok(Outcome::Usage);
+        return Ok(bad_deadline());
     };
     let Some(bytes) = read(&arguments.file, language) else { return Ok(Outcome::Nothing) };
     let name = name(&arguments.file);
@@ -49,11 +45,17 @@ pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
         pictures::write(pictures, folder)?;
     }
     let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
-    view.write(arguments)?;
+    view.write(arguments.format, arguments.output.as_deref())?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
 }
 
-fn deadline(seconds: f64) -> Option<Duration> {
+/// Says that the deadline is none.
+pub(super) fn bad_deadline() -> Outcome {
+    anstream::eprintln!("ggrade: --deadline takes seconds above 0, such as 2 or 0.5");
+    Outcome::Usage
+}
+
+pub(super) fn deadline(seconds: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds).ok().filter(|duration| !duration.is_zero())
 }
 
@@ -84,68 +86,4 @@ fn name(path: &Path) -> String {
         return "standard input".into();
     }
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-/// The file as text, for excerpts; none where it cannot be read as text.
-fn readable(name: &str, bytes: &[u8]) -> Option<Source> {
-    match source::read(name, bytes) {
-        Ok(source) => Some(source),
-        Err(refusal) => refusal.source,
-    }
-}
-
-/// Everything that a report is shown with.
-struct View<'a> {
-    report: &'a Report,
-    source: Option<&'a Source>,
-    pictures: Option<&'a Pictures>,
-    language: Language,
-}
-
-impl View<'_> {
-    fn write(&self, arguments: &Grade) -> Result<(), Fault> {
-        match &arguments.output {
-            Some(path) => {
-                let document = self.document(arguments.format, false)?;
-                std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error))
-            }
-            None => {
-                let colour = anstream::AutoStream::choice(&std::io::stdout()) != anstream::ColorChoice::Never;
-                let document = self.document(arguments.format, colour)?;
-                // A reader that closes the pipe early, such as `head`, has what it wanted.
-                let _ = std::io::stdout().lock().write_all(document.as_bytes());
-                Ok(())
-            }
-        }
-    }
-
-    fn document(&self, format: Format, colour: bool) -> Result<String, Fault> {
-        match format {
-            Format::Json => Ok(json::render(self.report, self.language)),
-            Format::Html => Page {
-                report: self.report,
-                source: self.source.map(|source| source.text.as_str()),
-                pictures: self.pictures,
-                equation: Some(&Equation::illumination()),
-                language: self.language,
-            }
-            .render(),
-            Format::Text => {
-                let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
-                Ok(text::render(
-                    self.report,
-                    &text::Options { language: self.language, width: width(), colour, excerpts: Some(&excerpts) },
-                ))
-            }
-        }
-    }
-}
-
-/// Columns of the terminal; a file or pipe is as wide as a usual page.
-fn width() -> usize {
-    const PAGE: usize = 100;
-    if !std::io::stdout().is_terminal() {
-        return PAGE;
-    }
-    terminal_size::terminal_size().map_or(PAGE, |(width, _)| usize::from(width.0))
 }

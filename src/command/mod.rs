@@ -5,6 +5,7 @@ pub mod corpus;
 pub mod doctor;
 pub mod grade;
 pub mod serve;
+mod view;
 pub mod watch;
 pub mod worker;
 
