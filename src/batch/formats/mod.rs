@@ -1,6 +1,18 @@
 //! A graded class in the formats that people and courses' tools read: one module a format, all of them views of a
 //! [`Class`](super::class::Class).
 
+pub mod classroom;
+pub mod coderunner;
+pub mod github;
+pub mod gradescope;
+pub mod junit;
+#[cfg(test)]
+mod nasty;
+pub mod sarif;
+mod untrusted;
+pub mod vpl;
+mod wording;
+
 use crate::language::Text;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
