@@ -3,6 +3,7 @@
 
 pub mod classroom;
 pub mod coderunner;
+pub mod exchange;
 pub mod github;
 pub mod gradescope;
 pub mod junit;
