@@ -1,6 +1,6 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::{Outcome, file_fault, language, warn, writing};
+use super::{Outcome, deadline, file_fault, language, warn, width, writing};
 use crate::cli::{Format, Grade};
 use crate::excerpt;
 use crate::fault::Fault;
@@ -13,7 +13,6 @@ use crate::sandbox::{Answer, Pool, Settings, Submission};
 use crate::source::{self, Source};
 use std::io::{IsTerminal, Read, Write};
 use std::path::Path;
-use std::time::Duration;
 
 /// Longest input that is read: a file over the source stage's limit is refused there, by its own message.
 const MAX_READ: u64 = 1 << 20;
@@ -21,10 +20,7 @@ const MAX_READ: u64 = 1 << 20;
 /// Grades one file and writes its report.
 pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let language = language(arguments.lang);
-    let Some(deadline) = deadline(arguments.deadline) else {
-        anstream::eprintln!("ggrade: --deadline takes seconds above 0, such as 2 or 0.5");
-        return Ok(Outcome::Usage);
-    };
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
     let Some(bytes) = read(&arguments.file, language) else { return Ok(Outcome::Nothing) };
     let name = name(&arguments.file);
     let settings =
@@ -51,10 +47,6 @@ pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
     view.write(arguments)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
-}
-
-fn deadline(seconds: f64) -> Option<Duration> {
-    Duration::try_from_secs_f64(seconds).ok().filter(|duration| !duration.is_zero())
 }
 
 /// The bytes of the file; where there is none to read, says so.
@@ -134,18 +126,9 @@ impl View<'_> {
                 let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
-                    &text::Options { language: self.language, width: width(), colour, excerpts: Some(&excerpts) },
+                    &text::Options { language: self.language, width: width(std::io::stdout().is_terminal()), colour, excerpts: Some(&excerpts) },
                 ))
             }
         }
     }
-}
-
-/// Columns of the terminal; a file or pipe is as wide as a usual page.
-fn width() -> usize {
-    const PAGE: usize = 100;
-    if !std::io::stdout().is_terminal() {
-        return PAGE;
-    }
-    terminal_size::terminal_size().map_or(PAGE, |(width, _)| usize::from(width.0))
 }
