@@ -5,11 +5,11 @@ mod encode;
 mod equation;
 pub mod html;
 pub mod json;
-mod labels;
+pub(crate) mod labels;
 mod next;
 pub mod pictures;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 pub mod text;
 pub(crate) mod wrap;
 
