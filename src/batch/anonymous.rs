@@ -6,6 +6,7 @@
 
 use super::class::{Refused, Student};
 use super::folder::Folder;
+use super::formats::plain::cell;
 use super::intake::{Content, HandIn, Intake};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -118,10 +119,28 @@ impl Pseudonyms {
     }
 }
 
+/// Whose pseudonym is whose, as a table for spreadsheets.
+pub fn table(named: &[Named]) -> Result<Vec<u8>, Fault> {
+    let mut bytes = "\u{feff}".as_bytes().to_vec();
+    let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(&mut bytes);
+    let rows = named.iter().map(|n| [cell(&n.pseudonym), cell(&n.name), cell(n.path.as_deref().unwrap_or_default())]);
+    let header = ["pseudonym", "name", "path"].map(str::to_owned);
+    let written = std::iter::once(header).chain(rows).try_for_each(|row| writer.write_record(row));
+    written.and_then(|()| writer.flush().map_err(csv::Error::from)).map_err(|error| {
+        Fault::new(Text::new(
+            format!("the names cannot be written: {error}"),
+            format!("氏名の表を作成できません: {error}"),
+        ))
+    })?;
+    drop(writer);
+    Ok(bytes)
+}
+
 fn parsed(text: &[u8]) -> Option<[u8; KEY_BYTES]> {
     let text = std::str::from_utf8(text).ok()?;
     let hex = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
-    let digits: Vec<u8> = hex.chars().map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok())).collect::<Option<_>>()?;
+    let digits: Vec<u8> =
+        hex.chars().map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok())).collect::<Option<_>>()?;
     let bytes: Vec<u8> = digits.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect();
     (digits.len() == 2 * KEY_BYTES).then(|| bytes.try_into().ok())?
 }

@@ -285,7 +285,10 @@ mod tests {
         let mut other = wrong(20.0);
         other.mistakes = vec!["specular-phong".into()];
         other.rubric[3].mistake = Some("specular-phong".into());
-        let changes = changes(&[("a", graded(wrong(20.0))), ("b", graded(wrong(20.0)))], &[("a", graded(other)), ("b", graded(wrong(20.0)))]);
+        let changes = changes(
+            &[("a", graded(wrong(20.0))), ("b", graded(wrong(20.0)))],
+            &[("a", graded(other)), ("b", graded(wrong(20.0)))],
+        );
         assert_eq!((keys(&changes.otherwise), changes.unchanged), (vec!["a"], 1));
         assert!(changes.gains.is_empty() && changes.losses.is_empty());
     }

@@ -6,6 +6,7 @@ use std::fs::{self, File, Permissions, TryLockError};
 use std::io::{self, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// What the names of files begin with that are not finished. A run that was killed leaves some behind.
 const UNFINISHED: &str = ".ggrade-";
@@ -63,6 +64,15 @@ impl Folder {
         Ok(path)
     }
 
+    /// Writes a file bit by bit, all of it or nothing.
+    pub fn write_by<T>(&self, name: &str, write: impl FnOnce(&mut File) -> Result<T, Fault>) -> Result<T, Fault> {
+        let path = self.at(name);
+        let mut file = unfinished(&path, 0o666).map_err(|error| unwritable(&path, &error))?;
+        let result = write(file.as_file_mut())?;
+        file.persist(&path).map_err(|error| unwritable(&path, &error.error))?;
+        Ok(result)
+    }
+
     /// The bytes of a file; none where it is not there.
     pub fn read(&self, name: &str) -> Result<Option<Vec<u8>>, Fault> {
         match fs::read(self.at(name)) {
@@ -99,20 +109,25 @@ impl Folder {
 }
 
 /// Puts a file with this content in place of what is at `path`, in one step.
-pub fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(UNFINISHED).permissions(Permissions::from_mode(mode));
-    let mut file = match builder.tempfile_in(parent) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            fs::create_dir_all(parent)?;
-            builder.tempfile_in(parent)?
-        }
-        file => file?,
-    };
+fn replace(path: &Path, bytes: &[u8], mode: u32) -> io::Result<()> {
+    let mut file = unfinished(path, mode)?;
     file.write_all(bytes)?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())
+}
+
+/// A file beside `path` that is to take its place; the folders on the way are made.
+fn unfinished(path: &Path, mode: u32) -> io::Result<NamedTempFile> {
+    let parent = path.parent().unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(UNFINISHED).permissions(Permissions::from_mode(mode));
+    match builder.tempfile_in(parent) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            fs::create_dir_all(parent)?;
+            builder.tempfile_in(parent)
+        }
+        file => file,
+    }
 }
 
 /// The fault of a file or folder that cannot be written.

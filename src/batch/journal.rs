@@ -48,7 +48,7 @@ pub struct Header {
 }
 
 /// What became of one student's submission.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Record {
     /// Who.
     pub student: Student,
@@ -58,6 +58,27 @@ pub struct Record {
     pub sha256: Option<String>,
     /// What became of it, with the report in both languages.
     pub outcome: Outcome,
+}
+
+/// The same, of what belongs to others: this is what is written.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RecordOf<'a> {
+    /// Who.
+    pub student: &'a Student,
+    /// Where the file was.
+    pub path: Option<&'a str>,
+    /// SHA-256 of the file.
+    pub sha256: Option<&'a str>,
+    /// What became of it.
+    pub outcome: &'a Outcome,
+}
+
+impl Record {
+    /// As it is written.
+    pub fn view(&self) -> RecordOf<'_> {
+        let Self { student, path, sha256, outcome } = self;
+        RecordOf { student, path: path.as_deref(), sha256: sha256.as_deref(), outcome }
+    }
 }
 
 /// A journal as it is found.
@@ -140,7 +161,7 @@ struct Written {
 
 impl Journal {
     /// A journal that has these records already, in place of the one that may be there.
-    pub fn start(folder: &Folder, header: &Header, records: &[&Record]) -> Result<Self, Fault> {
+    pub fn start(folder: &Folder, header: &Header, records: &[RecordOf]) -> Result<Self, Fault> {
         write(folder, header, records)?;
         let path = folder.at(NAME);
         let file = OpenOptions::new().append(true).open(&path).map_err(|error| unwritable(&path, &error))?;
@@ -148,7 +169,7 @@ impl Journal {
     }
 
     /// Adds what became of one submission.
-    pub fn append(&self, record: &Record) -> Result<(), Fault> {
+    pub fn append(&self, record: &RecordOf) -> Result<(), Fault> {
         let line = line(record).map_err(|error| unwritable(&self.path, &error))?;
         let mut written = self.lock();
         let due = written.synced.elapsed() > SYNC_EVERY;
@@ -170,7 +191,7 @@ impl Journal {
 }
 
 /// Writes a whole journal at once: each record once, in this order.
-pub fn write(folder: &Folder, header: &Header, records: &[&Record]) -> Result<(), Fault> {
+pub fn write(folder: &Folder, header: &Header, records: &[RecordOf]) -> Result<(), Fault> {
     let failed = |error: io::Error| unwritable(&folder.at(NAME), &error);
     let mut bytes = line(header).map_err(failed)?;
     for record in records {
@@ -222,9 +243,9 @@ mod tests {
         let graded = samples::all().into_iter().map(|report| Outcome::Graded(Box::new(report)));
         let others = [Outcome::NotGraded(Text::verbatim("none")), Outcome::Fault(Fault::new(Text::verbatim("ours")))];
         let records: Vec<_> = graded.chain(others).zip(0..).map(|(o, n)| record(&format!("s{n}"), o)).collect();
-        let journal = Journal::start(&folder, &header(), &[&records[0]]).unwrap();
+        let journal = Journal::start(&folder, &header(), &[records[0].view()]).unwrap();
         for record in &records[1..] {
-            journal.append(record).unwrap();
+            journal.append(&record.view()).unwrap();
         }
         journal.sync().unwrap();
         let found = read(&folder.at(NAME)).unwrap();
@@ -235,9 +256,9 @@ mod tests {
     fn wherever_the_last_line_is_torn_the_others_are_read() {
         let (_place, folder) = folder();
         let [one, two] = ["one", "two"].map(|key| record(key, Outcome::NotGraded(Text::verbatim("無し"))));
-        write(&folder, &header(), &[&one, &two]).unwrap();
+        write(&folder, &header(), &[one.view(), two.view()]).unwrap();
         let whole = folder.read(NAME).unwrap().unwrap();
-        let last = whole.len() - line(&two).unwrap().len();
+        let last = whole.len() - line(&two.view()).unwrap().len();
         for end in last..whole.len() {
             folder.write(NAME, &whole[..end]).unwrap();
             let found = read(&folder.at(NAME)).unwrap();
@@ -251,7 +272,7 @@ mod tests {
     fn the_last_record_of_a_student_counts() {
         let (_place, folder) = folder();
         let records = ["1", "2", "3"].map(|text| record("same", Outcome::NotGraded(Text::verbatim(text))));
-        write(&folder, &header(), &[&records[0], &records[1], &records[2]]).unwrap();
+        write(&folder, &header(), &records.each_ref().map(Record::view)).unwrap();
         assert_eq!(read(&folder.at(NAME)).unwrap().records, [records[2].clone()]);
     }
 

@@ -3,7 +3,7 @@
 use super::class::{Entry, Outcome};
 use super::folder::Folder;
 use super::intake::{self, HandIn};
-use super::journal::{Journal, Record};
+use super::journal::{Journal, Record, RecordOf};
 use super::page::Pages;
 use super::portrait::Portraits;
 use super::same::{self, Content, HandOut};
@@ -17,8 +17,8 @@ use crate::source;
 use reference::Assignment;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// A hand-in and what is known of it before it is graded.
@@ -82,9 +82,10 @@ impl Candidate {
         }
     }
 
-    fn record(&self, outcome: Outcome) -> Record {
+    /// What is written down of it.
+    pub fn record<'a>(&'a self, outcome: &'a Outcome) -> RecordOf<'a> {
         let HandIn { student, path, .. } = &self.hand_in;
-        Record { student: student.clone(), path: path.clone(), sha256: self.sha256.clone(), outcome }
+        RecordOf { student, path: path.as_deref(), sha256: self.sha256.as_deref(), outcome }
     }
 
     fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
@@ -140,8 +141,8 @@ pub struct Wants {
 
 /// Grades a class.
 pub struct Run<'a> {
-    /// Who grades.
-    pub pool: &'a Pool,
+    /// Who grades; none where there is no file to grade.
+    pub pool: Option<&'a Pool>,
     /// How.
     pub order: Order,
     /// How many at once.
@@ -195,12 +196,12 @@ impl Run<'_> {
     /// Grades files that are the same, once, and gives each student an entry.
     fn group(&self, candidates: &[Candidate], group: &[usize]) -> Result<Vec<Entry>, Fault> {
         let members: Vec<&Candidate> = group.iter().map(|&index| &candidates[index]).collect();
-        let Some((name, bytes)) = members.first().and_then(|first| first.file()) else {
+        let first = members.first().and_then(|first| first.file());
+        let Some(((name, bytes), pool)) = first.zip(self.pool) else {
             return members.into_iter().map(|member| self.finish(member, &Judged::without(member.nothing()))).collect();
         };
         let wants_frames = self.portraits.is_some() || self.pages.is_some();
-        let mut answer =
-            guarded(|| self.pool.grade(Submission { name, bytes, order: self.order, wants_frames }));
+        let mut answer = guarded(|| pool.grade(Submission { name, bytes, order: self.order, wants_frames }));
         let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
         let mut last: Option<Judged> = None;
         for member in members {
@@ -239,10 +240,9 @@ impl Run<'_> {
             self.folder.write(&portrait_file(key), portrait)?;
         }
         let page = page.as_ref().map(|page| self.folder.write(&page_file(key), page.as_bytes())).transpose()?;
-        let record = member.record(outcome.clone());
         // Last: a result that is written down has its files.
-        self.journal.append(&record)?;
-        let entry = member.entry(record.outcome, portrait.clone(), page);
+        self.journal.append(&member.record(outcome))?;
+        let entry = member.entry(outcome.clone(), portrait.clone(), page);
         (self.finished)(&entry);
         Ok(entry)
     }

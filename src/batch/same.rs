@@ -149,7 +149,8 @@ pub fn others<K: Eq + Hash>(keys: &[Option<K>]) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    const HAND_OUT: &str = "#version 410 core\nin vec4 pv;\nvoid main(void)\n{\n  vc = cv;\n  gl_Position = mc * pv;\n}\n";
+    const HAND_OUT: &str =
+        "#version 410 core\nin vec4 pv;\nvoid main(void)\n{\n  vc = cv;\n  gl_Position = mc * pv;\n}\n";
     const ANSWER: &str = "vec3 h = normalize(l + v);\nvec4 ispec = pow(max(dot(n, h), 0.0), kshi) * kspec * lspec;\n";
 
     fn source(text: &[u8]) -> Source {
@@ -167,7 +168,8 @@ mod tests {
     #[test]
     fn a_statement_is_the_same_however_it_is_spaced() {
         let tight = "vec3 h=normalize(l+v);vec4 ispec=pow(max(dot(n,h),0.0),kshi)*kspec*lspec;";
-        let loose = "vec3\n\th = normalize ( l\r\n + v ) ;\n\nvec4 ispec = pow(max(dot(n, h), 0.0), kshi)\n * kspec * lspec;";
+        let loose =
+            "vec3\n\th = normalize ( l\r\n + v ) ;\n\nvec4 ispec = pow(max(dot(n, h), 0.0), kshi)\n * kspec * lspec;";
         assert!(answer(&with(ANSWER)).is_some());
         assert_eq!(answer(&with(tight)), answer(&with(ANSWER)));
         assert_eq!(answer(&with(loose)), answer(&with(ANSWER)));
@@ -183,7 +185,8 @@ mod tests {
 
     #[test]
     fn another_name_number_or_order_is_another_answer() {
-        for other in [ANSWER.replace("ispec", "specular"), ANSWER.replace("0.0", "0"), ANSWER.replace("l + v", "v + l")] {
+        for other in [ANSWER.replace("ispec", "specular"), ANSWER.replace("0.0", "0"), ANSWER.replace("l + v", "v + l")]
+        {
             assert_ne!(answer(&with(&other)), answer(&with(ANSWER)), "{other}");
         }
         let swapped: String = ANSWER.lines().rev().collect();
@@ -201,7 +204,10 @@ mod tests {
     #[test]
     fn directives_end_with_their_line() {
         let split = statements("#define A 1 \\\n + 2\nfloat a = A;\n#version 410\n");
-        assert_eq!(split, [vec!["#", "define", "A", "1", "+", "2"], vec!["float", "a", "=", "A", ";"], vec!["#", "version", "410"]]);
+        assert_eq!(
+            split,
+            [vec!["#", "define", "A", "1", "+", "2"], vec!["float", "a", "=", "A", ";"], vec!["#", "version", "410"]]
+        );
     }
 
     #[test]

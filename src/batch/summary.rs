@@ -149,7 +149,11 @@ impl Writer {
             .map(|(standing, count)| {
                 let share = 100.0 * count as f64 / total as f64;
                 let sign = paint(style(standing), standing.sign());
-                format!("{sign} {}  {count:>5}  {}", pad(&label(standing), column), paint(DIM, &format!("{share:>3.0} %")))
+                format!(
+                    "{sign} {}  {count:>5}  {}",
+                    pad(&label(standing), column),
+                    paint(DIM, &format!("{share:>3.0} %"))
+                )
             })
             .collect();
         lines.iter().for_each(|line| self.line(line));
@@ -170,7 +174,11 @@ impl Writer {
         let most = bins.iter().copied().max().unwrap_or(1).max(1);
         let room = self.width.min(60) - 17;
         for (bin, &count) in bins.iter().enumerate() {
-            let label = if bin + 1 == bins.len() { "100".into() } else { format!("{}–{}", bin * STEP, bin * STEP + STEP - 1) };
+            let label = if bin + 1 == bins.len() {
+                "100".into()
+            } else {
+                format!("{}–{}", bin * STEP, bin * STEP + STEP - 1)
+            };
             let style = if bin + 1 == bins.len() { GOOD } else { PARTIAL };
             let number = if count > 0 { count.to_string() } else { paint(DIM, "·") };
             self.line(&format!("  {label:>6}  {} {number}", paint(style, &bar(count, most, room))));
@@ -257,7 +265,9 @@ impl Writer {
             }
             self.more(list.len());
         }
-        for (students, en, ja) in [(&changes.new, "New", "新たな学生"), (&changes.gone, "No longer there", "いなくなった学生")] {
+        for (students, en, ja) in
+            [(&changes.new, "New", "新たな学生"), (&changes.gone, "No longer there", "いなくなった学生")]
+        {
             if !students.is_empty() {
                 let names: Vec<_> = students.iter().take(LISTED).map(|student| student.name.as_str()).collect();
                 let separator = self.text(": ", ": ");

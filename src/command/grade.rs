@@ -126,7 +126,12 @@ impl View<'_> {
                 let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
-                    &text::Options { language: self.language, width: width(std::io::stdout().is_terminal()), colour, excerpts: Some(&excerpts) },
+                    &text::Options {
+                        language: self.language,
+                        width: width(std::io::stdout().is_terminal()),
+                        colour,
+                        excerpts: Some(&excerpts),
+                    },
                 ))
             }
         }

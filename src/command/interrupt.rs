@@ -74,5 +74,8 @@ impl Interrupt {
 }
 
 fn cannot(detail: &str) -> Fault {
-    Fault::new(Text::new(format!("Ctrl-C cannot be watched for: {detail}"), format!("Ctrl-C を監視できません: {detail}")))
+    Fault::new(Text::new(
+        format!("Ctrl-C cannot be watched for: {detail}"),
+        format!("Ctrl-C を監視できません: {detail}"),
+    ))
 }

@@ -6,7 +6,7 @@ pub mod feedback;
 pub mod grades;
 mod names;
 pub mod nbgrader;
-mod plain;
+pub(crate) mod plain;
 #[cfg(test)]
 mod samples;
 mod status;
