@@ -2,8 +2,9 @@
 //! the action `classroom-resources/autograding-grading-reporter` reads.
 
 use super::untrusted::{one_line, visible};
-use super::wording::{self, Standing};
+use super::wording;
 use crate::batch::class::{Class, Entry};
+use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::RubricLine;
 use base64::Engine;
@@ -41,7 +42,7 @@ pub fn render_legacy(entry: &Entry, class: &Class) -> String {
     let mut tests: Vec<_> = rubric(entry).iter().map(|line| legacy_test(entry, line, duration, language)).collect();
     if tests.is_empty() {
         tests.push(json!({
-            "name": Standing::of(entry).label(language),
+            "name": Standing::of(&entry.outcome).label().get(language),
             "status": status(entry),
             "score": 0,
             "message": message(entry, language),
@@ -66,7 +67,7 @@ fn rubric(entry: &Entry) -> &[RubricLine] {
 
 /// `pass`, `fail`, or `error` where it is no doing of the student's.
 fn status(entry: &Entry) -> &'static str {
-    match Standing::of(entry) {
+    match Standing::of(&entry.outcome) {
         Standing::Correct => "pass",
         Standing::Wrong | Standing::Rejected | Standing::Stopped | Standing::NotGraded => "fail",
         Standing::Fault => "error",
@@ -74,7 +75,7 @@ fn status(entry: &Entry) -> &'static str {
 }
 
 fn score(entry: &Entry) -> Option<f64> {
-    match Standing::of(entry) {
+    match Standing::of(&entry.outcome) {
         Standing::Fault => None,
         _ => Some(entry.report().map_or(0.0, |report| report.score)),
     }
@@ -106,9 +107,8 @@ fn test(line: &RubricLine, language: Language) -> Value {
 
 fn legacy_test(entry: &Entry, line: &RubricLine, duration: f64, language: Language) -> Value {
     // Where nothing ran, what the compiler says is what the student needs.
-    let nothing_ran = matches!(Standing::of(entry), Standing::Rejected | Standing::Stopped);
-    let message =
-        if nothing_ran { message(entry, language) } else { visible(line.message.get(language)) };
+    let nothing_ran = matches!(Standing::of(&entry.outcome), Standing::Rejected | Standing::Stopped);
+    let message = if nothing_ran { message(entry, language) } else { visible(line.message.get(language)) };
     json!({
         // The reporter shows points of the whole run only; those of the line stand in its name.
         "name": wording::rubric_title(line, language),

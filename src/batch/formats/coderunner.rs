@@ -1,8 +1,9 @@
 //! Moodle's CodeRunner question type: what the template of a question with a combinator-template grader prints.
 
 use super::untrusted::{html, one_line, rich_html};
-use super::wording::{self, Standing};
+use super::wording;
 use crate::batch::class::{Entry, Outcome};
+use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::RubricLine;
 use serde_json::{Value, json};
@@ -28,8 +29,8 @@ pub fn render(entry: &Entry, language: Language) -> String {
 }
 
 fn prologue(entry: &Entry, language: Language) -> String {
-    let standing = Standing::of(entry);
-    let mut prologue = format!("<p><strong>{}</strong>", html(standing.label(language)));
+    let standing = Standing::of(&entry.outcome);
+    let mut prologue = format!("<p><strong>{}</strong>", html(standing.label().get(language)));
     if let Some(report) = entry.report() {
         prologue.push_str(&format!(" {}", html(&wording::points(report.score, report.max_score))));
     }

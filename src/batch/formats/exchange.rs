@@ -78,7 +78,8 @@ mod tests {
     fn every_format_writes_the_files_that_it_lists() {
         let class = nasty::class();
         for format in FORMATS {
-            let written: Vec<_> = documents(format, &class).unwrap().into_iter().map(|document| document.name).collect();
+            let written: Vec<_> =
+                documents(format, &class).unwrap().into_iter().map(|document| document.name).collect();
             let listed = format.files().iter().flat_map(|file| match file.contains(KEY) {
                 true => class.entries.iter().map(|entry| file.replace(KEY, &entry.student.key)).collect(),
                 false => vec![(*file).to_owned()],

@@ -1,8 +1,9 @@
 //! Gradescope: `results.json` of one submission, as Gradescope's "Autograder Specifications" describe it.
 
 use super::untrusted::{html, one_line, rich_html};
-use super::wording::{self, Standing};
+use super::wording;
 use crate::batch::class::{Entry, Outcome};
+use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::labels::Labels;
 use crate::report::{Report, RubricLine};
@@ -55,7 +56,7 @@ fn test(line: &RubricLine, number: usize, language: Language) -> Value {
 /// What only the course's staff sees of a failure.
 fn staff_only(entry: &Entry, language: Language) -> Value {
     json!({
-        "name": Standing::Fault.label(language),
+        "name": Standing::Fault.label().get(language),
         "status": "failed",
         "output": rich_html(&wording::fault(entry, language).unwrap_or_default()),
         "visibility": "hidden",
@@ -66,7 +67,7 @@ fn staff_only(entry: &Entry, language: Language) -> Value {
 fn output(entry: &Entry, expected: &[u8], language: Language) -> String {
     let mut output = format!(
         "<p><strong>{}</strong></p>\n<p>{}</p>\n",
-        html(Standing::of(entry).label(language)),
+        html(Standing::of(&entry.outcome).label().get(language)),
         rich_html(&wording::explanation(entry, language))
     );
     if let Some(portrait) = &entry.portrait {
@@ -97,7 +98,7 @@ fn picture(name: &str, png: &[u8]) -> String {
 
 /// For scripts on the exported submissions; students do not see it.
 fn extra_data(entry: &Entry) -> Value {
-    let mut data = json!({ "schema": "ggrade/gradescope/v1", "verdict": Standing::of(entry).id() });
+    let mut data = json!({ "schema": "ggrade/gradescope/v1", "verdict": Standing::of(&entry.outcome).id() });
     if let Some(report) = entry.report() {
         data["assignment"] = json!(report.assignment);
         data["mistakes"] = json!(report.mistakes);
@@ -156,7 +157,10 @@ mod tests {
         let results = results(&nasty::class().entries[2], Language::En);
         assert_eq!(results["score"], json!(0.0));
         let output = results["output"].as_str().unwrap();
-        assert!(output.contains("line 11, column 12") && output.contains("<code>Max</code> is not declared"), "{output}");
+        assert!(
+            output.contains("line 11, column 12") && output.contains("<code>Max</code> is not declared"),
+            "{output}"
+        );
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! JUnit XML for CI: a suite a student, a case a rubric line.
 
 use super::untrusted::{one_line, visible};
-use super::wording::{self, Standing};
+use super::wording;
 use crate::batch::class::{Class, Entry};
+use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::text::number;
@@ -29,7 +30,7 @@ fn suite(entry: &Entry, class: &Class) -> TestSuite {
     } else {
         format!("{} ({})", student.name, student.key)
     }));
-    suite.add_property(("verdict", Standing::of(entry).id()));
+    suite.add_property(("verdict", Standing::of(&entry.outcome).id()));
     match entry.report() {
         Some(report) => {
             suite.set_time(Duration::try_from_secs_f64(report.elapsed_ms / 1000.0).unwrap_or_default());
@@ -63,7 +64,7 @@ fn case(entry: &Entry, report: &Report, line: &RubricLine, language: Language) -
         return TestCase::new(name, TestCaseStatus::success());
     }
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-    let kind = line.mistake.as_deref().unwrap_or(Standing::of(entry).id());
+    let kind = line.mistake.as_deref().unwrap_or(Standing::of(&entry.outcome).id());
     status.set_message(wording::rubric_title(line, language)).set_type(one_line(kind));
     let mut description = visible(line.message.get(language));
     for diagnostic in &report.diagnostics {
@@ -75,13 +76,13 @@ fn case(entry: &Entry, report: &Report, line: &RubricLine, language: Language) -
 }
 
 fn ungraded(entry: &Entry, language: Language) -> TestCase {
-    let standing = Standing::of(entry);
+    let standing = Standing::of(&entry.outcome);
     let mut status = match standing {
         Standing::Fault => TestCaseStatus::non_success(NonSuccessKind::Error),
         _ => TestCaseStatus::skipped(),
     };
     let explanation = wording::explanation(entry, language);
-    status.set_message(standing.label(language)).set_type(standing.id());
+    status.set_message(standing.label().get(language)).set_type(standing.id());
     status.set_description(wording::fault(entry, language).unwrap_or(explanation));
     TestCase::new("ggrade", status)
 }
@@ -121,7 +122,7 @@ mod tests {
     #[test]
     fn a_failure_of_ours_is_an_error_that_names_its_remedy() {
         let text = render(&nasty::class()).unwrap();
-        assert!(text.contains("<error message=\"The autograder failed\" type=\"fault\">"), "{text}");
+        assert!(text.contains("<error message=\"Grading failed\" type=\"fault\">"), "{text}");
         assert!(text.contains("install mesa-vulkan-drivers"));
     }
 

@@ -3,16 +3,28 @@
 
 pub mod classroom;
 pub mod coderunner;
+mod comment;
 pub mod exchange;
+pub mod feedback;
 pub mod github;
+pub mod grades;
 pub mod gradescope;
 pub mod junit;
+mod names;
 #[cfg(test)]
 mod nasty;
+pub mod nbgrader;
+pub(crate) mod plain;
+#[cfg(test)]
+mod samples;
 pub mod sarif;
+mod status;
+#[cfg(test)]
+mod tests;
 mod untrusted;
 pub mod vpl;
 mod wording;
+pub mod worksheet;
 
 use crate::language::Text;
 use clap::ValueEnum;
@@ -204,26 +216,5 @@ impl ValueEnum for Format {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         Some(PossibleValue::new(self.id()).help(self.row().en))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::HashSet;
-
-    #[test]
-    fn every_format_stands_at_its_own_row() {
-        for (index, row) in TABLE.iter().enumerate() {
-            assert_eq!(row.format as usize, index, "{}", row.id);
-            assert_eq!(Format::from_str(row.id, false), Ok(row.format));
-        }
-    }
-
-    #[test]
-    fn no_two_formats_write_the_same_file() {
-        let files: Vec<&str> = TABLE.iter().flat_map(|row| row.files).copied().collect();
-        assert_eq!(files.iter().collect::<HashSet<_>>().len(), files.len());
-        assert!(files.iter().all(|file| !file.contains("..") && !file.starts_with('/')));
     }
 }

@@ -56,10 +56,9 @@ pub(super) fn attack(mut report: Report) -> Entry {
     for line in &mut report.rubric {
         line.message = nasty();
     }
-    report.diagnostics.insert(
-        0,
-        Diagnostic::error(Stage::Compile, nasty()).at(2, Some(4)).spanning(8).hint(Text::new(NASTY, NASTY)),
-    );
+    report
+        .diagnostics
+        .insert(0, Diagnostic::error(Stage::Compile, nasty()).at(2, Some(4)).spanning(8).hint(Text::new(NASTY, NASTY)));
     let mut entry = entry(0, Outcome::Graded(Box::new(report)));
     entry.student.name = NASTY.into();
     entry.path = Some(format!("a, b: 100%/{NASTY}.vert"));

@@ -4,8 +4,9 @@
 //! is a heading and one that begins with `>` is shown as it is; `Grade :=>>` proposes the grade, the last one wins.
 
 use super::untrusted::visible;
-use super::wording::{self, Standing};
+use super::wording;
 use crate::batch::class::{Entry, Outcome};
+use crate::batch::standing::Standing;
 use crate::language::{Language, Text};
 use crate::report::text::number;
 use std::fmt::Write;
@@ -43,7 +44,7 @@ impl Scale {
 /// The output for one submission. After a failure of ours it proposes no grade, and VPL leaves the grading to a teacher.
 pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
     let mut comment = Comment(String::from("<|--\n"));
-    comment.heading(Standing::of(entry).label(language));
+    comment.heading(Standing::of(&entry.outcome).label().get(language));
     comment.text(&wording::explanation(entry, language));
     if let Some(report) = entry.report() {
         for diagnostic in &report.diagnostics {

@@ -1,72 +1,12 @@
-//! What the formats of autograders say in common: one standing and one explanation for each outcome.
+//! What the formats of autograders say in common: one explanation for each outcome, places, points.
 
 use super::untrusted;
 use crate::batch::class::{Entry, Outcome};
 use crate::diagnostic::Diagnostic;
 use crate::language::{Language, Text};
+use crate::report::RubricLine;
 use crate::report::labels::Labels;
 use crate::report::text::number;
-use crate::report::{RubricLine, Verdict};
-
-/// What became of a submission, in one word for programs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
-    /// Graded, all full marks.
-    Correct,
-    /// Graded, some points are missing.
-    Wrong,
-    /// Refused by compiler, linker or interface.
-    Rejected,
-    /// Stopped at a limit.
-    Stopped,
-    /// There was nothing to grade.
-    NotGraded,
-    /// ggrade failed.
-    Fault,
-}
-
-impl Standing {
-    /// The one of `entry`.
-    pub fn of(entry: &Entry) -> Self {
-        match &entry.outcome {
-            Outcome::Graded(report) => match report.verdict {
-                Verdict::Correct => Self::Correct,
-                Verdict::Wrong => Self::Wrong,
-                Verdict::Rejected => Self::Rejected,
-                Verdict::Stopped => Self::Stopped,
-            },
-            Outcome::NotGraded(_) => Self::NotGraded,
-            Outcome::Fault(_) => Self::Fault,
-        }
-    }
-
-    /// Its name in machine-readable formats.
-    pub fn id(self) -> &'static str {
-        match self {
-            Self::Correct => "correct",
-            Self::Wrong => "wrong",
-            Self::Rejected => "rejected",
-            Self::Stopped => "stopped",
-            Self::NotGraded => "not-graded",
-            Self::Fault => "fault",
-        }
-    }
-
-    /// Its name for people.
-    pub fn label(self, language: Language) -> &'static str {
-        let labels = Labels::of(language);
-        match (self, language) {
-            (Self::Correct, _) => labels.verdict(Verdict::Correct),
-            (Self::Wrong, _) => labels.verdict(Verdict::Wrong),
-            (Self::Rejected, _) => labels.verdict(Verdict::Rejected),
-            (Self::Stopped, _) => labels.verdict(Verdict::Stopped),
-            (Self::NotGraded, Language::En) => "Nothing to grade",
-            (Self::NotGraded, Language::Ja) => "採点できるファイルがありません",
-            (Self::Fault, Language::En) => "The autograder failed",
-            (Self::Fault, Language::Ja) => "採点システムの障害です",
-        }
-    }
-}
 
 /// What a student is told about the outcome as a whole.
 pub fn explanation(entry: &Entry, language: Language) -> String {

@@ -2,7 +2,8 @@
 
 use crate::batch::class::{Class, Entry};
 use crate::batch::formats::untrusted::{one_line, visible};
-use crate::batch::formats::wording::{self, Standing};
+use crate::batch::formats::wording;
+use crate::batch::standing::Standing;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::{Language, Text};
 use crate::report::{RubricLine, Verdict};
@@ -74,10 +75,10 @@ fn in_turns<'a>(annotations: impl Iterator<Item = &'a Annotation<'a>>) -> Vec<&'
 }
 
 fn of_entry(entry: &Entry, language: Language) -> Vec<Annotation<'_>> {
-    let standing = Standing::of(entry);
+    let standing = Standing::of(&entry.outcome);
     let Some(report) = entry.report() else {
         let message = wording::fault(entry, language).unwrap_or_else(|| wording::explanation(entry, language));
-        let title = title(entry, standing.label(language));
+        let title = title(entry, standing.label().get(language));
         return vec![Annotation { level: "error", entry, line: None, columns: None, title, message }];
     };
     let lost = report.rubric.iter().filter(|line| !wording::is_full(line));
@@ -236,7 +237,7 @@ mod tests {
     #[test]
     fn our_failure_and_a_missing_file_are_errors_that_say_so() {
         let text = annotations(&nasty::class());
-        assert!(text.contains("title=Student 5%3A The autograder failed::no driver in /usr/share/vulkan%0A"), "{text}");
+        assert!(text.contains("title=Student 5%3A Grading failed::no driver in /usr/share/vulkan%0A"), "{text}");
         assert!(text.contains("title=Student 4%3A Nothing to grade::There is no .vert file"), "{text}");
     }
 }

@@ -11,8 +11,9 @@ pub use annotations::annotations;
 pub use summary::{LIMIT, summary};
 
 use super::untrusted::{one_line, visible};
-use super::wording::{self, Standing};
+use super::wording;
 use crate::batch::class::{Class, Entry};
+use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::{excerpt, report, source};
@@ -52,7 +53,7 @@ pub fn log(class: &Class, token: &Token) -> String {
 }
 
 fn line(entry: &Entry, class: &Class) -> String {
-    let standing = Standing::of(entry);
+    let standing = Standing::of(&entry.outcome);
     let score = entry.report().map(|report| format!(" {}", wording::points(report.score, report.max_score)));
     let mistakes = entry.report().map(|report| report.mistakes.join(" ")).unwrap_or_default();
     let detail = match standing {
@@ -60,7 +61,8 @@ fn line(entry: &Entry, class: &Class) -> String {
         Standing::Fault => wording::fault(entry, class.language).unwrap_or_default(),
         _ => mistakes,
     };
-    let label = standing.label(class.language);
+    let word = standing.label();
+    let label = word.get(class.language);
     let line = format!("{}: {label}{} {detail}", entry.student.name, score.unwrap_or_default());
     format!("{}\n", one_line(line.trim_end()))
 }
@@ -75,12 +77,8 @@ fn full_report(entry: &Entry, class: &Class) -> String {
         Err(refusal) => refusal.source,
     });
     let excerpts = excerpt::excerpt(source.flatten().as_ref(), &report.diagnostics, class.language, false);
-    let options = report::text::Options {
-        language: class.language,
-        width: LOG_WIDTH,
-        colour: false,
-        excerpts: Some(&excerpts),
-    };
+    let options =
+        report::text::Options { language: class.language, width: LOG_WIDTH, colour: false, excerpts: Some(&excerpts) };
     visible(&report::text::render(report, &options))
 }
 

@@ -2,7 +2,8 @@
 
 use crate::batch::class::{Class, Entry};
 use crate::batch::formats::untrusted::one_line;
-use crate::batch::formats::wording::{self, Standing};
+use crate::batch::formats::wording;
+use crate::batch::standing::Standing;
 use crate::language::{Language, Text};
 use std::fmt::Write;
 
@@ -67,15 +68,20 @@ impl Rows {
 /// How many students stand where.
 fn counts(class: &Class) -> String {
     use Standing::{Correct, Fault, NotGraded, Rejected, Stopped, Wrong};
-    let count = |standing| class.entries.iter().filter(|entry| Standing::of(entry) == standing).count();
+    let count = |standing| class.entries.iter().filter(|entry| Standing::of(&entry.outcome) == standing).count();
     let counts = [Correct, Wrong, Rejected, Stopped, NotGraded, Fault].map(|standing| (standing, count(standing)));
     let counts = counts.iter().filter(|(_, count)| *count > 0);
-    counts.map(|(standing, count)| format!("{} {count}", standing.label(class.language))).collect::<Vec<_>>().join(" · ")
+    counts
+        .map(|(standing, count)| format!("{} {count}", standing.label().get(class.language)))
+        .collect::<Vec<_>>()
+        .join(" · ")
 }
 
 fn heading(language: Language) -> &'static str {
     match language {
-        Language::En => "| Student | Outcome | Score | Mistakes | Report and pictures |\n| --- | --- | ---: | --- | --- |\n",
+        Language::En => {
+            "| Student | Outcome | Score | Mistakes | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
+        }
         Language::Ja => "| 学生 | 結果 | 得点 | 間違い | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
     }
 }
@@ -92,7 +98,7 @@ fn row(entry: &Entry, language: Language) -> String {
     };
     let page = entry.page.as_ref().map(|page| code(&page.to_string_lossy())).unwrap_or_default();
     let name = markdown(&entry.student.name);
-    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(entry).label(language))
+    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).label().get(language))
 }
 
 /// The rubric and the diagnostics of the only student.
@@ -149,7 +155,7 @@ mod tests {
         let mistake = "<code>specular&#45;half&#45;unnormalized</code>";
         assert!(summary.contains(&format!("| Student 1 | Not right yet | 80 / 100 | {mistake} |  |\n")), "{summary}");
         // No score where we failed, nor where there was nothing to grade.
-        assert!(summary.contains("| Student 5 | The autograder failed |  | no driver"), "{summary}");
+        assert!(summary.contains("| Student 5 | Grading failed |  | no driver"), "{summary}");
         assert!(summary.contains("| Student 4 | Nothing to grade |  | There is no"), "{summary}");
     }
 

@@ -31,8 +31,7 @@ pub fn render(class: &Class) -> String {
         run.add(entry, class.language);
     }
     let failed = class.entries.iter().any(|entry| matches!(entry.outcome, Outcome::Fault(_)));
-    let notifications: Vec<_> =
-        class.entries.iter().filter_map(|entry| notification(entry, class.language)).collect();
+    let notifications: Vec<_> = class.entries.iter().filter_map(|entry| notification(entry, class.language)).collect();
     let log = json!({
         "$schema": SCHEMA,
         "version": "2.1.0",

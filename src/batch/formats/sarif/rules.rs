@@ -34,7 +34,8 @@ impl Rules {
     pub fn of(class: &Class) -> Self {
         let mut rules = Self { values: Vec::new(), indices: HashMap::new() };
         let language = class.language;
-        for (stage, id) in [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run].map(|s| (s, stage(s)))
+        for (stage, id) in
+            [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run].map(|s| (s, stage(s)))
         {
             rules.add(id, "error", json!({ "shortDescription": { "text": Labels::of(language).stage(stage) } }));
         }

@@ -2,12 +2,20 @@ use super::*;
 use crate::batch::formats::nasty;
 use crate::report::samples;
 
+/// The schema of SARIF 2.1.0, formats such as `uri-reference` included.
+fn schema() -> jsonschema::Validator {
+    let text = include_str!("../../../../tests/schemas/sarif-2.1.0-rtm.5.json");
+    // One pattern of the published schema has a `]` that nothing opens. Browsers take it for a literal one, strict
+    // readers of regular expressions refuse the schema for it; escaped it means the same to both.
+    let text = text.replace("-[a-zA-Z]{2}]?$", "-[a-zA-Z]{2}\\\\]?$");
+    let schema = serde_json::from_str(&text).expect("a schema");
+    jsonschema::options().should_validate_formats(true).build(&schema).expect("a valid schema")
+}
+
 /// The log of the class, held against the schema of SARIF 2.1.0.
 fn log(class: &Class) -> Value {
     let log: Value = serde_json::from_str(&render(class)).expect("JSON");
-    let schema = include_str!("../../../../tests/schemas/sarif-2.1.0-rtm.5.json");
-    let schema: Value = serde_json::from_str(schema).expect("a schema");
-    let validator = jsonschema::options().should_validate_formats(true).build(&schema).expect("a valid schema");
+    let validator = schema();
     let errors: Vec<_> =
         validator.iter_errors(&log).map(|error| format!("{}: {error}", error.instance_path())).collect();
     assert!(errors.is_empty(), "{errors:#?}");
@@ -20,8 +28,7 @@ fn results(log: &Value) -> &[Value] {
 
 #[test]
 fn the_schema_refuses_what_is_wrong() {
-    let schema: Value = serde_json::from_str(include_str!("../../../../tests/schemas/sarif-2.1.0-rtm.5.json")).unwrap();
-    let validator = jsonschema::options().should_validate_formats(true).build(&schema).unwrap();
+    let validator = schema();
     let good: Value = serde_json::from_str(&render(&nasty::class())).unwrap();
     for (pointer, bad) in [
         ("/version", json!("2.0.0")),
@@ -75,7 +82,8 @@ fn our_failure_and_a_missing_file_are_notifications() {
     let log = log(&nasty::class());
     let invocation = &log["runs"][0]["invocations"][0];
     assert_eq!(invocation["executionSuccessful"], false);
-    let levels: Vec<_> = invocation["toolExecutionNotifications"].as_array().unwrap().iter().map(|n| &n["level"]).collect();
+    let levels: Vec<_> =
+        invocation["toolExecutionNotifications"].as_array().unwrap().iter().map(|n| &n["level"]).collect();
     assert_eq!(levels, ["warning", "error"]);
     let mut fine = nasty::class();
     fine.entries.truncate(5);
