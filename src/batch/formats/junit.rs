@@ -140,7 +140,8 @@ mod tests {
         let document = parsed(&nasty::class());
         // Four rubric lines for each of four graded students, and a case each for the two others; one line of `wrong`
         // and all four of `rejected` and `stopped` lose points.
-        let counts = (document.tests, document.failures, document.errors, document.skipped);
+        let skipped: usize = document.test_suites.iter().map(|suite| suite.skipped).sum();
+        let counts = (document.tests, document.failures, document.errors, skipped);
         assert_eq!(counts, (18, 9, 1, 1));
         let suites: Vec<_> = document.test_suites.iter().map(|suite| (suite.failures, suite.errors)).collect();
         assert_eq!(suites, [(0, 0), (1, 0), (4, 0), (4, 0), (0, 0), (0, 1)]);

@@ -5,6 +5,7 @@ use crate::batch::formats::untrusted::one_line;
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
 use crate::language::{Language, Text};
+use crate::report::html::rich::{Piece, pieces};
 use std::fmt::Write;
 
 /// The most bytes that GitHub takes of one step: 1 MiB. A longer summary is refused whole.
@@ -17,11 +18,11 @@ const CLOSING: usize = 400;
 pub fn summary(class: &Class, limit: usize) -> String {
     let language = class.language;
     let mut rows = Rows { out: String::new(), limit: limit.saturating_sub(CLOSING), left_out: 0 };
-    rows.push(&format!("## ggrade: {}\n\n{}\n\n", markdown(&class.title), counts(class)));
+    rows.push(&format!("## ggrade: {}\n\n", markdown(&class.title)));
     if let [entry] = &class.entries[..] {
         rows.push(&single(entry, language));
     } else {
-        rows.push(heading(language));
+        rows.push(&format!("{}\n\n{}", counts(class), heading(language)));
         for entry in &class.entries {
             rows.push(&row(entry, language));
         }
@@ -93,7 +94,7 @@ fn row(entry: &Entry, language: Language) -> String {
         Some(report) => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
         None => {
             let fault = wording::fault(entry, language);
-            markdown(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
+            rich(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
         }
     };
     let page = entry.page.as_ref().map(|page| code(&page.to_string_lossy())).unwrap_or_default();
@@ -103,11 +104,15 @@ fn row(entry: &Entry, language: Language) -> String {
 
 /// The rubric and the diagnostics of the only student.
 fn single(entry: &Entry, language: Language) -> String {
-    let mut out = String::new();
-    if let Some(fault) = wording::fault(entry, language) {
-        let _ = writeln!(out, "{}\n", markdown(&fault));
+    let standing = Standing::of(&entry.outcome).label();
+    let mut out = format!("**{}**", standing.get(language));
+    if let Some(report) = entry.report() {
+        let _ = write!(out, " {}", wording::points(report.score, report.max_score));
     }
-    let _ = writeln!(out, "{}\n", markdown(&wording::explanation(entry, language)));
+    let _ = writeln!(out, "\n\n{}\n", rich(&wording::explanation(entry, language)));
+    if let Some(fault) = wording::fault(entry, language) {
+        let _ = writeln!(out, "{}\n", rich(&fault));
+    }
     let Some(report) = entry.report() else { return out };
     out.push_str(match language {
         Language::En => "| Rubric | Points | Mistake | Feedback |\n| --- | ---: | --- | --- |\n",
@@ -117,13 +122,12 @@ fn single(entry: &Entry, language: Language) -> String {
         let label = markdown(line.label.get(language));
         let points = wording::points(line.points, line.max_points);
         let mistake = line.mistake.as_deref().map(code).unwrap_or_default();
-        let _ = writeln!(out, "| {label} | {points} | {mistake} | {} |", markdown(line.message.get(language)));
+        let _ = writeln!(out, "| {label} | {points} | {mistake} | {} |", rich(line.message.get(language)));
     }
-    let score = wording::points(report.score, report.max_score);
-    let _ = writeln!(out, "| | **{score}** | | |\n");
+    out.push('\n');
     for diagnostic in &report.diagnostics {
         let place = wording::place(diagnostic, language);
-        let _ = writeln!(out, "- **{}** {}", markdown(&place), markdown(&wording::message(diagnostic, language)));
+        let _ = writeln!(out, "- **{}** {}", markdown(&place), rich(&wording::message(diagnostic, language)));
     }
     out
 }
@@ -133,6 +137,12 @@ fn single(entry: &Entry, language: Language) -> String {
 fn markdown(text: &str) -> String {
     let escape = |c: char| if c.is_ascii_punctuation() { format!("&#{};", u32::from(c)) } else { c.to_string() };
     one_line(text).chars().map(escape).collect()
+}
+
+/// A message in one line, its `code` in a typewriter's letters.
+fn rich(message: &str) -> String {
+    let piece = |piece: Piece| if piece.code { code(&piece.text) } else { markdown(&piece.text) };
+    pieces(message).into_iter().map(piece).collect()
 }
 
 /// The same in a typewriter's letters.
@@ -179,7 +189,8 @@ mod tests {
         let class = Class { entries: vec![entry], language: Language::Ja, ..nasty::class() };
         let summary = summary(&class, LIMIT);
         assert!(summary.contains("| 鏡面反射光 | 20 / 40 | <code>specular&#45;half&#45;unnormalized</code> |"));
-        assert!(summary.contains("| | **80 / 100** | | |"), "{summary}");
+        assert!(summary.contains("**修正が必要です** 80 / 100\n"), "{summary}");
+        assert!(summary.contains("<code>h</code>") && !summary.contains('`'), "{summary}");
         assert!(summary.contains("12 行目 9 文字目"), "{summary}");
     }
 
