@@ -6,6 +6,7 @@ pub mod feedback;
 pub mod grades;
 mod names;
 pub mod nbgrader;
+pub mod page;
 pub(crate) mod plain;
 #[cfg(test)]
 mod samples;
