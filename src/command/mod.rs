@@ -3,6 +3,7 @@
 pub mod batch;
 pub mod corpus;
 pub mod doctor;
+mod exchange;
 pub mod grade;
 pub mod interrupt;
 pub mod serve;
