@@ -14,6 +14,7 @@ mod names;
 #[cfg(test)]
 mod nasty;
 pub mod nbgrader;
+pub mod page;
 pub(crate) mod plain;
 #[cfg(test)]
 mod samples;

@@ -103,6 +103,10 @@ pub(super) fn choose(group: Group, options: &Options) -> Chosen {
             return one_of(fitting.into_iter().map(|(_, file)| file).collect(), options);
         }
     }
+    let refused = ranked.iter().find(|(_, file)| matches!(file.file.held, Held::Refused(_)));
+    if let Some(Content::Nothing(reason)) = refused.map(|(_, file)| content(file, options)) {
+        return nothing(reason);
+    }
     let names: Vec<String> = ranked.into_iter().map(|(_, file)| file.below).collect();
     nothing(wording::none_fits(&names, group.has_online_text, &options.file_name))
 }

@@ -1,7 +1,7 @@
 //! A folder of this machine → a tree. No link is followed, and only ordinary files are opened.
 
 use super::tree::{self, Folder, Held, Node};
-use super::{Reading, limits};
+use super::{Reading, archive, limits};
 use crate::language::Text;
 use nix::fcntl::OFlag;
 use std::fs::{File, OpenOptions};
@@ -66,6 +66,17 @@ fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading:
     let kind = entry.file_type();
     let node = if kind.is_dir() {
         Node::Folder(Folder::default())
+    } else if kind.is_file() && archive::is_archive(&name) {
+        match open(entry.path())
+            .map_err(|error| limits::unreadable(&error))
+            .and_then(|file| archive::read(file, &full(), reading))
+        {
+            Ok(folder) => Node::Folder(folder),
+            Err(reason) => {
+                reading.refuse(full(), reason.clone());
+                Node::File(tree::File { local: Some(entry.path().into()), held: Held::Refused(reason) })
+            }
+        }
     } else if kind.is_file() {
         Node::File(tree::File { local: Some(entry.path().into()), held: Held::OnDisk })
     } else {
@@ -106,8 +117,12 @@ fn not_a_file(kind: std::fs::FileType) -> Text {
 
 /// The first `limit` bytes of an ordinary file. What became a link or a pipe since it was found is not opened.
 pub(super) fn bytes(path: &Path, limit: u64) -> std::io::Result<Vec<u8>> {
+    contents(open(path)?, limit)
+}
+
+fn open(path: &Path) -> std::io::Result<File> {
     let flags = OFlag::O_NOFOLLOW | OFlag::O_NONBLOCK | OFlag::O_CLOEXEC;
-    contents(OpenOptions::new().read(true).custom_flags(flags.bits()).open(path)?, limit)
+    OpenOptions::new().read(true).custom_flags(flags.bits()).open(path)
 }
 
 /// The first `limit` bytes of an open file.

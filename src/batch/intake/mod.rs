@@ -4,12 +4,15 @@
 //! tree whose each file is ([`moodle`] knows the names in a Moodle download), [`choose`] which of a student's files is
 //! the one to grade. Nothing is ever unpacked onto the disk, and no link is followed.
 
+mod archive;
 mod choose;
 mod folder;
 mod key;
 mod limits;
 mod moodle;
 mod students;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod wording;
 
@@ -19,6 +22,7 @@ use super::class::{Refused, Student};
 use crate::fault::Fault;
 use crate::language::Text;
 use reference::Assignment;
+use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 use students::Group;
 use tree::{File, Folder, Held};
@@ -137,13 +141,26 @@ impl Reading<'_> {
             return Some(Input::Folder(folder::read(path, &name, self)));
         }
         // The person who started ggrade chose this path: a link in it is meant.
-        match std::fs::File::open(path).and_then(|file| folder::contents(file, self.options.limits.file_bytes)) {
-            Ok(bytes) => Some(Input::File(File { local: Some(path.into()), held: Held::Bytes(bytes) })),
-            Err(error) => {
-                self.refuse(name, limits::unreadable(&error));
+        let read = std::fs::File::open(path).map_err(|error| limits::unreadable(&error));
+        match read.and_then(|file| self.file(file, path, &name)) {
+            Ok(input) => Some(input),
+            Err(reason) => {
+                self.refuse(name, reason);
                 None
             }
         }
+    }
+
+    fn file(&mut self, file: std::fs::File, path: &Path, name: &str) -> Result<Input, Text> {
+        let limit = self.options.limits.file_bytes;
+        let mut start = [0; 4];
+        let begins_as_archive = file.read_exact_at(&mut start, 0).is_ok() && archive::is_archive_start(&start);
+        let is_shader = choose::fit(name, &self.options.file_name) <= choose::Fit::Renamed;
+        if archive::is_archive(name) || begins_as_archive && !is_shader {
+            return archive::read(file, name, self).map(Input::Folder);
+        }
+        let bytes = folder::contents(file, limit).map_err(|error| limits::unreadable(&error))?;
+        Ok(Input::File(File { local: Some(path.into()), held: Held::Bytes(bytes) }))
     }
 
     fn refuse(&mut self, path: String, reason: Text) {

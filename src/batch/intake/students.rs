@@ -201,7 +201,7 @@ impl Finding<'_> {
         let mut children = folder.children();
         let (Some((_, Node::Folder(only))), None) = (children.next(), children.next()) else { return false };
         let fits: Vec<Fit> = only.file_names().map(|name| fit(name, &self.options.file_name)).collect();
-        !fits.contains(&Fit::Exact) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
+        !fits.iter().any(|fit| *fit <= Fit::Copy) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
     }
 
     /// Whether the whole input is one student's: the wanted file, or beside other inputs any one shader, lies in it,
