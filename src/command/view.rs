@@ -1,7 +1,7 @@
 //! How a report is shown, whichever command shows it.
 
-use super::{file_fault, writing};
-use crate::cli::Format;
+use super::{file_fault, width, writing};
+use crate::cli::Reading;
 use crate::excerpt;
 use crate::fault::Fault;
 use crate::language::Language;
@@ -24,27 +24,11 @@ pub(super) struct View<'a> {
 }
 
 impl View<'_> {
-    /// Writes the report to a file, or else to standard output.
-    pub fn write(&self, format: Format, output: Option<&Path>) -> Result<(), Fault> {
-        match output {
-            Some(path) => {
-                let document = self.document(format, false)?;
-                std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error))
-            }
-            None => {
-                let document = self.document(format, has_colour())?;
-                // A reader that closes the pipe early, such as `head`, has what it wanted.
-                let _ = std::io::stdout().lock().write_all(document.as_bytes());
-                Ok(())
-            }
-        }
-    }
-
     /// The report in a format.
-    pub fn document(&self, format: Format, colour: bool) -> Result<String, Fault> {
+    pub fn document(&self, format: Reading, colour: bool) -> Result<String, Fault> {
         match format {
-            Format::Json => Ok(json::render(self.report, self.language)),
-            Format::Html => Page {
+            Reading::Json => Ok(json::render(self.report, self.language)),
+            Reading::Html => Page {
                 report: self.report,
                 source: self.source.map(|source| source.text.as_str()),
                 pictures: self.pictures,
@@ -52,13 +36,30 @@ impl View<'_> {
                 language: self.language,
             }
             .render(),
-            Format::Text => {
+            Reading::Text => {
                 let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
-                    &text::Options { language: self.language, width: width(), colour, excerpts: Some(&excerpts) },
+                    &text::Options {
+                        language: self.language,
+                        width: width(std::io::stdout().is_terminal()),
+                        colour,
+                        excerpts: Some(&excerpts),
+                    },
                 ))
             }
+        }
+    }
+}
+
+/// Writes a document to a file, or else to standard output.
+pub(super) fn put(output: Option<&Path>, document: &str) -> Result<(), Fault> {
+    match output {
+        Some(path) => std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error)),
+        None => {
+            // A reader that closes the pipe early, such as `head`, has what it wanted.
+            let _ = std::io::stdout().lock().write_all(document.as_bytes());
+            Ok(())
         }
     }
 }
@@ -74,13 +75,4 @@ pub(super) fn readable(name: &str, bytes: &[u8]) -> Option<Source> {
 /// Whether standard output takes colour.
 pub(super) fn has_colour() -> bool {
     anstream::AutoStream::choice(&std::io::stdout()) != anstream::ColorChoice::Never
-}
-
-/// Columns of the terminal; a file or pipe is as wide as a usual page.
-pub(super) fn width() -> usize {
-    const PAGE: usize = 100;
-    if !std::io::stdout().is_terminal() {
-        return PAGE;
-    }
-    terminal_size::terminal_size().map_or(PAGE, |(width, _)| usize::from(width.0))
 }

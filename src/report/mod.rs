@@ -11,7 +11,7 @@ pub mod pictures;
 #[cfg(test)]
 pub(crate) mod samples;
 pub mod text;
-mod wrap;
+pub(crate) mod wrap;
 
 pub use equation::{Definition, Equation, Term};
 

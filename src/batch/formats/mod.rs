@@ -1,18 +1,30 @@
 //! A graded class in the formats that people and courses' tools read: one module a format, all of them views of a
 //! [`Class`](super::class::Class).
 
+pub mod classroom;
+pub mod coderunner;
 mod comment;
+pub mod exchange;
 pub mod feedback;
+pub mod github;
 pub mod grades;
+pub mod gradescope;
+pub mod junit;
 mod names;
+#[cfg(test)]
+mod nasty;
 pub mod nbgrader;
 pub mod page;
-mod plain;
+pub(crate) mod plain;
 #[cfg(test)]
 mod samples;
+pub mod sarif;
 mod status;
 #[cfg(test)]
 mod tests;
+mod untrusted;
+pub mod vpl;
+mod wording;
 pub mod worksheet;
 
 use crate::language::Text;

@@ -19,7 +19,7 @@ const FORMULA: [char; 8] = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
 ///
 /// A formula can begin the cell, blank and invisible characters aside, and also follow a `;`: where that is the list
 /// separator, Excel cuts there whatever the quotes say.
-pub(super) fn cell(text: &str) -> String {
+pub(crate) fn cell(text: &str) -> String {
     let text = one_line(text);
     let mut safe = String::with_capacity(text.len() + 1);
     let mut at_start = true;

@@ -8,8 +8,8 @@ mod saves;
 mod screen;
 
 use super::view::{View, has_colour, readable};
-use super::{Outcome, grade, language, warn};
-use crate::cli::{Format, Watch};
+use super::{Outcome, deadline, language, warn};
+use crate::cli::{Reading, Watch};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::{Language, Text};
@@ -32,7 +32,7 @@ pub fn run(arguments: &Watch) -> Result<Outcome, Fault> {
 async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
     let mut ends = Ends::listen().map_err(|error| broken(&error))?;
     let language = language(arguments.lang);
-    let Some(deadline) = grade::deadline(arguments.deadline) else { return Ok(grade::bad_deadline()) };
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
     if let Err(error) = std::fs::File::open(&arguments.file) {
         anstream::eprintln!("ggrade: {}", saves::unreadable(&arguments.file, &error).get(language));
         return Ok(Outcome::Nothing);
@@ -127,7 +127,7 @@ impl Session {
     fn show(&mut self, report: Report, name: &str, bytes: &[u8]) {
         let source = readable(name, bytes);
         let view = View { report: &report, source: source.as_ref(), pictures: None, language: self.language };
-        match view.document(Format::Text, has_colour()) {
+        match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
                 let change = self.last.as_ref().map(|last| change::between(last, &report));
                 self.screen.report(&document, change.as_ref().map(|change| change.get(self.language)));
