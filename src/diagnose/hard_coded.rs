@@ -14,22 +14,24 @@ pub fn is_lookup(probes: &ProbeSet, samples: &[Sample]) -> bool {
         return false;
     }
     let each = samples.len() / groups;
-    let same = |a: &Sample, b: &Sample| {
-        a.colour_f64().iter().zip(b.colour_f64()).all(|(x, y)| (x - y).abs() <= COLOUR_TOLERANCE)
-    };
     let within_group = samples.chunks_exact(each).all(|group| group.iter().all(|sample| same(sample, &group[0])));
     let by_number = samples.chunks_exact(each).all(|group| group.iter().zip(samples).all(|(a, b)| same(a, b)));
     within_group || by_number
 }
 
-/// Whether these mistakes explain a looked-up colour by chance: they were fitted to it, or would leave points to a term
-/// that varies, of which a colour that is everywhere the same shows nothing. (Black is also a product with one factor
+fn same(a: &Sample, b: &Sample) -> bool {
+    a.colour_f64().iter().zip(b.colour_f64()).all(|(x, y)| (x - y).abs() <= COLOUR_TOLERANCE)
+}
+
+/// Whether these mistakes explain a looked-up colour by chance: they were fitted to it, or it is the same everywhere
+/// and they would leave points to a term that varies, of which it shows nothing. (Black is also a product with one factor
 /// missing, and white is everything added up.)
-pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, found: &[Found]) -> bool {
+pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[Found]) -> bool {
+    let is_one_colour = samples.iter().all(|sample| same(sample, &samples[0]));
     let leaves = |line: &str| found.iter().all(|found| keeps(assignment, found, line));
     let mut colours = assignment.rubric.iter().filter(|line| line.id != super::SHAPE);
     found.iter().any(|found| found.parameter.is_some())
-        || colours.any(|line| leaves(&line.id) && varies(assignment, probes, &line.judges))
+        || is_one_colour && colours.any(|line| leaves(&line.id) && varies(assignment, probes, &line.judges))
 }
 
 /// Whether the mistakes leave nothing of the colour, so that they cannot draw a right picture.

@@ -173,7 +173,7 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     match fit {
         Fit::Explained(found)
             if hard_coded::is_lookup(probes, evidence.samples)
-                && hard_coded::is_coincidence(assignment, probes, &found) =>
+                && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
         {
             Cause::HardCoded
         }

@@ -2,7 +2,8 @@
 //! never wrote. Nothing of the pattern may show.
 
 use super::neighbours::{hand_in, lasting};
-use super::workers::{alone, grade, settings};
+use super::settings;
+use super::workers::{alone, grade};
 use ggrade::report::Verdict;
 use ggrade::sandbox::{Pool, Settings};
 
