@@ -171,13 +171,14 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         return Cause::Known { constants, found };
     }
     match fit {
-        // Numbers fitted to one colour that is everywhere the same explain nothing.
         Fit::Explained(found)
-            if found.iter().any(|mistake| mistake.parameter.is_some())
-                && hard_coded::is_lookup(probes, evidence.samples) =>
+            if hard_coded::is_lookup(probes, evidence.samples)
+                && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
         {
             Cause::HardCoded
         }
+        // The course's own poses are treated apart from what explains all others.
+        Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
         Fit::Unexplained(_) if frames_agree || hard_coded::is_lookup(probes, evidence.samples) => Cause::HardCoded,
         Fit::Unexplained(terms) => Cause::Unexplained(terms),

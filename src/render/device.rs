@@ -70,11 +70,13 @@ impl AdapterKind {
                 "no software Vulkan driver (lavapipe) was found",
                 "ソフトウェアの Vulkan ドライバ (lavapipe) が見つかりません",
             ))
-            .remedy(Text::new(
-                "On Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1. `ggrade doctor` tells more.",
-                "Debian / Ubuntu では apt-get install mesa-vulkan-drivers libvulkan1 を実行してください。\
-                 詳しくは `ggrade doctor` で調べられます。",
-            )),
+            .remedy(lost_descriptions().unwrap_or_else(|| {
+                Text::new(
+                    "On Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1. `ggrade doctor` tells more.",
+                    "Debian / Ubuntu では apt-get install mesa-vulkan-drivers libvulkan1 を実行してください。\
+                     詳しくは `ggrade doctor` で調べられます。",
+                )
+            })),
             Self::Gpu => Fault::new(Text::new(
                 "no graphics card with a Vulkan driver was found",
                 "Vulkan ドライバのあるグラフィックスカードが見つかりません",
@@ -85,6 +87,21 @@ impl AdapterKind {
             )),
         }
     }
+}
+
+/// What to do where the loader was told of drivers that are not there; none where it was told of none.
+fn lost_descriptions() -> Option<Text> {
+    let (name, paths) = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"]
+        .iter()
+        .find_map(|name| Some((name, std::env::var_os(name).filter(|paths| !paths.is_empty())?)))?;
+    let lost = std::env::split_paths(&paths).find(|path| !path.exists())?;
+    let lost = lost.display();
+    Some(Text::new(
+        format!("{name} names {lost}, which is not there: unset it, or name lavapipe's description (lvp_icd.*.json)."),
+        format!(
+            "環境変数 {name} の指す {lost} がありません。この変数を取り消すか、lavapipe の設定ファイル (lvp_icd.*.json) を指定してください。"
+        ),
+    ))
 }
 
 fn unusable(name: &str, error: &wgpu::RequestDeviceError) -> Fault {

@@ -1,7 +1,8 @@
 //! Honest files beside hostile ones: each report is the one of a quiet day.
 
 use super::files;
-use super::workers::{alone, sample, settings};
+use super::settings;
+use super::workers::{alone, sample};
 use ggrade::grade::Order;
 use ggrade::report::{Report, Verdict};
 use ggrade::sandbox::{Answer, Pool, Settings, Submission};

@@ -1,7 +1,8 @@
 //! Every hostile file gets the verdict that is promised, whichever way it is handed in.
 
 use super::files::{self, Hostile, Seen};
-use super::workers::{GGRADE, children, grade, settings};
+use super::settings;
+use super::workers::{GGRADE, children, grade};
 use ggrade::sandbox::Pool;
 use std::process::Command;
 use std::sync::Mutex;
@@ -30,7 +31,7 @@ fn the_command_gives_each_file_its_verdict() {
     hold(&files::all(), &|file| {
         let path = folder.path().join(&file.name);
         std::fs::write(&path, &file.bytes).map_err(|error| error.to_string())?;
-        let command = ["grade", "--format", "json", "--lang", "en", "--seed", "7", "--deadline", "10"];
+        let command = ["grade", "--format", "json", "--lang", "en", "--seed", "7", "--deadline", "60"];
         let output = Command::new(GGRADE).args(command).arg(&path).output().map_err(|error| error.to_string())?;
         let json = serde_json::from_slice(&output.stdout).ok().and_then(|json| Seen::of_json(&json));
         json.ok_or_else(|| String::from_utf8_lossy(&output.stderr).into_owned())

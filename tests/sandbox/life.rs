@@ -87,6 +87,23 @@ fn a_worker_that_cannot_start_is_a_fault_with_its_own_words() {
 }
 
 #[test]
+fn a_driver_that_is_not_there_is_a_fault_that_says_what_to_do() {
+    let _alone = alone();
+    let folder = tempfile::tempdir().unwrap();
+    let lost = folder.path().join("lvp_icd.lost.json");
+    for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+        let mut command = Command::new(workers::GGRADE);
+        command.env_remove("VK_DRIVER_FILES").env_remove("VK_ICD_FILENAMES").env(name, &lost);
+        command.args(["grade", "submissions/accepted/answers/alpha-two.vert", "--format", "json"]);
+        let output = command.env("LC_ALL", "C").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{told}");
+        assert!(output.stdout.is_empty(), "a fault is no report");
+        assert!(told.contains("lvp_icd.lost.json") && told.contains("unset it"), "{told}");
+    }
+}
+
+#[test]
 fn workers_die_with_their_parent() {
     let _alone = alone();
     let mut corpus = Command::new(workers::GGRADE)
