@@ -3,7 +3,7 @@
 use super::changes::Changes;
 use super::class::Class;
 use super::folder::Folder;
-use super::formats::{Format, KEY, feedback, grades, nbgrader, worksheet};
+use super::formats::{Format, KEY, exchange, feedback, grades, nbgrader, page, worksheet};
 use super::run::Wants;
 use super::summary::Written;
 use crate::fault::Fault;
@@ -67,10 +67,7 @@ fn is_usual(format: Format, given: Given) -> bool {
 /// What these formats need of each student.
 pub fn wants(formats: &[Format]) -> Wants {
     let any = |with: &[Format]| formats.iter().any(|format| with.contains(format));
-    Wants {
-        portraits: any(&[Format::Html, Format::Gradescope, Format::Github]),
-        pages: any(&[Format::Html, Format::MoodleFeedback]),
-    }
+    Wants { portraits: any(&[Format::Html, Format::Gradescope]), pages: any(&[Format::Html, Format::MoodleFeedback]) }
 }
 
 /// Writes a class in each of the formats. Where one cannot be written the others are all the same, and the first fault
@@ -109,6 +106,7 @@ fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> 
     let file = format.files()[0];
     let whole = |bytes: Vec<u8>| folder.write(file, &bytes).map(|_| Vec::new());
     match format {
+        Format::Html => whole(page::render(class)?),
         Format::Csv => whole(grades::render(class)?),
         Format::Nbgrader => whole(nbgrader::render(class)?),
         Format::MoodleWorksheet => {
@@ -117,7 +115,19 @@ fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> 
             Ok(filled.notes)
         }
         Format::MoodleFeedback => folder.write_by(file, |out| feedback::write(class, out)).map(|packed| packed.notes),
-        _ => Ok(Vec::new()),
+        Format::Gradescope
+        | Format::Github
+        | Format::Classroom
+        | Format::ClassroomLegacy
+        | Format::Junit
+        | Format::Sarif
+        | Format::Vpl
+        | Format::Coderunner => {
+            for document in exchange::documents(format, class)? {
+                folder.write(&document.name, document.text.as_bytes())?;
+            }
+            Ok(Vec::new())
+        }
     }
 }
 
