@@ -283,7 +283,7 @@ fn the_gradescope_archive_grades() {
 
 /// What VPL makes of an output: the last proposed grade.
 fn grade(output: &str) -> Option<&str> {
-    output.lines().filter_map(|line| line.strip_prefix("Grade :=>>")).last().map(str::trim)
+    output.lines().filter_map(|line| line.strip_prefix("Grade :=>>")).next_back().map(str::trim)
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::batch::class::{Class, Entry};
 use crate::batch::formats::untrusted::one_line;
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
+use crate::diagnostic::Severity;
 use crate::language::{Language, Text};
 use crate::report::html::rich::{Piece, pieces};
 use std::fmt::Write;
@@ -81,9 +82,9 @@ fn counts(class: &Class) -> String {
 fn heading(language: Language) -> &'static str {
     match language {
         Language::En => {
-            "| Student | Outcome | Score | Mistakes | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
+            "| Student | Outcome | Score | Mistakes and errors | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
         }
-        Language::Ja => "| 学生 | 結果 | 得点 | 間違い | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
+        Language::Ja => "| 学生 | 結果 | 得点 | 間違いとエラー | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
     }
 }
 
@@ -91,7 +92,13 @@ fn row(entry: &Entry, language: Language) -> String {
     let report = entry.report();
     let score = report.map(|report| wording::points(report.score, report.max_score)).unwrap_or_default();
     let detail = match report {
-        Some(report) => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        Some(report) => match report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
+            Some(error) => {
+                let place = wording::place(error, language);
+                format!("{}: {}", markdown(&place), rich(error.message.get(language)))
+            }
+            None => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        },
         None => {
             let fault = wording::fault(entry, language);
             rich(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
@@ -164,6 +171,9 @@ mod tests {
         assert!(summary.contains("| Student 0 | Correct | 100 / 100 |  |  |\n"), "{summary}");
         let mistake = "<code>specular&#45;half&#45;unnormalized</code>";
         assert!(summary.contains(&format!("| Student 1 | Not right yet | 80 / 100 | {mistake} |  |\n")), "{summary}");
+        let error =
+            "| Student 2 | Not accepted | 0 / 100 | error · line 11&#44; column 12: <code>Max</code> is not declared";
+        assert!(summary.contains(error), "{summary}");
         // No score where we failed, nor where there was nothing to grade.
         assert!(summary.contains("| Student 5 | Grading failed |  | no driver"), "{summary}");
         assert!(summary.contains("| Student 4 | Nothing to grade |  | There is no"), "{summary}");
