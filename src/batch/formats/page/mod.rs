@@ -3,6 +3,8 @@
 //! A plain table of everyone with scripts off; the one script filters, sorts and lays the pictures out as a contact
 //! sheet. What the page may load and run is fixed by a `Content-Security-Policy` that names style and script by hash.
 
+#[cfg(test)]
+mod browser;
 mod charts;
 mod groups;
 mod portraits;
