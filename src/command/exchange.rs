@@ -70,12 +70,12 @@ fn fill(
     format: Format,
     deadline: Duration,
 ) -> Result<(), Became> {
-    let bytes = grade::read(&arguments.file).map_err(|error| {
-        let what = grade::unreadable(&arguments.file, &error);
-        match error.kind() {
-            ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Became::NotGraded(what),
-            _ => Became::Fault(Fault::new(what)),
-        }
+    let bytes = grade::read(&arguments.file).map_err(|error| match error.kind() {
+        ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Became::NotGraded(Text::new(
+            format!("There is no file `{}` to grade.", class.title),
+            format!("採点するファイル `{}` がありません。", class.title),
+        )),
+        _ => Became::Fault(Fault::new(grade::unreadable(&arguments.file, &error))),
     })?;
     let (name, language) = (&class.title, class.language);
     let wants_portrait = format == Format::Gradescope;
