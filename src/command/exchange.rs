@@ -3,6 +3,7 @@
 //! What reads these formats shows its student whatever comes, so there is a document for every ending: also where there
 //! is no file, and where ggrade itself fails.
 
+use super::view::readable;
 use super::{Outcome, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome as Became, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
@@ -80,7 +81,7 @@ fn fill(
     let wants_portrait = format == Format::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
     let answer = grade::grade(arguments, deadline, name, &bytes, wants_frames, language).map_err(Became::Fault)?;
-    let source = grade::readable(name, &bytes);
+    let source = readable(name, &bytes);
     if wants_portrait && !answer.frames.is_empty() {
         let assignment = crate::homework::assignment(&answer.report.assignment).map_err(Became::Fault)?;
         let portraits = Portraits::new(assignment).map_err(Became::Fault)?;

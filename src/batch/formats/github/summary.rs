@@ -73,10 +73,7 @@ fn counts(class: &Class) -> String {
     let count = |standing| class.entries.iter().filter(|entry| Standing::of(&entry.outcome) == standing).count();
     let counts = [Correct, Wrong, Rejected, Stopped, NotGraded, Fault].map(|standing| (standing, count(standing)));
     let counts = counts.iter().filter(|(_, count)| *count > 0);
-    counts
-        .map(|(standing, count)| format!("{} {count}", standing.label().get(class.language)))
-        .collect::<Vec<_>>()
-        .join(" · ")
+    counts.map(|(standing, count)| format!("{} {count}", standing.word(class.language))).collect::<Vec<_>>().join(" · ")
 }
 
 fn heading(language: Language) -> &'static str {
@@ -106,13 +103,12 @@ fn row(entry: &Entry, language: Language) -> String {
     };
     let page = entry.page.as_ref().map(|page| code(&page.to_string_lossy())).unwrap_or_default();
     let name = markdown(&entry.student.name);
-    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).label().get(language))
+    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).word(language))
 }
 
 /// The rubric and the diagnostics of the only student.
 fn single(entry: &Entry, language: Language) -> String {
-    let standing = Standing::of(&entry.outcome).label();
-    let mut out = format!("**{}**", standing.get(language));
+    let mut out = format!("**{}**", Standing::of(&entry.outcome).word(language));
     if let Some(report) = entry.report() {
         let _ = write!(out, " {}", wording::points(report.score, report.max_score));
     }
