@@ -3,7 +3,8 @@
 //! What reads these formats shows its student whatever comes, so there is a document for every ending: also where there
 //! is no file, and where ggrade itself fails.
 
-use super::{Outcome, file_fault, grade, view, writing};
+use super::view::readable;
+use super::{Outcome, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome as Became, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
 use crate::batch::portrait::Portraits;
@@ -20,7 +21,7 @@ pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, languag
     let class = class(arguments, format, deadline, language);
     let variable = |name| std::env::var(name).ok();
     let scale = vpl::Scale::from_variables(variable("VPL_GRADEMIN").as_deref(), variable("VPL_GRADEMAX").as_deref());
-    view::put(arguments.output.as_deref(), &exchange::single(format, &class, scale)?.unwrap_or_default())?;
+    grade::put(arguments, &exchange::single(format, &class, scale)?.unwrap_or_default())?;
     if format == Format::Github {
         append_summary(&class)?;
     }
@@ -80,7 +81,7 @@ fn fill(
     let wants_portrait = format == Format::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
     let answer = grade::grade(arguments, deadline, name, &bytes, wants_frames, language).map_err(Became::Fault)?;
-    let source = view::readable(name, &bytes);
+    let source = readable(name, &bytes);
     if wants_portrait && !answer.frames.is_empty() {
         let assignment = crate::homework::assignment(&answer.report.assignment).map_err(Became::Fault)?;
         let portraits = Portraits::new(assignment).map_err(Became::Fault)?;

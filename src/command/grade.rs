@@ -1,7 +1,7 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::view::{View, has_colour, put, readable};
-use super::{Outcome, deadline, exchange, language, warn};
+use super::view::{View, has_colour, readable};
+use super::{Outcome, deadline, exchange, file_fault, language, warn, writing};
 use crate::cli::{Format, Grade, Reading};
 use crate::fault::Fault;
 use crate::grade::Order;
@@ -9,7 +9,7 @@ use crate::language::{Language, Text};
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
 use crate::source::Source;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::time::Duration;
 
@@ -46,7 +46,7 @@ fn run_for_reading(
     let pictures = pictures(arguments, &report, source.as_ref(), frames)?;
     let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
     let colour = arguments.output.is_none() && has_colour();
-    put(arguments.output.as_deref(), &view.document(reading, colour)?)?;
+    put(arguments, &view.document(reading, colour)?)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
 }
 
@@ -117,4 +117,16 @@ pub(super) fn name(path: &Path) -> String {
         return "standard input".into();
     }
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Writes a document to where it was asked for.
+pub(super) fn put(arguments: &Grade, document: &str) -> Result<(), Fault> {
+    match &arguments.output {
+        Some(path) => std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error)),
+        None => {
+            // A reader that closes the pipe early, such as `head`, has what it wanted.
+            let _ = std::io::stdout().lock().write_all(document.as_bytes());
+            Ok(())
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! How a report is shown, whichever command shows it.
 
-use super::{file_fault, width, writing};
+use super::width;
 use crate::cli::Reading;
 use crate::excerpt;
 use crate::fault::Fault;
@@ -8,8 +8,7 @@ use crate::language::Language;
 use crate::report::html::Page;
 use crate::report::{Equation, Pictures, Report, json, text};
 use crate::source::{self, Source};
-use std::io::{IsTerminal, Write};
-use std::path::Path;
+use std::io::IsTerminal;
 
 /// Everything that a report is shown with.
 pub(super) struct View<'a> {
@@ -48,18 +47,6 @@ impl View<'_> {
                     },
                 ))
             }
-        }
-    }
-}
-
-/// Writes a document to a file, or else to standard output.
-pub(super) fn put(output: Option<&Path>, document: &str) -> Result<(), Fault> {
-    match output {
-        Some(path) => std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error)),
-        None => {
-            // A reader that closes the pipe early, such as `head`, has what it wanted.
-            let _ = std::io::stdout().lock().write_all(document.as_bytes());
-            Ok(())
         }
     }
 }

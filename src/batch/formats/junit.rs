@@ -83,7 +83,7 @@ fn ungraded(entry: &Entry, language: Language) -> TestCase {
     let status = match standing {
         Standing::Fault => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-            status.set_message(standing.label().get(language)).set_type(standing.id());
+            status.set_message(standing.word(language)).set_type(standing.id());
             status.set_description(wording::fault(entry, language).unwrap_or(explanation));
             status
         }

@@ -4,6 +4,7 @@ use crate::batch::class::{Class, Entry};
 use crate::batch::formats::untrusted::one_line;
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
+use crate::diagnostic::Severity;
 use crate::language::{Language, Text};
 use crate::report::html::rich::{Piece, pieces};
 use std::fmt::Write;
@@ -72,18 +73,15 @@ fn counts(class: &Class) -> String {
     let count = |standing| class.entries.iter().filter(|entry| Standing::of(&entry.outcome) == standing).count();
     let counts = [Correct, Wrong, Rejected, Stopped, NotGraded, Fault].map(|standing| (standing, count(standing)));
     let counts = counts.iter().filter(|(_, count)| *count > 0);
-    counts
-        .map(|(standing, count)| format!("{} {count}", standing.label().get(class.language)))
-        .collect::<Vec<_>>()
-        .join(" · ")
+    counts.map(|(standing, count)| format!("{} {count}", standing.word(class.language))).collect::<Vec<_>>().join(" · ")
 }
 
 fn heading(language: Language) -> &'static str {
     match language {
         Language::En => {
-            "| Student | Outcome | Score | Mistakes | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
+            "| Student | Outcome | Score | Mistakes and errors | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
         }
-        Language::Ja => "| 学生 | 結果 | 得点 | 間違い | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
+        Language::Ja => "| 学生 | 結果 | 得点 | 間違いとエラー | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
     }
 }
 
@@ -91,7 +89,13 @@ fn row(entry: &Entry, language: Language) -> String {
     let report = entry.report();
     let score = report.map(|report| wording::points(report.score, report.max_score)).unwrap_or_default();
     let detail = match report {
-        Some(report) => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        Some(report) => match report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
+            Some(error) => {
+                let place = wording::place(error, language);
+                format!("{}: {}", markdown(&place), rich(error.message.get(language)))
+            }
+            None => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        },
         None => {
             let fault = wording::fault(entry, language);
             rich(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
@@ -99,13 +103,12 @@ fn row(entry: &Entry, language: Language) -> String {
     };
     let page = entry.page.as_ref().map(|page| code(&page.to_string_lossy())).unwrap_or_default();
     let name = markdown(&entry.student.name);
-    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).label().get(language))
+    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).word(language))
 }
 
 /// The rubric and the diagnostics of the only student.
 fn single(entry: &Entry, language: Language) -> String {
-    let standing = Standing::of(&entry.outcome).label();
-    let mut out = format!("**{}**", standing.get(language));
+    let mut out = format!("**{}**", Standing::of(&entry.outcome).word(language));
     if let Some(report) = entry.report() {
         let _ = write!(out, " {}", wording::points(report.score, report.max_score));
     }
@@ -164,6 +167,9 @@ mod tests {
         assert!(summary.contains("| Student 0 | Correct | 100 / 100 |  |  |\n"), "{summary}");
         let mistake = "<code>specular&#45;half&#45;unnormalized</code>";
         assert!(summary.contains(&format!("| Student 1 | Not right yet | 80 / 100 | {mistake} |  |\n")), "{summary}");
+        let error =
+            "| Student 2 | Not accepted | 0 / 100 | error · line 11&#44; column 12: <code>Max</code> is not declared";
+        assert!(summary.contains(error), "{summary}");
         // No score where we failed, nor where there was nothing to grade.
         assert!(summary.contains("| Student 5 | Grading failed |  | no driver"), "{summary}");
         assert!(summary.contains("| Student 4 | Nothing to grade |  | There is no"), "{summary}");

@@ -79,6 +79,13 @@ fn results_stand_at_their_rule_line_and_columns() {
 fn the_rules_tell_every_known_mistake_without_open_places() {
     let log = log(&nasty::class());
     let rules = log["runs"][0]["tool"]["driver"]["rules"].as_array().unwrap();
+    // What GitHub's code scanning asks of every rule.
+    for rule in rules {
+        assert!(["id", "name"].iter().all(|field| rule[field].is_string()), "{rule}");
+        let described = ["shortDescription", "fullDescription"].iter().all(|field| rule[field]["text"].is_string());
+        assert!(described, "{rule}");
+    }
+    assert!(rules.iter().any(|rule| rule["id"] == "specular-phong" && rule["name"] == "SpecularPhong"));
     for mistake in &reference::assignment("ggsample06").unwrap().mistakes {
         let rule = rules.iter().find(|rule| rule["id"] == mistake.id.as_str()).expect(&mistake.id);
         let text = format!("{rule}");
