@@ -30,7 +30,8 @@ pub const POSITION_TOLERANCE: f64 = 2e-4;
 pub struct ExpectedFrame {
     /// Fraction of the animation cycle, in [0, 1).
     pub t: f64,
-    frame: Frame,
+    width: u32,
+    height: u32,
     background: Pixel,
     /// The pixels that are not certainly outside, row by row from the left.
     runs: Vec<Run>,
@@ -55,7 +56,7 @@ struct Run {
 
 impl ExpectedFrame {
     /// Prepares the reference's frame of pose `t`.
-    pub fn new(t: f64, frame: Frame, background: [u8; 4]) -> Self {
+    pub fn new(t: f64, frame: &Frame, background: [u8; 4]) -> Self {
         let width = frame.width.max(1) as usize;
         let mut runs: Vec<Run> = Vec::new();
         let mut rows = Vec::new();
@@ -72,12 +73,7 @@ impl ExpectedFrame {
             }
             rows.push(first..runs.len());
         }
-        Self { t, frame, background: Pixel::from_ne_bytes(background), runs, rows }
-    }
-
-    /// The picture itself.
-    pub fn frame(&self) -> &Frame {
-        &self.frame
+        Self { t, width: frame.width, height: frame.height, background: Pixel::from_ne_bytes(background), runs, rows }
     }
 }
 
@@ -86,7 +82,7 @@ impl ExpectedFrame {
 /// # Panics
 /// Where the two have different sizes: a programming error of ours.
 pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameResult {
-    assert_eq!((expected.frame.width, expected.frame.height), (candidate.width, candidate.height), "frame sizes");
+    assert_eq!((expected.width, expected.height), (candidate.width, candidate.height), "frame sizes");
     let mut tally = Tally { background: expected.background, ..Tally::default() };
     let area = candidate.area(index);
     let mut row = vec![expected.background; candidate.width as usize];

@@ -47,7 +47,9 @@ pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
 pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
     let background = assignment.scene.background;
     let poses = assignment.scene.all_poses();
-    poses.iter().zip(assignment.frames()).map(|(pose, frame)| ExpectedFrame::new(pose.t, frame, background)).collect()
+    let right = assignment.equation.right();
+    // One at a time: all of them together are larger than what is kept.
+    poses.iter().map(|pose| ExpectedFrame::new(pose.t, &assignment.frame(pose, &right), background)).collect()
 }
 
 /// What is drawn for a submission: the course's animation and the probes.

@@ -5,7 +5,7 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 /// Variables that are the same on every machine.
-const FIXED: [(&str, &str); 8] = [
+const FIXED: [(&str, &str); 11] = [
     // A cache on disk would carry one student's code into another's worker.
     ("MESA_SHADER_CACHE_DISABLE", "true"),
     // Frames are small: threads cost more than they bring, and the pool has a worker a core.
@@ -15,6 +15,10 @@ const FIXED: [(&str, &str); 8] = [
     ("GALLIVM_PERF", "nopt"),
     // Four vertices at a time, not eight: half the code to generate.
     ("LP_NATIVE_VECTOR_WIDTH", "128"),
+    // Threads take turns here, and memory of their own each would only lie idle; what is large goes back at once.
+    ("MALLOC_ARENA_MAX", "1"),
+    ("MALLOC_MMAP_THRESHOLD_", "1048576"),
+    ("MALLOC_TRIM_THRESHOLD_", "8388608"),
     // The Wayland client library, which the driver loads, complains where this is unset.
     ("XDG_RUNTIME_DIR", "/nonexistent"),
     // Layers are not part of a grading. Mesa's asks a display server which card to prefer.

@@ -28,8 +28,14 @@ pub use preflight::Attempt;
 pub use protection::{Layer, LayerState, Policy, Protection, Reach};
 
 use crate::render::AdapterKind;
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
+
+/// The environment that a worker has, for what is to be measured or compared outside of one.
+pub fn driver_settings(adapter: AdapterKind) -> Vec<(&'static str, OsString)> {
+    environment::variables(adapter)
+}
 
 /// How workers grade.
 #[derive(Clone, Debug)]

@@ -70,6 +70,34 @@ pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, hooks:
     attributes
 }
 
+/// Gives attributes the locations of their places in the interface, and the outputs location 0.
+pub(super) fn locate(module: &mut Module, interface: &super::Interface) {
+    let function = &mut module.entry_points[0].function;
+    for argument in &mut function.arguments {
+        let place = interface.inputs.iter().position(|input| Some(&input.name) == argument.name.as_ref());
+        if let (Some(Binding::Location { location, .. }), Some(place)) = (&mut argument.binding, place) {
+            *location = place as u32;
+        }
+    }
+    let Some(result) = &mut function.result else { return };
+    let old = result.ty;
+    let mut ty = module.types[old].clone();
+    if let TypeInner::Struct { members, .. } = &mut ty.inner {
+        for member in members {
+            if let Some(Binding::Location { location, .. }) = &mut member.binding {
+                *location = 0;
+            }
+        }
+    }
+    result.ty = module.types.insert(ty, Span::UNDEFINED);
+    for (_, expression) in function.expressions.iter_mut() {
+        match expression {
+            Expression::Compose { ty, .. } if *ty == old => *ty = result.ty,
+            _ => {}
+        }
+    }
+}
+
 /// The values that `main` leaves behind, as expressions of the wrapper; none where never written.
 struct Outputs {
     position: Option<Handle<Expression>>,

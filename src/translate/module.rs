@@ -63,6 +63,16 @@ impl Shader {
         build(self.written.clone(), source, interface, true)
     }
 
+    /// The module as the compiler wrote it, without fuel, capture and whatever else ggrade adds: to measure what they cost.
+    /// Its attributes have locations in the interface's order, its output location 0, its uniforms binding 0 of group 0.
+    pub fn plain(&self, interface: &Interface) -> Result<Module, Fault> {
+        let set: Vec<_> = interface.uniforms.iter().map(|variable| variable.name.clone()).collect();
+        let mut module = parse(&rework(&self.written, &set, false)?.words)?;
+        bind_uniforms(&mut module);
+        entry::locate(&mut module, interface);
+        Ok(module)
+    }
+
     /// What to say where the capture's header is not 0.
     pub fn out_of_fuel(&self, ran_out: u32) -> Diagnostic {
         fuel::out_of_fuel(&self.meters, ran_out)

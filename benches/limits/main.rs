@@ -1,0 +1,80 @@
+//! What a class costs, as ratios: one grading against the bare driver, the pool of workers, one command, memory.
+//!
+//! `script/bench` runs it, prints the table and writes it to `docs/performance.md`; `script/bench --check` holds the
+//! ratios against the table that is there. How each figure is measured is said beside it, in [`table`].
+
+mod bare;
+mod class;
+mod machine;
+mod measure;
+mod table;
+
+use std::process::ExitCode;
+use table::{Row, Table};
+
+/// What is measured, and how often.
+#[derive(Clone, Copy, Debug)]
+struct Size {
+    /// Distinct shaders, for the comparison with the bare driver.
+    shaders: usize,
+    /// Distinct submissions of a class.
+    class: usize,
+    /// Gradings over which memory is watched.
+    gradings: usize,
+    /// Commands.
+    commands: usize,
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let has = |name: &str| arguments.iter().any(|argument| argument == name);
+    if let Some(unknown) = arguments.iter().find(|a| !["--check", "--write", "--quick"].contains(&a.as_str())) {
+        eprintln!("unknown argument {unknown}: there are --check, --write and --quick");
+        return ExitCode::from(2);
+    }
+    // The driver reads its settings from the environment: both sides of the comparison run with the workers' own.
+    if !measure::has_driver_settings() {
+        return measure::again_with_driver_settings(&arguments);
+    }
+    let size = if has("--quick") {
+        Size { shaders: 12, class: 100, gradings: 400, commands: 5 }
+    } else {
+        Size { shaders: 100, class: 1000, gradings: 10_000, commands: 20 }
+    };
+    let table = Table { machine: machine::describe(), rows: rows(size) };
+    print!("{}", table.text());
+    if has("--check") {
+        return table.check();
+    }
+    if has("--write") {
+        return table.write();
+    }
+    ExitCode::SUCCESS
+}
+
+fn rows(size: Size) -> Vec<Row> {
+    let shaders = class::right_answers(size.shaders);
+    let (grade, bare) = measure::grade_and_bare(&shaders);
+    let mut rows = vec![
+        Row::milliseconds("bare-driver", bare),
+        Row::milliseconds("grade", grade),
+        Row::ratio("grade-to-bare", grade / bare, 1.5),
+    ];
+    let small = measure::pool(&class::submissions(size.class / 4));
+    let large = measure::pool(&class::submissions(size.class));
+    rows.extend([
+        Row::milliseconds("pool-cpu", large.cpu / size.class as f64),
+        Row::milliseconds("pool-parent-cpu", large.parent / size.class as f64),
+        Row::ratio("pool-to-bare", large.cpu / size.class as f64 / bare, 1.5),
+        Row::at_least("pool-rate", "submissions/s", size.class as f64 / large.wall, 100.0),
+        Row::at_least("pool-rate-cpu", "submissions/s", measure::CORES * 1e3 * size.class as f64 / large.cpu, 100.0),
+        Row::ratio("growth", large.cpu / small.cpu, 4.2),
+    ]);
+    rows.push(Row::at_most("command", "ms", measure::command(&shaders[..size.commands]), 300.0));
+    let memory = measure::memory(&class::submissions(size.gradings.min(1000)), size.gradings);
+    rows.extend([Row::at_most("memory", "MiB", memory.most, 400.0), Row::ratio("memory-growth", memory.growth, 1.05)]);
+    if let Some(times) = measure::script(&shaders[..size.commands], large.cpu / size.class as f64) {
+        rows.push(Row::at_least("script", "times", times, 10.0));
+    }
+    rows
+}

@@ -1,0 +1,209 @@
+//! How each figure is taken. Costs are CPU time of all threads and processes, so that a busy machine does not blur them;
+//! only what a person waits for is measured by the clock.
+
+use crate::bare::{Bare, Stage};
+use crate::class::Submission;
+use ggrade::grade::{Grader, Order};
+use ggrade::homework;
+use ggrade::render::AdapterKind;
+use ggrade::sandbox::{self, Pool, Settings};
+use nix::sys::resource::{UsageWho, getrusage};
+use nix::sys::time::TimeVal;
+use std::process::{Command, ExitCode, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// The cores that the goals are stated for, and the workers that are started.
+pub const CORES: f64 = 2.0;
+const WORKERS: usize = 2;
+/// The seed of a class.
+const ORDER: Order = Order { seed: 1, hints: ggrade::diagnose::Hints::Full };
+/// Set in the process that has the driver's settings.
+const MARK: &str = "GGRADE_BENCH_SETTINGS";
+
+/// Whether this process was started with the environment of a worker.
+pub fn has_driver_settings() -> bool {
+    std::env::var_os(MARK).is_some()
+}
+
+/// Runs this program once more, with the environment of a worker on top of its own.
+pub fn again_with_driver_settings(arguments: &[String]) -> ExitCode {
+    let program = std::env::current_exe().expect("this program has a path");
+    let settings = sandbox::driver_settings(AdapterKind::Software);
+    let status = Command::new(program).args(arguments).envs(settings).env(MARK, "1").status();
+    let code = status.expect("this program can be started").code();
+    ExitCode::from(u8::try_from(code.unwrap_or(3)).unwrap_or(3))
+}
+
+/// CPU milliseconds of this process so far, or of its children that have ended.
+fn cpu(of: UsageWho) -> f64 {
+    let usage = getrusage(of).expect("the kernel counts");
+    let milliseconds = |time: TimeVal| time.tv_sec() as f64 * 1e3 + time.tv_usec() as f64 / 1e3;
+    milliseconds(usage.user_time()) + milliseconds(usage.system_time())
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// CPU milliseconds of `work`.
+fn cost<T>(work: impl FnOnce() -> T) -> f64 {
+    let before = cpu(UsageWho::RUSAGE_SELF);
+    std::hint::black_box(work());
+    cpu(UsageWho::RUSAGE_SELF) - before
+}
+
+/// Medians of a whole grading and of the bare driver's part of it, in CPU milliseconds, taken in turns.
+pub fn grade_and_bare(shaders: &[Submission]) -> (f64, f64) {
+    let assignment = homework::assignment("ggsample06").expect("the assignment");
+    let mut grader = Grader::new(assignment, AdapterKind::Software).expect("a grader");
+    let bare = Bare::open();
+    let (mut grades, mut bares) = (Vec::new(), Vec::new());
+    // The first two of each warm the device.
+    for (index, shader) in shaders[..2].iter().chain(shaders).enumerate() {
+        let Some(stage) = Stage::of(shader) else { continue };
+        let bare = cost(|| bare.run(&stage));
+        let grade = cost(|| grader.grade(&shader.name, shader.text.as_bytes(), ORDER).expect("a grade"));
+        if index >= 2 {
+            bares.push(bare);
+            grades.push(grade);
+        }
+    }
+    assert!(bares.len() * 2 >= shaders.len(), "only {} of {} are comparable", bares.len(), shaders.len());
+    (median(grades), median(bares))
+}
+
+fn start() -> Pool {
+    // A busy machine slows what is measured by the clock, and is to end nothing.
+    let deadline = Duration::from_secs(60);
+    let settings = Settings { program: Some(program()), deadline, ..Settings::new("ggsample06") };
+    Pool::start(settings, WORKERS).unwrap_or_else(|fault| panic!("{}", fault.message.en))
+}
+
+fn program() -> std::path::PathBuf {
+    env!("CARGO_BIN_EXE_ggrade").into()
+}
+
+/// Grades all, on as many threads as there are workers, and calls `after` with the number that are done.
+fn grade_all(pool: &Pool, submissions: &[Submission], count: usize, after: impl Fn(usize) + Sync) {
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..WORKERS {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= count {
+                        break;
+                    }
+                    let Submission { name, text } = &submissions[index % submissions.len()];
+                    let submission =
+                        sandbox::Submission { name, bytes: text.as_bytes(), order: ORDER, wants_frames: false };
+                    pool.grade(submission).unwrap_or_else(|fault| panic!("{name}: {}", fault.message.en));
+                    after(index + 1);
+                }
+            });
+        }
+    });
+}
+
+/// What a class costs.
+pub struct Pooled {
+    /// CPU milliseconds of all processes, start and end of the workers included.
+    pub cpu: f64,
+    /// Those of the parent alone.
+    pub parent: f64,
+    /// Seconds from the first submission to the last report.
+    pub wall: f64,
+}
+
+/// Grades a class in the pool.
+pub fn pool(submissions: &[Submission]) -> Pooled {
+    let all = || cpu(UsageWho::RUSAGE_SELF) + cpu(UsageWho::RUSAGE_CHILDREN);
+    let before = all();
+    let pool = start();
+    let (began, parent) = (Instant::now(), cpu(UsageWho::RUSAGE_SELF));
+    grade_all(&pool, submissions, submissions.len(), |_| {});
+    let wall = began.elapsed().as_secs_f64();
+    let parent = cpu(UsageWho::RUSAGE_SELF) - parent;
+    // A child's time counts once it has ended.
+    drop(pool);
+    Pooled { cpu: all() - before, parent, wall }
+}
+
+/// Median milliseconds from the start of `ggrade grade FILE` to its end, by the clock.
+pub fn command(submissions: &[Submission]) -> f64 {
+    let folder = tempfile::tempdir().expect("a folder");
+    let times = submissions.iter().map(|submission| {
+        let file = folder.path().join(&submission.name);
+        std::fs::write(&file, &submission.text).expect("a file");
+        let began = Instant::now();
+        let output = Command::new(program()).arg("grade").arg(&file).env_remove(MARK).output().expect("ggrade starts");
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&output.stderr));
+        began.elapsed().as_secs_f64() * 1e3
+    });
+    median(times.collect())
+}
+
+/// Resident memory of parent and workers.
+pub struct Memory {
+    /// The most at any time, in MiB.
+    pub most: f64,
+    /// That of the last tenth as a multiple of that of the second tenth.
+    pub growth: f64,
+}
+
+/// Watches the memory of parent and workers over `count` gradings.
+pub fn memory(submissions: &[Submission], count: usize) -> Memory {
+    let pool = start();
+    let readings = std::sync::Mutex::new(Vec::new());
+    let step = (count / 200).max(1);
+    grade_all(&pool, submissions, count, |done| {
+        if done % step == 0 {
+            let reading = resident("self") + children();
+            readings.lock().expect("no thread panicked").push((done, reading));
+        }
+    });
+    let readings = readings.into_inner().expect("no thread panicked");
+    let mean = |from: usize, to: usize| {
+        let these: Vec<f64> = readings.iter().filter(|(done, _)| (from..=to).contains(done)).map(|(_, m)| *m).collect();
+        these.iter().sum::<f64>() / these.len().max(1) as f64
+    };
+    let most = readings.iter().map(|(_, reading)| *reading).fold(0.0, f64::max);
+    Memory { most, growth: mean(count - count / 10, count) / mean(count / 10, count / 5) }
+}
+
+/// Resident MiB of a process.
+fn resident(process: &str) -> f64 {
+    let text = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
+    kilobytes.unwrap_or(0.0) / 1024.0
+}
+
+/// Resident MiB of the processes that this one started.
+fn children() -> f64 {
+    let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    let lists = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("children")).ok());
+    lists.flat_map(|list| list.split_whitespace().map(resident).collect::<Vec<_>>()).sum()
+}
+
+/// How many times the cost of a grading a script with one OpenGL context a file has, where one is named: the command
+/// `GGRADE_BENCH_SCRIPT` is called as `COMMAND FILE --out FOLDER --poses 25`.
+pub fn script(submissions: &[Submission], grade: f64) -> Option<f64> {
+    let command = std::env::var("GGRADE_BENCH_SCRIPT").ok()?;
+    let mut words = command.split_whitespace();
+    let program = words.next()?;
+    let words: Vec<&str> = words.collect();
+    let folder = tempfile::tempdir().expect("a folder");
+    let before = cpu(UsageWho::RUSAGE_CHILDREN);
+    for submission in submissions {
+        let file = folder.path().join(&submission.name);
+        std::fs::write(&file, &submission.text).expect("a file");
+        let mut script = Command::new(program);
+        script.args(&words).arg(&file).arg("--out").arg(folder.path().join("out")).args(["--poses", "25"]);
+        let status = script.stdout(Stdio::null()).stderr(Stdio::null()).status();
+        assert!(status.is_ok_and(|status| status.success()), "{command} {}", submission.name);
+    }
+    Some((cpu(UsageWho::RUSAGE_CHILDREN) - before) / submissions.len() as f64 / grade)
+}
