@@ -2,7 +2,7 @@
 
 mod listing;
 mod player;
-mod rich;
+pub(crate) mod rich;
 mod sheet;
 
 use self::listing::Line;
