@@ -5,7 +5,7 @@ mod serve;
 mod watch;
 
 pub use batch::Batch;
-pub use serve::Serve;
+pub use serve::{LogFormat, Serve};
 pub use watch::Watch;
 
 use crate::diagnose::Hints;

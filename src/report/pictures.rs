@@ -91,6 +91,23 @@ pub fn png(picture: &Picture) -> Result<Vec<u8>, Fault> {
     encode(&[&Raster::opaque(picture)?])
 }
 
+/// Where two pictures of one size differ, as a PNG.
+pub fn difference_png(yours: &Picture, expected: &Picture) -> Result<Vec<u8>, Fault> {
+    encode(&[&Pose::of(yours, expected)?.difference])
+}
+
+/// Some pictures of one size as one animated PNG, which repeats for ever.
+pub fn animated(pictures: &[Picture]) -> Result<Vec<u8>, Fault> {
+    let frames = pictures.iter().map(Raster::opaque).collect::<Result<Vec<_>, _>>()?;
+    encode(&frames.iter().collect::<Vec<_>>())
+}
+
+/// The picture in a PNG of ours.
+pub fn decode(png: &[u8]) -> Result<Picture, Fault> {
+    let image = image::load_from_memory_with_format(png, image::ImageFormat::Png).map_err(|_| mismatched())?.to_rgba8();
+    Ok(Picture { width: image.width(), height: image.height(), rgba: image.into_raw() })
+}
+
 fn animate(poses: &[Pose]) -> Result<Vec<u8>, Fault> {
     let frames: Vec<Raster> = poses.iter().map(Pose::side_by_side).collect();
     encode(&frames.iter().collect::<Vec<_>>())

@@ -1,0 +1,158 @@
+//! The graders: one task for each file that is graded at once.
+
+use super::{Job, Outcome};
+use crate::fault::Fault;
+use crate::grade::Order;
+use crate::language::Text;
+use crate::report::Report;
+use crate::sandbox;
+use crate::service::clock::millis;
+use crate::service::store::{StoreError, Submission};
+use crate::service::{Config, State, metrics};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use tokio::task::JoinSet;
+
+/// How often graders look for files that nobody told them of: those of processes that have gone.
+const LOOK: Duration = Duration::from_secs(2);
+
+/// Pause after the database failed.
+const PAUSE: Duration = Duration::from_millis(500);
+
+/// Pause before a file that failed by our fault is graded again.
+const RETRY: Duration = Duration::from_secs(60);
+
+/// The running graders.
+#[derive(Debug)]
+pub struct Graders {
+    state: State,
+    tasks: JoinSet<()>,
+}
+
+impl Graders {
+    /// Starts them, and takes over what earlier processes left.
+    pub async fn start(state: &State) -> Result<Self, StoreError> {
+        if state.store.is_exclusive() {
+            let left = state.store.release_claims(None).await?;
+            if left > 0 {
+                tracing::info!(files = left, "taking over what was not graded");
+            }
+        }
+        let workers = state.config.workers;
+        state.queue.set_workers(workers);
+        let mut tasks = JoinSet::new();
+        // Whether the last look found something: then all look again at once.
+        let more = Arc::new(AtomicBool::new(true));
+        for _ in 0..workers {
+            tasks.spawn(run(state.clone(), Arc::clone(&more)));
+        }
+        tasks.spawn(keep_claims(state.clone()));
+        Ok(Self { state: state.clone(), tasks })
+    }
+
+    /// Lets the files under way be finished and leaves the rest to whoever comes next. [`State::end`] comes before.
+    pub async fn finish(mut self) {
+        while self.tasks.join_next().await.is_some() {}
+        if let Err(error) = self.state.store.release_claims(Some(&self.state.instance)).await {
+            tracing::error!(%error, "claims are left to end by themselves");
+        }
+    }
+}
+
+async fn run(state: State, more: Arc<AtomicBool>) {
+    while !state.is_ending() {
+        let woken = state.queue.wakes.notified();
+        if let Some(job) = state.queue.next() {
+            grade(&state, job).await;
+            continue;
+        }
+        if more.load(Ordering::Relaxed) {
+            match claim(&state).await {
+                Ok(Some(job)) => {
+                    state.queue.begin();
+                    grade(&state, job).await;
+                    continue;
+                }
+                Ok(None) => more.store(false, Ordering::Relaxed),
+                Err(error) => {
+                    tracing::error!(%error, "no file could be claimed");
+                    tokio::time::sleep(PAUSE).await;
+                    continue;
+                }
+            }
+        }
+        tokio::select! {
+            () = woken => {}
+            () = state.ended() => {}
+            () = tokio::time::sleep(LOOK) => more.store(true, Ordering::Relaxed),
+        }
+    }
+}
+
+async fn claim(state: &State) -> Result<Option<Job>, StoreError> {
+    let now = state.clock.now();
+    let until = now + millis(Config::span(state.config.limits.lease));
+    let claimed = state.store.claim(&state.instance, now, until).await?;
+    Ok(claimed.map(|claimed| Job { submission: claimed.submission, bytes: claimed.bytes }))
+}
+
+/// Keeps the claims of this process from ending while their files wait.
+async fn keep_claims(state: State) {
+    let lease = Config::span(state.config.limits.lease);
+    loop {
+        tokio::select! {
+            () = tokio::time::sleep(lease / 3) => {}
+            () = state.ended() => return,
+        }
+        let until = state.clock.now() + millis(lease);
+        if let Err(error) = state.store.extend_claims(&state.instance, until).await {
+            tracing::error!(%error, "claims could not be extended");
+        }
+    }
+}
+
+async fn grade(state: &State, job: Job) {
+    let start = Instant::now();
+    let submission = job.submission.clone();
+    let outcome = match judge(state, job).await {
+        Ok(report) => keep(state, &submission, report).await,
+        Err(fault) => fail(state, &submission, fault).await,
+    };
+    metrics::graded(&submission, outcome.as_ref(), start.elapsed());
+    state.queue.done(&submission.id, outcome, start.elapsed());
+}
+
+async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
+    let pool = Arc::clone(&state.pool);
+    let graded = tokio::task::spawn_blocking(move || {
+        let Submission { name, seed, hints, .. } = &job.submission;
+        let order = Order { seed: *seed, hints: *hints };
+        pool.grade(sandbox::Submission { name, bytes: &job.bytes, order, wants_frames: false })
+    });
+    match graded.await {
+        Ok(answer) => answer.map(|answer| answer.report),
+        Err(panic) => Err(Fault::new(Text::verbatim(panic.to_string()))),
+    }
+}
+
+/// Stores a report; none where it cannot be stored: then the claim ends, and the file is graded again.
+async fn keep(state: &State, submission: &Submission, report: Report) -> Option<Outcome> {
+    match state.store.finish(&submission.id, &report, state.clock.now()).await {
+        Ok(_) => Some(Outcome::Graded(Arc::new(report))),
+        Err(error) => {
+            tracing::error!(%error, submission = submission.id, "a report could not be stored");
+            None
+        }
+    }
+}
+
+async fn fail(state: &State, submission: &Submission, fault: Fault) -> Option<Outcome> {
+    tracing::error!(fault = fault.message.en, submission = submission.id, "grading failed");
+    let retry_at = state.clock.now() + millis(RETRY);
+    if let Err(error) = state.store.fail(&submission.id, &fault, retry_at).await {
+        tracing::error!(%error, submission = submission.id, "a failure could not be stored");
+        return None;
+    }
+    Some(Outcome::Failed(Arc::new(fault)))
+}
