@@ -33,12 +33,17 @@
 
   const grade = async () => {
     clearTimeout(timer);
+    if (!draft) return;
     current?.abort();
     const mine = (current = new AbortController());
     say(grading, "busy");
     result.setAttribute("aria-busy", "true");
     try {
-      const answer = await fetch(draft, { method: "POST", body: body(), signal: mine.signal, headers: { accept: "text/html", "x-part": "1" } });
+      let answer = await fetch(draft, { method: "POST", body: body(), signal: mine.signal, headers: { accept: "text/html", "x-part": "1" } });
+      while (answer.status === 202) {
+        await new Promise((done) => setTimeout(done, 1000 * (Number(answer.headers.get("retry-after")) || 1)));
+        answer = await fetch(answer.headers.get("location"), { signal: mine.signal, headers: { accept: "text/html" } });
+      }
       const html = await answer.text();
       if (mine.signal.aborted) return;
       if (answer.status === 429 || answer.status === 503) {

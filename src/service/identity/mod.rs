@@ -15,7 +15,7 @@ mod visitor;
 
 pub(super) use cookies::named as cookie;
 pub use cookies::{STUDENT_COOKIE, TEACHER_COOKIE};
-pub use join::{course_secret, join, leave, normal_number, renew_course_secret};
+pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret};
 pub use login::{LoginForm, login, logout};
 pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub use teacher::{Teacher, TeacherPage};
