@@ -104,7 +104,7 @@ impl Problem {
     }
 
     /// The problem that a bare status of another layer stands for.
-    fn of_status(status: StatusCode, said: &str) -> Self {
+    pub(super) fn of_status(status: StatusCode, said: &str) -> Self {
         let (kind, en, ja) = match status {
             StatusCode::NOT_FOUND => return Self::not_found(),
             StatusCode::METHOD_NOT_ALLOWED => (

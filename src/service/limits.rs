@@ -57,7 +57,7 @@ impl Proxies {
         })
     }
 
-    fn trusts(&self, address: IpAddr) -> bool {
+    pub(super) fn trusts(&self, address: IpAddr) -> bool {
         self.0.iter().any(|&(network, prefix)| prefix_of(address, prefix) == prefix_of(network, prefix))
     }
 

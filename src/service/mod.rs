@@ -13,7 +13,7 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`store`] keeps everything,
-//! [`identity`] says who is there, [`errors`] gives every error its form. [`serve`] is the server around [`app`].
+//! [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`].
 //! The async runtime lives nowhere else in ggrade.
 
 pub mod api;
@@ -27,7 +27,8 @@ pub mod language;
 pub mod limits;
 pub(crate) mod metrics;
 pub mod pages;
-pub mod serve;
+mod requests;
+pub mod server;
 mod state;
 pub mod store;
 pub mod submit;
@@ -52,6 +53,7 @@ pub fn app(state: State) -> Router {
         .merge(api::router(&state))
         .layer(DefaultBodyLimit::max(api::MAX_BODY))
         .layer(CatchPanicLayer::custom(panicked))
+        .layer(axum::middleware::from_fn_with_state(state.clone(), requests::attend))
         .layer(axum::middleware::from_fn(errors::render))
         .layer(fixed(header::CONTENT_SECURITY_POLICY, CSP))
         .layer(fixed(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))

@@ -97,8 +97,12 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
     metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     let submission = submission_of(&new, store::State::Queued);
     place.fill(Job { submission: submission.clone(), bytes: new.bytes });
-    let outcome = tokio::time::timeout(Config::span(state.config.wait), listener.recv()).await;
-    Ok(Receipt { submission, outcome: outcome.ok().and_then(Result::ok) })
+    let outcome = tokio::select! {
+        outcome = listener.recv() => outcome.ok(),
+        () = tokio::time::sleep(Config::span(state.config.wait)) => None,
+        () = state.ended() => None,
+    };
+    Ok(Receipt { submission, outcome })
 }
 
 /// Whether the file may be handed in at all.

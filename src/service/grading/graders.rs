@@ -115,11 +115,12 @@ async fn keep_claims(state: State) {
 async fn grade(state: &State, job: Job) {
     let start = Instant::now();
     let submission = job.submission.clone();
-    let outcome = match judge(state, job).await {
-        Ok(report) => keep(state, &submission, report).await,
-        Err(fault) => fail(state, &submission, fault).await,
-    };
-    metrics::graded(&submission, outcome.as_ref(), start.elapsed());
+    let judged = judge(state, job).await;
+    metrics::stage("grade", start.elapsed());
+    let stored = Instant::now();
+    let outcome = keep(state, &submission, judged).await;
+    metrics::stage("store", stored.elapsed());
+    metrics::graded(&submission, outcome.as_ref());
     state.queue.done(&submission.id, outcome, start.elapsed());
 }
 
@@ -136,23 +137,29 @@ async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
     }
 }
 
-/// Stores a report; none where it cannot be stored: then the claim ends, and the file is graded again.
-async fn keep(state: &State, submission: &Submission, report: Report) -> Option<Outcome> {
-    match state.store.finish(&submission.id, &report, state.clock.now()).await {
-        Ok(_) => Some(Outcome::Graded(Arc::new(report))),
-        Err(error) => {
-            tracing::error!(%error, submission = submission.id, "a report could not be stored");
-            None
+/// Stores what came of a grading, however long the database does not answer: until then nothing else is graded here.
+/// When the service ends before, the claim ends with it, and the file is graded again.
+async fn keep(state: &State, submission: &Submission, judged: Result<Report, Fault>) -> Option<Outcome> {
+    if let Err(fault) = &judged {
+        tracing::error!(fault = fault.message.en, submission = submission.id, "grading failed");
+    }
+    loop {
+        let now = state.clock.now();
+        let kept = match &judged {
+            Ok(report) => state.store.finish(&submission.id, report, now).await.map(drop),
+            Err(fault) => state.store.fail(&submission.id, fault, now + millis(RETRY)).await,
+        };
+        match kept {
+            Ok(()) => break,
+            Err(error) => tracing::error!(%error, submission = submission.id, "a report could not be stored"),
         }
+        if state.is_ending() {
+            return None;
+        }
+        tokio::time::sleep(PAUSE).await;
     }
-}
-
-async fn fail(state: &State, submission: &Submission, fault: Fault) -> Option<Outcome> {
-    tracing::error!(fault = fault.message.en, submission = submission.id, "grading failed");
-    let retry_at = state.clock.now() + millis(RETRY);
-    if let Err(error) = state.store.fail(&submission.id, &fault, retry_at).await {
-        tracing::error!(%error, submission = submission.id, "a failure could not be stored");
-        return None;
-    }
-    Some(Outcome::Failed(Arc::new(fault)))
+    Some(match judged {
+        Ok(report) => Outcome::Graded(Arc::new(report)),
+        Err(fault) => Outcome::Failed(Arc::new(fault)),
+    })
 }

@@ -16,8 +16,11 @@ mod visitor;
 pub(super) use cookies::named as cookie;
 pub use cookies::{STUDENT_COOKIE, TEACHER_COOKIE};
 pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret};
+pub(super) use login::PASSWORD_SETTING;
 pub use login::{LoginForm, login, logout};
+pub(super) use secrets::same;
 pub use secrets::{hash_password, new_id, new_token, token_hash};
+pub(super) use teacher::bearer;
 pub use teacher::{Teacher, TeacherPage};
 pub use visitor::{Visitor, visit};
 

@@ -43,6 +43,11 @@ impl Visitor {
         Ok(Self { token, is_new: false, identity })
     }
 
+    /// Whether the request brought no cookie.
+    pub fn is_new(&self) -> bool {
+        self.is_new
+    }
+
     /// The token of every form on a page for this browser: `<input type="hidden" name="csrf">`.
     pub fn csrf(&self, state: &State) -> String {
         csrf::token(state, &self.token)

@@ -1,1 +1,0 @@
-//! The server around the router.
