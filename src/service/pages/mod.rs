@@ -14,6 +14,7 @@ mod part;
 mod problem;
 mod result;
 mod student;
+mod teacher;
 
 pub use assets::warm;
 pub use films::Films;
@@ -46,6 +47,7 @@ pub fn router(state: &State) -> Router<State> {
         .route("/r/{id}/frames/{picture}", get(result::frame))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))
+        .merge(teacher::router())
         .layer(from_fn(keep_language))
         .layer(from_fn_with_state(state.clone(), visit))
         .route("/assets/{name}", get(assets::serve))

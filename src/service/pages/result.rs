@@ -6,7 +6,6 @@ use super::moment::Moment;
 use super::{films, internal, part, shown};
 use crate::report::Report;
 use crate::report::html::Lines;
-use crate::report::pictures;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::gallery::View as Pictured;
