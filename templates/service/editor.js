@@ -122,10 +122,36 @@ const editGlsl = (host, textarea, words) => {
     if (!document.execCommand("insertText", false, text)) textarea.setRangeText(text, textarea.selectionStart, textarea.selectionEnd, "end");
   };
 
+  // The box around scrolls, not the textarea in it: what is typed stays in sight.
+  const reveal = () => {
+    const before = textarea.value.slice(0, textarea.selectionEnd).split("\n");
+    const element = paint.children[before.length - 1];
+    if (!element || document.activeElement !== textarea) return;
+    const range = document.createRange();
+    let left = before[before.length - 1].length;
+    const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+    for (let node; (node = walker.nextNode()); left -= node.length) {
+      range.setStart(node, Math.min(left, node.length));
+      if (left <= node.length) break;
+    }
+    range.collapse(true);
+    const caret = range.getClientRects()[0] ?? element.getBoundingClientRect();
+    const box = host.getBoundingClientRect();
+    const margin = 24;
+    const start = box.left + gutter.offsetWidth + margin;
+    if (caret.left < start) host.scrollLeft -= start - caret.left;
+    if (caret.left > box.right - margin) host.scrollLeft += caret.left - box.right + margin;
+    if (caret.top < box.top + margin) host.scrollTop -= box.top + margin - caret.top;
+    if (caret.bottom > box.bottom - margin) host.scrollTop += caret.bottom - box.bottom + margin;
+  };
+
   let scheduled = 0;
   textarea.addEventListener("input", () => {
     cancelAnimationFrame(scheduled);
-    scheduled = requestAnimationFrame(draw);
+    scheduled = requestAnimationFrame(() => {
+      draw();
+      reveal();
+    });
   });
   draw();
 

@@ -84,7 +84,7 @@
     const marks = JSON.parse(article.dataset.marks ?? "[]");
     editor.mark(marks);
     textarea.setAttribute("aria-invalid", String(marks.some((mark) => mark.kind === "error")));
-    say(`${article.dataset.summary} (${draftword})`, article.dataset.mark);
+    say(`${article.dataset.summary} · ${draftword}`, article.dataset.mark);
   };
 
   const keep = () => {

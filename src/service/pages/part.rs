@@ -53,22 +53,18 @@ pub(super) fn part(
 
 /// The result in one sentence, as a screen reader says it.
 fn summary(frame: &Frame, report: &Report) -> String {
-    let score = format!("{} / {}", report.score.round(), report.max_score.round());
     let verdict = verdict(frame, report.verdict);
-    let errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-    let first = report.diagnostics.iter().find(|d| d.severity == Severity::Error).and_then(|d| d.line);
-    match (errors, first) {
-        (0, _) => format!("{verdict}: {score}"),
-        (1, Some(line)) => format!("{verdict}: {score}. {}", line_words(frame, line)),
-        (_, Some(line)) => format!("{verdict}: {score}. {} (+{})", line_words(frame, line), errors - 1),
-        _ => format!("{verdict}: {score}"),
-    }
-}
-
-fn line_words(frame: &Frame, line: u32) -> String {
-    match frame.language {
-        crate::language::Language::En => format!("Error in line {line}"),
-        crate::language::Language::Ja => format!("{line} 行目にエラー"),
+    let said = format!("{verdict}: {} / {}", report.score.round(), report.max_score.round());
+    let mut errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
+    match errors.next().and_then(|first| first.line) {
+        Some(line) => {
+            let more = match errors.count() {
+                0 => String::new(),
+                more => format!(" (+{more})"),
+            };
+            format!("{said} · {} {line}{more}", frame.say("error in line", "エラーの行:"))
+        }
+        None => said,
     }
 }
 
