@@ -6,12 +6,13 @@ use crate::diagnostic::{Severity, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
+use crate::parallel;
 use crate::report::{Report, Verdict};
 use crate::sandbox::{Pool, Submission};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::{fs, io};
 
 /// The seed that samples are graded with.
@@ -97,22 +98,10 @@ impl Checked {
 /// Grades every sample below `folder` on all cores, and holds each against its expectation.
 pub fn check(folder: &Path, pool: &Pool) -> Result<Vec<Checked>, Fault> {
     let samples = samples(folder)?;
-    let next = AtomicUsize::new(0);
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let work = || {
-        let mut done = Vec::new();
-        while let Some(sample) = samples.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.push(check_one(sample, pool));
-        }
-        done
-    };
-    let results: Result<Vec<Checked>, Fault> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| worker.join().unwrap_or_else(|_| vec![Err(unreadable(folder, "a thread panicked"))]))
-            .collect()
-    });
+    let stop = AtomicBool::new(false);
+    let checked = parallel::map(&samples, parallel::processors(), &stop, |sample| check_one(sample, pool));
+    let panicked = || Err(unreadable(folder, "a thread panicked"));
+    let results: Result<Vec<Checked>, Fault> = checked.into_iter().map(|one| one.unwrap_or_else(panicked)).collect();
     let mut results = results?;
     results.sort_by(|a, b| a.sample.cmp(&b.sample));
     Ok(results)

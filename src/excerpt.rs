@@ -103,7 +103,7 @@ fn marked(line: &[char], diagnostic: &Diagnostic) -> Range<usize> {
 }
 
 /// A message with everything pictured that a terminal would act on; its line ends stay.
-fn visible(text: &str) -> String {
+pub(crate) fn visible(text: &str) -> String {
     text.split('\n').map(|line| pictured(line).into_iter().collect::<String>()).collect::<Vec<_>>().join("\n")
 }
 

@@ -27,3 +27,4 @@ pub mod excerpt;
 pub mod diagnostic;
 pub mod fault;
 pub mod language;
+pub mod parallel;

@@ -1,5 +1,23 @@
 //! Many files → many reports, in and out of the formats that courses use.
+//!
+//! [`intake`] finds what was handed in, [`run`] grades it on all cores and writes each result into a [`journal`] as it
+//! comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`same`] knows which submissions are the
+//! same, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it.
 
+pub mod anonymous;
+pub mod changes;
 pub mod class;
+pub mod folder;
 pub mod formats;
 pub mod intake;
+pub mod journal;
+pub mod lines;
+pub mod output;
+pub mod page;
+pub mod portrait;
+pub mod progress;
+pub mod run;
+pub mod same;
+pub mod standing;
+pub mod start;
+pub mod summary;

@@ -1,11 +1,64 @@
 //! Arguments of `ggrade batch`.
 
 use super::{Machine, Sandbox};
+use crate::batch::formats::Format;
+use crate::diagnose::Hints;
+use crate::language::Language;
 use clap::Args;
+use std::path::PathBuf;
 
 /// Grade a whole class.
 #[derive(Debug, Args)]
+#[command(after_help = AFTER)]
 pub struct Batch {
+    /// What was handed in: folders, shaders, ZIP archives, a Moodle download
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+    /// The folder that everything is written into
+    #[arg(long, short, value_name = "DIR")]
+    pub out: PathBuf,
+    /// What is written, separated by commas [default: all that the input allows]
+    #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
+    pub formats: Vec<Format>,
+    /// Moodle's offline grading worksheet, to be filled in
+    #[arg(long, value_name = "FILE.csv")]
+    pub moodle_worksheet: Option<PathBuf>,
+    /// Go on where an earlier run into the same folder stopped
+    #[arg(long, conflicts_with = "force")]
+    pub resume: bool,
+    /// Begin anew, in place of the results that the folder has
+    #[arg(long)]
+    pub force: bool,
+    /// Show what changed since an earlier grading; takes its seed as well
+    #[arg(long, value_name = "OLD/results.jsonl")]
+    pub compare: Option<PathBuf>,
+    /// Pseudonyms in place of all names; the same in this folder every time
+    #[arg(long)]
+    pub anonymous: bool,
+    /// Write down whose pseudonym is whose
+    #[arg(long, value_name = "FILE.csv", requires = "anonymous")]
+    pub names: Option<PathBuf>,
+    /// Write one JSON object for each submission to standard output, as it is finished
+    #[arg(long)]
+    pub json_lines: bool,
+    /// How many submissions are graded at once [default: one a processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub jobs: Option<u16>,
+    /// Title of the class [default: name of the archive or folder]
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// Language of the reports [default: from LC_ALL, LC_MESSAGES or LANG]
+    #[arg(long, value_enum, env = "GGRADE_LANG")]
+    pub lang: Option<Language>,
+    /// How much the messages help: only what is seen, also the equation it breaks, or also where to look
+    #[arg(long, value_enum, default_value_t)]
+    pub hints: Hints,
+    /// Seed of the probes, one for the whole class: that of an earlier run repeats it exactly [default: random]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Seconds that a grading may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    pub deadline: f64,
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,
@@ -13,3 +66,6 @@ pub struct Batch {
     #[command(flatten)]
     pub sandbox: Sandbox,
 }
+
+const AFTER: &str = "Exit codes: 0 graded, all full marks · 1 graded, something is not · 2 usage · 3 our fault, or a \
+                     fault of ours in any submission · 4 nothing to grade · 130 stopped by Ctrl-C or SIGTERM";

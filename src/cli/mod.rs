@@ -1,10 +1,12 @@
 //! The command line's types, and nothing else.
 
 mod batch;
+mod format;
 mod serve;
 mod watch;
 
 pub use batch::Batch;
+pub use format::{Format, Reading};
 pub use serve::{LogFormat, Serve};
 pub use watch::Watch;
 
@@ -12,7 +14,7 @@ use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
 use crate::sandbox::{Attempt, Policy, Settings};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Grades GLSL shading homework: compiles the shader, renders it, and says which lighting term is wrong and why.
@@ -110,18 +112,6 @@ pub struct Grade {
     /// Seconds that the grading may take
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     pub deadline: f64,
-}
-
-/// How a report is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// For a person at a terminal
-    #[default]
-    Text,
-    /// One JSON object (schema ggrade/report/v1)
-    Json,
-    /// One self-contained page with the animation
-    Html,
 }
 
 /// Grade a folder of samples.

@@ -5,6 +5,7 @@ use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::parallel;
 use crate::sandbox::{Pool, Settings};
 use std::time::Duration;
 
@@ -22,7 +23,7 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
         deadline: DEADLINE,
         ..Settings::new(&arguments.machine.assignment)
     };
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let workers = parallel::processors();
     let pool = Pool::start(arguments.sandbox.apply(settings), workers)?;
     warn(&pool, language(None));
     let results = corpus::check(&arguments.folder, &pool)?;

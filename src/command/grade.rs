@@ -1,14 +1,14 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::{Outcome, file_fault, language, warn, writing};
-use crate::cli::{Format, Grade};
+use super::{Outcome, deadline, exchange, file_fault, language, warn, width, writing};
+use crate::cli::{Format, Grade, Reading};
 use crate::excerpt;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::{Language, Text};
 use crate::report::Equation;
 use crate::report::html::Page;
-use crate::report::{Pictures, Report, Verdict, json, pictures, text};
+use crate::report::{Picture, Pictures, Report, Verdict, json, pictures, text};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
 use crate::source::{self, Source};
 use std::io::{IsTerminal, Read, Write};
@@ -21,65 +21,101 @@ const MAX_READ: u64 = 1 << 20;
 /// Grades one file and writes its report.
 pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let language = language(arguments.lang);
-    let Some(deadline) = deadline(arguments.deadline) else {
-        anstream::eprintln!("ggrade: --deadline takes seconds above 0, such as 2 or 0.5");
-        return Ok(Outcome::Usage);
-    };
-    let Some(bytes) = read(&arguments.file, language) else { return Ok(Outcome::Nothing) };
-    let name = name(&arguments.file);
-    let settings =
-        Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
-    let assignment = crate::homework::assignment(&settings.assignment)?;
-    let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
-    warn(&pool, language);
-    let wants_frames = arguments.frames.is_some() || arguments.format == Format::Html;
-    let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
-    let order = Order { seed, hints: arguments.hints };
-    let answer = pool.grade(Submission { name: &name, bytes: &bytes, order, wants_frames })?;
-    drop(pool);
-
-    let Answer { report, frames } = answer;
-    let source = readable(&name, &bytes);
-    let pictures = (!frames.is_empty()).then(|| Pictures {
-        yours: frames,
-        expected: crate::homework::expected_pictures(assignment),
-        terms: crate::homework::term_pictures(assignment, report.explanation.as_deref(), source.as_ref()),
-    });
-    if let (Some(folder), Some(pictures)) = (&arguments.frames, &pictures) {
-        pictures::write(pictures, folder)?;
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
+    match arguments.format {
+        Format::Reading(reading) => run_for_reading(arguments, reading, deadline, language),
+        Format::Exchange(format) => exchange::run(arguments, format, deadline, language),
     }
+}
+
+fn run_for_reading(
+    arguments: &Grade,
+    reading: Reading,
+    deadline: Duration,
+    language: Language,
+) -> Result<Outcome, Fault> {
+    let bytes = match read(&arguments.file) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            anstream::eprintln!("ggrade: {}", unreadable(&arguments.file, &error).get(language));
+            return Ok(Outcome::Nothing);
+        }
+    };
+    let name = name(&arguments.file);
+    let wants_frames = arguments.frames.is_some() || reading == Reading::Html;
+    let Answer { report, frames } = grade(arguments, deadline, &name, &bytes, wants_frames, language)?;
+    let source = readable(&name, &bytes);
+    let pictures = pictures(arguments, &report, source.as_ref(), frames)?;
     let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
-    view.write(arguments)?;
+    let colour =
+        arguments.output.is_none() && anstream::AutoStream::choice(&std::io::stdout()) != anstream::ColorChoice::Never;
+    put(arguments, &view.document(reading, colour)?)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
 }
 
-fn deadline(seconds: f64) -> Option<Duration> {
-    Duration::try_from_secs_f64(seconds).ok().filter(|duration| !duration.is_zero())
+/// Grades the bytes of a file in a worker.
+pub(super) fn grade(
+    arguments: &Grade,
+    deadline: Duration,
+    name: &str,
+    bytes: &[u8],
+    wants_frames: bool,
+    language: Language,
+) -> Result<Answer, Fault> {
+    let settings =
+        Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
+    // An unknown one is named before a driver is looked for.
+    crate::homework::assignment(&settings.assignment)?;
+    let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
+    warn(&pool, language);
+    let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
+    let order = Order { seed, hints: arguments.hints };
+    pool.grade(Submission { name, bytes, order, wants_frames })
 }
 
-/// The bytes of the file; where there is none to read, says so.
-fn read(path: &Path, language: Language) -> Option<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let read = if path == Path::new("-") {
-        std::io::stdin().lock().take(MAX_READ).read_to_end(&mut bytes)
-    } else {
-        std::fs::File::open(path).and_then(|file| file.take(MAX_READ).read_to_end(&mut bytes))
-    };
-    match read {
-        Ok(_) => Some(bytes),
-        Err(error) => {
-            let message = Text::new(
-                format!("cannot read {}: {error}", path.display()),
-                format!("{} を読み込めません: {error}", path.display()),
-            );
-            anstream::eprintln!("ggrade: {}", message.get(language));
-            None
-        }
+/// The pictures, where any were drawn; written into the folder that was asked for.
+pub(super) fn pictures(
+    arguments: &Grade,
+    report: &Report,
+    source: Option<&Source>,
+    frames: Vec<Picture>,
+) -> Result<Option<Pictures>, Fault> {
+    if frames.is_empty() {
+        return Ok(None);
     }
+    let assignment = crate::homework::assignment(&report.assignment)?;
+    let pictures = Pictures {
+        yours: frames,
+        expected: crate::homework::expected_pictures(assignment),
+        terms: crate::homework::term_pictures(assignment, report.explanation.as_deref(), source),
+    };
+    if let Some(folder) = &arguments.frames {
+        pictures::write(&pictures, folder)?;
+    }
+    Ok(Some(pictures))
+}
+
+/// The bytes of the file, as far as they matter.
+pub(super) fn read(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if path == Path::new("-") {
+        std::io::stdin().lock().take(MAX_READ).read_to_end(&mut bytes)?;
+    } else {
+        std::fs::File::open(path)?.take(MAX_READ).read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
+}
+
+/// What is said of a file that cannot be read.
+pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Text {
+    Text::new(
+        format!("cannot read {}: {error}", path.display()),
+        format!("{} を読み込めません: {error}", path.display()),
+    )
 }
 
 /// The file's own name, without its folder.
-fn name(path: &Path) -> String {
+pub(super) fn name(path: &Path) -> String {
     if path == Path::new("-") {
         return "standard input".into();
     }
@@ -87,10 +123,22 @@ fn name(path: &Path) -> String {
 }
 
 /// The file as text, for excerpts; none where it cannot be read as text.
-fn readable(name: &str, bytes: &[u8]) -> Option<Source> {
+pub(super) fn readable(name: &str, bytes: &[u8]) -> Option<Source> {
     match source::read(name, bytes) {
         Ok(source) => Some(source),
         Err(refusal) => refusal.source,
+    }
+}
+
+/// Writes a document to where it was asked for.
+pub(super) fn put(arguments: &Grade, document: &str) -> Result<(), Fault> {
+    match &arguments.output {
+        Some(path) => std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error)),
+        None => {
+            // A reader that closes the pipe early, such as `head`, has what it wanted.
+            let _ = std::io::stdout().lock().write_all(document.as_bytes());
+            Ok(())
+        }
     }
 }
 
@@ -103,26 +151,10 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    fn write(&self, arguments: &Grade) -> Result<(), Fault> {
-        match &arguments.output {
-            Some(path) => {
-                let document = self.document(arguments.format, false)?;
-                std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error))
-            }
-            None => {
-                let colour = anstream::AutoStream::choice(&std::io::stdout()) != anstream::ColorChoice::Never;
-                let document = self.document(arguments.format, colour)?;
-                // A reader that closes the pipe early, such as `head`, has what it wanted.
-                let _ = std::io::stdout().lock().write_all(document.as_bytes());
-                Ok(())
-            }
-        }
-    }
-
-    fn document(&self, format: Format, colour: bool) -> Result<String, Fault> {
-        match format {
-            Format::Json => Ok(json::render(self.report, self.language)),
-            Format::Html => Page {
+    fn document(&self, reading: Reading, colour: bool) -> Result<String, Fault> {
+        match reading {
+            Reading::Json => Ok(json::render(self.report, self.language)),
+            Reading::Html => Page {
                 report: self.report,
                 source: self.source.map(|source| source.text.as_str()),
                 pictures: self.pictures,
@@ -130,22 +162,18 @@ impl View<'_> {
                 language: self.language,
             }
             .render(),
-            Format::Text => {
+            Reading::Text => {
                 let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
-                    &text::Options { language: self.language, width: width(), colour, excerpts: Some(&excerpts) },
+                    &text::Options {
+                        language: self.language,
+                        width: width(std::io::stdout().is_terminal()),
+                        colour,
+                        excerpts: Some(&excerpts),
+                    },
                 ))
             }
         }
     }
-}
-
-/// Columns of the terminal; a file or pipe is as wide as a usual page.
-fn width() -> usize {
-    const PAGE: usize = 100;
-    if !std::io::stdout().is_terminal() {
-        return PAGE;
-    }
-    terminal_size::terminal_size().map_or(PAGE, |(width, _)| usize::from(width.0))
 }

@@ -3,7 +3,9 @@
 pub mod batch;
 pub mod corpus;
 pub mod doctor;
+mod exchange;
 pub mod grade;
+pub mod interrupt;
 pub mod serve;
 pub mod watch;
 pub mod worker;
@@ -13,6 +15,7 @@ use crate::language::{Language, Text};
 use crate::sandbox::Pool;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 
 /// How a run of ggrade ends; the codes are a contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +30,8 @@ pub enum Outcome {
     Fault,
     /// There was nothing to grade.
     Nothing,
+    /// A signal stopped it before everything was graded.
+    Interrupted,
 }
 
 impl From<Outcome> for ExitCode {
@@ -37,6 +42,7 @@ impl From<Outcome> for ExitCode {
             Outcome::Usage => 2,
             Outcome::Fault => 3,
             Outcome::Nothing => 4,
+            Outcome::Interrupted => interrupt::EXIT_CODE,
         })
     }
 }
@@ -77,6 +83,24 @@ fn file_fault(action: &Text, path: &Path, error: &std::io::Error) -> Fault {
         format!("cannot {} {}: {error}", action.en, path.display()),
         format!("{} を{}できません: {error}", path.display(), action.ja),
     ))
+}
+
+/// The time that a grading may take; none for a number that is none.
+fn deadline(seconds: f64) -> Option<Duration> {
+    let deadline = Duration::try_from_secs_f64(seconds).ok().filter(|duration| !duration.is_zero());
+    if deadline.is_none() {
+        anstream::eprintln!("ggrade: --deadline takes seconds above 0, such as 2 or 0.5");
+    }
+    deadline
+}
+
+/// Columns of the terminal; a file or pipe is as wide as a usual page.
+fn width(is_terminal: bool) -> usize {
+    const PAGE: usize = 100;
+    if !is_terminal {
+        return PAGE;
+    }
+    terminal_size::terminal_size().map_or(PAGE, |(width, _)| usize::from(width.0))
 }
 
 fn writing() -> Text {

@@ -6,7 +6,7 @@ use crate::language::Language;
 
 /// The words of one language.
 #[derive(Debug)]
-pub(super) struct Labels {
+pub(crate) struct Labels {
     /// The language as a BCP 47 tag.
     pub tag: &'static str,
     pub report: &'static str,
@@ -56,7 +56,7 @@ pub(super) struct Labels {
     pub file: &'static str,
 }
 
-pub(super) const EN: Labels = Labels {
+pub(crate) const EN: Labels = Labels {
     tag: "en",
     report: "Grading report",
     verdicts: ["Correct", "Not right yet", "Not accepted", "Stopped"],
@@ -110,7 +110,7 @@ pub(super) const EN: Labels = Labels {
     file: "File",
 };
 
-pub(super) const JA: Labels = Labels {
+pub(crate) const JA: Labels = Labels {
     tag: "ja",
     report: "採点結果",
     verdicts: ["正解", "修正が必要です", "受理できません", "実行を中断しました"],

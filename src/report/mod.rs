@@ -5,13 +5,13 @@ mod encode;
 mod equation;
 pub mod html;
 pub mod json;
-mod labels;
+pub(crate) mod labels;
 mod next;
 pub mod pictures;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 pub mod text;
-mod wrap;
+pub(crate) mod wrap;
 
 pub use equation::{Definition, Equation, Term};
 

@@ -4,11 +4,11 @@ use super::*;
 use crate::diagnostic::Stage;
 
 /// The course's frame, an eighth in each direction.
-pub(super) const WIDTH: u32 = 80;
-pub(super) const HEIGHT: u32 = 60;
+pub(crate) const WIDTH: u32 = 80;
+pub(crate) const HEIGHT: u32 = 60;
 const POSES: u32 = 25;
 
-pub(super) const SOURCE: &str = "#version 410 core
+pub(crate) const SOURCE: &str = "#version 410 core
 // 中間ベクトルを正規化していない <script>alert(1)</script>
 in vec4 pv;
 in vec4 cv;
@@ -23,11 +23,11 @@ void main(void)
 }
 ";
 
-pub(super) fn all() -> [Report; 4] {
+pub(crate) fn all() -> [Report; 4] {
     [correct(), wrong(), rejected(), stopped()]
 }
 
-pub(super) fn correct() -> Report {
+pub(crate) fn correct() -> Report {
     let fine = || Text::new("Right in every frame and probe.", "すべてのフレームと検査点で正しい結果です。");
     let line = |id: &str, en: &str, ja: &str, points: f64| RubricLine {
         id: id.into(),
@@ -69,7 +69,7 @@ pub(super) fn correct() -> Report {
     }
 }
 
-pub(super) fn wrong() -> Report {
+pub(crate) fn wrong() -> Report {
     let mut report = correct();
     report.verdict = Verdict::Wrong;
     report.score = 80.0;
@@ -103,7 +103,7 @@ pub(super) fn wrong() -> Report {
     report
 }
 
-pub(super) fn rejected() -> Report {
+pub(crate) fn rejected() -> Report {
     let mut report = nothing_drawn(Verdict::Rejected);
     report.diagnostics = vec![
         Diagnostic::error(Stage::Compile, Text::new("`Max` is not declared.", "`Max` は宣言されていません。"))
@@ -118,7 +118,7 @@ pub(super) fn rejected() -> Report {
     report
 }
 
-pub(super) fn stopped() -> Report {
+pub(crate) fn stopped() -> Report {
     let mut report = nothing_drawn(Verdict::Stopped);
     report.diagnostics = vec![
         Diagnostic::error(
@@ -154,7 +154,7 @@ fn frame(pose: u32, level: f64) -> FrameResult {
 }
 
 /// Shaded triangles that turn; the highlight of `yours` is a little darker.
-pub(super) fn pictures() -> Pictures {
+pub(crate) fn pictures() -> Pictures {
     let pair = |shine| (0..POSES).map(|pose| triangle(pose, shine)).collect();
     Pictures {
         yours: pair(60),

@@ -8,19 +8,19 @@ const CLOSING: &str = "、。，．・：；！？）」』】〕］｝〉》ー
 const OPENING: &str = "（「『【〔［｛〈《([{";
 
 /// Columns that a text takes.
-pub(super) fn columns(text: &str) -> usize {
+pub(crate) fn columns(text: &str) -> usize {
     text.width()
 }
 
 /// The text with spaces up to `width` columns.
-pub(super) fn pad(text: &str, width: usize) -> String {
+pub(crate) fn pad(text: &str, width: usize) -> String {
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 
 /// The text without characters that steer a terminal or reorder a line: they are shown as `�`.
 ///
 /// Line feeds stay, and tabs become spaces.
-pub(super) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     let steers = |c: char| {
         c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
     };
@@ -36,7 +36,7 @@ pub(super) fn plain(text: &str) -> String {
 /// The text in lines of at most `width` columns, broken at spaces and between Japanese characters.
 ///
 /// A word that is wider than a line is broken where the line ends.
-pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(2);
     text.lines().flat_map(|line| wrap_line(line, width)).collect()
 }

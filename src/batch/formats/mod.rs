@@ -1,2 +1,221 @@
-//! The formats that courses' tools read. Each is a pure view of a [`Class`](super::class::Class), or of one
-//! [`Entry`](super::class::Entry) of it.
+//! A graded class in the formats that people and courses' tools read: one module a format, all of them views of a
+//! [`Class`](super::class::Class).
+
+pub mod classroom;
+pub mod coderunner;
+mod comment;
+pub mod exchange;
+pub mod feedback;
+pub mod github;
+pub mod grades;
+pub mod gradescope;
+pub mod junit;
+mod names;
+#[cfg(test)]
+mod nasty;
+pub mod nbgrader;
+pub mod page;
+pub(crate) mod plain;
+#[cfg(test)]
+mod samples;
+pub mod sarif;
+mod status;
+#[cfg(test)]
+mod tests;
+mod untrusted;
+pub mod vpl;
+mod wording;
+pub mod worksheet;
+
+use crate::language::Text;
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+
+/// A format that a class is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Format {
+    /// The class on one page.
+    Html,
+    /// A table for spreadsheets.
+    Csv,
+    /// The columns that nbgrader exports.
+    Nbgrader,
+    /// Moodle's offline grading worksheet, filled in.
+    MoodleWorksheet,
+    /// The archive that Moodle takes as multiple feedback files.
+    MoodleFeedback,
+    /// Gradescope's `results.json`.
+    Gradescope,
+    /// Workflow commands and a job summary for GitHub Actions.
+    Github,
+    /// The result that GitHub Classroom's tools read.
+    Classroom,
+    /// The older form of it.
+    ClassroomLegacy,
+    /// JUnit XML.
+    Junit,
+    /// SARIF 2.1.0.
+    Sarif,
+    /// Moodle's Virtual Programming Lab.
+    Vpl,
+    /// Moodle's CodeRunner question type.
+    Coderunner,
+}
+
+/// Where the student's key stands in a file name of [`Format::files`] that exists once a student.
+pub const KEY: &str = "KEY";
+
+/// One format as a person chooses it.
+struct Row {
+    format: Format,
+    id: &'static str,
+    files: &'static [&'static str],
+    en: &'static str,
+    ja: &'static str,
+}
+
+const fn row(
+    format: Format,
+    id: &'static str,
+    files: &'static [&'static str],
+    en: &'static str,
+    ja: &'static str,
+) -> Row {
+    Row { format, id, files, en, ja }
+}
+
+/// In the order of the variants, which is the order in which help lists them.
+const TABLE: [Row; 13] = [
+    row(
+        Format::Html,
+        "html",
+        &["report.html"],
+        "The class on one page: everyone's picture, filters, histograms",
+        "クラス全体の一覧ページ（全員の画像、絞り込み、分布）",
+    ),
+    row(
+        Format::Csv,
+        "csv",
+        &["grades.csv"],
+        "A table for Excel and other spreadsheets",
+        "Excel などの表計算ソフトで開ける成績表",
+    ),
+    row(
+        Format::Nbgrader,
+        "nbgrader",
+        &["nbgrader.csv"],
+        "The columns of `nbgrader export`",
+        "`nbgrader export` と同じ列の成績表",
+    ),
+    row(
+        Format::MoodleWorksheet,
+        "moodle-worksheet",
+        &["moodle-worksheet.csv"],
+        "Moodle's offline grading worksheet with grades and comments filled in (needs --moodle-worksheet)",
+        "Moodle のオフライン評定ワークシートに評定とコメントを記入したもの（--moodle-worksheet が必要です）",
+    ),
+    row(
+        Format::MoodleFeedback,
+        "moodle-feedback",
+        &["moodle-feedback.zip"],
+        "Everyone's report for Moodle's \"Upload multiple feedback files in a zip\"",
+        "Moodle の「複数のフィードバックファイルを ZIP でアップロードする」に渡す全員の採点結果",
+    ),
+    row(
+        Format::Gradescope,
+        "gradescope",
+        &["gradescope/KEY.json"],
+        "Gradescope results.json, one a student",
+        "Gradescope の results.json（学生ごと）",
+    ),
+    row(
+        Format::Github,
+        "github",
+        &["github-annotations.txt", "github-summary.md"],
+        "GitHub Actions: annotations at the students' lines, and a job summary",
+        "GitHub Actions のアノテーションとジョブサマリー",
+    ),
+    row(
+        Format::Classroom,
+        "classroom",
+        &["classroom/KEY.json"],
+        "GitHub Classroom result, one a student",
+        "GitHub Classroom の結果（学生ごと）",
+    ),
+    row(
+        Format::ClassroomLegacy,
+        "classroom-legacy",
+        &["classroom-legacy/KEY.txt"],
+        "GitHub Classroom result in its older base64 form, one a student",
+        "GitHub Classroom の結果の旧形式（base64、学生ごと）",
+    ),
+    row(
+        Format::Junit,
+        "junit",
+        &["junit.xml"],
+        "JUnit XML: a suite a student, a case a rubric line",
+        "JUnit XML（学生ごとのスイート、採点項目ごとのケース）",
+    ),
+    row(
+        Format::Sarif,
+        "sarif",
+        &["report.sarif"],
+        "SARIF 2.1.0: what the compiler says, at the students' lines",
+        "SARIF 2.1.0（コンパイラのメッセージと学生の行番号）",
+    ),
+    row(
+        Format::Vpl,
+        "vpl",
+        &["vpl/KEY.txt"],
+        "Moodle VPL: comment and `Grade :=>>`, one a student",
+        "Moodle VPL のコメントと `Grade :=>>`（学生ごと）",
+    ),
+    row(
+        Format::Coderunner,
+        "coderunner",
+        &["coderunner/KEY.json"],
+        "Moodle CodeRunner combinator grader result, one a student",
+        "Moodle CodeRunner のコンビネータ採点結果（学生ごと）",
+    ),
+];
+
+impl Format {
+    fn row(self) -> &'static Row {
+        &TABLE[self as usize]
+    }
+
+    /// Its name on the command line.
+    pub fn id(self) -> &'static str {
+        self.row().id
+    }
+
+    /// The files that it writes, relative to the output folder, `/` between folders; one with [`KEY`] in its name is
+    /// written once a student.
+    pub fn files(self) -> &'static [&'static str] {
+        self.row().files
+    }
+
+    /// What it is, in a line.
+    pub fn description(self) -> Text {
+        Text::new(self.row().en, self.row().ja)
+    }
+}
+
+impl ValueEnum for Format {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Format; TABLE.len()] = {
+            let mut all = [Format::Html; TABLE.len()];
+            let mut index = 0;
+            while index < TABLE.len() {
+                all[index] = TABLE[index].format;
+                index += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.id()).help(self.row().en))
+    }
+}

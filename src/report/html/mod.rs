@@ -4,7 +4,7 @@ mod body;
 mod film;
 mod listing;
 mod player;
-mod rich;
+pub(crate) mod rich;
 mod sheet;
 
 pub use self::body::Mark;

@@ -2,13 +2,13 @@
 
 /// A stretch of a message: words, or code between back-quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Piece {
+pub(crate) struct Piece {
     pub text: String,
     pub code: bool,
 }
 
 /// A message in its pieces; a back-quote without a partner is a back-quote.
-pub(super) fn pieces(text: &str) -> Vec<Piece> {
+pub(crate) fn pieces(text: &str) -> Vec<Piece> {
     let parts: Vec<&str> = text.split('`').collect();
     let lonely = parts.len().is_multiple_of(2);
     let mut pieces: Vec<Piece> = Vec::new();

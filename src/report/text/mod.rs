@@ -58,7 +58,7 @@ pub fn render(report: &Report, options: &Options) -> String {
 }
 
 /// A number with at most two decimals, and none that says nothing.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return "–".into();
     }

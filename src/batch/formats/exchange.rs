@@ -1,0 +1,95 @@
+//! The formats of autograders and CI by their names: the documents of a class, and the one of a single file.
+
+use super::github::Token;
+use super::{Format, KEY, classroom, coderunner, github, gradescope, junit, sarif, vpl};
+use crate::batch::class::{Class, Entry};
+use crate::fault::Fault;
+
+/// The formats of this module.
+pub const FORMATS: [Format; 8] = [
+    Format::Gradescope,
+    Format::Github,
+    Format::Classroom,
+    Format::ClassroomLegacy,
+    Format::Junit,
+    Format::Sarif,
+    Format::Vpl,
+    Format::Coderunner,
+];
+
+/// A file that a format writes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Document {
+    /// Its name relative to the output folder, `/` between folders.
+    pub name: String,
+    /// Its content.
+    pub text: String,
+}
+
+/// The files of `format` for the class; none for a format of another module.
+pub fn documents(format: Format, class: &Class) -> Result<Vec<Document>, Fault> {
+    let names = format.files();
+    let named = |texts: Vec<String>| -> Vec<Document> {
+        names.iter().zip(texts).map(|(name, text)| Document { name: (*name).to_owned(), text }).collect()
+    };
+    Ok(match format {
+        Format::Github => named(vec![github::log(class, &Token::random()?), github::summary(class, github::LIMIT)]),
+        Format::Junit => named(vec![junit::render(class)?]),
+        Format::Sarif => named(vec![sarif::render(class)]),
+        _ => {
+            let of_entry = |entry: &Entry| {
+                let text = per_student(format, entry, class, vpl::Scale::default())?;
+                Some(Document { name: names.first()?.replace(KEY, &entry.student.key), text })
+            };
+            class.entries.iter().filter_map(of_entry).collect()
+        }
+    })
+}
+
+/// What `ggrade grade` prints for the only student of `class`; none for a format of another module.
+pub fn single(format: Format, class: &Class, scale: vpl::Scale) -> Result<Option<String>, Fault> {
+    Ok(match format {
+        Format::Github => Some(github::log(class, &Token::random()?)),
+        Format::Junit => Some(junit::render(class)?),
+        Format::Sarif => Some(sarif::render(class)),
+        _ => class.entries.first().and_then(|entry| per_student(format, entry, class, scale)),
+    })
+}
+
+/// The document of one student, in the formats that have one each.
+fn per_student(format: Format, entry: &Entry, class: &Class, scale: vpl::Scale) -> Option<String> {
+    Some(match format {
+        Format::Gradescope => gradescope::render(entry, &class.expected_portrait, class.language),
+        Format::Classroom => classroom::render(entry, class),
+        Format::ClassroomLegacy => classroom::render_legacy(entry, class),
+        Format::Vpl => vpl::render(entry, scale, class.language),
+        Format::Coderunner => coderunner::render(entry, class.language),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::formats::nasty;
+    use clap::ValueEnum;
+
+    #[test]
+    fn every_format_writes_the_files_that_it_lists() {
+        let class = nasty::class();
+        for format in FORMATS {
+            let written: Vec<_> =
+                documents(format, &class).unwrap().into_iter().map(|document| document.name).collect();
+            let listed = format.files().iter().flat_map(|file| match file.contains(KEY) {
+                true => class.entries.iter().map(|entry| file.replace(KEY, &entry.student.key)).collect(),
+                false => vec![(*file).to_owned()],
+            });
+            assert_eq!(written, listed.collect::<Vec<_>>(), "{}", format.id());
+            assert!(single(format, &class, vpl::Scale::default()).unwrap().is_some());
+        }
+        for &format in Format::value_variants().iter().filter(|format| !FORMATS.contains(format)) {
+            assert_eq!(documents(format, &class).unwrap(), []);
+            assert_eq!(single(format, &class, vpl::Scale::default()).unwrap(), None);
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The job's summary: Markdown for the file that `$GITHUB_STEP_SUMMARY` names.
+
+use crate::batch::class::{Class, Entry};
+use crate::batch::formats::untrusted::one_line;
+use crate::batch::formats::wording;
+use crate::batch::standing::Standing;
+use crate::language::{Language, Text};
+use std::fmt::Write;
+
+/// The most bytes that GitHub takes of one step: 1 MiB. A longer summary is refused whole.
+pub const LIMIT: usize = 1 << 20;
+/// Bytes kept free for the line that says how much is left out.
+const CLOSING: usize = 400;
+
+/// The summary of the class in at most `limit` bytes: counts, then a row a student with the place of report and
+/// picture, then what was left out of the input. Rows that do not fit are counted.
+pub fn summary(class: &Class, limit: usize) -> String {
+    let language = class.language;
+    let mut rows = Rows { out: String::new(), limit: limit.saturating_sub(CLOSING), left_out: 0 };
+    rows.push(&format!("## ggrade: {}\n\n{}\n\n", markdown(&class.title), counts(class)));
+    if let [entry] = &class.entries[..] {
+        rows.push(&single(entry, language));
+    } else {
+        rows.push(heading(language));
+        for entry in &class.entries {
+            rows.push(&row(entry, language));
+        }
+    }
+    if !class.refused.is_empty() {
+        let left = Text::new("Left out of the input", "読み飛ばしたもの");
+        rows.push(&format!("\n### {}\n\n", left.get(language)));
+        for refused in &class.refused {
+            rows.push(&format!("- {}: {}\n", code(&refused.path), markdown(refused.reason.get(language))));
+        }
+    }
+    rows.finish(language)
+}
+
+/// Markdown that grows row by row up to its limit.
+struct Rows {
+    out: String,
+    limit: usize,
+    left_out: usize,
+}
+
+impl Rows {
+    /// Takes the row whole or not at all, and none after the first that does not fit.
+    fn push(&mut self, row: &str) {
+        if self.left_out > 0 || self.out.len() + row.len() > self.limit {
+            self.left_out += 1;
+        } else {
+            self.out.push_str(row);
+        }
+    }
+
+    fn finish(mut self, language: Language) -> String {
+        if self.left_out > 0 {
+            let more = Text::new(
+                format!("\n{} more rows do not fit here: they are in the reports.\n", self.left_out),
+                format!("\nほかに {} 行ありますが、ここには収まりません。採点結果をご覧ください。\n", self.left_out),
+            );
+            self.out.push_str(more.get(language));
+        }
+        self.out
+    }
+}
+
+/// How many students stand where.
+fn counts(class: &Class) -> String {
+    use Standing::{Correct, Fault, NotGraded, Rejected, Stopped, Wrong};
+    let count = |standing| class.entries.iter().filter(|entry| Standing::of(&entry.outcome) == standing).count();
+    let counts = [Correct, Wrong, Rejected, Stopped, NotGraded, Fault].map(|standing| (standing, count(standing)));
+    let counts = counts.iter().filter(|(_, count)| *count > 0);
+    counts
+        .map(|(standing, count)| format!("{} {count}", standing.label().get(class.language)))
+        .collect::<Vec<_>>()
+        .join(" · ")
+}
+
+fn heading(language: Language) -> &'static str {
+    match language {
+        Language::En => {
+            "| Student | Outcome | Score | Mistakes | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
+        }
+        Language::Ja => "| 学生 | 結果 | 得点 | 間違い | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
+    }
+}
+
+fn row(entry: &Entry, language: Language) -> String {
+    let report = entry.report();
+    let score = report.map(|report| wording::points(report.score, report.max_score)).unwrap_or_default();
+    let detail = match report {
+        Some(report) => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        None => {
+            let fault = wording::fault(entry, language);
+            markdown(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
+        }
+    };
+    let page = entry.page.as_ref().map(|page| code(&page.to_string_lossy())).unwrap_or_default();
+    let name = markdown(&entry.student.name);
+    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).label().get(language))
+}
+
+/// The rubric and the diagnostics of the only student.
+fn single(entry: &Entry, language: Language) -> String {
+    let mut out = String::new();
+    if let Some(fault) = wording::fault(entry, language) {
+        let _ = writeln!(out, "{}\n", markdown(&fault));
+    }
+    let _ = writeln!(out, "{}\n", markdown(&wording::explanation(entry, language)));
+    let Some(report) = entry.report() else { return out };
+    out.push_str(match language {
+        Language::En => "| Rubric | Points | Mistake | Feedback |\n| --- | ---: | --- | --- |\n",
+        Language::Ja => "| 項目 | 得点 | 間違い | 講評 |\n| --- | ---: | --- | --- |\n",
+    });
+    for line in &report.rubric {
+        let label = markdown(line.label.get(language));
+        let points = wording::points(line.points, line.max_points);
+        let mistake = line.mistake.as_deref().map(code).unwrap_or_default();
+        let _ = writeln!(out, "| {label} | {points} | {mistake} | {} |", markdown(line.message.get(language)));
+    }
+    let score = wording::points(report.score, report.max_score);
+    let _ = writeln!(out, "| | **{score}** | | |\n");
+    for diagnostic in &report.diagnostics {
+        let place = wording::place(diagnostic, language);
+        let _ = writeln!(out, "- **{}** {}", markdown(&place), markdown(&wording::message(diagnostic, language)));
+    }
+    out
+}
+
+/// Text in one line that Markdown takes for nothing but text: an ASCII punctuation mark may mean something (emphasis,
+/// a table's cell, HTML, a link made of a bare address), its numeric reference never does.
+fn markdown(text: &str) -> String {
+    let escape = |c: char| if c.is_ascii_punctuation() { format!("&#{};", u32::from(c)) } else { c.to_string() };
+    one_line(text).chars().map(escape).collect()
+}
+
+/// The same in a typewriter's letters.
+fn code(text: &str) -> String {
+    format!("<code>{}</code>", markdown(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::class::{Outcome, Refused};
+    use crate::batch::formats::nasty;
+    use crate::report::samples;
+
+    #[test]
+    fn everyone_has_a_row() {
+        let summary = summary(&nasty::class(), LIMIT);
+        assert!(summary.contains("Correct 1 · Not right yet 1 · Not accepted 1 · Stopped 1 · Nothing to grade 1"));
+        assert!(summary.contains("| Student 0 | Correct | 100 / 100 |  |  |\n"), "{summary}");
+        let mistake = "<code>specular&#45;half&#45;unnormalized</code>";
+        assert!(summary.contains(&format!("| Student 1 | Not right yet | 80 / 100 | {mistake} |  |\n")), "{summary}");
+        // No score where we failed, nor where there was nothing to grade.
+        assert!(summary.contains("| Student 5 | Grading failed |  | no driver"), "{summary}");
+        assert!(summary.contains("| Student 4 | Nothing to grade |  | There is no"), "{summary}");
+    }
+
+    #[test]
+    fn no_row_is_broken_open() {
+        let mut class = nasty::class();
+        class.entries = vec![nasty::attack(samples::wrong()), nasty::attack(samples::rejected())];
+        class.entries[0].page = Some(nasty::NASTY.into());
+        class.refused = vec![Refused { path: nasty::NASTY.into(), reason: Text::verbatim(nasty::NASTY) }];
+        let summary = summary(&class, LIMIT);
+        let rows: Vec<_> = summary.lines().filter(|line| line.starts_with('|')).collect();
+        assert_eq!(rows.len(), 4, "{summary}");
+        assert!(rows.iter().all(|row| row.matches('|').count() == 6), "{summary}");
+        let ours = summary.replace("<code>", "").replace("</code>", "");
+        assert!(!ours.contains(['<', '>', '`', '@', '[', '_', '\u{1B}', '\r', '\0', '\u{202E}']), "{ours}");
+    }
+
+    #[test]
+    fn one_student_has_the_rubric_and_the_messages() {
+        let entry = nasty::entry(1, Outcome::Graded(Box::new(samples::wrong())));
+        let class = Class { entries: vec![entry], language: Language::Ja, ..nasty::class() };
+        let summary = summary(&class, LIMIT);
+        assert!(summary.contains("| 鏡面反射光 | 20 / 40 | <code>specular&#45;half&#45;unnormalized</code> |"));
+        assert!(summary.contains("| | **80 / 100** | | |"), "{summary}");
+        assert!(summary.contains("12 行目 9 文字目"), "{summary}");
+    }
+
+    #[test]
+    fn a_large_class_stays_below_the_limit_and_says_how_many_are_missing() {
+        let mut class = nasty::class();
+        let entry = class.entries[1].clone();
+        class.entries = vec![entry; 1000];
+        // Far less than 1000 rows of at least 60 bytes.
+        let summary = summary(&class, 10_000);
+        assert!(summary.len() <= 10_000);
+        let rows = summary.lines().filter(|line| line.starts_with("| Student")).count() - 1;
+        assert!(summary.ends_with(&format!("\n{} more rows do not fit here: they are in the reports.\n", 1000 - rows)));
+    }
+}

@@ -1,0 +1,85 @@
+//! `grades.csv`: the class as a table for spreadsheets.
+//!
+//! UTF-8 with a byte-order mark and CRLF, so that Excel opens it as it is; what could be a formula is text.
+
+use super::plain::cell;
+use super::status::{Status, summary};
+use crate::batch::class::{Class, Entry};
+use crate::fault::Fault;
+use crate::language::Text;
+use csv::{QuoteStyle, Terminator, WriterBuilder};
+
+const BOM: &[u8] = b"\xef\xbb\xbf";
+const BEFORE_RUBRIC: [&str; 6] = ["key", "name", "moodle_id", "verdict", "score", "max_score"];
+const AFTER_RUBRIC: [&str; 5] = ["mistakes", "feedback", "shares_with", "file", "sha256"];
+
+/// The table: a row a student, in the order of the class. The column names are the same in both languages.
+pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
+    let lines = rubric_ids(class);
+    let header = BEFORE_RUBRIC.iter().chain(&lines).chain(&AFTER_RUBRIC).map(|name| cell(name));
+    let rows = class.entries.iter().map(|entry| row(entry, &lines, class));
+    let mut bytes = BOM.to_vec();
+    let mut writer =
+        WriterBuilder::new().quote_style(QuoteStyle::Necessary).terminator(Terminator::CRLF).from_writer(&mut bytes);
+    write(&mut writer, std::iter::once(header.collect()).chain(rows))?;
+    drop(writer);
+    Ok(bytes)
+}
+
+/// Ids of the rubric's lines, in the order in which the reports have them.
+fn rubric_ids(class: &Class) -> Vec<&str> {
+    let mut ids: Vec<&str> = Vec::new();
+    for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
+        if !ids.contains(&line.id.as_str()) {
+            ids.push(&line.id);
+        }
+    }
+    ids
+}
+
+fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
+    let report = entry.report();
+    let student = &entry.student;
+    let mut row = vec![
+        cell(&student.key),
+        cell(&student.name),
+        student.moodle.as_ref().map(|moodle| moodle.number.to_string()).unwrap_or_default(),
+        Status::of(entry).id().to_owned(),
+        report.map(|report| exact(report.score)).unwrap_or_default(),
+        report.map(|report| exact(report.max_score)).unwrap_or_default(),
+    ];
+    row.extend(lines.iter().map(|id| {
+        let line = report.and_then(|report| report.rubric.iter().find(|line| line.id == *id));
+        line.map(|line| exact(line.points)).unwrap_or_default()
+    }));
+    row.extend([
+        report.map(|report| cell(&report.mistakes.join(" "))).unwrap_or_default(),
+        cell(&summary(entry, class.language).replace('`', "")),
+        cell(&entry.shares_with.join(" ")),
+        cell(entry.path.as_deref().unwrap_or_default()),
+        report.map(|report| cell(&report.source.sha256)).unwrap_or_default(),
+    ]);
+    row
+}
+
+/// A number as every spreadsheet of an English or Japanese computer reads it; empty when there is none.
+fn exact(value: f64) -> String {
+    if value.is_finite() { value.to_string() } else { String::new() }
+}
+
+/// Rows into a CSV writer.
+pub(super) fn write<W: std::io::Write>(
+    writer: &mut csv::Writer<W>,
+    rows: impl Iterator<Item = Vec<String>>,
+) -> Result<(), Fault> {
+    let failed = |error: &dyn std::fmt::Display| {
+        Fault::new(Text::new(
+            format!("The table of grades could not be written: {error}."),
+            format!("成績表を書き出せませんでした（{error}）。"),
+        ))
+    };
+    for row in rows {
+        writer.write_record(&row).map_err(|error| failed(&error))?;
+    }
+    writer.flush().map_err(|error| failed(&error))
+}

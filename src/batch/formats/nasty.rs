@@ -1,0 +1,67 @@
+//! A class made by hand for the tests of the formats: every outcome, and students who attack whoever reads it.
+
+use crate::batch::class::{Class, Entry, Outcome, Student};
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::fault::Fault;
+use crate::language::{Language, Text};
+use crate::report::{Report, samples};
+use std::path::PathBuf;
+
+/// What a student may get into a message, a file name or a name: one attack on each reader.
+pub(super) const NASTY: &str = "::set-output name=a::b\n##[error]x ]]> --> <script>alert(1)</script> & \" ' \
+    \n::stop-commands::x\nGrade :=>> 100\n--|>\nComment :=>> free\n<|--\r::error::lone CR \
+    \0\u{1B}[2J\u{202E}\u{FFFF}|*_`[a](javascript:b) @all %0A {{ STUDENT_ANSWER }} 中間ベクトル";
+
+/// Every outcome once: correct, wrong, rejected, stopped, nothing handed in, fault.
+pub(super) fn class() -> Class {
+    let reports = samples::all().map(|report| Outcome::Graded(Box::new(report)));
+    let not_graded = Outcome::NotGraded(Text::new(
+        format!("There is no .vert file, only {NASTY}."),
+        format!(".vert ファイルがありません ({NASTY})。"),
+    ));
+    let fault = Fault::new(Text::new("no driver in /usr/share/vulkan", "ドライバがありません"))
+        .remedy(Text::new("install mesa-vulkan-drivers", "mesa-vulkan-drivers を入れてください"));
+    let outcomes = reports.into_iter().chain([not_graded, Outcome::Fault(fault)]);
+    Class {
+        assignment: "ggsample06".into(),
+        title: format!("class {NASTY}"),
+        entries: outcomes.enumerate().map(|(index, outcome)| entry(index, outcome)).collect(),
+        refused: vec![],
+        expected_portrait: PNG.into(),
+        language: Language::En,
+    }
+}
+
+/// The eight bytes that every PNG begins with: enough where nobody decodes it.
+pub(super) const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+pub(super) fn entry(index: usize, outcome: Outcome) -> Entry {
+    let key = format!("student-{index}");
+    Entry {
+        path: Some(format!("{key}/ggsample06.vert")),
+        local: Some(PathBuf::from(format!("{key}/ggsample06.vert"))),
+        student: Student { name: format!("Student {index}"), key, moodle: None },
+        outcome,
+        source: Some(samples::SOURCE.into()),
+        portrait: None,
+        page: None,
+        shares_with: vec![],
+    }
+}
+
+/// An entry with `report`, in which everything that a student can choose is [`NASTY`].
+pub(super) fn attack(mut report: Report) -> Entry {
+    let nasty = || Text::new(NASTY, NASTY);
+    report.source.name = NASTY.into();
+    for line in &mut report.rubric {
+        line.message = nasty();
+    }
+    report
+        .diagnostics
+        .insert(0, Diagnostic::error(Stage::Compile, nasty()).at(2, Some(4)).spanning(8).hint(Text::new(NASTY, NASTY)));
+    let mut entry = entry(0, Outcome::Graded(Box::new(report)));
+    entry.student.name = NASTY.into();
+    entry.path = Some(format!("a, b: 100%/{NASTY}.vert"));
+    entry.local = Some(PathBuf::from(format!("a, b: 100%/{NASTY}.vert")));
+    entry
+}

@@ -1,0 +1,259 @@
+//! `report.html`: the class on one page that needs nothing else but the students' own pages beside it.
+//!
+//! A plain table of everyone with scripts off; the one script filters, sorts and lays the pictures out as a contact
+//! sheet. What the page may load and run is fixed by a `Content-Security-Policy` that names style and script by hash.
+
+mod charts;
+mod groups;
+mod portraits;
+#[cfg(test)]
+mod tests;
+mod words;
+
+use self::charts::{Bin, Mistake, Tally};
+use self::portraits::Portraits;
+use self::words::Words;
+use super::plain::one_line;
+use super::status::{Status, summary};
+use crate::batch::class::{Class, Entry, Outcome};
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::report::labels::Labels;
+use crate::report::text::number;
+use crate::report::{Environment, Verdict};
+use askama::Template;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest, Sha256};
+
+const BASE_STYLE: &str = include_str!("../../../../templates/class/base.css");
+const STYLE: &str = include_str!("../../../../templates/class/class.css");
+const SCRIPT: &str = include_str!("../../../../templates/class/class.js");
+
+/// The page, in the class's language. A student with a page of their own is linked as `students/KEY.html`.
+pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
+    let page = Page::of(class).render().map_err(|error| {
+        Fault::new(Text::new(
+            format!("The class page could not be written: {error}."),
+            format!("クラスのページを生成できませんでした（{error}）。"),
+        ))
+    })?;
+    Ok(page.into_bytes())
+}
+
+/// A column of the rubric.
+struct Line {
+    id: String,
+    label: String,
+}
+
+/// Points in one line of the rubric.
+struct Points {
+    text: String,
+    is_less: bool,
+}
+
+/// One student.
+struct Row {
+    key: String,
+    name: String,
+    detail: String,
+    has_page: bool,
+    status: &'static str,
+    sign: &'static str,
+    word: &'static str,
+    bin: String,
+    exact: String,
+    score: String,
+    lines: Vec<Points>,
+    mistakes: String,
+    mistake_ids: Vec<String>,
+    message: String,
+    group: String,
+    shared: String,
+    picture: Option<String>,
+}
+
+/// Students with the same answer.
+struct Group {
+    id: usize,
+    size: usize,
+    members: Vec<Member>,
+}
+
+struct Member {
+    key: String,
+    name: String,
+}
+
+/// A grading that failed.
+struct FaultView {
+    name: String,
+    message: String,
+    remedy: String,
+}
+
+/// Everything that the template shows.
+#[derive(Template)]
+#[template(path = "class/class.html")]
+struct Page {
+    tag: &'static str,
+    policy: String,
+    style: String,
+    script: &'static str,
+    words: &'static Words,
+    title: String,
+    assignment: String,
+    assignment_id: String,
+    overview: String,
+    mean: Option<String>,
+    max_score: String,
+    spread: String,
+    tallies: Vec<Tally>,
+    bins: Vec<Bin>,
+    mistakes: Vec<Mistake>,
+    lines: Vec<Line>,
+    rows: Vec<Row>,
+    groups: Vec<Group>,
+    sharing: usize,
+    faults: Vec<FaultView>,
+    refused: Vec<(String, String)>,
+    environment: Option<Environment>,
+}
+
+impl Page {
+    fn of(class: &Class) -> Self {
+        let language = class.language;
+        let words = Words::of(language);
+        let portraits = Portraits::of(class);
+        let style = format!("{BASE_STYLE}{STYLE}{}", portraits.style);
+        let reports = || class.entries.iter().filter_map(Entry::report);
+        let full = reports().filter(|report| report.verdict == Verdict::Correct).count();
+        let max_score = reports().next().map_or(100.0, |report| report.max_score);
+        let averages = charts::mean_and_median(class);
+        let groups = groups::groups(class);
+        let lines = lines(class);
+        let row = |(index, entry)| {
+            let group = groups.iter().position(|group| group.contains(&index));
+            let shares = group.map(|at| (at + 1, groups[at].len() - 1));
+            row(entry, class, &lines, &portraits, shares)
+        };
+        Self {
+            tag: Labels::of(language).tag,
+            policy: policy(&style),
+            style,
+            script: SCRIPT,
+            words,
+            title: one_line(&class.title),
+            assignment: title(class),
+            assignment_id: one_line(&class.assignment),
+            overview: words.overview(class.entries.len(), reports().count()),
+            mean: averages.map(|(mean, _)| number((mean * 10.0).round() / 10.0)),
+            max_score: number(max_score),
+            spread: averages.map(|(_, median)| words.spread(&number(median), full)).unwrap_or_default(),
+            tallies: charts::tallies(class, language),
+            bins: charts::bins(class, max_score, words),
+            mistakes: charts::mistakes(class, language),
+            rows: class.entries.iter().enumerate().map(row).collect(),
+            lines,
+            sharing: groups.iter().map(Vec::len).sum(),
+            groups: groups.iter().enumerate().map(|(at, group)| group_view(at + 1, group, class)).collect(),
+            faults: class.entries.iter().filter_map(|entry| fault_view(entry, class)).collect(),
+            refused: class
+                .refused
+                .iter()
+                .map(|refused| (one_line(&refused.path), one_line(refused.reason.get(language))))
+                .collect(),
+            environment: reports().find(|r| !r.environment.renderer.is_empty()).map(|r| r.environment.clone()),
+        }
+    }
+}
+
+/// What the page may do: show its own style and pictures, run its own script, and nothing else.
+fn policy(style: &str) -> String {
+    let hash = |text: &str| STANDARD.encode(Sha256::digest(text.as_bytes()));
+    format!(
+        "default-src 'none'; style-src 'sha256-{}'; script-src 'sha256-{}'; img-src data:; base-uri 'none'; form-action 'none'",
+        hash(style),
+        hash(SCRIPT)
+    )
+}
+
+/// The homework's title, or its id where it is none of ours.
+fn title(class: &Class) -> String {
+    let known = reference::assignment(&class.assignment);
+    let title = known.map(|assignment| Text::new(&assignment.title.en, &assignment.title.ja));
+    title.map_or_else(|| one_line(&class.assignment), |title| title.get(class.language).to_owned())
+}
+
+/// The lines of the rubric, in the order in which the reports have them.
+fn lines(class: &Class) -> Vec<Line> {
+    let mut lines: Vec<Line> = Vec::new();
+    for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
+        if !lines.iter().any(|known| known.id == line.id) {
+            lines.push(Line { id: line.id.clone(), label: line.label.get(class.language).to_owned() });
+        }
+    }
+    lines
+}
+
+fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, shares: Option<(usize, usize)>) -> Row {
+    let (report, status) = (entry.report(), Status::of(entry));
+    let file = entry.path.as_deref().and_then(|path| path.rsplit('/').next()).map(one_line);
+    let number_in_moodle = entry.student.moodle.as_ref().map(|moodle| moodle.number.to_string());
+    let points = |line: &Line| {
+        let found = report.and_then(|report| report.rubric.iter().find(|found| found.id == line.id));
+        found.map_or(Points { text: "–".into(), is_less: false }, |found| Points {
+            text: number(found.points),
+            is_less: found.points < found.max_points,
+        })
+    };
+    let mistake_ids = report.map(|report| report.mistakes.clone()).unwrap_or_default();
+    let is_said_already = status == Status::Correct || !mistake_ids.is_empty();
+    Row {
+        key: entry.student.key.clone(),
+        name: one_line(&entry.student.name),
+        detail: number_in_moodle.into_iter().chain(file).collect::<Vec<_>>().join(" · "),
+        has_page: entry.page.is_some(),
+        status: status.id(),
+        sign: charts::sign(status, report.map_or(0.0, |report| report.score)),
+        word: status.word(class.language),
+        bin: report.map(|report| charts::bin(report).to_string()).unwrap_or_default(),
+        exact: report.map(|report| report.score.to_string()).unwrap_or_default(),
+        score: report.map_or_else(|| "–".into(), |report| number(report.score)),
+        lines: lines.iter().map(points).collect(),
+        mistakes: mistake_ids.join(" "),
+        mistake_ids,
+        message: if is_said_already { String::new() } else { excerpt(&summary(entry, class.language)) },
+        group: shares.map(|(id, _)| id.to_string()).unwrap_or_default(),
+        shared: shares.map(|(_, others)| Words::of(class.language).shared_with(others)).unwrap_or_default(),
+        picture: portraits.class(entry.portrait.as_deref()),
+    }
+}
+
+/// The beginning of a message: the whole is on the student's own page.
+fn excerpt(message: &str) -> String {
+    const LONGEST: usize = 160;
+    let message = one_line(message).replace('`', "");
+    match message.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &message[..end]),
+        None => message,
+    }
+}
+
+fn group_view(id: usize, group: &[usize], class: &Class) -> Group {
+    let member = |index: &usize| {
+        let student = &class.entries[*index].student;
+        Member { key: student.key.clone(), name: one_line(&student.name) }
+    };
+    Group { id, size: group.len(), members: group.iter().map(member).collect() }
+}
+
+fn fault_view(entry: &Entry, class: &Class) -> Option<FaultView> {
+    let Outcome::Fault(fault) = &entry.outcome else { return None };
+    Some(FaultView {
+        name: one_line(&entry.student.name),
+        message: one_line(fault.message.get(class.language)),
+        remedy: fault.remedy.as_ref().map(|remedy| one_line(remedy.get(class.language))).unwrap_or_default(),
+    })
+}

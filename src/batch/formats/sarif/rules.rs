@@ -1,0 +1,87 @@
+//! The rules of a run: the assignment's known mistakes, and the stages that have something to say about a file.
+
+use crate::batch::class::Class;
+use crate::batch::formats::untrusted::one_line;
+use crate::diagnostic::Stage;
+use crate::language::{Language, Text};
+use crate::report::labels::Labels;
+use reference::mistake::Mistake;
+use serde_json::{Value, json};
+use std::collections::HashMap;
+
+/// The rule of lost points that no known mistake explains.
+pub(super) const UNEXPLAINED: &str = "unexplained";
+
+/// The rule of what a stage says.
+pub(super) fn stage(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Source => "source",
+        Stage::Compile => "compile",
+        Stage::Link => "link",
+        Stage::Interface => "interface",
+        Stage::Run => "run",
+    }
+}
+
+/// The rules, in the order of their indices.
+pub(super) struct Rules {
+    values: Vec<Value>,
+    indices: HashMap<String, usize>,
+}
+
+impl Rules {
+    /// Those that reports of the class can name.
+    pub fn of(class: &Class) -> Self {
+        let mut rules = Self { values: Vec::new(), indices: HashMap::new() };
+        let language = class.language;
+        for (stage, id) in
+            [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run].map(|s| (s, stage(s)))
+        {
+            rules.add(id, "error", json!({ "shortDescription": { "text": Labels::of(language).stage(stage) } }));
+        }
+        for mistake in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.mistakes) {
+            rules.add(&mistake.id, "warning", described(mistake, language));
+        }
+        // Mistakes that are found otherwise than by the equation have no description in the assignment.
+        let named = class.entries.iter().filter_map(|entry| entry.report());
+        let named = named.flat_map(|report| &report.rubric).filter_map(|line| line.mistake.as_deref());
+        for id in named.chain([UNEXPLAINED]) {
+            rules.add(id, "warning", json!({ "shortDescription": { "text": one_line(id) } }));
+        }
+        rules
+    }
+
+    fn add(&mut self, id: &str, level: &str, mut rule: Value) {
+        if self.indices.contains_key(id) {
+            return;
+        }
+        rule["id"] = json!(id);
+        rule["defaultConfiguration"] = json!({ "level": level });
+        self.indices.insert(id.to_owned(), self.values.len());
+        self.values.push(rule);
+    }
+
+    /// The index of the rule `id`.
+    pub fn index(&self, id: &str) -> Option<usize> {
+        self.indices.get(id).copied()
+    }
+
+    pub fn into_values(self) -> Vec<Value> {
+        self.values
+    }
+}
+
+/// What the assignment says of the mistake, with the places left out that only a file can fill in.
+fn described(mistake: &Mistake, language: Language) -> Value {
+    let said = |text: &reference::Text| {
+        let text = text.fill(&[]);
+        Text::new(text.en, text.ja).get(language).to_owned()
+    };
+    let mut rule = json!({ "shortDescription": { "text": said(&mistake.seen) } });
+    for (field, text) in [("fullDescription", said(&mistake.equation)), ("help", said(&mistake.look))] {
+        if !text.trim().is_empty() {
+            rule[field] = json!({ "text": text });
+        }
+    }
+    rule
+}

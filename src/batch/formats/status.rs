@@ -1,0 +1,95 @@
+//! What became of a student, in one word and in one line.
+
+use crate::batch::class::{Entry, Outcome};
+use crate::diagnostic::Severity;
+use crate::language::Language;
+use crate::report::labels::Labels;
+use crate::report::text::number;
+use crate::report::{Report, Verdict};
+
+/// What became of a student, in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Status {
+    Correct,
+    Wrong,
+    Rejected,
+    Stopped,
+    NotGraded,
+    Fault,
+}
+
+impl Status {
+    pub const ALL: [Self; 6] =
+        [Self::Correct, Self::Wrong, Self::Rejected, Self::Stopped, Self::NotGraded, Self::Fault];
+
+    pub fn of(entry: &Entry) -> Self {
+        match &entry.outcome {
+            Outcome::Graded(report) => match report.verdict {
+                Verdict::Correct => Self::Correct,
+                Verdict::Wrong => Self::Wrong,
+                Verdict::Rejected => Self::Rejected,
+                Verdict::Stopped => Self::Stopped,
+            },
+            Outcome::NotGraded(_) => Self::NotGraded,
+            Outcome::Fault(_) => Self::Fault,
+        }
+    }
+
+    /// The word for programs: the contract's verdicts, and two more.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Correct => "correct",
+            Self::Wrong => "wrong",
+            Self::Rejected => "rejected",
+            Self::Stopped => "stopped",
+            Self::NotGraded => "not-graded",
+            Self::Fault => "fault",
+        }
+    }
+
+    /// The word for people.
+    pub fn word(self, language: Language) -> &'static str {
+        let labels = Labels::of(language);
+        match (self, language) {
+            (Self::Correct, _) => labels.verdict(Verdict::Correct),
+            (Self::Wrong, _) => labels.verdict(Verdict::Wrong),
+            (Self::Rejected, _) => labels.verdict(Verdict::Rejected),
+            (Self::Stopped, _) => labels.verdict(Verdict::Stopped),
+            (Self::NotGraded, Language::En) => "Nothing to grade",
+            (Self::NotGraded, Language::Ja) => "採点対象なし",
+            (Self::Fault, Language::En) => "Grading failed",
+            (Self::Fault, Language::Ja) => "採点エラー",
+        }
+    }
+}
+
+/// The one thing that a student or a teacher should know, in a line of text.
+pub(super) fn summary(entry: &Entry, language: Language) -> String {
+    match &entry.outcome {
+        Outcome::Graded(report) => summary_of(report, language),
+        Outcome::NotGraded(reason) => reason.get(language).to_owned(),
+        Outcome::Fault(fault) => fault.message.get(language).to_owned(),
+    }
+}
+
+fn summary_of(report: &Report, language: Language) -> String {
+    let labels = Labels::of(language);
+    let headline = labels.headline(report.verdict);
+    let line = match report.verdict {
+        Verdict::Correct => None,
+        Verdict::Wrong => report.rubric.iter().find(|line| line.points < line.max_points).map(|line| {
+            let points = format!("{} / {}", number(line.points), number(line.max_points));
+            let (label, message) = (line.label.get(language), line.message.get(language));
+            let dash = if language == Language::Ja { " — " } else { ": " };
+            format!("{label} {points}{dash}{message}")
+        }),
+        Verdict::Rejected | Verdict::Stopped => {
+            let error = report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error);
+            error.map(|error| {
+                let place = error.line.map(|line| labels.place(line, error.column) + ": ").unwrap_or_default();
+                place + error.message.get(language)
+            })
+        }
+    };
+    line.map_or_else(|| headline.to_owned(), |line| line.replace('\n', " "))
+}

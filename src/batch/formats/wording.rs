@@ -1,0 +1,69 @@
+//! What the formats of autograders say in common: one explanation for each outcome, places, points.
+
+use super::untrusted;
+use crate::batch::class::{Entry, Outcome};
+use crate::diagnostic::Diagnostic;
+use crate::language::{Language, Text};
+use crate::report::RubricLine;
+use crate::report::labels::Labels;
+use crate::report::text::number;
+
+/// What a student is told about the outcome as a whole.
+pub fn explanation(entry: &Entry, language: Language) -> String {
+    match &entry.outcome {
+        Outcome::Graded(report) => Labels::of(language).headline(report.verdict).to_owned(),
+        Outcome::NotGraded(why) => untrusted::visible(why.get(language)),
+        Outcome::Fault(_) => autograder_failed().get(language).to_owned(),
+    }
+}
+
+/// What a student is told about a failure of ours.
+pub fn autograder_failed() -> Text {
+    Text::new(
+        "The autograder failed. It is no fault of your file and costs no points; please tell the course's staff.",
+        "採点システムに障害が起きました。提出されたファイルが原因ではなく、減点にもなりません。授業の担当者に知らせてください。",
+    )
+}
+
+/// What the staff is told about a failure of ours; none for every other outcome.
+pub fn fault(entry: &Entry, language: Language) -> Option<String> {
+    let Outcome::Fault(fault) = &entry.outcome else { return None };
+    let remedy = fault.remedy.as_ref().map(|remedy| format!("\n{}", remedy.get(language))).unwrap_or_default();
+    Some(untrusted::visible(&format!("{}{remedy}", fault.message.get(language))))
+}
+
+/// What to do first, where there is something to do.
+pub fn next_step(entry: &Entry, language: Language) -> Option<String> {
+    Labels::of(language).next_step(entry.report()?, language)
+}
+
+/// `Specular 20 / 40`.
+pub fn rubric_title(line: &RubricLine, language: Language) -> String {
+    format!("{} {}", untrusted::one_line(line.label.get(language)), points(line.points, line.max_points))
+}
+
+/// `20 / 40`.
+pub fn points(points: f64, max_points: f64) -> String {
+    format!("{} / {}", number(points), number(max_points))
+}
+
+/// `error · line 11, column 12`; without a line the stage that speaks.
+pub fn place(diagnostic: &Diagnostic, language: Language) -> String {
+    let labels = Labels::of(language);
+    let place = match diagnostic.line {
+        Some(line) => labels.place(line, diagnostic.column),
+        None => labels.stage(diagnostic.stage).to_owned(),
+    };
+    format!("{} · {place}", labels.severity(diagnostic.severity))
+}
+
+/// Message and hint, a line each.
+pub fn message(diagnostic: &Diagnostic, language: Language) -> String {
+    let hint = diagnostic.hint.as_ref().map(|hint| format!("\n→ {}", hint.get(language))).unwrap_or_default();
+    untrusted::visible(&format!("{}{hint}", diagnostic.message.get(language)))
+}
+
+/// Whether every point of the line is earned.
+pub fn is_full(line: &RubricLine) -> bool {
+    line.points >= line.max_points
+}

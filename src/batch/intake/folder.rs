@@ -1,0 +1,136 @@
+//! A folder of this machine → a tree. No link is followed, and only ordinary files are opened.
+
+use super::tree::{self, Folder, Held, Node};
+use super::{Reading, archive, limits};
+use crate::language::Text;
+use nix::fcntl::OFlag;
+use std::fs::{File, OpenOptions};
+use std::io::Read;
+use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
+use std::path::Path;
+use walkdir::{DirEntry, WalkDir};
+
+/// Everything below `root`, which is shown as `shown`.
+pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
+    let mut folder = Folder::default();
+    let walk = WalkDir::new(root).min_depth(1).follow_links(false).sort_by_file_name();
+    let mut entries = walk.into_iter();
+    while let Some(entry) = entries.next() {
+        match entry {
+            Ok(entry) => {
+                let is_folder = entry.file_type().is_dir();
+                match add(&mut folder, root, shown, &entry, reading) {
+                    Step::On => {}
+                    Step::Over if is_folder => entries.skip_current_dir(),
+                    Step::Over => {}
+                    Step::Out => return folder,
+                }
+            }
+            Err(error) => {
+                let path = error.path().map_or_else(|| shown.into(), super::shown);
+                let reason = match error.into_io_error() {
+                    Some(error) => limits::unreadable(&error),
+                    None => limits::too_deep(&reading.options.limits),
+                };
+                reading.refuse(path, reason);
+            }
+        }
+    }
+    folder
+}
+
+/// How the walk goes on.
+enum Step {
+    On,
+    /// Not into this folder.
+    Over,
+    Out,
+}
+
+fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading: &mut Reading) -> Step {
+    let name = tree::decoded(entry.file_name());
+    if tree::is_litter(&name) {
+        return Step::Over;
+    }
+    let below = entry.path().strip_prefix(root).unwrap_or(entry.path());
+    let mut path: Vec<String> = below.iter().map(tree::decoded).collect();
+    let full = || format!("{shown}/{}", path.join("/"));
+    if !reading.budget.take_entry() {
+        reading.refuse(full(), limits::too_many(&reading.options.limits));
+        return Step::Out;
+    }
+    if path.len() > reading.options.limits.folder_depth {
+        reading.refuse(full(), limits::too_deep(&reading.options.limits));
+        return Step::Over;
+    }
+    let kind = entry.file_type();
+    let node = if kind.is_dir() {
+        Node::Folder(Folder::default())
+    } else if kind.is_file() && archive::is_archive(&name) {
+        match open(entry.path())
+            .map_err(|error| limits::unreadable(&error))
+            .and_then(|file| archive::read(file, &full(), reading))
+        {
+            Ok(folder) => Node::Folder(folder),
+            Err(reason) => {
+                reading.refuse(full(), reason.clone());
+                Node::File(tree::File { local: Some(entry.path().into()), held: Held::Refused(reason) })
+            }
+        }
+    } else if kind.is_file() {
+        Node::File(tree::File { local: Some(entry.path().into()), held: Held::OnDisk })
+    } else {
+        let reason = not_a_file(kind);
+        reading.refuse(full(), reason.clone());
+        Node::File(tree::File { local: Some(entry.path().into()), held: Held::Refused(reason) })
+    };
+    let full = full();
+    let last = path.pop().unwrap_or_default();
+    let inserted = folder.folder(&path).and_then(|folder| folder.insert(last, node));
+    if inserted.is_err() {
+        let reason = Text::new(
+            "Another file of this folder has the same name, but for the way in which its letters are stored.",
+            "同じフォルダに、文字の表し方だけが異なる同じ名前のファイルがあります。",
+        );
+        reading.refuse(full, reason);
+        return Step::Over;
+    }
+    Step::On
+}
+
+fn not_a_file(kind: std::fs::FileType) -> Text {
+    if kind.is_symlink() {
+        return Text::new(
+            "It is a symbolic link; links are not followed.",
+            "シンボリックリンクです。リンクはたどりません。",
+        );
+    }
+    let (en, ja) = if kind.is_fifo() {
+        ("a pipe", "パイプ")
+    } else if kind.is_socket() {
+        ("a socket", "ソケット")
+    } else {
+        ("a device", "デバイス")
+    };
+    Text::new(format!("It is {en}, not a file."), format!("ファイルではなく{ja}です。"))
+}
+
+/// The first `limit` bytes of an ordinary file. What became a link or a pipe since it was found is not opened.
+pub(super) fn bytes(path: &Path, limit: u64) -> std::io::Result<Vec<u8>> {
+    contents(open(path)?, limit)
+}
+
+fn open(path: &Path) -> std::io::Result<File> {
+    let flags = OFlag::O_NOFOLLOW | OFlag::O_NONBLOCK | OFlag::O_CLOEXEC;
+    OpenOptions::new().read(true).custom_flags(flags.bits()).open(path)
+}
+
+/// The first `limit` bytes of an open file.
+pub(super) fn contents(file: File, limit: u64) -> std::io::Result<Vec<u8>> {
+    if !file.metadata()?.is_file() {
+        return Err(std::io::Error::other("it is not an ordinary file"));
+    }
+    let mut bytes = Vec::new();
+    file.take(limit).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,197 @@
+//! What was handed in: folders, files, archives and Moodle downloads → one [`HandIn`] per student.
+//!
+//! [`folder`] walks a folder of this machine, [`archive`] reads a ZIP; both fill a [`tree`]. [`students`] finds in the
+//! tree whose each file is ([`moodle`] knows the names in a Moodle download), [`choose`] which of a student's files is
+//! the one to grade. Nothing is ever unpacked onto the disk, and no link is followed.
+
+mod archive;
+mod choose;
+mod folder;
+mod key;
+mod limits;
+mod moodle;
+mod students;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod wording;
+
+pub use limits::Limits;
+
+use super::class::{Refused, Student};
+use crate::fault::Fault;
+use crate::language::Text;
+use reference::Assignment;
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+use students::Group;
+use tree::{File, Folder, Held};
+
+/// What one student handed in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HandIn {
+    /// Who.
+    pub student: Student,
+    /// Where the file was, as a teacher would look for it: archive, folders, file name joined by `/`; none without file.
+    pub path: Option<String>,
+    /// The same as a file of this machine, where it is one (not inside an archive).
+    pub local: Option<PathBuf>,
+    /// The file, or why there is nothing to grade.
+    pub content: Content,
+}
+
+/// What can be graded of a hand-in.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// A file to grade: its own name, and its bytes (cut above the size that [`crate::source`] takes).
+    File {
+        /// File name without folders.
+        name: String,
+        /// Its bytes.
+        bytes: Vec<u8>,
+    },
+    /// No file, several files, an unreadable one: what to tell student and teacher.
+    Nothing(Text),
+}
+
+/// Everything found in the input, in a stable order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Intake {
+    /// Title of the class: the name of the archive or folder.
+    pub title: String,
+    /// Everyone.
+    pub hand_ins: Vec<HandIn>,
+    /// Members that were left out, and why.
+    pub refused: Vec<Refused>,
+}
+
+/// What is looked for, and how much is read at most.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Name of the file that the assignment asks for, such as `ggsample06.vert`.
+    pub file_name: String,
+    /// How much is read.
+    pub limits: Limits,
+}
+
+impl Options {
+    /// The options for an assignment of one file.
+    pub fn new(assignment: &Assignment) -> Result<Self, Fault> {
+        let file = assignment.files.first().ok_or_else(|| {
+            let message = format!("assignment {}: no file is handed in", assignment.id);
+            Fault::new(Text::verbatim(message))
+        })?;
+        Ok(Self { file_name: file.name.clone(), limits: Limits::default() })
+    }
+}
+
+/// Reads everything that is handed in below `inputs`: folders, archives and single files.
+///
+/// What cannot be read, or must not be, is named in [`Intake::refused`]; the rest is there.
+pub fn read(inputs: &[PathBuf], options: &Options) -> Result<Intake, Fault> {
+    let mut reading = Reading { options, budget: options.limits.budget(), refused: Vec::new() };
+    let mut groups = Vec::new();
+    let mut loose = Vec::new();
+    for input in inputs {
+        match reading.input(input) {
+            Some(Input::Folder(folder)) => {
+                let (found, refused) = students::in_folder(&shown(input), folder, options, inputs.len() > 1);
+                groups.extend(found);
+                reading.refused.extend(refused);
+            }
+            Some(Input::File(file)) => loose.push((shown(input), input.clone(), file)),
+            None => {}
+        }
+    }
+    groups.extend(students::of_files(loose, options));
+    let students = key::students(groups.iter().map(|group| &group.who));
+    let hand_ins = students.into_iter().zip(groups).map(|(student, group)| hand_in(student, group, options)).collect();
+    Ok(Intake { title: title(inputs), hand_ins, refused: reading.refused })
+}
+
+fn hand_in(student: Student, group: Group, options: &Options) -> HandIn {
+    let chosen = choose::choose(group, options);
+    HandIn { student, path: chosen.path, local: chosen.local, content: chosen.content }
+}
+
+/// What one path of the command line is.
+enum Input {
+    Folder(Folder),
+    File(File),
+}
+
+/// What goes on while everything is read.
+struct Reading<'a> {
+    options: &'a Options,
+    budget: limits::Budget,
+    refused: Vec<Refused>,
+}
+
+impl Reading<'_> {
+    fn input(&mut self, path: &Path) -> Option<Input> {
+        let name = shown(path);
+        let metadata = match std::fs::metadata(path) {
+            Ok(metadata) => metadata,
+            Err(error) => {
+                self.refuse(name, limits::unreadable(&error));
+                return None;
+            }
+        };
+        if metadata.is_dir() {
+            return Some(Input::Folder(folder::read(path, &name, self)));
+        }
+        // The person who started ggrade chose this path: a link in it is meant.
+        let read = std::fs::File::open(path).map_err(|error| limits::unreadable(&error));
+        match read.and_then(|file| self.file(file, path, &name)) {
+            Ok(input) => Some(input),
+            Err(reason) => {
+                self.refuse(name, reason);
+                None
+            }
+        }
+    }
+
+    fn file(&mut self, file: std::fs::File, path: &Path, name: &str) -> Result<Input, Text> {
+        let limit = self.options.limits.file_bytes;
+        let mut start = [0; 4];
+        let begins_as_archive = file.read_exact_at(&mut start, 0).is_ok() && archive::is_archive_start(&start);
+        let is_shader = choose::fit(name, &self.options.file_name) <= choose::Fit::Renamed;
+        if archive::is_archive(name) || begins_as_archive && !is_shader {
+            return archive::read(file, name, self).map(Input::Folder);
+        }
+        let bytes = folder::contents(file, limit).map_err(|error| limits::unreadable(&error))?;
+        Ok(Input::File(File { local: Some(path.into()), held: Held::Bytes(bytes) }))
+    }
+
+    fn refuse(&mut self, path: String, reason: Text) {
+        self.refused.push(Refused { path, reason });
+    }
+}
+
+/// The path of an input as it is shown: without `./` before it and `/` behind it.
+fn shown(path: &Path) -> String {
+    let text = tree::decoded(path.as_os_str());
+    let text = text.trim_end_matches('/');
+    let text = text.strip_prefix("./").unwrap_or(text);
+    if text.is_empty() { "/".into() } else { text.into() }
+}
+
+/// The name of the class: of the one input, or of the folder that holds them all.
+fn title(inputs: &[PathBuf]) -> String {
+    let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+    let one = match inputs {
+        [] => return String::new(),
+        [input] => std::fs::canonicalize(input).unwrap_or_else(|_| absolute(input)),
+        [first, ..] => {
+            let holds_all = |folder: &&Path| inputs.iter().all(|input| absolute(input).starts_with(folder));
+            let first = absolute(first);
+            let common = first.ancestors().skip(1).find(holds_all);
+            common.unwrap_or(Path::new("/")).to_owned()
+        }
+    };
+    let name = one.file_name().map(tree::decoded).unwrap_or_default();
+    match name.len().checked_sub(4).and_then(|at| name.split_at_checked(at)) {
+        Some((stem, extension)) if extension.eq_ignore_ascii_case(".zip") && !stem.is_empty() => stem.into(),
+        _ => name,
+    }
+}

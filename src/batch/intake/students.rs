@@ -1,0 +1,261 @@
+//! Whose each file of an input is.
+//!
+//! A level of a tree on which a name is a participant's is a Moodle download; what stands there under other names
+//! belongs to nobody. Elsewhere each folder (or archive) is a student, and each shader that lies loose beside them.
+//! Folders of students, such as the classes of a year, have no file of their own and several folders with shaders:
+//! they are looked into where all folders beside them are such, so that no student becomes several by what is handed in.
+
+use super::choose::{Fit, fit};
+use super::moodle::{self, Marked};
+use super::tree::{File, Folder, Held, Node};
+use super::{Options, Refused};
+use crate::batch::class::Participant;
+use crate::language::Text;
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+/// Who handed in, before keys are given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Who {
+    /// The name as shown.
+    pub name: String,
+    /// As Moodle names them.
+    pub moodle: Option<Participant>,
+    /// Where the student was found: what a key can be made of.
+    pub place: String,
+}
+
+/// What one student handed in.
+#[derive(Debug)]
+pub(super) struct Group {
+    pub who: Who,
+    pub files: Vec<Owned>,
+    /// Whether the person at the command line named the file, so that there is nothing to choose.
+    pub is_named: bool,
+    /// Whether a text was typed into Moodle's own field.
+    pub has_online_text: bool,
+}
+
+/// A file of a student's.
+#[derive(Debug)]
+pub(super) struct Owned {
+    /// Its own name.
+    pub name: String,
+    /// Its path below the student's folder.
+    pub below: String,
+    /// Its path from the input on.
+    pub path: String,
+    pub file: File,
+}
+
+/// The students in a folder or archive that is shown as `shown`. `is_one_of_several` says that other inputs stand
+/// beside it, so that it may be one student's.
+pub(super) fn in_folder(
+    shown: &str,
+    folder: Folder,
+    options: &Options,
+    is_one_of_several: bool,
+) -> (Vec<Group>, Vec<Refused>) {
+    let mut finding = Finding { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() };
+    if is_moodle(&folder) {
+        finding.moodle(shown, folder);
+    } else if finding.is_one_student(&folder, is_one_of_several) {
+        let name = shown.rsplit('/').next().unwrap_or(shown);
+        finding.student(without_zip(name), shown, folder);
+    } else {
+        finding.class(shown, folder);
+    }
+    (finding.groups, finding.refused)
+}
+
+/// The students whose files were named one by one.
+pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -> Vec<Group> {
+    let mut finding = Finding { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() };
+    for (shown, path, file) in files {
+        let mut names = shown.rsplit('/');
+        let name = names.next().unwrap_or(&shown).to_owned();
+        let parent = path.parent().and_then(|parent| std::path::absolute(parent).ok());
+        let parent = parent.as_deref().and_then(|parent| parent.file_name()).map(super::tree::decoded);
+        let marked = moodle::file(&name).or_else(|| parent.as_deref().and_then(moodle::folder));
+        if let Some(marked) = marked {
+            let own = marked.file_name.unwrap_or(&name).to_owned();
+            let group = finding.participant(&shown, &marked);
+            group.take(&marked, Owned { name: own.clone(), below: own, path: shown, file });
+            continue;
+        }
+        let is_wanted = fit(&name, &options.file_name) <= Fit::Copy;
+        let who = parent.filter(|_| is_wanted).unwrap_or_else(|| stem(&name).into());
+        let owned = Owned { name: name.clone(), below: name, path: shown.clone(), file };
+        finding.groups.push(Group {
+            who: Who { name: who, moodle: None, place: shown },
+            files: vec![owned],
+            is_named: true,
+            has_online_text: false,
+        });
+    }
+    finding.groups
+}
+
+struct Finding<'a> {
+    options: &'a Options,
+    groups: Vec<Group>,
+    refused: Vec<Refused>,
+    /// The group of each participant.
+    by_number: HashMap<u64, usize>,
+}
+
+impl Finding<'_> {
+    fn class(&mut self, place: &str, folder: Folder) {
+        if is_moodle(&folder) {
+            return self.moodle(place, folder);
+        }
+        let are_classes = self.is_wrapper(&folder)
+            || folder.children().all(|(_, node)| match node {
+                Node::Folder(folder) => folder.is_empty() || self.is_class(folder),
+                Node::File(_) => true,
+            });
+        for (name, node) in folder.into_children() {
+            let place = format!("{place}/{name}");
+            match node {
+                Node::Folder(folder) if are_classes && !folder.is_empty() => self.class(&place, folder),
+                Node::Folder(folder) => self.student(without_zip(&name), &place, folder),
+                Node::File(file) if fit(&name, &self.options.file_name) <= Fit::Renamed => {
+                    let who = Who { name: stem(&name).into(), moodle: None, place: place.clone() };
+                    let file = Owned { name: name.clone(), below: name, path: place, file };
+                    self.groups.push(Group { who, files: vec![file], is_named: true, has_online_text: false });
+                }
+                Node::File(file) => self.nobodys(place, &file),
+            }
+        }
+    }
+
+    fn moodle(&mut self, place: &str, folder: Folder) {
+        for (name, node) in folder.into_children() {
+            let place = format!("{place}/{name}");
+            match node {
+                Node::Folder(folder) => match moodle::folder(without_zip(&name)) {
+                    Some(marked) => {
+                        let files = owned(&place, folder);
+                        let group = self.participant(&place, &marked);
+                        files.into_iter().for_each(|file| group.take(&marked, file));
+                    }
+                    None if is_moodle(&folder) => self.moodle(&place, folder),
+                    None => owned(&place, folder).into_iter().for_each(|owned| self.nobodys(owned.path, &owned.file)),
+                },
+                Node::File(file) => match moodle::file(&name) {
+                    Some(marked) => {
+                        let own = marked.file_name.unwrap_or(&name).to_owned();
+                        let group = self.participant(&place, &marked);
+                        group.take(&marked, Owned { name: own.clone(), below: own, path: place, file });
+                    }
+                    None => self.nobodys(place, &file),
+                },
+            }
+        }
+    }
+
+    /// The group of this participant, made where there is none yet.
+    fn participant(&mut self, place: &str, marked: &Marked) -> &mut Group {
+        let groups = &mut self.groups;
+        let at = *self.by_number.entry(marked.participant.number).or_insert_with(|| {
+            let name = moodle::shown(&marked.participant);
+            let who = Who { name, moodle: Some(marked.participant.clone()), place: place.into() };
+            groups.push(Group { who, files: Vec::new(), is_named: false, has_online_text: false });
+            groups.len() - 1
+        });
+        &mut groups[at]
+    }
+
+    fn student(&mut self, name: &str, place: &str, folder: Folder) {
+        let who = Who { name: name.into(), moodle: None, place: place.into() };
+        self.groups.push(Group { who, files: owned(place, folder), is_named: false, has_online_text: false });
+    }
+
+    /// A file that belongs to no student. What was refused has been named already.
+    fn nobodys(&mut self, path: String, file: &File) {
+        if !matches!(file.held, Held::Refused(_)) {
+            let reason = Text::new(
+                "It stands where only students' folders and shaders are expected, and belongs to nobody.",
+                "学生ごとのフォルダやシェーダが並ぶ場所にあり、どの学生のものか分かりません。",
+            );
+            self.refused.push(Refused { path, reason });
+        }
+    }
+
+    fn has_shader(&self, folder: &Folder) -> bool {
+        folder.has_file(&|name| fit(name, &self.options.file_name) <= Fit::Renamed)
+    }
+
+    /// Whether a folder holds students rather than being one's.
+    fn is_class(&self, folder: &Folder) -> bool {
+        let has_file = folder.file_names().next().is_some();
+        let with_shader = folder.children().filter(|(_, node)| match node {
+            Node::Folder(folder) => self.has_shader(folder),
+            Node::File(_) => false,
+        });
+        is_moodle(folder) || (!has_file && with_shader.count() >= 2)
+    }
+
+    /// Whether all that there is is one folder in which shaders of several students lie.
+    fn is_wrapper(&self, folder: &Folder) -> bool {
+        let mut children = folder.children();
+        let (Some((_, Node::Folder(only))), None) = (children.next(), children.next()) else { return false };
+        let fits: Vec<Fit> = only.file_names().map(|name| fit(name, &self.options.file_name)).collect();
+        !fits.iter().any(|fit| *fit <= Fit::Copy) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
+    }
+
+    /// Whether the whole input is one student's: the wanted file, or beside other inputs any one shader, lies in it,
+    /// and no other below.
+    fn is_one_student(&self, folder: &Folder, is_one_of_several: bool) -> bool {
+        let fits: Vec<Fit> = folder.file_names().map(|name| fit(name, &self.options.file_name)).collect();
+        let shaders = fits.iter().filter(|fit| **fit <= Fit::Renamed).count();
+        let below = folder.children().any(|(_, node)| match node {
+            Node::Folder(folder) => self.has_shader(folder),
+            Node::File(_) => false,
+        });
+        !below && (fits.contains(&Fit::Exact) || is_one_of_several && shaders == 1)
+    }
+}
+
+impl Group {
+    fn take(&mut self, marked: &Marked, file: Owned) {
+        if marked.plugin == "file" {
+            self.files.push(file);
+        } else {
+            self.has_online_text |= marked.plugin == "onlinetext";
+        }
+    }
+}
+
+fn is_moodle(folder: &Folder) -> bool {
+    folder.children().any(|(name, node)| match node {
+        Node::Folder(_) => moodle::folder(without_zip(name)).is_some(),
+        Node::File(_) => moodle::file(name).is_some(),
+    })
+}
+
+/// The files below a student's folder.
+fn owned(place: &str, folder: Folder) -> Vec<Owned> {
+    let own = |(path, file): (Vec<String>, File)| {
+        let below = path.join("/");
+        Owned { name: path.last().cloned().unwrap_or_default(), path: format!("{place}/{below}"), below, file }
+    };
+    folder.into_files().into_iter().map(own).collect()
+}
+
+/// A name without the extension of an archive.
+fn without_zip(name: &str) -> &str {
+    match name.rsplit_once('.') {
+        Some((stem, extension)) if extension.eq_ignore_ascii_case("zip") && !stem.is_empty() => stem,
+        _ => name,
+    }
+}
+
+/// A file name without its extensions.
+fn stem(name: &str) -> &str {
+    let stem = match name.find(".vert.") {
+        Some(at) => &name[..at],
+        None => name.rsplit_once('.').map_or(name, |(stem, _)| stem),
+    };
+    if stem.is_empty() { name } else { stem }
+}

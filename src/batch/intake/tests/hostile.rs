@@ -1,0 +1,198 @@
+//! Archives that lie: each lie is named, and the honest member beside it is read.
+
+use super::builder::{Member, archive};
+use super::*;
+
+/// The archive of these members between two honest ones, which are there whatever the others do.
+fn beside_honest(members: &[Member]) -> Intake {
+    let mut all = vec![Member::stored("alice/ggsample06.vert", "a")];
+    all.extend_from_slice(members);
+    all.push(Member::stored("zoe/ggsample06.vert", "z"));
+    with_honest(take_archive(&archive(&all)))
+}
+
+fn with_honest(intake: Intake) -> Intake {
+    let found = everyone(&intake);
+    assert!(found.contains(&("alice", Ok("a"))) && found.contains(&("zoe", Ok("z"))), "{intake:?}");
+    intake
+}
+
+fn only_reason(member: Member) -> String {
+    let intake = beside_honest(&[member]);
+    assert_eq!(intake.refused.len(), 1, "{:?}", intake.refused);
+    intake.refused[0].reason.en.clone()
+}
+
+#[test]
+fn names_that_lead_out_are_refused() {
+    for (name, expected) in [
+        ("../ggsample06.vert", "`..`"),
+        ("bob/../../ggsample06.vert", "`..`"),
+        ("/etc/ggsample06.vert", "absolute"),
+        ("C:/ggsample06.vert", "absolute"),
+        ("bob\\ggsample06.vert", "backslash"),
+        ("bob/gg\0sample06.vert", "NUL"),
+    ] {
+        let reason = only_reason(Member::stored(name, "x"));
+        assert!(reason.contains(expected), "{name}: {reason}");
+    }
+}
+
+#[test]
+fn a_participant_whose_file_went_astray_gets_an_answer() {
+    let intake = take_archive(&archive(&[
+        Member::stored("Bob_7_assignsubmission_file_/../../ggsample06.vert", "x"),
+        Member::stored("Ann_8_assignsubmission_file_/ggsample06.vert", "a"),
+    ]));
+    let found = everyone(&intake);
+    assert_eq!(found[0], ("Ann", Ok("a")));
+    assert_eq!(found[1].0, "Bob");
+    assert!(found[1].1.unwrap_err().contains("`..`"), "{found:?}");
+}
+
+#[test]
+fn links_and_devices_are_refused() {
+    for (mode, expected) in
+        [(0o120_777, "symbolic link"), (0o020_666, "device"), (0o060_666, "device"), (0o010_666, "pipe")]
+    {
+        let reason = only_reason(Member { mode, ..Member::stored("bob/ggsample06.vert", "/etc/passwd") });
+        assert!(reason.contains(expected), "{reason}");
+    }
+}
+
+#[test]
+fn encrypted_members_and_unknown_methods_are_refused() {
+    let member = Member::stored("bob/ggsample06.vert", "x");
+    assert!(only_reason(Member { flags: 1, ..member.clone() }).contains("encrypted"));
+    assert!(only_reason(Member { method: 99, ..member.clone() }).contains("encrypted"));
+    assert!(only_reason(Member { method: 14, ..member.clone() }).contains("method 14"));
+    let intake = beside_honest(&[Member { flags: 1, ..member }]);
+    assert!(everyone(&intake)[1].1.unwrap_err().contains("encrypted"), "the student is told");
+}
+
+#[test]
+fn lying_sizes_are_refused() {
+    let data = "void main() {}\n".repeat(40);
+    let honest = Member::deflated("bob/ggsample06.vert", data.as_bytes());
+    for member in [
+        Member { size: honest.size - 1, ..honest.clone() },
+        Member { size: honest.size + 1, ..honest.clone() },
+        Member { size: 0, ..honest.clone() },
+        Member { crc: honest.crc ^ 1, ..honest.clone() },
+        Member { compressed: honest.compressed - 1, ..honest.clone() },
+        Member { compressed: u32::MAX - 1, ..honest.clone() },
+        Member { method: 0, ..honest.clone() },
+        Member { start: Some(u32::MAX - 1), ..honest.clone() },
+        Member { local_name: Some(b"bob/somebody-else.vert".to_vec()), ..honest.clone() },
+    ] {
+        let mut members =
+            vec![Member::stored("alice/ggsample06.vert", "a"), Member::stored("zoe/ggsample06.vert", "z")];
+        members.push(member.clone());
+        let intake = with_honest(take_archive(&archive(&members)));
+        assert_eq!(intake.refused.len(), 1, "{member:?}: {:?}", intake.refused);
+        assert!(everyone(&intake)[2].1.is_err());
+    }
+}
+
+#[test]
+fn bombs_are_refused() {
+    let zeros = vec![0; 8 << 20];
+    let reason = only_reason(Member::deflated("bob/ggsample06.vert", &zeros));
+    assert!(reason.contains("8 MiB"), "{reason}");
+    let reason = only_reason(Member::deflated("bob/hw.zip", &zeros));
+    assert!(reason.contains("8 MiB"), "{reason}");
+    // One that says it is small is stopped where it says it ends.
+    let lying = Member { size: 100, ..Member::deflated("bob/ggsample06.vert", &zeros) };
+    assert!(only_reason(lying).contains("damaged"));
+}
+
+#[test]
+fn what_is_unpacked_in_all_has_a_limit() {
+    // Noise does not compress: no ratio gives it away.
+    let mut state = 1_u32;
+    let noise: Vec<u8> = std::iter::repeat_with(|| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    })
+    .take(1000)
+    .collect();
+    let members: Vec<Member> = (0..5).map(|n| Member::stored(format!("s{n}/ggsample06.vert"), &noise)).collect();
+    let intake = take_archive_within(&archive(&members), Limits { total_bytes: 2500, ..Limits::default() });
+    assert_eq!(intake.hand_ins.iter().filter(|hand_in| matches!(hand_in.content, Content::File { .. })).count(), 2);
+    assert_eq!(intake.refused.len(), 3);
+}
+
+#[test]
+fn the_number_of_members_has_a_limit() {
+    let members: Vec<Member> = (0..9).map(|n| Member::stored(format!("s{n}/ggsample06.vert"), "x")).collect();
+    let intake = take_archive_within(&archive(&members), Limits { entries: 4, ..Limits::default() });
+    assert_eq!(names(&intake), ["s0", "s1", "s2", "s3"]);
+    assert_eq!(intake.refused.len(), 1);
+}
+
+#[test]
+fn members_that_share_bytes_are_refused() {
+    // The second says that it begins where the first does, with the first one's content.
+    let one = Member::stored("bob/ggsample06.vert", "x");
+    let other = Member { start: Some(0), ..Member::stored("eve/ggsample06.vert", "x") };
+    let honest = Member::stored("zoe/ggsample06.vert", "z");
+    let intake = take_archive(&archive(&[one, other, honest]));
+    assert_eq!(intake.refused.len(), 2, "{:?}", intake.refused);
+    assert!(intake.refused.iter().all(|refused| refused.reason.en.contains("shares its bytes")));
+    assert!(everyone(&intake).contains(&("zoe", Ok("z"))));
+}
+
+#[test]
+fn of_two_members_of_one_name_nobody_knows_which_is_meant() {
+    let intake =
+        beside_honest(&[Member::stored("bob/ggsample06.vert", "1"), Member::stored("bob/./ggsample06.vert", "2")]);
+    assert_eq!(intake.refused.len(), 2);
+    assert!(everyone(&intake)[1].1.unwrap_err().contains("two different files"));
+
+    let intake =
+        beside_honest(&[Member::stored("bob/ggsample06.vert", "1"), Member::stored("bob/ggsample06.vert", "1")]);
+    assert_eq!(intake.refused.len(), 1);
+    assert_eq!(everyone(&intake)[1], ("bob", Ok("1")));
+
+    let intake = beside_honest(&[Member::stored("bob", "1"), Member::stored("bob/ggsample06.vert", "1")]);
+    assert!(!intake.refused.is_empty());
+}
+
+#[test]
+fn a_cut_off_archive_gives_what_is_whole() {
+    let members: Vec<Member> =
+        (0..5).map(|n| Member::deflated(format!("s{n}/ggsample06.vert"), format!("{n}").as_bytes())).collect();
+    let whole = archive(&members);
+    let fourth = whole.windows(2).position(|window| window == b"s3").unwrap();
+    let intake = take_archive(&whole[..fourth + 20]);
+    let found = everyone(&intake);
+    assert_eq!(found[..3], [("s0", Ok("0")), ("s1", Ok("1")), ("s2", Ok("2"))]);
+    assert!(intake.refused[0].reason.en.contains("end of the archive is missing"), "{:?}", intake.refused);
+    assert!(reason(&intake, "s3/ggsample06.vert").is_some() || found.len() == 3);
+}
+
+#[test]
+fn a_damaged_directory_record_costs_that_record_only() {
+    let mut bytes = archive(&[
+        Member::stored("alice/ggsample06.vert", "a"),
+        Member::stored("bob/ggsample06.vert", "b"),
+        Member::stored("zoe/ggsample06.vert", "z"),
+    ]);
+    let second = bytes.windows(4).enumerate().filter(|(_, window)| *window == b"PK\x01\x02").nth(1).unwrap().0;
+    bytes[second] = b'X';
+    let intake = with_honest(take_archive(&bytes));
+    assert_eq!(names(&intake), ["alice", "zoe"]);
+    assert!(intake.refused[0].reason.en.contains("directory is damaged in 1"), "{:?}", intake.refused);
+}
+
+#[test]
+fn what_is_no_archive_is_named() {
+    for bytes in [&b""[..], b"PK", b"PK\x05\x06", b"Rar!\x1a\x07\x00 and more", &[0; 100]] {
+        let intake = take_archive(bytes);
+        assert_eq!(intake.hand_ins, []);
+        assert!(refused(&intake)[0].1.contains("not a ZIP"), "{intake:?}");
+    }
+    let intake = beside_honest(&[Member::stored("bob/hw.zip", "no archive")]);
+    assert!(everyone(&intake)[1].1.unwrap_err().contains("hw.zip"), "the student is told");
+    assert_eq!(take_archive(&archive(&[])).hand_ins, []);
+}

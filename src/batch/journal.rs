@@ -1,0 +1,289 @@
+//! `results.jsonl`: a line for each finished entry, written as it is finished.
+//!
+//! The first line is the [`Header`], each other one a [`Record`]. A line is appended by one write, so that a run that is
+//! killed leaves at most its last line torn, and that line counts as not written.
+
+use super::class::{Outcome, Student};
+use super::folder::{Folder, unreadable, unwritable};
+use crate::diagnose::Hints;
+use crate::fault::Fault;
+use crate::language::{Language, Text};
+use serde::{Deserialize, Serialize};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Name of the file in the output folder.
+pub const NAME: &str = "results.jsonl";
+
+/// Name and version of the format.
+pub const SCHEMA: &str = "ggrade/batch/v1";
+
+/// How much of the journal a power failure may cost. A killed process costs nothing that was written.
+const SYNC_EVERY: Duration = Duration::from_secs(2);
+
+/// What a class is graded with: two runs with the same header give the same results.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Id of the assignment.
+    pub assignment: String,
+    /// Version of ggrade.
+    pub ggrade: String,
+    /// Seed of the probes, one for the whole class.
+    pub seed: u64,
+    /// How much the messages help.
+    pub hints: Hints,
+    /// Seconds that a grading may take.
+    pub deadline: f64,
+    /// What renders.
+    pub adapter: String,
+    /// Language of the students' pages.
+    pub language: Language,
+    /// Whether names are pseudonyms.
+    pub anonymous: bool,
+}
+
+/// What became of one student's submission.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Record {
+    /// Who.
+    pub student: Student,
+    /// Where the file was; none where there was none.
+    pub path: Option<String>,
+    /// SHA-256 of the file in hexadecimal; none where there was none.
+    pub sha256: Option<String>,
+    /// What became of it, with the report in both languages.
+    pub outcome: Outcome,
+}
+
+/// The same, of what belongs to others: this is what is written.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RecordOf<'a> {
+    /// Who.
+    pub student: &'a Student,
+    /// Where the file was.
+    pub path: Option<&'a str>,
+    /// SHA-256 of the file.
+    pub sha256: Option<&'a str>,
+    /// What became of it.
+    pub outcome: &'a Outcome,
+}
+
+impl Record {
+    /// As it is written.
+    pub fn view(&self) -> RecordOf<'_> {
+        let Self { student, path, sha256, outcome } = self;
+        RecordOf { student, path: path.as_deref(), sha256: sha256.as_deref(), outcome }
+    }
+}
+
+/// A journal as it is found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Its first line.
+    pub header: Header,
+    /// One record a student, the last where there are several.
+    pub records: Vec<Record>,
+    /// Lines that cannot be read, such as a torn one at the end.
+    pub torn: usize,
+}
+
+/// Why there is nothing to be had of a journal.
+#[derive(Debug)]
+pub enum Unreadable {
+    /// There is no such file.
+    Missing,
+    /// It is something else, or of another version: what its first line says.
+    Foreign(Text),
+    /// It cannot be read.
+    Fault(Fault),
+}
+
+/// Reads a journal.
+pub fn read(path: &Path) -> Result<Found, Unreadable> {
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => Unreadable::Missing,
+        _ => Unreadable::Fault(unreadable(path, &error)),
+    };
+    let mut lines = BufReader::new(File::open(path).map_err(failed)?).split(b'\n');
+    let first = lines.next().transpose().map_err(failed)?.unwrap_or_default();
+    let header: Header = serde_json::from_slice(&first).map_err(|_| Unreadable::Foreign(foreign(path, &first)))?;
+    if header.schema != SCHEMA {
+        return Err(Unreadable::Foreign(foreign(path, &first)));
+    }
+    let mut records: Vec<Record> = Vec::new();
+    let mut places = std::collections::HashMap::new();
+    let mut torn = 0;
+    for line in lines {
+        let line = line.map_err(failed)?;
+        let Ok(record) = serde_json::from_slice::<Record>(&line) else {
+            torn += 1;
+            continue;
+        };
+        match places.get(&record.student.key) {
+            Some(&place) => records[place] = record,
+            None => {
+                places.insert(record.student.key.clone(), records.len());
+                records.push(record);
+            }
+        }
+    }
+    Ok(Found { header, records, torn })
+}
+
+fn foreign(path: &Path, first: &[u8]) -> Text {
+    let path = path.display();
+    let schema = serde_json::from_slice::<serde_json::Value>(first).ok();
+    let schema = schema.as_ref().and_then(|value| value.get("schema")?.as_str()).unwrap_or("none");
+    let schema: String = schema.chars().filter(|c| !c.is_control()).take(60).collect();
+    Text::new(
+        format!("{path} is no journal of `ggrade batch` (schema {SCHEMA} is wanted, found: {schema})"),
+        format!("{path} は `ggrade batch` の結果ファイルではありません (必要なスキーマ: {SCHEMA}、実際: {schema})"),
+    )
+}
+
+/// A journal that is being written.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: Mutex<Written>,
+}
+
+#[derive(Debug)]
+struct Written {
+    file: File,
+    synced: Instant,
+}
+
+impl Journal {
+    /// A journal that has these records already, in place of the one that may be there.
+    pub fn start(folder: &Folder, header: &Header, records: &[RecordOf]) -> Result<Self, Fault> {
+        write(folder, header, records)?;
+        let path = folder.at(NAME);
+        let file = OpenOptions::new().append(true).open(&path).map_err(|error| unwritable(&path, &error))?;
+        Ok(Self { path, file: Mutex::new(Written { file, synced: Instant::now() }) })
+    }
+
+    /// Adds what became of one submission.
+    pub fn append(&self, record: &RecordOf) -> Result<(), Fault> {
+        let line = line(record).map_err(|error| unwritable(&self.path, &error))?;
+        let mut written = self.lock();
+        let due = written.synced.elapsed() > SYNC_EVERY;
+        let done = written.file.write_all(&line).and_then(|()| if due { written.file.sync_data() } else { Ok(()) });
+        if due {
+            written.synced = Instant::now();
+        }
+        done.map_err(|error| unwritable(&self.path, &error))
+    }
+
+    /// Has everything on the disk.
+    pub fn sync(&self) -> Result<(), Fault> {
+        self.lock().file.sync_data().map_err(|error| unwritable(&self.path, &error))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Written> {
+        self.file.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Writes a whole journal at once: each record once, in this order.
+pub fn write(folder: &Folder, header: &Header, records: &[RecordOf]) -> Result<(), Fault> {
+    let failed = |error: io::Error| unwritable(&folder.at(NAME), &error);
+    let mut bytes = line(header).map_err(failed)?;
+    for record in records {
+        bytes.extend(line(record).map_err(failed)?);
+    }
+    folder.write(NAME, &bytes).map(|_| ())
+}
+
+fn line(value: &impl Serialize) -> io::Result<Vec<u8>> {
+    // JSON has no raw line feed in it.
+    let mut line = serde_json::to_vec(value)?;
+    line.push(b'\n');
+    Ok(line)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::samples;
+
+    fn header() -> Header {
+        Header {
+            schema: SCHEMA.into(),
+            assignment: "ggsample06".into(),
+            ggrade: "0.1.0".into(),
+            seed: 7,
+            hints: Hints::default(),
+            deadline: 2.0,
+            adapter: "software".into(),
+            language: Language::En,
+            anonymous: false,
+        }
+    }
+
+    fn record(key: &str, outcome: Outcome) -> Record {
+        let student = Student { key: key.into(), name: "田中\n花子".into(), moodle: None };
+        Record { student, path: Some("a/b.vert".into()), sha256: Some("00".into()), outcome }
+    }
+
+    fn folder() -> (tempfile::TempDir, Folder) {
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::open(place.path()).unwrap();
+        (place, folder)
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let (_place, folder) = folder();
+        let graded = samples::all().into_iter().map(|report| Outcome::Graded(Box::new(report)));
+        let others = [Outcome::NotGraded(Text::verbatim("none")), Outcome::Fault(Fault::new(Text::verbatim("ours")))];
+        let records: Vec<_> = graded.chain(others).zip(0..).map(|(o, n)| record(&format!("s{n}"), o)).collect();
+        let journal = Journal::start(&folder, &header(), &[records[0].view()]).unwrap();
+        for record in &records[1..] {
+            journal.append(&record.view()).unwrap();
+        }
+        journal.sync().unwrap();
+        let found = read(&folder.at(NAME)).unwrap();
+        assert_eq!((found.header, found.records, found.torn), (header(), records, 0));
+    }
+
+    #[test]
+    fn wherever_the_last_line_is_torn_the_others_are_read() {
+        let (_place, folder) = folder();
+        let [one, two] = ["one", "two"].map(|key| record(key, Outcome::NotGraded(Text::verbatim("無し"))));
+        write(&folder, &header(), &[one.view(), two.view()]).unwrap();
+        let whole = folder.read(NAME).unwrap().unwrap();
+        let last = whole.len() - line(&two.view()).unwrap().len();
+        for end in last..whole.len() {
+            folder.write(NAME, &whole[..end]).unwrap();
+            let found = read(&folder.at(NAME)).unwrap();
+            // Without its line feed alone, the line is all there.
+            let expected: &[Record] = if end + 1 == whole.len() { &[one.clone(), two.clone()] } else { &[one.clone()] };
+            assert_eq!(found.records, expected, "{end} of {}", whole.len());
+        }
+    }
+
+    #[test]
+    fn the_last_record_of_a_student_counts() {
+        let (_place, folder) = folder();
+        let records = ["1", "2", "3"].map(|text| record("same", Outcome::NotGraded(Text::verbatim(text))));
+        write(&folder, &header(), &records.each_ref().map(Record::view)).unwrap();
+        assert_eq!(read(&folder.at(NAME)).unwrap().records, [records[2].clone()]);
+    }
+
+    #[test]
+    fn what_is_no_journal_is_named() {
+        let (_place, folder) = folder();
+        assert!(matches!(read(&folder.at(NAME)), Err(Unreadable::Missing)));
+        for text in ["", "{}\n", "{\"schema\":\"ggrade/report/v1\"}\n", "\u{1b}]0;x\n"] {
+            folder.write(NAME, text.as_bytes()).unwrap();
+            let Err(Unreadable::Foreign(message)) = read(&folder.at(NAME)) else { panic!("{text}") };
+            assert!(message.en.contains("ggrade/batch/v1") && !message.en.contains('\u{1b}'));
+        }
+    }
+}

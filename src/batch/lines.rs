@@ -1,0 +1,45 @@
+//! One JSON object for each finished entry, for programs that follow a run.
+
+use super::class::{Entry, Outcome, Student};
+use super::standing::Standing;
+use crate::language::Language;
+use crate::report::json;
+use serde::Serialize;
+
+/// Name and version of the format.
+pub const SCHEMA: &str = "ggrade/entry/v1";
+
+#[derive(Serialize)]
+struct Line<'a> {
+    schema: &'static str,
+    student: &'a Student,
+    path: Option<&'a str>,
+    /// The contract's verdicts, and `not-graded` and `fault`.
+    standing: &'static str,
+    /// Why there is no report.
+    message: Option<&'a str>,
+    shares_with: &'a [String],
+    report: Option<json::View<'a>>,
+}
+
+/// The entry on one line, with a line feed at its end.
+pub fn line(entry: &Entry, language: Language) -> String {
+    let message = match &entry.outcome {
+        Outcome::Graded(_) => None,
+        Outcome::NotGraded(why) => Some(why.get(language)),
+        Outcome::Fault(fault) => Some(fault.message.get(language)),
+    };
+    let line = Line {
+        schema: SCHEMA,
+        student: &entry.student,
+        path: entry.path.as_deref(),
+        standing: Standing::of(&entry.outcome).id(),
+        message,
+        shares_with: &entry.shares_with,
+        report: entry.report().map(|report| json::view(report, language)),
+    };
+    // Strings, numbers and unit enums under constant keys: there is nothing that could fail.
+    let mut line = serde_json::to_string(&line).unwrap_or_default();
+    line.push('\n');
+    line
+}

@@ -1,0 +1,171 @@
+//! Writes a graded class in the formats that are wanted.
+
+use super::changes::Changes;
+use super::class::Class;
+use super::folder::Folder;
+use super::formats::{Format, KEY, exchange, feedback, grades, nbgrader, page, worksheet};
+use super::run::Wants;
+use super::summary::Written;
+use crate::fault::Fault;
+use crate::language::Text;
+use clap::ValueEnum;
+
+/// Name of the file that tells what changed since an earlier grading.
+pub const CHANGES: &str = "changes.json";
+
+/// What a run can write.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Given {
+    /// Whether names are pseudonyms.
+    pub anonymous: bool,
+    /// Whether there is a worksheet of Moodle's.
+    pub worksheet: bool,
+    /// Whether students have a number of Moodle's.
+    pub moodle: bool,
+}
+
+/// The formats that are written: those asked for, or else all that make sense of what is given.
+pub fn choose(asked: &[Format], given: Given) -> Result<Vec<Format>, Text> {
+    let mut chosen: Vec<Format> = match asked {
+        [] => Format::value_variants().iter().copied().filter(|format| is_usual(*format, given)).collect(),
+        asked => asked.to_vec(),
+    };
+    if given.worksheet && !chosen.contains(&Format::MoodleWorksheet) {
+        chosen.push(Format::MoodleWorksheet);
+    }
+    let moodle = [Format::MoodleWorksheet, Format::MoodleFeedback];
+    if given.anonymous && chosen.iter().any(|format| moodle.contains(format)) {
+        return Err(Text::new(
+            "Moodle's files name everyone, and --anonymous names nobody. For grading without names in Moodle itself, use \
+             its blind marking: its downloads then have numbers for names, and need no --anonymous",
+            "Moodle 用のファイルには氏名が入るため、--anonymous とは併用できません。Moodle で匿名のまま採点するには、Moodle \
+             のブラインド評定を使ってください。ダウンロードしたファイルの名前が番号になるので、--anonymous は不要です",
+        ));
+    }
+    if chosen.contains(&Format::MoodleWorksheet) && !given.worksheet {
+        return Err(Text::new(
+            "the format moodle-worksheet fills in the worksheet that Moodle gives: name it with --moodle-worksheet FILE.csv",
+            "moodle-worksheet 形式は Moodle からダウンロードしたワークシートに記入するものです。\
+             --moodle-worksheet FILE.csv で指定してください",
+        ));
+    }
+    chosen.sort_unstable();
+    chosen.dedup();
+    Ok(chosen)
+}
+
+fn is_usual(format: Format, given: Given) -> bool {
+    match format {
+        Format::MoodleWorksheet => given.worksheet,
+        Format::MoodleFeedback => given.moodle && !given.anonymous,
+        // Its columns say what grades.csv says, for those who have nbgrader.
+        Format::Nbgrader => false,
+        _ => true,
+    }
+}
+
+/// What these formats need of each student.
+pub fn wants(formats: &[Format]) -> Wants {
+    let any = |with: &[Format]| formats.iter().any(|format| with.contains(format));
+    Wants { portraits: any(&[Format::Html, Format::Gradescope]), pages: any(&[Format::Html, Format::MoodleFeedback]) }
+}
+
+/// Writes a class in each of the formats. Where one cannot be written the others are all the same, and the first fault
+/// is given back beside what was written.
+pub fn write(
+    class: &Class,
+    formats: &[Format],
+    sheet: Option<&[u8]>,
+    changes: Option<&Changes>,
+    folder: &Folder,
+) -> (Written, Option<Fault>) {
+    let mut written = Written::default();
+    let mut first = None;
+    for &format in formats {
+        match one(class, format, sheet, folder) {
+            Ok(notes) => {
+                written.notes.extend(notes);
+                let shown = |file: &&str| folder.at(&file.replace(KEY, "*")).display().to_string();
+                written.files.extend(format.files().iter().map(|file| (shown(file), format.description())));
+            }
+            Err(fault) => first = first.or(Some(fault)),
+        }
+    }
+    if let Some(changes) = changes {
+        let what = Text::new("What changed, for programs", "前回からの変化 (プログラム用)");
+        match folder.write(CHANGES, &json(changes)) {
+            Ok(path) => written.files.push((path.display().to_string(), what)),
+            Err(fault) => first = first.or(Some(fault)),
+        }
+    }
+    (written, first)
+}
+
+/// Writes one format; what a teacher should know of it.
+fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> Result<Vec<Text>, Fault> {
+    let file = format.files()[0];
+    let whole = |bytes: Vec<u8>| folder.write(file, &bytes).map(|_| Vec::new());
+    match format {
+        Format::Html => whole(page::render(class)?),
+        Format::Csv => whole(grades::render(class)?),
+        Format::Nbgrader => whole(nbgrader::render(class)?),
+        Format::MoodleWorksheet => {
+            let filled = worksheet::fill(class, sheet.unwrap_or_default())?;
+            folder.write(file, &filled.bytes)?;
+            Ok(filled.notes)
+        }
+        Format::MoodleFeedback => folder.write_by(file, |out| feedback::write(class, out)).map(|packed| packed.notes),
+        Format::Gradescope
+        | Format::Github
+        | Format::Classroom
+        | Format::ClassroomLegacy
+        | Format::Junit
+        | Format::Sarif
+        | Format::Vpl
+        | Format::Coderunner => {
+            for document in exchange::documents(format, class)? {
+                folder.write(&document.name, document.text.as_bytes())?;
+            }
+            Ok(Vec::new())
+        }
+    }
+}
+
+fn json(changes: &Changes) -> Vec<u8> {
+    // Strings, numbers and lists under constant keys: there is nothing that could fail.
+    let mut json = serde_json::to_vec_pretty(changes).unwrap_or_default();
+    json.push(b'\n');
+    json
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: Given = Given { anonymous: false, worksheet: true, moodle: true };
+
+    #[test]
+    fn by_default_everything_is_written_that_can_be() {
+        let all = choose(&[], ALL).unwrap();
+        let left_out: Vec<_> = Format::value_variants().iter().filter(|format| !all.contains(format)).collect();
+        assert_eq!(left_out, [&Format::Nbgrader]);
+        let none = choose(&[], Given::default()).unwrap();
+        assert!(none.contains(&Format::Html) && !none.contains(&Format::MoodleFeedback));
+    }
+
+    #[test]
+    fn what_was_asked_for_and_no_more_is_written() {
+        assert_eq!(choose(&[Format::Csv, Format::Csv], Given::default()).unwrap(), [Format::Csv]);
+        let with_sheet = Given { worksheet: true, ..Given::default() };
+        assert_eq!(choose(&[Format::Csv], with_sheet).unwrap(), [Format::Csv, Format::MoodleWorksheet]);
+        choose(&[Format::MoodleWorksheet], Given::default()).unwrap_err();
+    }
+
+    #[test]
+    fn pseudonyms_do_not_go_with_moodles_files() {
+        let anonymous = Given { anonymous: true, worksheet: false, moodle: true };
+        assert!(!choose(&[], anonymous).unwrap().contains(&Format::MoodleFeedback));
+        choose(&[Format::MoodleFeedback], anonymous).unwrap_err();
+        choose(&[], Given { worksheet: true, ..anonymous }).unwrap_err();
+    }
+}

@@ -1,0 +1,129 @@
+//! The small picture of each student's shader: one pose for the whole class, so that pictures can be compared at a glance.
+
+use crate::fault::Fault;
+use crate::report::{Picture, pictures};
+use reference::Assignment;
+use reference::rasteriser::{Coverage, Frame};
+
+/// Pixels of the frame that become one of the portrait, across and down.
+const REDUCTION: u32 = 4;
+
+/// The pose of a class's portraits, and how the right answer looks there.
+#[derive(Clone, Debug)]
+pub struct Portraits {
+    pose: usize,
+    /// The right picture, a PNG.
+    pub expected: Vec<u8>,
+}
+
+impl Portraits {
+    /// The portraits of an assignment.
+    pub fn new(assignment: &Assignment) -> Result<Self, Fault> {
+        let pose = telling_pose(assignment);
+        let poses = assignment.scene.all_poses();
+        let frame = assignment.frame(&poses[pose], &assignment.equation.right());
+        let right = Picture { width: frame.width, height: frame.height, rgba: frame.pixels.concat() };
+        Ok(Self { pose, expected: pictures::png(&reduced(&right))? })
+    }
+
+    /// The portrait in the frames of all poses; none where there are none.
+    pub fn of(&self, frames: &[Picture]) -> Result<Option<Vec<u8>>, Fault> {
+        frames.get(self.pose).map(|frame| pictures::png(&reduced(frame))).transpose()
+    }
+}
+
+/// The pose at which the picture says most: where the weakest term of the equation shows best. The brightness that each
+/// term alone brings into the picture is held against the most that it brings at any pose, and the least of these shares
+/// is what a pose is worth.
+fn telling_pose(assignment: &Assignment) -> usize {
+    let right = assignment.equation.right();
+    let poses = assignment.scene.all_poses();
+    let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
+    let mut worth = vec![1.0_f64; poses.len()];
+    for term in terms {
+        let brightness: Vec<f64> = poses
+            .iter()
+            .map(|pose| assignment.term_frame(pose, &right, &term.judges).map_or(0.0, |frame| brightness(&frame)))
+            .collect();
+        let most = brightness.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        for (worth, brightness) in worth.iter_mut().zip(brightness) {
+            *worth = worth.min(brightness / most);
+        }
+    }
+    // Of equals the first: the one that the course's window opens with.
+    worth.iter().enumerate().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(pose, _)| pose)
+}
+
+/// The sum of red, green and blue over what is painted.
+fn brightness(frame: &Frame) -> f64 {
+    let painted = frame.pixels.iter().zip(&frame.coverage).filter(|(_, coverage)| **coverage == Coverage::Interior);
+    painted.map(|([red, green, blue, _], _)| f64::from(*red) + f64::from(*green) + f64::from(*blue)).sum()
+}
+
+/// The picture at a fraction of its size; each pixel is the mean of those that it stands for.
+fn reduced(picture: &Picture) -> Picture {
+    let (width, height) = (picture.width.div_ceil(REDUCTION), picture.height.div_ceil(REDUCTION));
+    let mut rgba = Vec::with_capacity(width as usize * height as usize * 4);
+    for y in 0..height {
+        for x in 0..width {
+            rgba.extend(mean(picture, x * REDUCTION, y * REDUCTION));
+        }
+    }
+    Picture { width, height, rgba }
+}
+
+/// The mean colour of the square whose upper left pixel this is, as far as it lies in the picture.
+fn mean(picture: &Picture, left: u32, top: u32) -> [u8; 4] {
+    let (right, bottom) = ((left + REDUCTION).min(picture.width), (top + REDUCTION).min(picture.height));
+    let mut sums = [0_u32; 4];
+    for y in top..bottom {
+        let row = (y * picture.width + left) as usize * 4..(y * picture.width + right) as usize * 4;
+        for pixel in picture.rgba.get(row).unwrap_or_default().chunks_exact(4) {
+            for (sum, channel) in sums.iter_mut().zip(pixel) {
+                *sum += u32::from(*channel);
+            }
+        }
+    }
+    let count = ((right - left) * (bottom - top)).max(1);
+    sums.map(|sum| u8::try_from((sum + count / 2) / count).unwrap_or(u8::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(width: u32, height: u32, colour: impl Fn(u32, u32) -> u8) -> Picture {
+        let at = |index: u32| [colour(index % width, index / width), 0, 9, 255];
+        Picture { width, height, rgba: (0..width * height).flat_map(at).collect() }
+    }
+
+    #[test]
+    fn a_pixel_is_the_mean_of_its_square() {
+        // Columns 0 to 3 are 0, 10, 20, 30: mean 15. Column 4 alone is 40.
+        let small = reduced(&picture(5, 4, |x, _| x as u8 * 10));
+        assert_eq!((small.width, small.height), (2, 1));
+        assert_eq!(small.rgba, [15, 0, 9, 255, 40, 0, 9, 255]);
+    }
+
+    #[test]
+    fn every_portrait_has_the_size_of_the_right_one() {
+        let assignment = reference::assignment("ggsample06").unwrap();
+        let portraits = Portraits::new(assignment).unwrap();
+        let frames = vec![picture(640, 480, |_, _| 7); 25];
+        let size = |png: &[u8]| image::load_from_memory(png).map(|image| (image.width(), image.height())).unwrap();
+        assert_eq!(size(&portraits.expected), (160, 120));
+        assert_eq!(size(&portraits.of(&frames).unwrap().unwrap()), (160, 120));
+        assert_eq!(portraits.of(&[]).unwrap(), None);
+    }
+
+    #[test]
+    fn the_pose_shows_every_term() {
+        // The highlight is seen near t = 0 only, and there it is faint: see the assignment's notes on the animation.
+        let assignment = reference::assignment("ggsample06").unwrap();
+        let pose = &assignment.scene.all_poses()[telling_pose(assignment)];
+        for term in assignment.rubric.iter().filter(|line| !line.alone_in.is_empty()) {
+            let frame = assignment.term_frame(pose, &assignment.equation.right(), &term.judges).unwrap();
+            assert!(brightness(&frame) > 0.0, "{} at t = {}", term.id, pose.t);
+        }
+    }
+}

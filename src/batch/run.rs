@@ -1,0 +1,286 @@
+//! Grades what was handed in: all processors busy, each result written as it comes.
+
+use super::class::{Entry, Outcome};
+use super::folder::Folder;
+use super::intake::{self, HandIn};
+use super::journal::{Journal, Record, RecordOf};
+use super::page::Pages;
+use super::portrait::Portraits;
+use super::same::{self, Content, HandOut};
+use crate::fault::Fault;
+use crate::grade::{self, Order};
+use crate::language::Text;
+use crate::parallel;
+use crate::report::Verdict;
+use crate::sandbox::{Answer, Pool, Submission};
+use crate::source;
+use reference::Assignment;
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// A hand-in and what is known of it before it is graded.
+#[derive(Debug)]
+pub struct Candidate {
+    /// Who handed in what.
+    pub hand_in: HandIn,
+    /// SHA-256 of the file in hexadecimal; none where there is no file.
+    pub sha256: Option<String>,
+    /// Its text, where it can be read as text.
+    text: Option<String>,
+    content: Option<Content>,
+    shares_with: Vec<String>,
+}
+
+/// Reads what was handed in as text, and finds who shares an answer.
+pub fn candidates(hand_ins: Vec<HandIn>, assignment: &Assignment) -> Vec<Candidate> {
+    let starter = assignment.files.first().and_then(|file| source::read(&file.name, file.starter.as_bytes()).ok());
+    let hand_out = HandOut::new(starter.as_ref().map_or("", |starter| starter.code()));
+    let mut answers = Vec::with_capacity(hand_ins.len());
+    let mut candidates: Vec<Candidate> = Vec::with_capacity(hand_ins.len());
+    for hand_in in hand_ins {
+        let (candidate, answer) = candidate(hand_in, &hand_out);
+        candidates.push(candidate);
+        answers.push(answer);
+    }
+    for (index, others) in same::others(&answers).into_iter().enumerate() {
+        let keys = others.into_iter().map(|other| candidates[other].hand_in.student.key.clone());
+        candidates[index].shares_with = keys.collect();
+    }
+    candidates
+}
+
+fn candidate(hand_in: HandIn, hand_out: &HandOut) -> (Candidate, Option<same::Print>) {
+    let none = |hand_in| Candidate { hand_in, sha256: None, text: None, content: None, shares_with: Vec::new() };
+    let intake::Content::File { name, bytes } = &hand_in.content else { return (none(hand_in), None) };
+    let (facts, source) = match source::read(name, bytes) {
+        Ok(source) => (source.facts.clone(), Some(source)),
+        Err(refusal) => (refusal.facts, refusal.source),
+    };
+    let content = source.as_ref().map_or_else(|| Content::of_bytes(&facts.sha256), Content::of_text);
+    let answer = source.as_ref().and_then(|source| hand_out.answer(source.code()));
+    let text = source.map(|source| source.text);
+    let candidate = Candidate { sha256: Some(facts.sha256), text, content: Some(content), ..none(hand_in) };
+    (candidate, answer)
+}
+
+impl Candidate {
+    fn file(&self) -> Option<(&str, &[u8])> {
+        match &self.hand_in.content {
+            intake::Content::File { name, bytes } => Some((name, bytes)),
+            intake::Content::Nothing(_) => None,
+        }
+    }
+
+    /// Why there is nothing to grade.
+    fn nothing(&self) -> Outcome {
+        match &self.hand_in.content {
+            intake::Content::Nothing(why) => Outcome::NotGraded(why.clone()),
+            intake::Content::File { .. } => Outcome::NotGraded(Text::default()),
+        }
+    }
+
+    /// What is written down of it.
+    pub fn record<'a>(&'a self, outcome: &'a Outcome) -> RecordOf<'a> {
+        let HandIn { student, path, .. } = &self.hand_in;
+        RecordOf { student, path: path.as_deref(), sha256: self.sha256.as_deref(), outcome }
+    }
+
+    fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
+        let HandIn { student, path, local, .. } = &self.hand_in;
+        Entry {
+            student: student.clone(),
+            path: path.clone(),
+            local: local.clone(),
+            outcome,
+            source: self.text.clone(),
+            portrait,
+            page,
+            shares_with: self.shares_with.clone(),
+        }
+    }
+
+    /// The entry by an earlier result, where that is still this file's: the same bytes under the same name, graded, and
+    /// with the files that are wanted.
+    pub fn reuse(&self, record: &Record, folder: &Folder, wants: Wants) -> Option<Entry> {
+        let Outcome::Graded(report) = &record.outcome else { return None };
+        let (name, _) = self.file()?;
+        if record.sha256 != self.sha256 || report.source.name != name {
+            return None;
+        }
+        let key = &self.hand_in.student.key;
+        let has_portrait = wants.portraits && matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+        let portrait = match has_portrait {
+            true => Some(folder.read(&portrait_file(key)).ok().flatten()?),
+            false => None,
+        };
+        let page = page_file(key);
+        let page = match wants.pages {
+            true => Some(folder.has(&page).then(|| folder.at(&page))?),
+            false => None,
+        };
+        Some(self.entry(record.outcome.clone(), portrait, page))
+    }
+
+    /// Whether there is a file to grade.
+    pub fn has_file(&self) -> bool {
+        self.file().is_some()
+    }
+}
+
+/// What is wanted of each student besides the report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// The small picture.
+    pub portraits: bool,
+    /// The page.
+    pub pages: bool,
+}
+
+/// Grades a class.
+pub struct Run<'a> {
+    /// Who grades; none where there is no file to grade.
+    pub pool: Option<&'a Pool>,
+    /// How.
+    pub order: Order,
+    /// How many at once.
+    pub threads: usize,
+    /// Where results are written.
+    pub folder: &'a Folder,
+    /// Where each is written down.
+    pub journal: &'a Journal,
+    /// The pictures of students' shaders, where they are wanted.
+    pub portraits: Option<&'a Portraits>,
+    /// Students' pages, where they are wanted.
+    pub pages: Option<&'a Pages>,
+    /// Told of each entry that is finished.
+    pub finished: &'a (dyn Fn(&Entry) + Sync),
+    /// Set to have no further submission begun.
+    pub stop: &'a AtomicBool,
+}
+
+/// Where the portrait and the page of a student are, in the output folder.
+pub fn portrait_file(key: &str) -> String {
+    format!("students/{key}.png")
+}
+
+/// See [`portrait_file`].
+pub fn page_file(key: &str) -> String {
+    format!("students/{key}.html")
+}
+
+impl Run<'_> {
+    /// Grades everyone whose entry is not there yet, and puts it there. A fault is one that ends the run: a result
+    /// cannot be written. Those that were not begun before the stop keep no entry.
+    pub fn grade(&self, candidates: &[Candidate], entries: &mut [Option<Entry>]) -> Result<(), Fault> {
+        let missing: Vec<usize> = (0..candidates.len()).filter(|&index| entries[index].is_none()).collect();
+        let groups = groups(candidates, &missing);
+        let failure: Mutex<Option<Fault>> = Mutex::new(None);
+        let results = parallel::map(&groups, self.threads, self.stop, |group| {
+            self.group(candidates, group).unwrap_or_else(|fault| {
+                self.stop.store(true, Ordering::Relaxed);
+                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
+                Vec::new()
+            })
+        });
+        for (group, graded) in groups.iter().zip(results) {
+            for (&index, entry) in group.iter().zip(graded.into_iter().flatten()) {
+                entries[index] = Some(entry);
+            }
+        }
+        failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+    }
+
+    /// Grades files that are the same, once, and gives each student an entry.
+    fn group(&self, candidates: &[Candidate], group: &[usize]) -> Result<Vec<Entry>, Fault> {
+        let members: Vec<&Candidate> = group.iter().map(|&index| &candidates[index]).collect();
+        let first = members.first().and_then(|first| first.file());
+        let Some(((name, bytes), pool)) = first.zip(self.pool) else {
+            return members.into_iter().map(|member| self.finish(member, &Judged::without(member.nothing()))).collect();
+        };
+        let wants_frames = self.portraits.is_some() || self.pages.is_some();
+        let mut answer = guarded(|| pool.grade(Submission { name, bytes, order: self.order, wants_frames }));
+        let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
+        let mut last: Option<Judged> = None;
+        for member in members {
+            let judged = match &mut answer {
+                Ok(answer) => guarded(|| self.show(answer, member, last.take())),
+                Err(fault) => Err(fault.clone()),
+            };
+            let judged = judged.unwrap_or_else(|fault| Judged::without(Outcome::Fault(fault)));
+            entries.push(self.finish(member, &judged)?);
+            last = Some(judged);
+        }
+        Ok(entries)
+    }
+
+    /// What is shown of one of the files that the answer is for; `last` is what was shown of the one before.
+    fn show(&self, answer: &mut Answer, member: &Candidate, last: Option<Judged>) -> Result<Judged, Fault> {
+        let Some((name, bytes)) = member.file() else { return Ok(Judged::without(member.nothing())) };
+        // Name, size and line ends are each file's own.
+        let source = grade::source_info(name, bytes);
+        if let Some(last) = last
+            && answer.report.source == source
+        {
+            return Ok(last);
+        }
+        answer.report.source = source;
+        let portrait = self.portraits.map(|portraits| portraits.of(&answer.frames)).transpose()?.flatten();
+        let page = self.pages.map(|pages| pages.page(&answer.report, bytes, &mut answer.frames)).transpose()?;
+        Ok(Judged { outcome: Outcome::Graded(Box::new(answer.report.clone())), portrait, page })
+    }
+
+    /// Writes down what became of a hand-in.
+    fn finish(&self, member: &Candidate, judged: &Judged) -> Result<Entry, Fault> {
+        let Judged { outcome, portrait, page } = judged;
+        let key = &member.hand_in.student.key;
+        if let Some(portrait) = portrait {
+            self.folder.write(&portrait_file(key), portrait)?;
+        }
+        let page = page.as_ref().map(|page| self.folder.write(&page_file(key), page.as_bytes())).transpose()?;
+        // Last: a result that is written down has its files.
+        self.journal.append(&member.record(outcome))?;
+        let entry = member.entry(outcome.clone(), portrait.clone(), page);
+        (self.finished)(&entry);
+        Ok(entry)
+    }
+}
+
+/// What is shown of a file.
+struct Judged {
+    outcome: Outcome,
+    portrait: Option<Vec<u8>>,
+    page: Option<String>,
+}
+
+impl Judged {
+    fn without(outcome: Outcome) -> Self {
+        Self { outcome, portrait: None, page: None }
+    }
+}
+
+/// A panic in the work for one file is a fault of ours, and no reason to leave the others.
+fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
+        Err(Fault::new(Text::new("grading this file panicked", "このファイルの採点中に異常終了しました")))
+    })
+}
+
+/// `indices` with those that need one grading together, in order of the first of each.
+fn groups(candidates: &[Candidate], indices: &[usize]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let mut places: HashMap<&Content, usize> = HashMap::new();
+    for &index in indices {
+        let content = candidates[index].content.as_ref();
+        match content.and_then(|content| places.get(content)) {
+            Some(&place) => groups[place].push(index),
+            None => {
+                places.extend(content.map(|content| (content, groups.len())));
+                groups.push(vec![index]);
+            }
+        }
+    }
+    groups
+}

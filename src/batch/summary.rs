@@ -1,0 +1,377 @@
+//! The class at the end of a run, for a terminal.
+
+use super::changes::{Change, Changes, LineChange, Standing as Before};
+use super::class::{Class, Entry, Outcome};
+use super::standing::Standing;
+use crate::language::{Language, Text};
+use crate::report::wrap::{columns, pad, plain, wrap};
+use anstyle::{AnsiColor, Style};
+use std::collections::HashMap;
+
+/// Narrowest terminal that the tables are laid out for, and the widest line that reads well.
+const NARROWEST: usize = 40;
+const WIDEST: usize = 100;
+/// How many of a list are shown; the rest is counted.
+const LISTED: usize = 10;
+/// Points of a step of the histogram; full marks have one of their own.
+const STEP: usize = 10;
+
+const BOLD: Style = Style::new().bold();
+const DIM: Style = Style::new().dimmed();
+const GOOD: Style = AnsiColor::Green.on_default();
+const PARTIAL: Style = AnsiColor::Yellow.on_default();
+const BAD: Style = AnsiColor::Red.on_default();
+const ODD: Style = AnsiColor::Magenta.on_default();
+
+/// What was written, and what there is to say about it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Each file, as it is to be shown, with what it is.
+    pub files: Vec<(String, Text)>,
+    /// What a teacher should know.
+    pub notes: Vec<Text>,
+}
+
+/// The summary, with a final newline. It is coloured; nothing is said by colour alone.
+pub fn render(class: &Class, changes: Option<&Changes>, written: &Written, width: usize) -> String {
+    let mut writer = Writer { out: String::new(), language: class.language, width: width.clamp(NARROWEST, WIDEST) };
+    writer.head(class);
+    writer.standings(class);
+    writer.scores(class);
+    writer.mistakes(class);
+    writer.troubles(class);
+    if let Some(changes) = changes {
+        writer.changes(changes);
+    }
+    writer.written(written);
+    writer.out
+}
+
+/// Mean and median; none of no scores.
+fn mean_and_median(scores: &mut [f64]) -> Option<(f64, f64)> {
+    scores.sort_by(f64::total_cmp);
+    let middle = scores.len() / 2;
+    let upper = *scores.get(middle)?;
+    let median = if scores.len().is_multiple_of(2) { f64::midpoint(scores[middle - 1], upper) } else { upper };
+    Some((scores.iter().sum::<f64>() / scores.len() as f64, median))
+}
+
+/// How many scores lie in each step of [`STEP`] points below full marks, and how many have them.
+fn histogram(scores: &[(f64, f64)]) -> Vec<usize> {
+    let mut bins = vec![0; 100 / STEP + 1];
+    let last = bins.len() - 1;
+    for (score, max_score) in scores {
+        let percent = 100.0 * score / max_score;
+        let bin = if score >= max_score { last } else { ((percent / STEP as f64) as usize).min(last - 1) };
+        bins[bin] += 1;
+    }
+    bins
+}
+
+/// The mistakes of the class, the most frequent first.
+fn mistakes(class: &Class) -> Vec<(&str, usize)> {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    for mistake in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.mistakes) {
+        *counts.entry(mistake).or_default() += 1;
+    }
+    let mut counts: Vec<_> = counts.into_iter().collect();
+    counts.sort_by(|(a, n), (b, m)| m.cmp(n).then(a.cmp(b)));
+    counts
+}
+
+struct Writer {
+    out: String,
+    language: Language,
+    width: usize,
+}
+
+impl Writer {
+    fn text(&self, en: &'static str, ja: &'static str) -> &'static str {
+        if self.language == Language::Ja { ja } else { en }
+    }
+
+    fn line(&mut self, text: &str) {
+        self.out.push_str(text.trim_end());
+        self.out.push('\n');
+    }
+
+    fn heading(&mut self, text: &str) {
+        self.out.push('\n');
+        self.line(&paint(BOLD, text));
+    }
+
+    /// A paragraph behind an indent.
+    fn paragraph(&mut self, indent: usize, style: Style, text: &str) {
+        for line in wrap(&plain(text), self.width - indent) {
+            self.line(&format!("{}{}", " ".repeat(indent), paint(style, &line)));
+        }
+    }
+
+    fn more(&mut self, count: usize) {
+        if count > LISTED {
+            let rest = count - LISTED;
+            let text = match self.language {
+                Language::En => format!("and {rest} more"),
+                Language::Ja => format!("ほか {rest} 件"),
+            };
+            self.line(&format!("  {}", paint(DIM, &text)));
+        }
+    }
+
+    fn head(&mut self, class: &Class) {
+        let count = class.entries.len();
+        let people = match (self.language, count) {
+            (Language::En, 1) => "1 student".to_owned(),
+            (Language::En, _) => format!("{count} students"),
+            (Language::Ja, _) => format!("{count} 名"),
+        };
+        let title = plain(&class.title).replace('\n', " ");
+        let facts = paint(DIM, &format!("{} · {people}", class.assignment));
+        self.out.push('\n');
+        if title.is_empty() || title == class.assignment {
+            return self.line(&facts);
+        }
+        for line in wrap(&title, self.width) {
+            self.line(&paint(BOLD, &line));
+        }
+        self.line(&facts);
+    }
+
+    fn standings(&mut self, class: &Class) {
+        let counts = Standing::count(&class.entries);
+        let total = class.entries.len().max(1);
+        self.out.push('\n');
+        self.line(&stacked(&counts, total, self.width.min(60)));
+        let present = || Standing::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0);
+        let label = |standing: Standing| standing.label().get(self.language).to_owned();
+        let column = present().map(|(standing, _)| columns(&label(standing))).max().unwrap_or(0);
+        let lines: Vec<_> = present()
+            .map(|(standing, count)| {
+                let share = 100.0 * count as f64 / total as f64;
+                let sign = paint(style(standing), standing.sign());
+                format!(
+                    "{sign} {}  {count:>5}  {}",
+                    pad(&label(standing), column),
+                    paint(DIM, &format!("{share:>3.0} %"))
+                )
+            })
+            .collect();
+        lines.iter().for_each(|line| self.line(line));
+    }
+
+    fn scores(&mut self, class: &Class) {
+        let reports = class.entries.iter().filter_map(Entry::report);
+        let scores: Vec<_> = reports.map(|report| (report.score, report.max_score)).collect();
+        let mut points: Vec<_> = scores.iter().map(|(score, _)| *score).collect();
+        let Some((mean, median)) = mean_and_median(&mut points) else { return };
+        self.heading(self.text("Scores", "得点"));
+        let facts = match self.language {
+            Language::En => format!("mean {mean:.1}   median {median:.1}   of {} graded", scores.len()),
+            Language::Ja => format!("平均 {mean:.1}   中央値 {median:.1}   (採点した {} 件)", scores.len()),
+        };
+        self.line(&format!("  {facts}"));
+        let bins = histogram(&scores);
+        let most = bins.iter().copied().max().unwrap_or(1).max(1);
+        let room = self.width.min(60) - 17;
+        for (bin, &count) in bins.iter().enumerate() {
+            let label = if bin + 1 == bins.len() {
+                "100".into()
+            } else {
+                format!("{}–{}", bin * STEP, bin * STEP + STEP - 1)
+            };
+            let style = if bin + 1 == bins.len() { GOOD } else { PARTIAL };
+            let number = if count > 0 { count.to_string() } else { paint(DIM, "·") };
+            self.line(&format!("  {label:>6}  {} {number}", paint(style, &bar(count, most, room))));
+        }
+    }
+
+    fn mistakes(&mut self, class: &Class) {
+        let mistakes = mistakes(class);
+        if mistakes.is_empty() {
+            return;
+        }
+        self.heading(self.text("Most frequent mistakes", "多かった間違い"));
+        let column = mistakes.iter().take(LISTED).map(|(id, _)| columns(id)).max().unwrap_or(0);
+        let room = self.width.min(72).saturating_sub(column + 12);
+        let most = mistakes[0].1;
+        for (id, count) in mistakes.iter().take(LISTED) {
+            let bar = paint(BAD, &bar(*count, most, room));
+            self.line(&format!("  {count:>5}  {}  {bar}", pad(&plain(id), column)));
+        }
+        self.more(mistakes.len());
+    }
+
+    /// Who got no grade, and what was not read.
+    fn troubles(&mut self, class: &Class) {
+        let mut faults = Vec::new();
+        let mut nothing = Vec::new();
+        for entry in &class.entries {
+            match &entry.outcome {
+                Outcome::Fault(fault) => faults.push((&entry.student.name, &fault.message)),
+                Outcome::NotGraded(why) => nothing.push((&entry.student.name, why)),
+                Outcome::Graded(_) => {}
+            }
+        }
+        let heading = self.text(
+            "Grading failed (ggrade's fault, no points are lost; --resume tries again)",
+            "採点エラー (ggrade の側の障害で、減点にはなりません。--resume で再試行できます)",
+        );
+        self.list(heading, BAD, &faults);
+        self.list(self.text("Nothing to grade", "採点対象なし"), BOLD, &nothing);
+        let refused: Vec<_> = class.refused.iter().map(|refused| (&refused.path, &refused.reason)).collect();
+        self.list(self.text("Left out of the input", "読み込まなかったもの"), BOLD, &refused);
+    }
+
+    fn list(&mut self, heading: &str, style: Style, items: &[(&String, &Text)]) {
+        if items.is_empty() {
+            return;
+        }
+        self.out.push('\n');
+        for line in wrap(heading, self.width) {
+            self.line(&paint(style.bold(), &line));
+        }
+        for (name, text) in items.iter().take(LISTED) {
+            self.paragraph(2, Style::new(), &name.replace('\n', " "));
+            self.paragraph(4, DIM, text.get(self.language));
+        }
+        self.more(items.len());
+    }
+
+    fn changes(&mut self, changes: &Changes) {
+        let since = &changes.before;
+        let heading = match self.language {
+            Language::En => format!("Since ggrade {}, seed {}", since.ggrade, since.seed),
+            Language::Ja => format!("前回 (ggrade {}、シード {}) からの変化", since.ggrade, since.seed),
+        };
+        self.heading(&plain(&heading));
+        if changes.is_empty() {
+            self.line(self.text("  Nothing changed.", "  変化はありません。"));
+            return;
+        }
+        let (gains, losses) = (changes.gains.len(), changes.losses.len());
+        let counts = match self.language {
+            Language::En => format!("▲ {gains} gain   ▼ {losses} lose   = {} unchanged", changes.unchanged),
+            Language::Ja => format!("▲ {gains} 名が増点   ▼ {losses} 名が減点   = {} 名は変化なし", changes.unchanged),
+        };
+        self.line(&format!("  {counts}"));
+        for (list, sign, style) in [
+            (&changes.losses, "▼", BAD),
+            (&changes.gains, "▲", GOOD),
+            (&changes.otherwise, "◇", PARTIAL),
+            (&changes.unclear, "!", ODD),
+        ] {
+            for change in list.iter().take(LISTED) {
+                self.change(change, &paint(style, sign));
+            }
+            self.more(list.len());
+        }
+        for (students, en, ja) in
+            [(&changes.new, "New", "新たな学生"), (&changes.gone, "No longer there", "いなくなった学生")]
+        {
+            if !students.is_empty() {
+                let names: Vec<_> = students.iter().take(LISTED).map(|student| student.name.as_str()).collect();
+                let separator = self.text(": ", ": ");
+                let text = format!("{} ({}){separator}{}", self.text(en, ja), students.len(), names.join(", "));
+                self.paragraph(2, Style::new(), &text);
+                self.more(students.len());
+            }
+        }
+    }
+
+    fn change(&mut self, change: &Change, sign: &str) {
+        let name = plain(&change.student.name).replace('\n', " ");
+        let [before, after] = [&change.before, &change.after].map(|standing| self.result(standing));
+        let file = if change.is_new_file { self.text("  another file", "  別のファイル") } else { "" };
+        self.line(&format!("  {sign} {name}  {before} → {after}{}", paint(DIM, file)));
+        for line in &change.rubric {
+            let text = rubric_line(line);
+            self.paragraph(6, DIM, &text);
+        }
+    }
+
+    fn result(&self, standing: &Before) -> String {
+        match (standing.score, standing.outcome) {
+            (Some(score), _) => number(score),
+            (None, "fault") => Standing::Fault.label().get(self.language).to_owned(),
+            (None, _) => Standing::NotGraded.label().get(self.language).to_owned(),
+        }
+    }
+
+    fn written(&mut self, written: &Written) {
+        if !written.files.is_empty() {
+            self.heading(self.text("Written", "出力"));
+            let column = written.files.iter().map(|(path, _)| columns(path)).max().unwrap_or(0);
+            for (path, what) in &written.files {
+                let what = what.get(self.language);
+                let path = plain(path);
+                if column + 4 + columns(what) <= self.width {
+                    self.line(&format!("  {}  {}", pad(&path, column), paint(DIM, what)));
+                } else {
+                    self.line(&format!("  {path}"));
+                    self.paragraph(4, DIM, what);
+                }
+            }
+        }
+        for note in &written.notes {
+            self.out.push('\n');
+            self.paragraph(0, PARTIAL, note.get(self.language));
+        }
+    }
+}
+
+/// `specular  20 → 40  specular-phong → –`
+fn rubric_line(line: &LineChange) -> String {
+    let points = |earned: &Option<super::changes::Earned>| earned.as_ref().map_or("–".into(), |e| number(e.points));
+    let mistake = |earned: &Option<super::changes::Earned>| {
+        earned.as_ref().and_then(|e| e.mistake.clone()).unwrap_or_else(|| "–".into())
+    };
+    let (before, after) = (mistake(&line.before), mistake(&line.after));
+    let why = if before == after { before } else { format!("{before} → {after}") };
+    format!("{}  {} → {}  {why}", line.id, points(&line.before), points(&line.after))
+}
+
+/// A number with at most two decimals, and none that says nothing.
+fn number(value: f64) -> String {
+    format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn paint(style: Style, text: &str) -> String {
+    if text.is_empty() { String::new() } else { format!("{style}{text}{style:#}") }
+}
+
+fn style(standing: Standing) -> Style {
+    match standing {
+        Standing::Correct => GOOD,
+        Standing::Wrong => PARTIAL,
+        Standing::Rejected | Standing::Fault => BAD,
+        Standing::Stopped => ODD,
+        Standing::NotGraded => DIM,
+    }
+}
+
+/// A bar of at most `room` columns; none only for none.
+fn bar(count: usize, most: usize, room: usize) -> String {
+    let cells = (count * room).div_ceil(most.max(1)).min(room);
+    "━".repeat(cells)
+}
+
+/// One bar of all standings, each with its share of `width` and at least a column where there is any.
+fn stacked(counts: &[usize], total: usize, width: usize) -> String {
+    let mut bar = String::new();
+    let (mut sum, mut end) = (0, 0);
+    for (standing, &count) in Standing::ALL.into_iter().zip(counts) {
+        sum += count;
+        let start = end;
+        end = (sum * width / total).max(start + usize::from(count > 0));
+        let cell = match standing {
+            Standing::Correct => "━",
+            Standing::Wrong => "╌",
+            Standing::Rejected => "═",
+            Standing::Stopped => "▪",
+            Standing::NotGraded => "·",
+            Standing::Fault => "!",
+        };
+        bar += &paint(style(standing), &cell.repeat(end - start));
+    }
+    bar
+}

@@ -1,0 +1,49 @@
+//! How `ggrade grade` writes a report.
+
+use crate::batch::formats::{self, exchange};
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use std::sync::LazyLock;
+
+/// How a report is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// To be read as it is.
+    Reading(Reading),
+    /// For an autograder or CI.
+    Exchange(formats::Format),
+}
+
+/// The forms of a report that are read as they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Reading {
+    /// For a person at a terminal
+    Text,
+    /// One JSON object (schema ggrade/report/v1)
+    Json,
+    /// One self-contained page with the animation
+    Html,
+}
+
+impl Default for Format {
+    fn default() -> Self {
+        Self::Reading(Reading::Text)
+    }
+}
+
+impl ValueEnum for Format {
+    fn value_variants<'a>() -> &'a [Self] {
+        static ALL: LazyLock<Vec<Format>> = LazyLock::new(|| {
+            let reading = Reading::value_variants().iter().copied().map(Format::Reading);
+            reading.chain(exchange::FORMATS.map(Format::Exchange)).collect()
+        });
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Reading(reading) => reading.to_possible_value(),
+            Self::Exchange(format) => format.to_possible_value(),
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! A whole class by what a teacher sees of it: exit codes, terminal, files.
+
+mod anonymous;
+mod begin;
+mod class;
+mod grades;
+mod interrupted;
+mod regrade;
