@@ -164,7 +164,8 @@ const editGlsl = (host, textarea, words) => {
       insert(text);
       textarea.setSelectionRange(0, 0);
       host.scrollTop = 0;
-      focused?.focus?.({ preventScroll: true });
+      if (focused && focused !== document.body) focused.focus({ preventScroll: true });
+      else textarea.blur();
       draw();
     },
     mark(found) {

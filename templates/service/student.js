@@ -114,6 +114,8 @@
     transfer.items.add(chosen);
     picker.files = transfer.files;
     await grade();
+    // On a small window the result is below: go there.
+    if (matchMedia("(max-width: 62rem)").matches) result.scrollIntoView();
   };
 
   const decoded = (bytes) => {

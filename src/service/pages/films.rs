@@ -1,9 +1,10 @@
 //! The moving pictures of a submission and its portrait: drawn when a page first shows them, kept for a while.
 
+use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::report::html::Film;
-use crate::report::{Picture, Pictures, pictures};
+use crate::report::{Picture, Pictures};
 use crate::sandbox;
 use crate::service::State;
 use crate::service::errors::Problem;
@@ -15,12 +16,6 @@ use tokio::sync::{OnceCell, Semaphore};
 /// Films that are kept; the largest has some hundred kilobytes.
 const MOST: usize = 128;
 
-/// The pose of a portrait: at its beginning the animation shows the face from the front, with all terms of the equation.
-const POSE: usize = 0;
-
-/// Every how many pixels one is taken for a portrait: 160 × 120 of the course's 640 × 480.
-const PORTRAIT_STEP: usize = 4;
-
 type Cell = Arc<OnceCell<Option<Arc<Film>>>>;
 
 /// The films drawn lately.
@@ -28,13 +23,14 @@ type Cell = Arc<OnceCell<Option<Arc<Film>>>>;
 pub struct Films {
     recent: Mutex<VecDeque<(String, Cell)>>,
     expected: OnceLock<Arc<Vec<Picture>>>,
+    portraits: OnceLock<Result<Portraits, Fault>>,
     /// One is drawn at a time: who looks leaves the other processors to who hands in.
     turn: Semaphore,
 }
 
 impl Default for Films {
     fn default() -> Self {
-        Self { recent: Mutex::default(), expected: OnceLock::new(), turn: Semaphore::new(1) }
+        Self { recent: Mutex::default(), expected: OnceLock::new(), portraits: OnceLock::new(), turn: Semaphore::new(1) }
     }
 }
 
@@ -52,6 +48,10 @@ impl Films {
 
     fn expected(&self, state: &State) -> Arc<Vec<Picture>> {
         Arc::clone(self.expected.get_or_init(|| Arc::new(crate::homework::expected_pictures(state.assignment))))
+    }
+
+    fn portraits(&self, state: &State) -> Result<Portraits, Fault> {
+        self.portraits.get_or_init(|| Portraits::new(state.assignment)).clone()
     }
 }
 
@@ -76,24 +76,14 @@ pub(super) async fn portrait(state: &State, submission: &Submission) -> Result<O
         return Ok(kept);
     }
     let drawn = frames(state, submission).await?;
-    let png = blocking(state, move |_| drawn.get(POSE).map(|picture| pictures::png(&smaller(picture))).transpose());
-    let png = png.await?;
+    let png = blocking(state, move |state| state.films.portraits(state)?.of(&drawn)).await?;
     state.store.set_portrait(assignment, sha256, png.as_deref()).await?;
     Ok(png)
 }
 
-/// What a right answer's portrait looks like.
-pub(super) fn expected_portrait(state: &State) -> Result<Option<Vec<u8>>, Fault> {
-    state.films.expected(state).get(POSE).map(|picture| pictures::png(&smaller(picture))).transpose()
-}
-
-/// Every so manieth pixel of every so manieth row: no colour is invented.
-fn smaller(picture: &Picture) -> Picture {
-    let row = picture.width as usize * 4;
-    let rows = picture.rgba.chunks_exact(row.max(1)).step_by(PORTRAIT_STEP);
-    let rgba = rows.flat_map(|row| row.chunks_exact(4).step_by(PORTRAIT_STEP).flatten().copied());
-    let side = |side: u32| side.div_ceil(PORTRAIT_STEP as u32);
-    Picture { width: side(picture.width), height: side(picture.height), rgba: rgba.collect() }
+/// What a right answer's portrait looks like, as a PNG.
+pub(super) fn expected_portrait(state: &State) -> Result<Vec<u8>, Fault> {
+    Ok(state.films.portraits(state)?.expected)
 }
 
 async fn frames(state: &State, submission: &Submission) -> Result<Vec<Picture>, Problem> {
@@ -116,20 +106,5 @@ async fn blocking<T: Send + 'static>(
     match tokio::task::spawn_blocking(move || work(&state)).await {
         Ok(result) => result.map_err(|fault| Problem::internal(&fault)),
         Err(panic) => Err(Problem::internal(&panic)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_portrait_has_every_fourth_pixel() {
-        // Nine pixels wide, five high, numbered along the rows in their red.
-        let rgba = (0..45u8).flat_map(|index| [index, 0, 0, 255]).collect();
-        let small = smaller(&Picture { width: 9, height: 5, rgba });
-        assert_eq!((small.width, small.height), (3, 2));
-        let reds: Vec<u8> = small.rgba.chunks_exact(4).map(|pixel| pixel[0]).collect();
-        assert_eq!(reds, [0, 4, 8, 36, 40, 44]);
     }
 }

@@ -130,7 +130,7 @@ pub(in crate::service::pages) async fn page(
         let (from, to) = (said(course.from), said(course.to));
         (course, from, to)
     });
-    let expected = films::expected_portrait(&state).map_err(internal)?.unwrap_or_default();
+    let expected = films::expected_portrait(&state).map_err(internal)?;
     shown(
         View {
             place: Place::Class,
