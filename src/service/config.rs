@@ -47,7 +47,7 @@ pub struct Config {
 pub struct Timeouts {
     /// For the head of a request.
     pub header_timeout: f64,
-    /// For a whole request, from its head to the head of the answer; archives get four times as much.
+    /// For a whole request, from its head to the head of the answer; teachers' requests get eight times as much.
     pub request_timeout: f64,
     /// For a client to take any part of an answer.
     pub write_timeout: f64,

@@ -6,6 +6,7 @@
 use super::State;
 use super::errors::Problem;
 use super::store::Submission;
+use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::report::{Picture, Pictures, pictures};
@@ -51,6 +52,7 @@ pub struct Drawn {
 pub struct Gallery {
     assignment: &'static Assignment,
     expected: OnceLock<Expected>,
+    portraits: OnceLock<Portraits>,
     recent: Mutex<VecDeque<(String, Arc<OnceCell<Arc<Drawn>>>)>>,
     /// One file is drawn at a time.
     turn: Semaphore,
@@ -65,7 +67,13 @@ struct Expected {
 impl Gallery {
     /// An empty gallery.
     pub fn new(assignment: &'static Assignment) -> Self {
-        Self { assignment, expected: OnceLock::new(), recent: Mutex::default(), turn: Semaphore::new(1) }
+        Self {
+            assignment,
+            expected: OnceLock::new(),
+            portraits: OnceLock::new(),
+            recent: Mutex::default(),
+            turn: Semaphore::new(1),
+        }
     }
 
     /// The pictures of a submission: from memory, or drawn anew. Many who ask at once wait for one drawing.
@@ -131,6 +139,35 @@ impl Gallery {
             Ok(Some(Pictures { yours, expected, terms: Vec::new() }))
         })
         .await
+    }
+
+    /// The small picture of a submission for class tables, a PNG: kept in the database, since a table shows hundreds. None
+    /// where nothing is drawn.
+    pub async fn portrait(&self, state: &State, submission: &Submission) -> Result<Option<Vec<u8>>, Problem> {
+        let Submission { assignment, sha256, .. } = submission;
+        if let Some(kept) = state.store.portrait(assignment, sha256).await? {
+            return Ok(kept);
+        }
+        let bytes = state.store.upload(sha256).await?.ok_or_else(Problem::not_found)?;
+        let _turn = self.turn.acquire().await;
+        let order = Order { seed: submission.seed, hints: submission.hints };
+        let portrait = blocking(state, move |state| {
+            let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };
+            let frames = state.pool.grade(submission)?.frames;
+            state.gallery.portraits()?.of(&frames)
+        });
+        let portrait = portrait.await?;
+        state.store.set_portrait(assignment, sha256, portrait.as_deref()).await?;
+        Ok(portrait)
+    }
+
+    /// How portraits are made, and the right one.
+    pub fn portraits(&self) -> Result<&Portraits, Fault> {
+        if let Some(portraits) = self.portraits.get() {
+            return Ok(portraits);
+        }
+        let made = Portraits::new(self.assignment)?;
+        Ok(self.portraits.get_or_init(|| made))
     }
 
     fn animated(&self, drawn: &Drawn, view: View) -> Result<Vec<u8>, Fault> {

@@ -4,9 +4,9 @@ use super::State;
 use super::errors::Problem;
 use crate::fault::Fault;
 use crate::language::Text;
-use axum::extract::FromRequestParts;
+use axum::extract::{FromRequestParts, Request};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, StatusCode};
+use axum::http::{Extensions, HeaderMap, StatusCode};
 use governor::clock::{Clock as _, DefaultClock};
 use governor::{DefaultKeyedRateLimiter, Quota, RateLimiter};
 use std::convert::Infallible;
@@ -33,10 +33,13 @@ impl FromRequestParts<State> for Client {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Infallible> {
-        // In a test without a connection there is no peer: nobody in particular.
-        let peer = parts.extensions.get::<Peer>().map_or(IpAddr::V6(Ipv6Addr::UNSPECIFIED), |peer| peer.0.ip());
-        Ok(state.proxies.client(peer.to_canonical(), &parts.headers))
+        Ok(state.proxies.client(peer(&parts.extensions), &parts.headers))
     }
+}
+
+/// The address at the other end; where there is no connection, as in a test, nobody in particular.
+fn peer(extensions: &Extensions) -> IpAddr {
+    extensions.get::<Peer>().map_or(IpAddr::V6(Ipv6Addr::UNSPECIFIED), |peer| peer.0.ip().to_canonical())
 }
 
 /// The networks of reverse proxies whose `X-Forwarded-For` is believed.
@@ -59,6 +62,11 @@ impl Proxies {
 
     pub(super) fn trusts(&self, address: IpAddr) -> bool {
         self.0.iter().any(|&(network, prefix)| prefix_of(address, prefix) == prefix_of(network, prefix))
+    }
+
+    /// Who sent a request.
+    pub(super) fn client_of(&self, request: &Request) -> Client {
+        self.client(peer(request.extensions()), request.headers())
     }
 
     /// The last address of the chain that no trusted proxy has: what stands left of it anybody could have written.
@@ -124,16 +132,12 @@ impl Limits {
         }
     }
 
-    /// Counts an upload.
-    pub fn upload(&self, client: &Client, by: Option<&str>) -> Result<(), Problem> {
-        self.address(client)?;
-        match by {
-            Some(by) => check(&self.uploads, &by.to_owned(), "rate-student"),
-            None => Ok(()),
-        }
+    /// Counts an upload of a student or browser.
+    pub fn upload(&self, by: &str) -> Result<(), Problem> {
+        check(&self.uploads, &by.to_owned(), "rate-student")
     }
 
-    /// Counts a request that costs as much as an upload.
+    /// Counts a request that changes something.
     pub fn address(&self, client: &Client) -> Result<(), Problem> {
         check(&self.addresses, &client.address, "rate-address")
     }

@@ -17,6 +17,7 @@
 //! The async runtime lives nowhere else in ggrade.
 
 pub mod api;
+pub mod classes;
 pub mod clock;
 pub mod config;
 pub mod errors;
@@ -27,12 +28,13 @@ pub mod language;
 pub mod limits;
 pub(crate) mod metrics;
 pub mod pages;
+pub mod regrade;
 mod requests;
 pub mod server;
 mod state;
 pub mod store;
 pub mod submit;
-mod upkeep;
+pub mod upkeep;
 
 pub use config::Config;
 pub use state::{Shared, State};
@@ -45,12 +47,16 @@ use tower_http::set_header::SetResponseHeaderLayer;
 
 /// The whole service as a router.
 pub fn app(state: State) -> Router {
+    let routes = Router::new().merge(pages::router(&state)).merge(api::router(&state));
+    layered(state, routes)
+}
+
+/// Routes with everything around them: limits, errors in their form, security headers.
+pub fn layered(state: State, routes: Router<State>) -> Router {
     let fixed = |name: HeaderName, value: &'static str| {
         SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value))
     };
-    Router::new()
-        .merge(pages::router(&state))
-        .merge(api::router(&state))
+    routes
         .layer(DefaultBodyLimit::max(api::MAX_BODY))
         .layer(CatchPanicLayer::custom(panicked))
         .layer(axum::middleware::from_fn_with_state(state.clone(), requests::attend))

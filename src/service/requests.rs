@@ -1,4 +1,4 @@
-//! What every request gets: a time limit, a line in the log, a place in the figures.
+//! What every request gets: a count by its address where it changes something, a time limit, a line in the log, a place in the figures.
 
 use super::errors::Problem;
 use super::{Config, State, metrics};
@@ -8,12 +8,12 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use std::time::Instant;
 
-/// How many times longer whole archives may take than other requests.
-const ARCHIVE_PATIENCE: f64 = 4.0;
+/// How many times longer than other requests those may take that a teacher sends: archives come, whole classes go.
+const TEACHERS_PATIENCE: f64 = 8.0;
 
-/// Whether a request brings a whole archive.
-fn is_archive(request: &Request) -> bool {
-    request.method() == Method::POST && matches!(request.uri().path(), "/api/v1/batches" | "/teacher/batches")
+/// Whether a request is about a whole class. Others than teachers get a short answer there.
+fn is_about_a_class(route: &str) -> bool {
+    ["/api/v1/batches", "/api/v1/class", "/teacher"].iter().any(|start| route.starts_with(start))
 }
 
 /// The layer.
@@ -21,9 +21,17 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
     let start = Instant::now();
     let method = request.method().clone();
     let route = request.extensions().get::<MatchedPath>().map_or("none", MatchedPath::as_str).to_owned();
-    let seconds = state.config.limits.request_timeout * if is_archive(&request) { ARCHIVE_PATIENCE } else { 1.0 };
-    let answered = tokio::time::timeout(Config::span(seconds), next.run(request)).await;
-    let mut response = answered.unwrap_or_else(|_| too_late());
+    let patience = if is_about_a_class(&route) { TEACHERS_PATIENCE } else { 1.0 };
+    let seconds = state.config.limits.request_timeout * patience;
+    // Counted before a byte of the body is read.
+    let counted = if method.is_safe() { Ok(()) } else { state.limits.address(&state.proxies.client_of(&request)) };
+    let mut response = match counted {
+        Err(problem) => problem.into_response(),
+        Ok(()) => {
+            let answered = tokio::time::timeout(Config::span(seconds), next.run(request)).await;
+            answered.unwrap_or_else(|_| too_late())
+        }
+    };
     let status = response.status().as_u16();
     let took = start.elapsed();
     // An id in the address opens a report, and a name in it was written by a student: the route says enough.

@@ -5,7 +5,6 @@ use super::clock::millis;
 use super::errors::Problem;
 use super::grading::{Job, Outcome};
 use super::identity::{Identity, new_id};
-use super::limits::Client;
 use super::store::{Audience, NewSubmission, Submission, Via};
 use super::{Config, store};
 use crate::diagnose::Hints;
@@ -14,6 +13,7 @@ use crate::report::Report;
 use axum::http::StatusCode;
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Longest file that is stored, in bytes. The source stage takes less, and says so in the words of a report.
 pub const MAX_UPLOAD: usize = 256 * 1024;
@@ -32,8 +32,6 @@ pub struct Upload {
     pub bytes: Vec<u8>,
     /// Who hands in.
     pub identity: Identity,
-    /// Where the request came from.
-    pub client: Client,
     /// The way by which it comes.
     pub via: Via,
     /// How much the messages shall help; never more than the course allows.
@@ -96,7 +94,7 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
     }
     metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     let submission = submission_of(&new, store::State::Queued);
-    place.fill(Job { submission: submission.clone(), bytes: new.bytes });
+    place.fill(Job { submission: submission.clone(), bytes: new.bytes, since: Instant::now() });
     let outcome = tokio::select! {
         outcome = listener.recv() => outcome.ok(),
         () = tokio::time::sleep(Config::span(state.config.wait)) => None,
@@ -128,7 +126,9 @@ async fn checked(state: &State, upload: &Upload) -> Result<store::Assignment, Pr
     if upload.bytes.len() > MAX_UPLOAD {
         return Err(too_large());
     }
-    state.limits.upload(&upload.client, upload.identity.counted_by().as_deref())?;
+    if let Some(by) = upload.identity.counted_by() {
+        state.limits.upload(&by)?;
+    }
     let assignment = state.store.assignment(&upload.assignment).await?;
     may_hand_in(state, &assignment, upload).await?;
     Ok(assignment)

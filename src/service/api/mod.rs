@@ -1,14 +1,17 @@
 //! The HTTP API, and what else is no page.
 
-mod body;
+pub(super) mod archive;
+pub(super) mod batches;
+pub(super) mod body;
 mod docs;
 mod operations;
-mod pictures;
+pub(super) mod pictures;
 mod schema;
-mod submissions;
+pub(super) mod submissions;
 
 use super::State;
 use axum::Router;
+use axum::extract::DefaultBodyLimit;
 use axum::routing::get;
 use schema::Security;
 use utoipa::OpenApi;
@@ -30,6 +33,7 @@ pub const MAX_BODY: usize = 4 * super::submit::MAX_UPLOAD;
     modifiers(&Security),
     tags(
         (name = "submissions", description = "One file. Its id opens it: who has the id may read the report."),
+        (name = "batches", description = "Whole classes, for teachers: with the teacher's token."),
         (name = "operations", description = "For who runs the service.")
     )
 )]
@@ -44,6 +48,10 @@ fn described() -> OpenApiRouter<State> {
         .routes(routes!(pictures::list))
         .routes(routes!(pictures::frame))
         .routes(routes!(pictures::animation))
+        .routes(routes!(batches::read))
+        .routes(routes!(batches::events))
+        .routes(routes!(batches::file, batches::filled))
+        .routes(routes!(batches::class_file))
         .routes(routes!(operations::healthz))
         .routes(routes!(operations::readyz))
         .routes(routes!(operations::metrics))
@@ -52,6 +60,10 @@ fn described() -> OpenApiRouter<State> {
 /// The routes.
 pub fn router(_state: &State) -> Router<State> {
     let (router, document) = described().split_for_parts();
+    let (archives, with_archives) = OpenApiRouter::new().routes(routes!(batches::create)).split_for_parts();
+    // Archives are counted as they come.
+    let router = router.merge(archives.layer(DefaultBodyLimit::disable()));
+    let document = document.merge_from(with_archives);
     let document = std::sync::Arc::new(document);
     router.route("/api/v1/openapi.json", get(move || docs::document(document.clone()))).merge(docs::router())
 }

@@ -1,10 +1,13 @@
 //! The shapes of requests and answers.
 
+use crate::batch::class::Refused;
+use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::report::Report;
 use crate::report::json::{self, View};
 use crate::service::errors::ProblemJson;
-use crate::service::store::{State, Submission, Via};
+use crate::service::store::{Batch, BatchEntry, Progress, State, Submission, Via};
+use clap::ValueEnum;
 use serde::Serialize;
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityScheme};
 
@@ -107,6 +110,88 @@ impl<'a> SubmissionJson<'a> {
 /// A time in RFC 3339.
 pub(super) fn time(millis: i64) -> String {
     jiff::Timestamp::from_millisecond(millis).map(|time| time.to_string()).unwrap_or_default()
+}
+
+/// A whole class that a teacher handed in.
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+pub(super) struct BatchJson {
+    /// Its id.
+    pub id: String,
+    /// Name of the archive.
+    pub title: String,
+    /// When it came.
+    #[schema(format = DateTime)]
+    pub received_at: String,
+    /// How far it is.
+    pub progress: Progress,
+    /// Everyone, in the order of the archive.
+    pub students: Vec<BatchStudentJson>,
+    /// Members of the archive that were left out, and why.
+    pub refused: Vec<RefusedJson>,
+    /// Where else to look.
+    pub links: BatchLinks,
+}
+
+/// One student of a batch.
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+pub(super) struct BatchStudentJson {
+    /// Tells them apart.
+    pub key: String,
+    /// As the archive names them.
+    pub name: String,
+    /// Where the file was.
+    pub path: Option<String>,
+    /// Address of the submission; none where there was nothing to grade.
+    pub submission: Option<String>,
+    /// Why there was nothing to grade.
+    pub note: Option<String>,
+}
+
+/// A member that was left out.
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+pub(super) struct RefusedJson {
+    /// Where it was.
+    pub path: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// Addresses of a batch.
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+pub(super) struct BatchLinks {
+    /// This object.
+    #[serde(rename = "self")]
+    pub itself: String,
+    /// Its events.
+    pub events: String,
+    /// Its files by the name of the format.
+    pub files: Vec<String>,
+}
+
+impl BatchJson {
+    /// The object for a client.
+    pub fn of(batch: Batch, progress: Progress, entries: Vec<BatchEntry>, language: Language) -> Self {
+        let itself = format!("/api/v1/batches/{}", batch.id);
+        let student = |entry: BatchEntry| BatchStudentJson {
+            key: entry.student.key,
+            name: entry.student.name,
+            path: entry.path,
+            submission: entry.submission_id.map(|id| format!("/api/v1/submissions/{id}")),
+            note: entry.note.map(|note| note.get(language).to_owned()),
+        };
+        let refused =
+            |refused: Refused| RefusedJson { path: refused.path, reason: refused.reason.get(language).to_owned() };
+        let files = Format::value_variants().iter().map(|format| format!("{itself}/files/{}", format.id()));
+        Self {
+            title: batch.title,
+            received_at: time(batch.created_at),
+            progress,
+            students: entries.into_iter().map(student).collect(),
+            refused: batch.refused.into_iter().map(refused).collect(),
+            links: BatchLinks { events: format!("{itself}/events"), files: files.collect(), itself: itself.clone() },
+            id: batch.id,
+        }
+    }
 }
 
 /// The pictures of a submission.

@@ -8,7 +8,6 @@ use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
 use crate::service::language::Lang;
-use crate::service::limits::Client;
 use crate::service::store::{Stored, Via};
 use crate::service::submit::{Receipt, Upload, submit};
 use axum::Json;
@@ -80,7 +79,6 @@ pub(super) struct FileForm {
 pub(super) async fn create(
     Shared(state): Shared<State>,
     Lang(language): Lang,
-    client: Client,
     visitor: Visitor,
     teacher: Option<Teacher>,
     about: Result<Query<About>, QueryRejection>,
@@ -88,8 +86,6 @@ pub(super) async fn create(
 ) -> Result<Response, Problem> {
     let Query(about) = about.map_err(super::body::other)?;
     let headers = request.headers().clone();
-    // Counted before a byte of the body is read.
-    state.limits.address(&client)?;
     let form = Form::read(request, &state).await?;
     let about = about.with(&form)?;
     let identity = identity(&state, &about, visitor, teacher, &headers).await?;
@@ -100,7 +96,6 @@ pub(super) async fn create(
             name: form.name.or(about.name).unwrap_or_default(),
             bytes: form.bytes.into(),
             identity,
-            client,
             via: if about.draft == Some(true) { Via::Editor } else { Via::Api },
             hints: about.hints,
         },

@@ -6,11 +6,11 @@ use crate::grade::Order;
 use crate::language::Text;
 use crate::report::Report;
 use crate::sandbox;
-use crate::service::clock::millis;
+use crate::service::clock::{Millis, millis};
 use crate::service::store::{StoreError, Submission};
 use crate::service::{Config, State, metrics};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use tokio::task::JoinSet;
 
@@ -42,10 +42,8 @@ impl Graders {
         let workers = state.config.workers;
         state.queue.set_workers(workers);
         let mut tasks = JoinSet::new();
-        // Whether the last look found something: then all look again at once.
-        let more = Arc::new(AtomicBool::new(true));
         for _ in 0..workers {
-            tasks.spawn(run(state.clone(), Arc::clone(&more)));
+            tasks.spawn(run(state.clone()));
         }
         tasks.spawn(keep_claims(state.clone()));
         Ok(Self { state: state.clone(), tasks })
@@ -60,21 +58,17 @@ impl Graders {
     }
 }
 
-async fn run(state: State, more: Arc<AtomicBool>) {
+async fn run(state: State) {
     while !state.is_ending() {
         let woken = state.queue.wakes.notified();
         if let Some(job) = state.queue.next() {
             grade(&state, job).await;
             continue;
         }
-        if more.load(Ordering::Relaxed) {
-            match claim(&state).await {
-                Ok(Some(job)) => {
-                    state.queue.begin();
-                    grade(&state, job).await;
-                    continue;
-                }
-                Ok(None) => more.store(false, Ordering::Relaxed),
+        if state.queue.more.load(Ordering::Relaxed) {
+            match take_from_database(&state).await {
+                Ok(true) => continue,
+                Ok(false) => state.queue.more.store(false, Ordering::Relaxed),
                 Err(error) => {
                     tracing::error!(%error, "no file could be claimed");
                     tokio::time::sleep(PAUSE).await;
@@ -85,16 +79,46 @@ async fn run(state: State, more: Arc<AtomicBool>) {
         tokio::select! {
             () = woken => {}
             () = state.ended() => {}
-            () = tokio::time::sleep(LOOK) => more.store(true, Ordering::Relaxed),
+            () = tokio::time::sleep(LOOK) => state.queue.more.store(true, Ordering::Relaxed),
         }
     }
 }
 
-async fn claim(state: &State) -> Result<Option<Job>, StoreError> {
+/// Grades one file that nobody holds, or one that is to be graded again; whether there was one.
+async fn take_from_database(state: &State) -> Result<bool, StoreError> {
+    if let Some(job) = claim(state).await? {
+        state.queue.begin();
+        grade(state, job).await;
+        return Ok(true);
+    }
+    let (now, until) = lease(state);
+    let Some(again) = state.store.claim_again(&state.instance, now, until).await? else { return Ok(false) };
+    let id = again.submission.id.clone();
+    let judged = judge(state, Job { submission: again.submission, bytes: again.bytes, since: Instant::now() }).await;
+    if let Err(fault) = &judged {
+        tracing::error!(fault = fault.message.en, submission = id, "grading again failed");
+    }
+    // As with a first grading: a claim that is kept up must come to an end.
+    while let Err(error) = state.store.finish_again(&again.regrading_id, &id, judged.as_ref().ok()).await {
+        tracing::error!(%error, submission = id, "a report could not be stored");
+        if state.is_ending() {
+            break;
+        }
+        tokio::time::sleep(PAUSE).await;
+    }
+    Ok(true)
+}
+
+/// Now, and when a claim made now ends.
+fn lease(state: &State) -> (Millis, Millis) {
     let now = state.clock.now();
-    let until = now + millis(Config::span(state.config.limits.lease));
+    (now, now + millis(Config::span(state.config.limits.lease)))
+}
+
+async fn claim(state: &State) -> Result<Option<Job>, StoreError> {
+    let (now, until) = lease(state);
     let claimed = state.store.claim(&state.instance, now, until).await?;
-    Ok(claimed.map(|claimed| Job { submission: claimed.submission, bytes: claimed.bytes }))
+    Ok(claimed.map(|claimed| Job { submission: claimed.submission, bytes: claimed.bytes, since: Instant::now() }))
 }
 
 /// Keeps the claims of this process from ending while their files wait.
@@ -115,6 +139,7 @@ async fn keep_claims(state: State) {
 async fn grade(state: &State, job: Job) {
     let start = Instant::now();
     let submission = job.submission.clone();
+    metrics::stage("wait", job.since.elapsed());
     let judged = judge(state, job).await;
     metrics::stage("grade", start.elapsed());
     let stored = Instant::now();

@@ -4,8 +4,9 @@ use crate::fault::Fault;
 use crate::report::Report;
 use crate::service::store::Submission;
 use std::collections::{HashMap, VecDeque};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::sync::{Notify, broadcast};
 
 /// What came of a grading.
@@ -24,6 +25,8 @@ pub struct Job {
     pub submission: Submission,
     /// Its bytes.
     pub bytes: Vec<u8>,
+    /// Since when it waits in this process.
+    pub since: Instant,
 }
 
 /// No further file is taken now.
@@ -41,6 +44,8 @@ pub struct Queue {
     capacity: usize,
     inner: Mutex<Inner>,
     pub(super) wakes: Notify,
+    /// Whether there may be files in the database that nobody holds.
+    pub(super) more: AtomicBool,
 }
 
 #[derive(Debug, Default)]
@@ -66,7 +71,7 @@ impl Queue {
     /// An empty queue.
     pub fn new(capacity: usize) -> Self {
         let inner = Inner { pace: 0.05, workers: 1, ..Inner::default() };
-        Self { capacity, inner: Mutex::new(inner), wakes: Notify::new() }
+        Self { capacity, inner: Mutex::new(inner), wakes: Notify::new(), more: AtomicBool::new(true) }
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
@@ -84,6 +89,12 @@ impl Queue {
         }
         inner.reserved += 1;
         Ok(Place { queue: self })
+    }
+
+    /// Tells the graders that there are files in the database that nobody holds.
+    pub fn look(&self) {
+        self.more.store(true, Ordering::Relaxed);
+        self.wakes.notify_waiters();
     }
 
     /// Files that wait, and files that are graded right now.

@@ -48,6 +48,15 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// The progress of files counted by state.
+    pub(super) fn of(states: &[(String, i64)]) -> Self {
+        let of = |state: &str| {
+            states.iter().filter(|(name, _)| name == state).map(|(_, count)| count.unsigned_abs()).sum::<u64>()
+        };
+        let files = states.iter().map(|(_, count)| count.unsigned_abs()).sum();
+        Self { entries: files, files, graded: of("graded"), failed: of("failed") }
+    }
+
     /// Whether nothing is left to do.
     pub fn is_done(&self) -> bool {
         self.graded + self.failed >= self.files
@@ -137,10 +146,6 @@ impl Store {
         const FILES: &str = "SELECT state, count(*) FROM submissions WHERE batch_id = $1 GROUP BY state";
         let entries: i64 = on!(&self.read, db => sqlx::query_scalar(ENTRIES).bind(id).fetch_one(db).await?);
         let states: Vec<(String, i64)> = on!(&self.read, db => sqlx::query_as(FILES).bind(id).fetch_all(db).await?);
-        let of = |state: &str| {
-            states.iter().filter(|(name, _)| name == state).map(|(_, count)| count.unsigned_abs()).sum::<u64>()
-        };
-        let files = states.iter().map(|(_, count)| count.unsigned_abs()).sum();
-        Ok(Progress { entries: entries.unsigned_abs(), files, graded: of("graded"), failed: of("failed") })
+        Ok(Progress { entries: entries.unsigned_abs(), ..Progress::of(&states) })
     }
 }

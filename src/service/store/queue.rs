@@ -41,7 +41,11 @@ impl Store {
     /// Keeps all claims of a process for longer.
     pub async fn extend_claims(&self, by: &str, until: Millis) -> Result<()> {
         const SQL: &str = "UPDATE submissions SET claimed_until = $2 WHERE claimed_by = $1 AND state = 'queued'";
-        on!(&self.write, db => { sqlx::query(SQL).bind(by).bind(until).execute(db).await?; });
+        const AGAIN: &str = "UPDATE regraded SET claimed_until = $2 WHERE claimed_by = $1 AND state = 'queued'";
+        on!(&self.write, db => {
+            sqlx::query(SQL).bind(by).bind(until).execute(db).await?;
+            sqlx::query(AGAIN).bind(by).bind(until).execute(db).await?;
+        });
         Ok(())
     }
 
@@ -51,9 +55,17 @@ impl Store {
                            WHERE state <> 'graded' AND claimed_by = $1";
         const ALL: &str = "UPDATE submissions SET claimed_by = NULL, claimed_until = 0 \
                            WHERE state = 'queued' AND claimed_until > 0";
+        const AGAIN_ONE: &str = "UPDATE regraded SET claimed_until = 0 WHERE state = 'queued' AND claimed_by = $1";
+        const AGAIN_ALL: &str = "UPDATE regraded SET claimed_until = 0 WHERE state = 'queued' AND claimed_until > 0";
         let done = on!(&self.write, db => match by {
-            Some(by) => sqlx::query(ONE).bind(by).execute(db).await?.rows_affected(),
-            None => sqlx::query(ALL).execute(db).await?.rows_affected(),
+            Some(by) => {
+                sqlx::query(AGAIN_ONE).bind(by).execute(db).await?;
+                sqlx::query(ONE).bind(by).execute(db).await?.rows_affected()
+            }
+            None => {
+                sqlx::query(AGAIN_ALL).execute(db).await?;
+                sqlx::query(ALL).execute(db).await?.rows_affected()
+            }
         });
         Ok(done)
     }
