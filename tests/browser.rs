@@ -22,6 +22,21 @@ fn hostile(folder: &std::path::Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
+/// A download of Moodle's with three students.
+fn moodle_archive(path: &std::path::Path) {
+    let members = [
+        ("山田 太郎_1001_assignsubmission_file/ggsample06.vert", RIGHT),
+        ("Smith Ann_1002_assignsubmission_file/ggsample06.vert", WRONG),
+        ("佐藤 花_1003_assignsubmission_file/ggsample06.vert", BROKEN),
+    ];
+    let mut zip = zip::ZipWriter::new(std::fs::File::create(path).expect("a file"));
+    for (name, file) in members {
+        zip.start_file(name, zip::write::SimpleFileOptions::default()).expect("a member");
+        std::io::Write::write_all(&mut zip, &std::fs::read(sample(file)).expect("a sample")).expect("its bytes");
+    }
+    zip.finish().expect("an archive");
+}
+
 /// Chooses a file on the student's page and waits for its result, which is a draft.
 async fn choose(browser: &Browser, file: &str, mark: &str) {
     browser.keys("#file", file).await;
@@ -234,6 +249,33 @@ async fn a_teacher_walks_through_the_class() {
     browser.click(".people tbody a").await;
     browser.until("document.querySelectorAll('.attempts li').length === 3").await;
     browser.check("teacher-person").await;
+
+    // A class comes as an archive of Moodle's; it is graded in the background.
+    browser.open(&server.at("/teacher/batches")).await;
+    browser.check("teacher-archives").await;
+    let archive = folder.path().join("CG-第6回.zip");
+    moodle_archive(&archive);
+    browser.keys("#archive", &archive.to_string_lossy()).await;
+    browser.click("form[action='/teacher/batches'] .primary").await;
+    browser.until("location.pathname.startsWith('/teacher/batches/') && document.querySelector('.downloads')").await;
+    browser.until("[...document.images].every(i => (i.loading = 'eager', i.complete && i.naturalWidth > 0))").await;
+    assert_eq!(browser.js("return document.querySelectorAll('.people tbody tr').length").await, 3);
+    assert!(browser.text("main").await.contains("山田 太郎"));
+    browser.check("teacher-batch").await;
+    let csv = browser.js("return document.querySelector('.downloads a[href$=\"/csv\"]').getAttribute('href')").await;
+    let csv = browser.fetch(csv.as_str().expect("an address")).await;
+    assert!(csv.contains("山田 太郎") && csv.contains("100"), "{csv}");
+
+    // Everything is graded again, with other probes; the results agree, and are adopted.
+    browser.open(&server.at("/teacher/batches")).await;
+    browser.click("[name=new_seed]").await;
+    browser.click("form[action='/teacher/regradings'] button").await;
+    browser.until("location.pathname.startsWith('/teacher/regradings/') && document.querySelector('.adopt')").await;
+    assert!(browser.text(".lead").await.contains("0 lose points"));
+    browser.check("teacher-regrading").await;
+    browser.js("window.confirm = () => true").await;
+    browser.click(".adopt button").await;
+    browser.until("document.querySelector('.notice.good') && !document.querySelector('.adopt')").await;
 
     // Handing in ends; a student is told so.
     browser.open(&server.at("/teacher/settings")).await;

@@ -4,18 +4,19 @@ for (const element of document.querySelectorAll("[data-events]")) {
   const events = new EventSource(element.dataset.events);
   const status = element.querySelector("[role=status]");
   const bar = element.querySelector("progress");
-  events.addEventListener("progress", (event) => {
+  const show = (event) => {
     const { files, graded, failed } = JSON.parse(event.data);
-    const done = graded + failed;
     if (bar) {
       bar.max = Math.max(files, 1);
-      bar.value = done;
+      bar.value = graded + failed;
     }
-    if (status) status.textContent = element.dataset.words.replace("{done}", done).replace("{files}", files);
-    if (done >= files) {
-      events.close();
-      location.reload();
-    }
+    if (status) status.textContent = element.dataset.words.replace("{done}", graded + failed).replace("{files}", files);
+  };
+  events.addEventListener("progress", show);
+  events.addEventListener("done", (event) => {
+    show(event);
+    events.close();
+    location.reload();
   });
   addEventListener("pagehide", () => events.close());
 }

@@ -112,6 +112,13 @@ impl Browser {
         element.text().await.expect("a text")
     }
 
+    /// What an address of the page's own service answers, as text.
+    pub async fn fetch(&self, path: &str) -> String {
+        let script = "const done = arguments[1]; fetch(arguments[0]).then(a => a.text()).then(done, e => done(String(e)))";
+        let answer = self.client.execute_async(script, vec![path.into()]).await;
+        answer.unwrap_or_else(|error| panic!("{path}: {error}")).as_str().unwrap_or_default().to_owned()
+    }
+
     /// Whether there is such an element.
     pub async fn has(&self, css: &str) -> bool {
         !self.client.find_all(Locator::Css(css)).await.expect("an answer").is_empty()

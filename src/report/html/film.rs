@@ -32,8 +32,8 @@ pub struct Film {
 impl Film {
     /// The film of a grading in every `finest`-th pixel of every `finest`-th row, or coarser where that is too large;
     /// none when nothing was drawn.
-    pub fn of(pictures: &Pictures, finest: usize) -> Result<Option<Self>, Fault> {
-        let poses = Pose::all(pictures)?;
+    pub fn of(yours: &[Picture], expected: &[Picture], finest: usize) -> Result<Option<Self>, Fault> {
+        let poses = Pose::pairs(yours, expected)?;
         let Some(first) = poses.first() else { return Ok(None) };
         let motion = Motion::of(poses.len(), first.expected.width, first.expected.height);
         let mut fitting = None;

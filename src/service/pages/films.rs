@@ -1,10 +1,9 @@
-//! The moving pictures of a submission and its portrait: drawn when a page first shows them, kept for a while.
+//! The moving pictures of a submission: drawn when a page first shows them, kept for a while.
 
-use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::report::html::Film;
-use crate::report::{Picture, Pictures};
+use crate::report::Picture;
 use crate::sandbox;
 use crate::service::State;
 use crate::service::errors::Problem;
@@ -22,15 +21,14 @@ type Cell = Arc<OnceCell<Option<Arc<Film>>>>;
 #[derive(Debug)]
 pub struct Films {
     recent: Mutex<VecDeque<(String, Cell)>>,
-    expected: OnceLock<Arc<Vec<Picture>>>,
-    portraits: OnceLock<Result<Portraits, Fault>>,
+    expected: OnceLock<Vec<Picture>>,
     /// One is drawn at a time: who looks leaves the other processors to who hands in.
     turn: Semaphore,
 }
 
 impl Default for Films {
     fn default() -> Self {
-        Self { recent: Mutex::default(), expected: OnceLock::new(), portraits: OnceLock::new(), turn: Semaphore::new(1) }
+        Self { recent: Mutex::default(), expected: OnceLock::new(), turn: Semaphore::new(1) }
     }
 }
 
@@ -46,12 +44,8 @@ impl Films {
         entry.1
     }
 
-    fn expected(&self, state: &State) -> Arc<Vec<Picture>> {
-        Arc::clone(self.expected.get_or_init(|| Arc::new(crate::homework::expected_pictures(state.assignment))))
-    }
-
-    fn portraits(&self, state: &State) -> Result<Portraits, Fault> {
-        self.portraits.get_or_init(|| Portraits::new(state.assignment)).clone()
+    fn expected(&self, state: &State) -> &[Picture] {
+        self.expected.get_or_init(|| crate::homework::expected_pictures(state.assignment))
     }
 }
 
@@ -61,29 +55,11 @@ pub(super) async fn film(state: &State, submission: &Submission) -> Result<Optio
     let film = cell.get_or_try_init(|| async {
         let yours = frames(state, submission).await?;
         let film = blocking(state, move |state| {
-            let expected = state.films.expected(state).as_ref().clone();
-            if yours.is_empty() { Ok(None) } else { Film::of(&Pictures { yours, expected, terms: Vec::new() }, 1) }
+            if yours.is_empty() { Ok(None) } else { Film::of(&yours, state.films.expected(state), 1) }
         });
         Ok::<_, Problem>(film.await?.map(Arc::new))
     });
     film.await.cloned()
-}
-
-/// The small picture of a submission, drawn once and kept in the database; none where nothing is drawn.
-pub(super) async fn portrait(state: &State, submission: &Submission) -> Result<Option<Vec<u8>>, Problem> {
-    let Submission { assignment, sha256, .. } = submission;
-    if let Some(kept) = state.store.portrait(assignment, sha256).await? {
-        return Ok(kept);
-    }
-    let drawn = frames(state, submission).await?;
-    let png = blocking(state, move |state| state.films.portraits(state)?.of(&drawn)).await?;
-    state.store.set_portrait(assignment, sha256, png.as_deref()).await?;
-    Ok(png)
-}
-
-/// What a right answer's portrait looks like, as a PNG.
-pub(super) fn expected_portrait(state: &State) -> Result<Vec<u8>, Fault> {
-    Ok(state.films.portraits(state)?.expected)
 }
 
 async fn frames(state: &State, submission: &Submission) -> Result<Vec<Picture>, Problem> {

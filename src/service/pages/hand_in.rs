@@ -144,11 +144,13 @@ async fn take(
     via: Via,
 ) -> Result<Receipt, Problem> {
     served(state, &assignment)?;
+    // Counted before a byte of the body is read.
+    state.limits.address(&client)?;
     let form = Form::read(form).await?;
     visitor.check_csrf(state, &form.csrf)?;
     let visitor = visitor.known(state).await?;
     let (name, bytes) = form.file(state)?;
-    submit(state, Upload { assignment, name, bytes, identity: visitor.identity, client, via, hints: None }).await
+    submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None }).await
 }
 
 /// The form as it came.

@@ -177,7 +177,7 @@ pub(super) async fn picture(
     let found = match picture.as_str() {
         "yours.png" => films::film(&state, &submission).await?.map(|film| film.yours.clone()),
         "difference.png" => films::film(&state, &submission).await?.map(|film| film.difference.clone()),
-        "portrait.png" => films::portrait(&state, &submission).await?,
+        "portrait.png" => state.gallery.portrait(&state, &submission).await?,
         "animation.png" => state.gallery.animation(&state, &submission, asked.view).await?,
         _ => None,
     };

@@ -1,6 +1,5 @@
 //! The class: everyone's picture and result, filters, charts.
 
-use super::super::films;
 use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::{internal, part, shown, student};
@@ -130,7 +129,7 @@ pub(in crate::service::pages) async fn page(
         let (from, to) = (said(course.from), said(course.to));
         (course, from, to)
     });
-    let expected = films::expected_portrait(&state).map_err(internal)?;
+    let expected = &state.gallery.portraits().map_err(internal)?.expected;
     shown(
         View {
             place: Place::Class,
@@ -181,7 +180,7 @@ fn tallies(frame: &Frame, all: &[Person]) -> Vec<Tally> {
     Standing::ALL.into_iter().map(tally).filter(|tally| tally.count > 0).collect()
 }
 
-fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
+pub(super) fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
     let best = person.best();
     let shown = best.or(person.rows.first());
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value}"));

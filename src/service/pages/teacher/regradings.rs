@@ -4,9 +4,10 @@ use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::{part, shown, student};
 use super::login::Token;
-use super::{Place, live};
+use super::Place;
 use crate::report::Verdict;
 use crate::service::State;
+use crate::service::api::batches::{Job, progress};
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use crate::service::regrade;
@@ -14,6 +15,7 @@ use crate::service::store::{Compared, Progress};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Path, State as Shared};
+use axum::response::sse::{KeepAlive, Sse};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -96,7 +98,7 @@ pub(in crate::service::pages) async fn events(
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
     state.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
-    Ok(live::events(&state, live::What::Regrading(id)))
+    Ok(Sse::new(progress(state, Job::Regrading(id))).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// `GET /teacher/regradings/{id}`.
@@ -115,7 +117,7 @@ pub(in crate::service::pages) async fn page(
     let changes = compared.iter().filter(differs).count();
     shown(
         View {
-            place: Place::Settings,
+            place: Place::Batches,
             csrf: teacher.csrf(&state),
             at: Moment::of(regrading.created_at, frame.language),
             seed: regrading.seed,
