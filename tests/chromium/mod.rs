@@ -145,10 +145,17 @@ impl Browser {
         found.unwrap_or_else(|error| panic!("waited in vain for {css}: {error}"));
     }
 
-    /// Clicks the first element.
+    /// Clicks the first element, as soon as the page has scrolled to it.
     pub async fn click(&self, css: &str) {
-        let element = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
-        element.click().await.unwrap_or_else(|error| panic!("{css}: {error}"));
+        let start = Instant::now();
+        loop {
+            let element = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
+            match element.click().await {
+                Ok(()) => return,
+                Err(error) => assert!(start.elapsed() < PATIENCE, "{css}: {error}"),
+            }
+            tokio::time::sleep(LOOK).await;
+        }
     }
 
     /// Types into an element, or gives a file field its file.

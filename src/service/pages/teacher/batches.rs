@@ -27,10 +27,11 @@ struct List {
     csrf: String,
     archive_mib: u64,
     batches: Vec<Line>,
+    regradings: Vec<Line>,
     formats: Vec<Offer>,
 }
 
-/// One archive in the list.
+/// One archive, or one regrading, in its list.
 struct Line {
     href: String,
     title: String,
@@ -67,7 +68,7 @@ fn formats(frame: &Frame, is_batch: bool) -> Vec<Offer> {
     let here = all.filter(|format| {
         **format != Format::MoodleWorksheet && (is_batch || **format != Format::MoodleFeedback)
     });
-    here.map(|format| Offer { id: format.id(), what: format.description().get(frame.language).to_owned() }).collect()
+    here.map(|format| Offer { id: format.id(), what: format.description().get(frame.language).replace('`', "") }).collect()
 }
 
 /// `GET /teacher/batches`.
@@ -82,8 +83,20 @@ pub(in crate::service::pages) async fn list(
         let at = Moment::of(batch.created_at, frame.language);
         batches.push(Line { href: format!("/teacher/batches/{}", batch.id), title: batch.title, at, progress });
     }
+    let mut regradings = Vec::new();
+    for regrading in state.store.regradings(&state.assignment.id).await? {
+        let progress = state.store.regrading_progress(&regrading.id).await?;
+        let at = Moment::of(regrading.created_at, frame.language);
+        let title = match regrading.adopted_at {
+            Some(_) => frame.say("adopted", "採用済み"),
+            None => frame.say("not adopted", "未採用"),
+        };
+        let href = format!("/teacher/regradings/{}", regrading.id);
+        regradings.push(Line { href, title: title.to_owned(), at, progress });
+    }
     let (csrf, formats) = (teacher.csrf(&state), formats(&frame, false));
-    shown(List { frame, place: Place::Batches, csrf, archive_mib: state.config.archive_mib, batches, formats }.render())
+    let archive_mib = state.config.archive_mib;
+    shown(List { frame, place: Place::Batches, csrf, archive_mib, batches, regradings, formats }.render())
 }
 
 /// `POST /teacher/batches`: stores an archive.

@@ -13,6 +13,7 @@ use crate::service::store::{Assignment, Audience};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Multipart, Query, State as Shared};
+use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -78,6 +79,7 @@ pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Query(done): Query<Done>,
+    headers: HeaderMap,
     frame: Frame,
 ) -> Result<Response, Problem> {
     let settings = state.store.assignment(&state.assignment.id).await?;
@@ -95,17 +97,24 @@ pub(in crate::service::pages) async fn page(
         "roster" => Some(frame.say("The roster is taken over.", "名簿を登録しました。")),
         _ => None,
     };
-    shown(view(&state, frame, given, notice, None).await?.render())
+    shown(view(&state, frame, &host(&state, &headers), given, notice, None).await?.render())
+}
+
+/// The name by which the teacher's own browser knows the service.
+fn host(state: &State, headers: &HeaderMap) -> String {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
+    host.map_or_else(|| state.config.listen.to_string(), str::to_owned)
 }
 
 async fn view(
     state: &State,
     frame: Frame,
+    host: &str,
     given: Given,
     notice: Option<&'static str>,
     problem: Option<String>,
 ) -> Result<View, Problem> {
-    let public = state.config.public_url.clone().unwrap_or_else(|| format!("http://{}", state.config.listen));
+    let public = state.config.public_url.clone().unwrap_or_else(|| format!("http://{host}"));
     let students = state.store.students().await?;
     Ok(View {
         frame,
@@ -140,6 +149,7 @@ fn read_audience(word: &str) -> Audience {
 pub(in crate::service::pages) async fn save(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
+    headers: HeaderMap,
     frame: Frame,
     Form(mut given): Form<Given>,
 ) -> Result<Response, Problem> {
@@ -152,7 +162,8 @@ pub(in crate::service::pages) async fn save(
         }
         Err(problem) => {
             given.csrf = teacher.csrf(&state);
-            shown(view(&state, frame, given, None, Some(problem.to_owned())).await?.render())
+            let host = host(&state, &headers);
+            shown(view(&state, frame, &host, given, None, Some(problem.to_owned())).await?.render())
         }
     }
 }
