@@ -35,16 +35,21 @@ impl Pose {
 
     /// Every pose of a grading, in order; a fault unless all pictures have one size.
     pub fn all(pictures: &Pictures) -> Result<Vec<Self>, Fault> {
-        if pictures.yours.len() != pictures.expected.len() {
+        Self::pairs(&pictures.yours, &pictures.expected)
+    }
+
+    /// The same of what was drawn and what is expected.
+    pub fn pairs(yours: &[Picture], expected: &[Picture]) -> Result<Vec<Self>, Fault> {
+        if yours.len() != expected.len() {
             return Err(mismatched());
         }
-        let mut all = pictures.yours.iter().chain(&pictures.expected);
+        let mut all = yours.iter().chain(expected);
         let size = |picture: &Picture| (picture.width, picture.height);
         let first = all.next().map(size);
         if all.any(|picture| Some(size(picture)) != first) {
             return Err(mismatched());
         }
-        let pairs = pictures.yours.iter().zip(&pictures.expected);
+        let pairs = yours.iter().zip(expected);
         pairs.map(|(yours, expected)| Self::of(yours, expected)).collect()
     }
 

@@ -23,12 +23,15 @@ pub async fn renew_course_secret(state: &State) -> Result<String, Problem> {
     Ok(secret)
 }
 
+/// Whether this is the secret of the course link.
+pub async fn check_course_link(state: &State, secret: &str) -> Result<(), Problem> {
+    if same(secret, &course_secret(state).await?) { Ok(()) } else { Err(Problem::not_found()) }
+}
+
 /// Says that the student with `number` sits at this browser. The answer may be another browser in its place: set its
 /// cookie ([`Visitor::set_cookie`]).
 pub async fn join(state: &State, visitor: Visitor, secret: &str, number: &str) -> Result<Visitor, Problem> {
-    if !same(secret, &course_secret(state).await?) {
-        return Err(Problem::not_found());
-    }
+    check_course_link(state, secret).await?;
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable(
             format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`."),

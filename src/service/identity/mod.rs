@@ -15,7 +15,7 @@ mod visitor;
 
 pub(super) use cookies::named as cookie;
 pub use cookies::{STUDENT_COOKIE, TEACHER_COOKIE};
-pub use join::{course_secret, join, leave, normal_number, renew_course_secret};
+pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret};
 pub(super) use login::PASSWORD_SETTING;
 pub use login::{LoginForm, login, logout};
 pub(super) use secrets::same;
