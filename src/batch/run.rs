@@ -75,7 +75,7 @@ impl Candidate {
     }
 
     /// Why there is nothing to grade.
-    fn nothing(&self) -> Outcome {
+    pub fn nothing(&self) -> Outcome {
         match &self.hand_in.content {
             intake::Content::Nothing(why) => Outcome::NotGraded(why.clone()),
             intake::Content::File { .. } => Outcome::NotGraded(Text::default()),
@@ -88,7 +88,8 @@ impl Candidate {
         RecordOf { student, path: path.as_deref(), sha256: self.sha256.as_deref(), outcome }
     }
 
-    fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
+    /// The entry of this outcome.
+    pub fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
         let HandIn { student, path, local, .. } = &self.hand_in;
         Entry {
             student: student.clone(),

@@ -7,7 +7,7 @@ mod watch;
 
 pub use batch::Batch;
 pub use format::{Format, Reading};
-pub use serve::Serve;
+pub use serve::{LogFormat, Serve};
 pub use watch::Watch;
 
 use crate::diagnose::Hints;

@@ -1,15 +1,116 @@
 //! Arguments of `ggrade serve`.
 
-use super::{Machine, Sandbox};
+use crate::sandbox::Policy;
 use clap::Args;
+use serde::Serialize;
+use std::net::SocketAddr;
+use std::path::PathBuf;
 
 /// Serve the upload pages.
-#[derive(Debug, Args)]
+///
+/// Every option can also be given as an environment variable (`GGRADE_QUEUE=64` for `--queue 64`) or as a line of a
+/// TOML file (`queue = 64`, `teacher_token = "…"`). A flag goes before the environment, the environment before the file.
+#[derive(Clone, Debug, Default, Args, Serialize)]
 pub struct Serve {
-    /// Homework and adapter.
-    #[command(flatten)]
-    pub machine: Machine,
-    /// The walls around the gradings.
-    #[command(flatten)]
-    pub sandbox: Sandbox,
+    /// A TOML file with any of these options
+    #[arg(long, value_name = "FILE", env = "GGRADE_CONFIG")]
+    #[serde(skip)]
+    pub config: Option<PathBuf>,
+    /// Ask for the teacher's password on standard input, keep its hash in the database, and end
+    #[arg(long)]
+    #[serde(skip)]
+    pub set_teacher_password: bool,
+    /// Address and port to listen on [default: 127.0.0.1:8080]
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub listen: Option<SocketAddr>,
+    /// An SQLite file, made when missing, or postgres://user@host/name [default: ggrade.db]
+    #[arg(long, value_name = "FILE|URL")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub database: Option<String>,
+    /// The address by which browsers know the service, such as https://ggrade.example.ac.jp; with https, cookies are
+    /// never sent over plain http
+    #[arg(long, value_name = "URL")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub public_url: Option<String>,
+    /// Address (or network, as 10.0.0.0/8) of a reverse proxy whose X-Forwarded-For is believed; may be given again
+    #[arg(long = "trusted-proxy", value_name = "ADDRESS")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub trusted_proxies: Vec<String>,
+    /// The assignment [default: ggsample06]
+    #[arg(long, value_name = "ID")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub assignment: Option<String>,
+    /// Files graded at once [default: one per processor]
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workers: Option<usize>,
+    /// What to do where this machine cannot close the sandbox around a grading [default: required]
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sandbox: Option<Policy>,
+    /// Give each submission a process of its own, which no other submission has touched (slower)
+    #[arg(long)]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub single_use_workers: bool,
+    /// Seconds that one grading may take [default: 2]
+    #[arg(long, value_name = "SECONDS")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deadline: Option<f64>,
+    /// Seconds that an upload waits for its report before it is told to come back [default: 5]
+    #[arg(long, value_name = "SECONDS")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wait: Option<f64>,
+    /// Uploads that may wait to be graded; the next one is told to come back (429) [default: 64]
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub queue: Option<usize>,
+    /// Uploads a minute from one student or browser [default: 60]
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uploads_per_student: Option<u32>,
+    /// Uploads a minute from one address; a whole computer room may share one [default: 1200]
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uploads_per_address: Option<u32>,
+    /// Largest archive that a teacher may upload, in MiB [default: 64]
+    #[arg(long, value_name = "MIB")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub archive_mib: Option<u64>,
+    /// Days after which submissions are removed; 0 keeps them [default: 0]
+    #[arg(long, value_name = "DAYS")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub retention_days: Option<u32>,
+    /// Secret that lets programs use the teacher's part of the API, and a teacher log in [default: a new one at each
+    /// start, shown at the start, unless there is a password]
+    #[arg(long, value_name = "SECRET")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub teacher_token: Option<String>,
+    /// Hash of the teacher's password ($argon2id$…), instead of --set-teacher-password
+    #[arg(long, value_name = "PHC")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub teacher_password_hash: Option<String>,
+    /// Secret that lets others than this machine read /metrics (Authorization: Bearer)
+    #[arg(long, value_name = "SECRET")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metrics_token: Option<String>,
+    /// How the log on standard error is written [default: text]
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub log_format: Option<LogFormat>,
+    /// What is logged, such as warn or ggrade=debug [default: info]
+    #[arg(long, value_name = "FILTER")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub log: Option<String>,
+}
+
+/// How a log is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LogFormat {
+    /// For a person
+    #[default]
+    Text,
+    /// One JSON object a line
+    Json,
 }

@@ -1,10 +1,110 @@
 //! `ggrade serve`.
 
-use super::Outcome;
-use crate::cli::Serve;
+use super::{Outcome, language};
+use crate::cli::{LogFormat, Serve};
 use crate::fault::Fault;
+use crate::language::Text;
+use crate::service::{Config, server};
+use std::io::{BufRead, IsTerminal, Write};
+use tracing_subscriber::EnvFilter;
 
-/// Runs it.
-pub fn run(_arguments: &Serve) -> Result<Outcome, Fault> {
-    todo!()
+/// Shortest password of a teacher, in characters.
+const SHORTEST_PASSWORD: usize = 10;
+
+/// Serves until it is told to end.
+pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
+    let config = match Config::load(arguments) {
+        Ok(config) => config,
+        Err(fault) => {
+            anstream::eprintln!("ggrade: {}", fault.message.get(language(None)));
+            return Ok(Outcome::Usage);
+        }
+    };
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .map_err(|error| Fault::new(Text::verbatim(format!("threads: {error}"))))?;
+    if arguments.set_teacher_password {
+        return set_password(&config, &runtime);
+    }
+    log(&config)?;
+    runtime.block_on(async {
+        let started = server::start(config).await?;
+        welcome(&started);
+        started.serve().await
+    })?;
+    Ok(Outcome::FullMarks)
+}
+
+/// Says where the service is, for whoever started it.
+fn welcome(started: &server::Started) {
+    let address = &started.address;
+    let database = &started.state.config.location().map(|location| location.to_string()).unwrap_or_default();
+    let public = started.state.config.public_url.clone().unwrap_or_else(|| format!("http://{address}"));
+    let public = public.trim_end_matches('/');
+    let text = Text::new(
+        format!("Students:  {public}/\nTeachers:  {public}/teacher\nDatabase:  {database}"),
+        format!("学生用:       {public}/\n教員用:       {public}/teacher\nデータベース: {database}"),
+    );
+    anstream::eprintln!("{}", text.get(language(None)));
+    if let Some(token) = &started.one_time_token {
+        let text = Text::new(
+            format!(
+                "Log in with the token {token}\n(new at each start; `ggrade serve --set-teacher-password` sets a password)"
+            ),
+            format!(
+                "トークン {token} でログインできます\n(起動のたびに変わります。パスワードは ggrade serve --set-teacher-password で設定できます)"
+            ),
+        );
+        anstream::eprintln!("{}", text.get(language(None)));
+    }
+}
+
+fn set_password(config: &Config, runtime: &tokio::runtime::Runtime) -> Result<Outcome, Fault> {
+    let language = language(None);
+    if std::io::stdin().is_terminal() {
+        let prompt = Text::new(
+            "New password of the teacher (it is shown while you type): ",
+            "教員用の新しいパスワード (入力した文字は表示されます): ",
+        );
+        anstream::eprint!("{}", prompt.get(language));
+        let _ = std::io::stderr().flush();
+    }
+    let mut line = String::new();
+    let read = std::io::stdin().lock().read_line(&mut line);
+    let password = line.trim_end_matches(['\r', '\n']);
+    if read.is_err() || password.chars().count() < SHORTEST_PASSWORD {
+        let text = Text::new(
+            format!("a password has at least {SHORTEST_PASSWORD} characters; nothing was changed"),
+            format!("パスワードは {SHORTEST_PASSWORD} 文字以上にしてください。変更していません"),
+        );
+        anstream::eprintln!("ggrade: {}", text.get(language));
+        return Ok(Outcome::Usage);
+    }
+    runtime.block_on(server::set_teacher_password(config, password))?;
+    let text = Text::new(
+        "The password is set; every teacher has to log in again.",
+        "パスワードを設定しました。ログイン中の教員は、ログインし直す必要があります。",
+    );
+    anstream::eprintln!("{}", text.get(language));
+    Ok(Outcome::FullMarks)
+}
+
+/// Writes the log to standard error: never a byte of what a student wrote.
+fn log(config: &Config) -> Result<(), Fault> {
+    let filter = EnvFilter::try_new(&config.log).map_err(|error| {
+        Fault::new(Text::new(
+            format!("--log {}: {error}", config.log),
+            format!("--log {} が正しくありません: {error}", config.log),
+        ))
+    })?;
+    let log = tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal());
+    match config.log_format {
+        LogFormat::Text => log.init(),
+        LogFormat::Json => log.json().init(),
+    }
+    Ok(())
 }

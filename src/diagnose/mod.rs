@@ -28,7 +28,20 @@ const UNEXPLAINED: &str = "unexplained";
 const UNDEFINED_POWER: &str = "specular-unclamped";
 
 /// How much a message helps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    clap::ValueEnum,
+    Serialize,
+    Deserialize,
+    utoipa::ToSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Hints {
     /// What is seen, no more.

@@ -54,13 +54,16 @@ impl Serialize for Number {
 }
 
 /// A report in the shape of the contract.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[schema(as = Report)]
 pub struct View<'a> {
     schema: &'static str,
     assignment: &'a str,
     source: &'a SourceInfo,
     verdict: Verdict,
+    #[schema(value_type = Option<f64>)]
     score: Number,
+    #[schema(value_type = Option<f64>)]
     max_score: Number,
     rubric: Vec<Rubric<'a>>,
     mistakes: &'a [String],
@@ -68,13 +71,16 @@ pub struct View<'a> {
     frames: Vec<Frame>,
     probes: Probes,
     environment: &'a Environment,
+    #[schema(value_type = Option<f64>)]
     elapsed_ms: Number,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, utoipa::ToSchema)]
 struct Rubric<'a> {
     id: &'a str,
+    #[schema(value_type = Option<f64>)]
     points: Number,
+    #[schema(value_type = Option<f64>)]
     max_points: Number,
     mistake: Option<&'a str>,
     message: &'a str,
@@ -96,7 +102,7 @@ impl<'a> Rubric<'a> {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, utoipa::ToSchema)]
 struct Message<'a> {
     severity: Severity,
     stage: Stage,
@@ -119,11 +125,14 @@ impl<'a> Message<'a> {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, utoipa::ToSchema)]
 struct Frame {
+    #[schema(value_type = Option<f64>)]
     t: Number,
     coverage_mismatches: u32,
+    #[schema(value_type = Option<f64>)]
     max_difference: Number,
+    #[schema(value_type = Option<f64>)]
     mean_difference: Number,
     mismatched_pixels: u32,
 }
@@ -140,11 +149,12 @@ impl Frame {
     }
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, utoipa::ToSchema)]
 struct Probes {
     seed: u64,
     samples: u32,
     mismatched: u32,
+    #[schema(value_type = Option<f64>)]
     max_difference: Option<Number>,
 }
 

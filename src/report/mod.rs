@@ -20,7 +20,7 @@ use crate::language::Text;
 use serde::{Deserialize, Serialize};
 
 /// The outcome in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Every frame and every probe agrees: full marks.
@@ -34,7 +34,7 @@ pub enum Verdict {
 }
 
 /// What was handed in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct SourceInfo {
     /// File name as handed in.
     pub name: String,
@@ -112,7 +112,7 @@ pub struct ProbeResult {
 }
 
 /// What graded it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct Environment {
     /// Version of ggrade.
     pub ggrade: String,

@@ -35,16 +35,21 @@ impl Pose {
 
     /// Every pose of a grading, in order; a fault unless all pictures have one size.
     pub fn all(pictures: &Pictures) -> Result<Vec<Self>, Fault> {
-        if pictures.yours.len() != pictures.expected.len() {
+        Self::pairs(&pictures.yours, &pictures.expected)
+    }
+
+    /// The same of what was drawn and what is expected.
+    pub fn pairs(yours: &[Picture], expected: &[Picture]) -> Result<Vec<Self>, Fault> {
+        if yours.len() != expected.len() {
             return Err(mismatched());
         }
-        let mut all = pictures.yours.iter().chain(&pictures.expected);
+        let mut all = yours.iter().chain(expected);
         let size = |picture: &Picture| (picture.width, picture.height);
         let first = all.next().map(size);
         if all.any(|picture| Some(size(picture)) != first) {
             return Err(mismatched());
         }
-        let pairs = pictures.yours.iter().zip(&pictures.expected);
+        let pairs = yours.iter().zip(expected);
         pairs.map(|(yours, expected)| Self::of(yours, expected)).collect()
     }
 
@@ -89,6 +94,23 @@ pub fn animation(pictures: &Pictures) -> Result<Vec<u8>, Fault> {
 /// One picture as an opaque PNG.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, Fault> {
     encode(&[&Raster::opaque(picture)?])
+}
+
+/// Where two pictures of one size differ, as a PNG.
+pub fn difference_png(yours: &Picture, expected: &Picture) -> Result<Vec<u8>, Fault> {
+    encode(&[&Pose::of(yours, expected)?.difference])
+}
+
+/// Some pictures of one size as one animated PNG, which repeats for ever.
+pub fn animated(pictures: &[Picture]) -> Result<Vec<u8>, Fault> {
+    let frames = pictures.iter().map(Raster::opaque).collect::<Result<Vec<_>, _>>()?;
+    encode(&frames.iter().collect::<Vec<_>>())
+}
+
+/// The picture in a PNG of ours.
+pub fn decode(png: &[u8]) -> Result<Picture, Fault> {
+    let image = image::load_from_memory_with_format(png, image::ImageFormat::Png).map_err(|_| mismatched())?.to_rgba8();
+    Ok(Picture { width: image.width(), height: image.height(), rgba: image.into_raw() })
 }
 
 fn animate(poses: &[Pose]) -> Result<Vec<u8>, Fault> {

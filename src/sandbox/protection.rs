@@ -4,7 +4,8 @@ use crate::language::Text;
 use serde::{Deserialize, Serialize};
 
 /// What to do where a worker can still reach what it must not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Policy {
     /// Refuse to grade.
     #[default]

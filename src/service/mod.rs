@@ -1,1 +1,82 @@
 //! The upload service: axum router, pages, store.
+//!
+//! | address | what |
+//! | --- | --- |
+//! | `/`, `/a/{assignment}` | the student's page; POST: a file, then to `/r/{id}` |
+//! | `/r/{id}` | the permanent page of a report; who has the address may see it |
+//! | `/r/{id}/frames/{n}.png`, `animation.png` | its pictures; `?view=yours`, `expected`, `difference`, `all` |
+//! | `/r/{id}/source` | the file as handed in, to be saved |
+//! | `/join/{secret}` | the course link |
+//! | `/teacher/…` | the teacher's pages; `/teacher/login`, `/teacher/logout` |
+//! | `/api/v1/…` | the API; `/api/v1/openapi.json`, to be read at `/api/docs` |
+//! | `/assets/…` | styles and scripts |
+//! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
+//!
+//! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`store`] keeps everything,
+//! [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`].
+//! The async runtime lives nowhere else in ggrade.
+
+pub mod api;
+pub mod classes;
+pub mod clock;
+pub mod config;
+pub mod errors;
+pub mod gallery;
+pub mod grading;
+pub mod identity;
+pub mod language;
+pub mod limits;
+pub(crate) mod metrics;
+pub mod pages;
+pub mod regrade;
+mod requests;
+pub mod server;
+mod state;
+pub mod store;
+pub mod submit;
+pub mod upkeep;
+
+pub use config::Config;
+pub use state::{Shared, State};
+
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::http::{HeaderName, HeaderValue, header};
+use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::set_header::SetResponseHeaderLayer;
+
+/// The whole service as a router.
+pub fn app(state: State) -> Router {
+    let routes = Router::new().merge(pages::router(&state)).merge(api::router(&state));
+    layered(state, routes)
+}
+
+/// Routes with everything around them: limits, errors in their form, security headers.
+pub fn layered(state: State, routes: Router<State>) -> Router {
+    let fixed = |name: HeaderName, value: &'static str| {
+        SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value))
+    };
+    routes
+        .layer(DefaultBodyLimit::max(api::MAX_BODY))
+        .layer(CatchPanicLayer::custom(panicked))
+        .layer(axum::middleware::from_fn_with_state(state.clone(), requests::attend))
+        .layer(axum::middleware::from_fn(errors::render))
+        .layer(fixed(header::CONTENT_SECURITY_POLICY, CSP))
+        .layer(fixed(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
+        .layer(fixed(header::REFERRER_POLICY, "same-origin"))
+        .layer(fixed(header::X_FRAME_OPTIONS, "DENY"))
+        .layer(fixed(HeaderName::from_static("cross-origin-opener-policy"), "same-origin"))
+        .layer(fixed(HeaderName::from_static("cross-origin-resource-policy"), "same-origin"))
+        .layer(fixed(HeaderName::from_static("permissions-policy"), "camera=(), geolocation=(), microphone=()"))
+        .with_state(state)
+}
+
+/// What a page may load: what this service has, and nothing inline.
+const CSP: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; \
+                   font-src 'self'; form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
+
+fn panicked(panic: Box<dyn std::any::Any + Send>) -> axum::response::Response {
+    use axum::response::IntoResponse;
+    let said = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    errors::Problem::internal(&format_args!("panic: {}", said.unwrap_or("no message"))).into_response()
+}

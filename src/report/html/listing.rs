@@ -1,6 +1,6 @@
 //! The student's source with what there is to say about its lines.
 
-use super::Message;
+use super::body::Message;
 use super::rich::Piece;
 use crate::language::Language;
 use crate::report::Report;

@@ -1,84 +1,40 @@
 //! The moving pictures, their strip and their numbers.
 
-use super::sheet::{Grid, Step, address};
-use crate::fault::Fault;
+use super::film::{Gallery, Term};
 use crate::language::Language;
 use crate::report::difference::{BANDS, band_of};
-use crate::report::encode::{CYCLE_SECONDS, Raster};
 use crate::report::labels::Labels;
-use crate::report::pictures::Pose;
 use crate::report::text::number;
-use crate::report::{FrameResult, Pictures, Report, TermPictures};
-
-/// Bytes of a page's moving pictures. A right answer takes about 150 kB; a shader that draws noise
-/// would take 20 MB, and is shown at a lower resolution instead.
-const BUDGET: usize = 900_000;
-/// Factors by which the pictures are reduced in turn until they fit.
-const REDUCTIONS: [usize; 4] = [1, 2, 4, 8];
+use crate::report::{FrameResult, Report};
 
 /// What the page needs for its moving pictures.
-pub(super) struct Player {
-    pub columns: usize,
-    pub steps: Vec<Step>,
-    pub cycle: f64,
+pub(super) struct Player<'a> {
     pub last: usize,
-    pub panels: [Panel; 3],
+    pub panels: [Panel<'a>; 3],
     pub is_reduced: bool,
 }
 
 /// One of the moving pictures.
-pub(super) struct Panel {
+pub(super) struct Panel<'a> {
     pub id: &'static str,
     pub label: &'static str,
-    pub address: String,
-    pub width: usize,
-    pub height: usize,
+    pub address: &'a str,
 }
 
-impl Player {
+impl<'a> Player<'a> {
     /// None when nothing was drawn.
-    pub fn of(pictures: &Pictures, labels: &'static Labels) -> Result<Option<Self>, Fault> {
-        let poses = Pose::all(pictures)?;
-        if poses.is_empty() {
-            return Ok(None);
-        }
-        let grid = Grid::of(poses.len());
-        let mut fitting = None;
-        for factor in REDUCTIONS {
-            let panels = panels(&poses, grid, factor, labels)?;
-            let bytes: usize = panels.iter().map(|panel| panel.address.len()).sum();
-            fitting = Some((panels, factor));
-            if bytes <= BUDGET {
-                break;
-            }
-        }
-        Ok(fitting.map(|(panels, factor)| Self {
-            columns: grid.columns,
-            steps: grid.steps(),
-            cycle: CYCLE_SECONDS,
-            last: poses.len() - 1,
-            panels,
-            is_reduced: factor > 1,
-        }))
-    }
-}
-
-fn panels(poses: &[Pose], grid: Grid, factor: usize, labels: &'static Labels) -> Result<[Panel; 3], Fault> {
-    let panel = |id, label, part: fn(&Pose) -> &Raster| {
-        let sheet = grid.sheet(&poses.iter().map(part).collect::<Vec<_>>(), factor);
-        Ok(Panel {
-            id,
-            label,
-            address: address(&sheet)?,
-            width: sheet.width / grid.columns,
-            height: sheet.height / grid.rows,
+    pub fn of(gallery: &'a Gallery, poses: usize, labels: &'static Labels) -> Option<Self> {
+        let panel = |id, label, address| Panel { id, label, address };
+        Some(Self {
+            last: poses.checked_sub(1)?,
+            panels: [
+                panel("yours", labels.yours, &gallery.yours),
+                panel("expected", labels.expected, &gallery.expected),
+                panel("difference", labels.difference, &gallery.difference),
+            ],
+            is_reduced: gallery.is_reduced,
         })
-    };
-    Ok([
-        panel("yours", labels.yours, |pose| &pose.yours)?,
-        panel("expected", labels.expected, |pose| &pose.expected)?,
-        panel("difference", labels.difference, |pose| &pose.difference)?,
-    ])
+    }
 }
 
 /// One frame in the strip and in the table.
@@ -141,28 +97,23 @@ pub(super) fn legend() -> Vec<Swatch> {
 }
 
 /// One term of the equation on its own.
-pub(super) struct TermView {
-    pub label: String,
+pub(super) struct TermView<'a> {
+    pub label: &'a str,
     pub t: String,
-    pub yours: Option<String>,
-    pub expected: String,
-    pub width: u32,
-    pub height: u32,
+    pub yours: Option<&'a str>,
+    pub expected: &'a str,
 }
 
 /// The terms that have pictures, under the names of their rubric lines.
-pub(super) fn terms(pictures: &Pictures, report: &Report, language: Language) -> Result<Vec<TermView>, Fault> {
-    let view = |term: &TermPictures| {
+pub(super) fn terms<'a>(gallery: &'a Gallery, report: &'a Report, language: Language) -> Vec<TermView<'a>> {
+    let view = |term: &'a Term| {
         let line = report.rubric.iter().find(|line| line.id == term.id);
-        let yours = term.yours.as_ref().map(|picture| address(&Raster::opaque(picture)?));
-        Ok(TermView {
-            label: line.map_or(term.id.as_str(), |line| line.label.get(language)).to_owned(),
+        TermView {
+            label: line.map_or(term.id.as_str(), |line| line.label.get(language)),
             t: number(term.t),
-            yours: yours.transpose()?,
-            expected: address(&Raster::opaque(&term.expected)?)?,
-            width: term.expected.width,
-            height: term.expected.height,
-        })
+            yours: term.yours.as_deref(),
+            expected: &term.expected,
+        }
     };
-    pictures.terms.iter().map(view).collect()
+    gallery.terms.iter().map(view).collect()
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::report::labels::Labels;
 use crate::report::samples;
 use crate::report::{Picture, TermPictures};
 

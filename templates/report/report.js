@@ -1,7 +1,7 @@
 "use strict";
-// The style sheet moves the pictures by itself; this lets a reader stop and look.
-{
-  const player = document.getElementById("player");
+// The style sheet moves the pictures by itself; this lets a reader stop and look. `before` is what an earlier player
+// of the same page answered: the new one goes on where that one is.
+const movePictures = (player, before) => {
   const sheets = [...player.querySelectorAll(".sheet")];
   const [button] = player.getElementsByTagName("button");
   const [output] = player.getElementsByTagName("output");
@@ -46,7 +46,13 @@
     slider.addEventListener("input", () => { set(false); seek(Number(slider.value)); });
     captions.forEach((cell, index) => cell.addEventListener("click", () => { set(false); seek(index); }));
     button.parentElement.hidden = slider.hidden = false;
-    seek(asked ? Math.min(Number(asked[1]), poses - 1) : 0);
-    set(!still && !asked);
+    seek(before ? Math.min(before.pose(), poses - 1) : asked ? Math.min(Number(asked[1]), poses - 1) : 0);
+    set(before ? before.playing() : !still && !asked);
+    return { pose: () => Number(slider.value), playing };
   }
+  return undefined;
+};
+{
+  const player = document.getElementById("player");
+  if (player) movePictures(player);
 }

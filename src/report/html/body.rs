@@ -1,0 +1,267 @@
+//! What a report shows, part by part, as the templates need it.
+
+use super::listing::{self, Line};
+use super::{Lines, Part};
+use super::player::{self, FrameView, Player, Swatch, TermView};
+use super::rich::{Piece, pieces};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::language::Language;
+use crate::report::labels::Labels;
+use crate::report::text::number;
+use crate::report::{Equation, Report, RubricLine, Verdict};
+use askama::Template;
+
+/// How much of its points a line or a whole file earned, as a teacher marks it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// All points.
+    Full,
+    /// Some.
+    Partial,
+    /// None.
+    None,
+}
+
+impl Mark {
+    /// The mark of a whole report: a file that does not run earns none.
+    pub fn of_report(report: &Report) -> Self {
+        match report.verdict {
+            Verdict::Correct => Self::Full,
+            Verdict::Wrong if report.score > 0.0 => Self::Partial,
+            Verdict::Wrong | Verdict::Rejected | Verdict::Stopped => Self::None,
+        }
+    }
+
+    fn of(points: f64, max_points: f64) -> Self {
+        match points {
+            points if points >= max_points => Self::Full,
+            points if points > 0.0 => Self::Partial,
+            _ => Self::None,
+        }
+    }
+
+    /// The name of its sign in the style sheet.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Partial => "partial",
+            Self::None => "none",
+        }
+    }
+
+    fn sign(self) -> &'static str {
+        match self {
+            Self::Full => "○",
+            Self::Partial => "△",
+            Self::None => "×",
+        }
+    }
+
+    fn word(self, labels: &'static Labels) -> &'static str {
+        match self {
+            Self::Full => labels.full,
+            Self::Partial => labels.partial,
+            Self::None => labels.none,
+        }
+    }
+}
+
+/// One line of the rubric.
+struct Rubric {
+    id: String,
+    mark: Mark,
+    label: String,
+    points: String,
+    max_points: String,
+    mistake: Option<String>,
+    message: Vec<Piece>,
+    line: Option<u32>,
+    place: String,
+}
+
+impl Rubric {
+    fn of(line: &RubricLine, labels: &Labels, language: Language) -> Self {
+        Self {
+            id: line.id.clone(),
+            mark: Mark::of(line.points, line.max_points),
+            label: line.label.get(language).to_owned(),
+            points: number(line.points),
+            max_points: number(line.max_points),
+            mistake: line.mistake.clone(),
+            message: pieces(line.message.get(language)),
+            line: line.line,
+            place: line.line.map(|line| labels.line(line)).unwrap_or_default(),
+        }
+    }
+}
+
+/// One diagnostic.
+pub(super) struct Message {
+    pub kind: &'static str,
+    pub severity: &'static str,
+    stage: &'static str,
+    pub line: Option<u32>,
+    place: String,
+    pub text: Vec<Piece>,
+    hint: Option<Vec<Piece>>,
+}
+
+impl Message {
+    fn of(diagnostic: &Diagnostic, labels: &Labels, language: Language) -> Self {
+        let place = diagnostic.line.map(|line| labels.place(line, diagnostic.column));
+        Self {
+            kind: match diagnostic.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Note => "remark",
+            },
+            severity: labels.severity(diagnostic.severity),
+            stage: labels.stage(diagnostic.stage),
+            line: diagnostic.line,
+            place: place.unwrap_or_default(),
+            text: pieces(diagnostic.message.get(language)),
+            hint: diagnostic.hint.as_ref().map(|hint| pieces(hint.get(language))),
+        }
+    }
+}
+
+/// The equation with the marks of its terms.
+struct EquationView {
+    source: String,
+    total: &'static str,
+    terms: Vec<EquationTerm>,
+    definitions: Vec<(&'static str, &'static str, String)>,
+}
+
+struct EquationTerm {
+    symbol: &'static str,
+    value: &'static str,
+    mark: Mark,
+    label: String,
+    points: String,
+}
+
+impl EquationView {
+    fn of(equation: &Equation, rubric: &[Rubric], language: Language) -> Self {
+        let terms = equation.terms.iter().filter_map(|term| {
+            let line = rubric.iter().find(|line| line.id == term.rubric)?;
+            Some(EquationTerm {
+                symbol: term.symbol,
+                value: term.value,
+                mark: line.mark,
+                label: line.label.clone(),
+                points: format!("{} / {}", line.points, line.max_points),
+            })
+        });
+        let definitions = equation.definitions.iter();
+        Self {
+            source: equation.source.get(language).to_owned(),
+            total: equation.total,
+            terms: terms.collect(),
+            definitions: definitions.map(|d| (d.symbol, d.value, d.source.get(language).to_owned())).collect(),
+        }
+    }
+}
+
+/// A stretch of the bar of points: one line of the rubric, in thousandths of the bar.
+struct Stretch {
+    x: f64,
+    width: f64,
+    earned: f64,
+}
+
+/// The lines of the rubric side by side, each as long as its points, with gaps between.
+fn bar(report: &Report) -> Vec<Stretch> {
+    const GAP: f64 = 3.0;
+    let total: f64 = report.rubric.iter().map(|line| line.max_points).sum();
+    let room = 1000.0 - GAP * (report.rubric.len().saturating_sub(1)) as f64;
+    let mut x = 0.0;
+    let stretch = |line: &RubricLine| {
+        let width = if total > 0.0 { room * line.max_points / total } else { 0.0 };
+        let share = if line.max_points > 0.0 { (line.points / line.max_points).clamp(0.0, 1.0) } else { 1.0 };
+        let stretch = Stretch { x, width, earned: width * share };
+        x += width + GAP;
+        stretch
+    };
+    report.rubric.iter().map(stretch).collect()
+}
+
+/// The report as its template shows it.
+#[derive(Template)]
+#[template(path = "report/body.html")]
+pub(super) struct Body<'a> {
+    pub labels: &'static Labels,
+    pub report: &'a Report,
+    pub score: String,
+    pub max_score: String,
+    level: u8,
+    verdict: &'static str,
+    headline: &'static str,
+    mark: Mark,
+    is_drawn: bool,
+    next: Option<String>,
+    bar: Vec<Stretch>,
+    rubric: Vec<Rubric>,
+    messages: Vec<Message>,
+    player: Option<Player<'a>>,
+    frames: Vec<FrameView>,
+    frames_agree: String,
+    legend: Vec<Swatch>,
+    probes_agree: String,
+    equation: Option<EquationView>,
+    terms: Vec<TermView<'a>>,
+    listing: Vec<Line>,
+    has_lines: bool,
+    has_footer: bool,
+    elapsed: String,
+}
+
+impl<'a> Body<'a> {
+    pub fn of(part: &Part<'a>) -> Self {
+        let Part { report, language, .. } = *part;
+        let labels = Labels::of(language);
+        let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+        let gallery = part.gallery.filter(|_| is_drawn);
+        let rubric = report.rubric.iter().map(|line| Rubric::of(line, labels, language));
+        let rubric: Vec<Rubric> = rubric.collect();
+        let messages = report.diagnostics.iter().map(|d| Message::of(d, labels, language));
+        let messages: Vec<Message> = messages.collect();
+        let agree = report.frames.iter().filter(|frame| frame.agrees()).count();
+        let probes = &report.probes;
+        let listing = match part.source {
+            Lines::Here(source) => listing::listing(source, report, &messages, language),
+            Lines::Elsewhere | Lines::Nowhere => Vec::new(),
+        };
+        Self {
+            labels,
+            report,
+            level: part.level,
+            verdict: labels.verdict(report.verdict),
+            headline: labels.headline(report.verdict),
+            mark: Mark::of_report(report),
+            is_drawn,
+            score: number(report.score),
+            max_score: number(report.max_score),
+            next: labels.next_step(report, language),
+            bar: bar(report),
+            equation: part.equation.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),
+            player: gallery.and_then(|gallery| Player::of(gallery, report.frames.len(), labels)),
+            terms: gallery.map(|gallery| player::terms(gallery, report, language)).unwrap_or_default(),
+            frames: player::frames(report, labels),
+            frames_agree: labels.frames_agree(agree, report.frames.len()),
+            legend: player::legend(),
+            probes_agree: labels.probes_agree(probes.samples.saturating_sub(probes.mismatched), probes.samples),
+            has_lines: !listing.is_empty() || part.source == Lines::Elsewhere,
+            has_footer: part.has_footer,
+            listing,
+            rubric,
+            messages,
+            elapsed: format!("{:.0} ms", report.elapsed_ms),
+        }
+    }
+
+    /// Whether there are pictures that move.
+    pub fn moves(&self) -> bool {
+        self.player.is_some()
+    }
+}

@@ -1,0 +1,148 @@
+//! The moving pictures as files: each a sheet of all poses, and the style that moves it.
+
+use super::sheet::{Grid, Step, address};
+use crate::fault::Fault;
+use crate::report::encode::{CYCLE_SECONDS, Raster, encode};
+use crate::report::pictures::Pose;
+use crate::report::{Picture, Pictures, TermPictures};
+use askama::Template;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+/// Bytes of the two sheets of a film. Those of a right answer take about 100 kB; a shader that draws noise
+/// would take 15 MB, and is shown at a lower resolution instead.
+const BUDGET: usize = 400_000;
+/// Factors by which the pictures are reduced in turn until they fit.
+const REDUCTIONS: [usize; 4] = [1, 2, 4, 8];
+
+/// The moving pictures of one grading.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// What the student's shader draws, a PNG of all poses.
+    pub yours: Vec<u8>,
+    /// Where it differs from what a right answer draws.
+    pub difference: Vec<u8>,
+    /// Whether they are smaller than they were drawn because they would take too many bytes.
+    pub is_reduced: bool,
+    /// How they move.
+    pub motion: Motion,
+    factor: usize,
+}
+
+impl Film {
+    /// The film of a grading in every `finest`-th pixel of every `finest`-th row, or coarser where that is too large;
+    /// none when nothing was drawn.
+    pub fn of(yours: &[Picture], expected: &[Picture], finest: usize) -> Result<Option<Self>, Fault> {
+        let poses = Pose::pairs(yours, expected)?;
+        let Some(first) = poses.first() else { return Ok(None) };
+        let motion = Motion::of(poses.len(), first.expected.width, first.expected.height);
+        let mut fitting = None;
+        for factor in REDUCTIONS.into_iter().filter(|factor| *factor >= finest) {
+            let sheet = |part: fn(&Pose) -> &Raster| {
+                encode(&[&motion.grid.sheet(&poses.iter().map(part).collect::<Vec<_>>(), factor)])
+            };
+            let (yours, difference) = (sheet(|pose| &pose.yours)?, sheet(|pose| &pose.difference)?);
+            let bytes = yours.len() + difference.len();
+            fitting = Some(Self { yours, difference, is_reduced: factor > finest, motion, factor });
+            if bytes <= BUDGET {
+                break;
+            }
+        }
+        Ok(fitting)
+    }
+
+    /// Where a page that holds all pictures itself finds them.
+    pub fn embedded(&self, pictures: &Pictures) -> Result<Gallery, Fault> {
+        let inline = |png: &[u8]| format!("data:image/png;base64,{}", STANDARD.encode(png));
+        let term = |term: &TermPictures| {
+            let yours = term.yours.as_ref().map(|picture| address(&Raster::opaque(picture)?));
+            Ok(Term {
+                id: term.id.clone(),
+                t: term.t,
+                yours: yours.transpose()?,
+                expected: address(&Raster::opaque(&term.expected)?)?,
+            })
+        };
+        Ok(Gallery {
+            yours: inline(&self.yours),
+            expected: inline(&expected_sheet(&pictures.expected, self.factor)?),
+            difference: inline(&self.difference),
+            is_reduced: self.is_reduced,
+            terms: pictures.terms.iter().map(term).collect::<Result<_, Fault>>()?,
+        })
+    }
+}
+
+/// The sheet of what a right answer draws, the same for every film of an assignment, as a PNG.
+pub fn expected_sheet(expected: &[Picture], finest: usize) -> Result<Vec<u8>, Fault> {
+    let poses = expected.iter().map(Raster::opaque).collect::<Result<Vec<_>, Fault>>()?;
+    encode(&[&Grid::of(poses.len()).sheet(&poses.iter().collect::<Vec<_>>(), finest)])
+}
+
+/// Addresses of the pictures that a report shows.
+#[derive(Clone, Debug, Default)]
+pub struct Gallery {
+    /// The sheet of what the student's shader draws.
+    pub yours: String,
+    /// The sheet of what a right answer draws.
+    pub expected: String,
+    /// The sheet of where they differ.
+    pub difference: String,
+    /// Whether to say that the sheets are smaller than they were drawn.
+    pub is_reduced: bool,
+    /// Single terms of the equation.
+    pub terms: Vec<Term>,
+}
+
+/// Addresses of the pictures of one term of the equation.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// Id of the rubric line that judges it.
+    pub id: String,
+    /// Fraction of the animation cycle, in [0, 1).
+    pub t: f64,
+    /// As the student's shader computes it, where a known mistake explains it.
+    pub yours: Option<String>,
+    /// As a right answer computes it.
+    pub expected: String,
+}
+
+/// How a sheet moves so that one pose after the other is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion {
+    grid: Grid,
+    width: usize,
+    height: usize,
+}
+
+impl Motion {
+    /// The motion of `poses` pictures, at least one, of a size.
+    pub fn of(poses: usize, width: usize, height: usize) -> Self {
+        Self { grid: Grid::of(poses), width, height }
+    }
+
+    /// It as a style sheet.
+    pub fn style(self) -> String {
+        let style = MotionStyle {
+            columns: self.grid.columns,
+            cycle: CYCLE_SECONDS,
+            poses: self.grid.count,
+            width: self.width,
+            height: self.height,
+            steps: self.grid.steps(),
+        };
+        // Numbers into a string: there is nothing that could fail.
+        style.render().unwrap_or_default()
+    }
+}
+
+#[derive(Template)]
+#[template(path = "report/motion.css", escape = "none")]
+struct MotionStyle {
+    columns: usize,
+    cycle: f64,
+    poses: usize,
+    width: usize,
+    height: usize,
+    steps: Vec<Step>,
+}

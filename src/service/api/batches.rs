@@ -1,0 +1,237 @@
+//! `/api/v1/batches` and `/api/v1/class`: for teachers.
+
+use super::archive::Archive;
+use super::schema::{BatchJson, Errors, NotFound, Refusals};
+use super::submissions::attachment;
+use crate::batch::formats::Format;
+use crate::language::Language;
+use crate::service::State;
+use crate::service::classes::{self, Download, Pick, Whose};
+use crate::service::errors::Problem;
+use crate::service::identity::Teacher;
+use crate::service::language::Lang;
+use crate::service::store::Batch;
+use axum::Json;
+use axum::body::Bytes;
+use axum::extract::rejection::{BytesRejection, QueryRejection};
+use axum::extract::{Path, Query, Request, State as Shared};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use clap::ValueEnum;
+use futures_util::Stream;
+use serde::Deserialize;
+use std::convert::Infallible;
+use std::time::Duration;
+
+/// How often who watches a batch is told.
+const TICK: Duration = Duration::from_millis(400);
+
+/// Header of a page's own script, with the token of its forms: no other page can set it.
+pub(super) const CSRF: &str = "x-ggrade-csrf";
+
+/// A form with an archive.
+#[derive(Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "only its description is used")]
+pub(super) struct ArchiveForm {
+    /// A ZIP: Moodle's download, or a folder for each student.
+    #[schema(content_media_type = "application/zip", min_length = 1)]
+    file: String,
+}
+
+/// Hand in a whole class
+///
+/// The archive is stored; its files are graded in the background, behind every student who hands in.
+#[utoipa::path(
+    post, path = "/api/v1/batches", tag = "batches", security(("teacher" = [])),
+    request_body(content((ArchiveForm = "multipart/form-data"), (Vec<u8> = "application/zip"))),
+    responses(
+        (status = 202, description = "Stored", body = BatchJson, headers(("Location" = String, description = "The batch"))),
+        Refusals, Errors
+    )
+)]
+pub(super) async fn create(
+    teacher: Teacher,
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    headers: HeaderMap,
+    request: Request,
+) -> Result<Response, Problem> {
+    let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    teacher.check_csrf(&state, csrf)?;
+    let archive = Archive::read(request, &state).await?;
+    let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title()).await?;
+    let body = shown(&state, batch, language).await?;
+    let location = body.links.itself.clone();
+    let mut response = (StatusCode::ACCEPTED, Json(body)).into_response();
+    if let Ok(location) = HeaderValue::from_str(&location) {
+        response.headers_mut().insert(header::LOCATION, location);
+    }
+    Ok(response)
+}
+
+async fn shown(state: &State, batch: Batch, language: Language) -> Result<BatchJson, Problem> {
+    let progress = state.store.progress(&batch.id).await?;
+    let entries = state.store.batch_entries(&batch.id).await?;
+    Ok(BatchJson::of(batch, progress, entries, language))
+}
+
+async fn find(state: &State, id: &str) -> Result<Batch, Problem> {
+    state.store.batch(id).await?.ok_or_else(Problem::not_found)
+}
+
+/// A batch and how far it is
+#[utoipa::path(
+    get, path = "/api/v1/batches/{id}", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the batch")),
+    responses((status = 200, description = "How far it is", body = BatchJson), NotFound, Refusals, Errors)
+)]
+pub(super) async fn read(
+    _: Teacher,
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    let batch = find(&state, &id).await?;
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(shown(&state, batch, language).await?)).into_response())
+}
+
+/// How far a batch is, as it goes on
+///
+/// Server-sent events `progress`, whose data is the object of that name; the last one is `done`.
+#[utoipa::path(
+    get, path = "/api/v1/batches/{id}/events", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the batch")),
+    responses(
+        (status = 200, description = "Events", body = String, content_type = "text/event-stream"), NotFound, Refusals, Errors
+    )
+)]
+pub(super) async fn events(
+    _: Teacher,
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    find(&state, &id).await?;
+    let stream = progress(state, Job::Batch(id));
+    Ok(Sse::new(stream).keep_alive(KeepAlive::default()).into_response())
+}
+
+/// What can be watched.
+pub(in crate::service) enum Job {
+    /// A batch, by its id.
+    Batch(String),
+    /// A regrading, by its id.
+    Regrading(String),
+}
+
+/// The events of a job until it is done, or the service ends.
+pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item = Result<Event, Infallible>> {
+    futures_util::stream::unfold((state, job, None, false), async |(state, job, mut last, is_over)| {
+        if is_over {
+            return None;
+        }
+        loop {
+            if state.is_ending() {
+                return None;
+            }
+            let progress = match &job {
+                Job::Batch(id) => state.store.progress(id).await,
+                Job::Regrading(id) => state.store.regrading_progress(id).await,
+            };
+            // Who watches may come again; the log has what happened.
+            let progress = progress.inspect_err(|error| tracing::error!(%error, "progress")).ok()?;
+            if last != Some(progress) {
+                last = Some(progress);
+                let name = if progress.is_done() { "done" } else { "progress" };
+                let event = Event::default().event(name).json_data(progress).unwrap_or_default();
+                return Some((Ok(event), (state, job, last, progress.is_done())));
+            }
+            tokio::time::sleep(TICK).await;
+        }
+    })
+}
+
+/// A batch in a format of `ggrade batch`
+///
+/// Formats of several files come as a ZIP. `moodle-worksheet` needs the worksheet: POST it here.
+#[utoipa::path(
+    get, path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the batch"), ("format" = String, Path, description = "Name of the format")),
+    responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
+)]
+pub(super) async fn file(
+    _: Teacher,
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    Path((id, format)): Path<(String, String)>,
+) -> Result<Response, Problem> {
+    let batch = find(&state, &id).await?;
+    saved(classes::download(&state, Whose::Batch(batch), named(&format)?, None, language).await?)
+}
+
+/// A batch in Moodle's worksheet
+#[utoipa::path(
+    post, path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the batch"), ("format" = String, Path, description = "`moodle-worksheet`")),
+    request_body(content = String, content_type = "text/csv", description = "The worksheet that Moodle gives"),
+    responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
+)]
+pub(super) async fn filled(
+    teacher: Teacher,
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    Path((id, format)): Path<(String, String)>,
+    headers: HeaderMap,
+    sheet: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    teacher.check_csrf(&state, csrf)?;
+    let sheet = sheet.map_err(super::body::other)?;
+    let batch = find(&state, &id).await?;
+    saved(classes::download(&state, Whose::Batch(batch), named(&format)?, Some(sheet.into()), language).await?)
+}
+
+/// Which submissions of students count.
+#[derive(Clone, Copy, Debug, Default, Deserialize, utoipa::IntoParams)]
+#[serde(default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct PickQuery {
+    /// `best` or `latest`.
+    #[param(inline)]
+    pick: Pick,
+}
+
+/// What students handed in themselves, in a format of `ggrade batch`
+#[utoipa::path(
+    get, path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
+    params(("format" = String, Path, description = "Name of the format"), PickQuery),
+    responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
+)]
+pub(super) async fn class_file(
+    _: Teacher,
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    Path(format): Path<String>,
+    pick: Result<Query<PickQuery>, QueryRejection>,
+) -> Result<Response, Problem> {
+    let Query(PickQuery { pick }) = pick.map_err(super::body::other)?;
+    saved(classes::download(&state, Whose::Students(pick), named(&format)?, None, language).await?)
+}
+
+/// The format of this name.
+pub(in crate::service) fn named(name: &str) -> Result<Format, Problem> {
+    Format::from_str(name, false).map_err(|_| Problem::not_found())
+}
+
+/// A file to be saved, never to be shown: what students wrote is in it.
+pub(in crate::service) fn saved(download: Download) -> Result<Response, Problem> {
+    let mut response = download.bytes.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(download.kind));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-store"));
+    if let Ok(disposition) = HeaderValue::from_str(&attachment(&download.name)) {
+        headers.insert(header::CONTENT_DISPOSITION, disposition);
+    }
+    Ok(response)
+}

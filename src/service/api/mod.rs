@@ -1,0 +1,69 @@
+//! The HTTP API, and what else is no page.
+
+pub(super) mod archive;
+pub(super) mod batches;
+pub(super) mod body;
+mod docs;
+mod operations;
+pub(super) mod pictures;
+mod schema;
+pub(super) mod submissions;
+
+use super::State;
+use axum::Router;
+use axum::extract::DefaultBodyLimit;
+use axum::routing::get;
+use schema::Security;
+use utoipa::OpenApi;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+/// Longest body of a usual request, in bytes: a file of the largest size in the roomiest form encoding.
+pub const MAX_BODY: usize = 4 * super::submit::MAX_UPLOAD;
+
+#[derive(OpenApi)]
+#[openapi(
+    info(
+        title = "ggrade",
+        description = "Hand in a shader, read its report. Every error is an `application/problem+json` object \
+                       (RFC 9457), in the language of `?lang=` or `Accept-Language`.",
+        license(name = "MIT OR Apache-2.0")
+    ),
+    components(schemas(super::errors::ProblemJson)),
+    modifiers(&Security),
+    tags(
+        (name = "submissions", description = "One file. Its id opens it: who has the id may read the report."),
+        (name = "batches", description = "Whole classes, for teachers: with the teacher's token."),
+        (name = "operations", description = "For who runs the service.")
+    )
+)]
+struct Document;
+
+/// The API's routes with their description.
+fn described() -> OpenApiRouter<State> {
+    OpenApiRouter::with_openapi(Document::openapi())
+        .routes(routes!(submissions::create))
+        .routes(routes!(submissions::read))
+        .routes(routes!(submissions::source))
+        .routes(routes!(pictures::list))
+        .routes(routes!(pictures::frame))
+        .routes(routes!(pictures::animation))
+        .routes(routes!(batches::read))
+        .routes(routes!(batches::events))
+        .routes(routes!(batches::file, batches::filled))
+        .routes(routes!(batches::class_file))
+        .routes(routes!(operations::healthz))
+        .routes(routes!(operations::readyz))
+        .routes(routes!(operations::metrics))
+}
+
+/// The routes.
+pub fn router(_state: &State) -> Router<State> {
+    let (router, document) = described().split_for_parts();
+    let (archives, with_archives) = OpenApiRouter::new().routes(routes!(batches::create)).split_for_parts();
+    // Archives are counted as they come.
+    let router = router.merge(archives.layer(DefaultBodyLimit::disable()));
+    let document = document.merge_from(with_archives);
+    let document = std::sync::Arc::new(document);
+    router.route("/api/v1/openapi.json", get(move || docs::document(document.clone()))).merge(docs::router())
+}

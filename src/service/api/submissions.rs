@@ -1,0 +1,273 @@
+//! `/api/v1/submissions`.
+
+use super::body::Form;
+use super::schema::{Errors, NotFound, Refusals, SubmissionJson};
+use crate::diagnose::Hints;
+use crate::language::Language;
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
+use crate::service::language::Lang;
+use crate::service::store::{Stored, Via};
+use crate::service::submit::{Receipt, Upload, submit};
+use axum::Json;
+use axum::extract::rejection::QueryRejection;
+use axum::extract::{Path, Query, Request, State as Shared};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::Deserialize;
+
+/// What may be said about a file; in a form, parts of the same names go before.
+#[derive(Clone, Debug, Default, Deserialize, utoipa::IntoParams)]
+#[serde(default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct About {
+    /// Language of the messages: `ja` or `en`.
+    #[param(inline)]
+    lang: Option<Language>,
+    /// Id of the assignment; the one that is served, where it is left out.
+    assignment: Option<String>,
+    /// Name of the file, where the body is the file.
+    name: Option<String>,
+    /// How much the messages help; never more than the course allows.
+    #[param(inline)]
+    hints: Option<Hints>,
+    /// Number of the student for whom it is handed in.
+    /// Needs `course`, or the teacher's token.
+    #[param(pattern = "^[A-Za-z0-9._-]{1,32}$")]
+    student: Option<String>,
+    /// Secret of the course link.
+    course: Option<String>,
+    /// A draft: in no history, no attempt, removed after a day.
+    draft: Option<bool>,
+}
+
+/// A form with a file.
+#[derive(Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "only its description is used")]
+pub(super) struct FileForm {
+    /// The shader.
+    #[schema(content_media_type = "application/octet-stream", min_length = 1)]
+    file: String,
+    /// Id of the assignment.
+    assignment: Option<String>,
+    /// How much the messages help.
+    #[schema(inline)]
+    hints: Option<Hints>,
+    /// Number of the student for whom it is handed in.
+    #[schema(pattern = "^[A-Za-z0-9._-]{1,32}$")]
+    student: Option<String>,
+    /// Secret of the course link.
+    course: Option<String>,
+}
+
+/// The file itself.
+#[derive(utoipa::ToSchema)]
+#[schema(value_type = String, min_length = 1, example = "#version 410 core\nvoid main() { }\n")]
+#[allow(dead_code, reason = "only its description is used")]
+pub(super) struct FileText(String);
+
+/// Hand in a file
+///
+/// The file is stored before anything else. 201: here is its report. 202: it is stored and will be graded; ask again at
+/// the Location.
+#[utoipa::path(
+    post, path = "/api/v1/submissions", tag = "submissions", params(About), security((), ("teacher" = [])),
+    request_body(content(
+        (FileForm = "multipart/form-data"),
+        (FileText = "text/plain"),
+        (FileText = "application/octet-stream"),
+    )),
+    responses(
+        (status = 201, description = "Graded", body = SubmissionJson, headers(("Location" = String, description = "The submission"))),
+        (status = 202, description = "Stored, not graded yet", body = SubmissionJson, headers(
+            ("Location" = String, description = "The submission"),
+            ("Retry-After" = u64, description = "Seconds after which to ask again"))),
+        NotFound, Refusals, Errors
+    )
+)]
+pub(super) async fn create(
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    visitor: Visitor,
+    teacher: Option<Teacher>,
+    about: Result<Query<About>, QueryRejection>,
+    request: Request,
+) -> Result<Response, Problem> {
+    let Query(about) = about.map_err(super::body::other)?;
+    let headers = request.headers().clone();
+    let form = Form::read(request, &state).await?;
+    let about = about.with(&form)?;
+    let identity = identity(&state, &about, visitor, teacher, &headers).await?;
+    let receipt = submit(
+        &state,
+        Upload {
+            assignment: about.assignment.unwrap_or_else(|| state.assignment.id.clone()),
+            name: form.name.or(about.name).unwrap_or_default(),
+            bytes: form.bytes.into(),
+            identity,
+            via: if about.draft == Some(true) { Via::Editor } else { Via::Api },
+            hints: about.hints,
+        },
+    )
+    .await?;
+    Ok(answer(&state, &receipt, language))
+}
+
+impl About {
+    /// The same with what a form says.
+    fn with(mut self, form: &Form) -> Result<Self, Problem> {
+        let field = |name: &str| form.fields.get(name).cloned();
+        self.assignment = field("assignment").or(self.assignment);
+        self.student = field("student").or(self.student);
+        self.course = field("course").or(self.course);
+        if let Some(word) = field("hints") {
+            let hints = serde_json::from_value(word.into());
+            self.hints = Some(hints.map_err(|_| {
+                Problem::unprocessable("hints is none, gentle or full.", "hints は none、gentle、full のいずれかです。")
+            })?);
+        }
+        Ok(self)
+    }
+}
+
+/// Who hands in: the student who is named by somebody with the right to name them, or the browser.
+async fn identity(
+    state: &State,
+    about: &About,
+    visitor: Visitor,
+    teacher: Option<Teacher>,
+    headers: &HeaderMap,
+) -> Result<Identity, Problem> {
+    let Some(number) = &about.student else {
+        return browser(state, visitor, headers).await;
+    };
+    let may_name = match &about.course {
+        Some(secret) => same(secret, &course_secret(state).await?),
+        None => teacher.is_some(),
+    };
+    if !may_name {
+        return Err(Problem::new(
+            StatusCode::UNAUTHORIZED,
+            "unauthorized",
+            "To hand in for a student, send the secret of the course link as `course`, or the teacher's token.",
+            "学生を指定して提出するには、授業のリンクの秘密を `course` で送るか、教員用トークンが必要です。",
+        ));
+    }
+    let number = normal_number(number).ok_or_else(|| {
+        Problem::unprocessable("student is no student number.", "student が学籍番号の形式ではありません。")
+    })?;
+    Ok(Identity::OnBehalf(state.store.student(&number, state.clock.now()).await?))
+}
+
+/// The browser, where the request comes from a page of ours: nobody else's page hands in under its cookie.
+async fn browser(state: &State, visitor: Visitor, headers: &HeaderMap) -> Result<Identity, Problem> {
+    let site = headers.get("sec-fetch-site").and_then(|value| value.to_str().ok()).unwrap_or("none");
+    if visitor.is_new() || !matches!(site, "same-origin" | "none") {
+        return Ok(Identity::Nobody);
+    }
+    Ok(visitor.known(state).await?.identity)
+}
+
+fn answer(state: &State, receipt: &Receipt, language: Language) -> Response {
+    let submission = &receipt.submission;
+    let (report, fault) = (receipt.report(), receipt.fault());
+    let position = state.queue.position(&submission.id);
+    let body = SubmissionJson::of(submission, report.map(|r| &**r), fault.map(|f| &**f), position, language);
+    let location = body.links.itself.clone();
+    let status = if report.is_some() { StatusCode::CREATED } else { StatusCode::ACCEPTED };
+    let mut response = (status, Json(body)).into_response();
+    let headers = response.headers_mut();
+    if let Ok(location) = HeaderValue::from_str(&location) {
+        headers.insert(header::LOCATION, location);
+    }
+    if report.is_none() {
+        headers.insert(header::RETRY_AFTER, HeaderValue::from(if fault.is_some() { 10 } else { 1 }));
+    }
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    response
+}
+
+/// Language of the messages.
+#[derive(Clone, Copy, Debug, Default, Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[allow(dead_code, reason = "checked here, and read by the extractor of languages")]
+pub(super) struct LangQuery {
+    /// Language of the messages: `ja` or `en`.
+    #[param(inline)]
+    lang: Option<Language>,
+}
+
+/// A submission and its report
+#[utoipa::path(
+    get, path = "/api/v1/submissions/{id}", tag = "submissions",
+    params(("id" = String, Path, description = "Id of the submission"), LangQuery),
+    responses((status = 200, description = "How far it is", body = SubmissionJson), NotFound, Errors)
+)]
+pub(super) async fn read(
+    Shared(state): Shared<State>,
+    Lang(language): Lang,
+    Path(id): Path<String>,
+    asked: Result<Query<LangQuery>, QueryRejection>,
+) -> Result<Response, Problem> {
+    asked.map_err(super::body::other)?;
+    let Stored { submission, report } = find(&state, &id).await?;
+    let position = state.queue.position(&id);
+    let body = SubmissionJson::of(&submission, report.as_ref(), submission.fault.as_ref(), position, language);
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response())
+}
+
+/// The submission with this id.
+pub(super) async fn find(state: &State, id: &str) -> Result<Stored, Problem> {
+    state.store.stored(id).await?.ok_or_else(Problem::not_found)
+}
+
+/// The file as handed in
+#[utoipa::path(
+    get, path = "/api/v1/submissions/{id}/source", tag = "submissions",
+    params(("id" = String, Path, description = "Id of the submission")),
+    responses(
+        (status = 200, description = "The bytes", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Errors
+    )
+)]
+pub(super) async fn source(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
+    source_of(&state, &id).await
+}
+
+/// The file as handed in, to be saved and never to be shown by a browser.
+pub(in crate::service) async fn source_of(state: &State, id: &str) -> Result<Response, Problem> {
+    let submission = state.store.submission(id).await?.ok_or_else(Problem::not_found)?;
+    let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
+    let mut response = bytes.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream"));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-store"));
+    if let Ok(disposition) = HeaderValue::from_str(&attachment(&submission.name)) {
+        headers.insert(header::CONTENT_DISPOSITION, disposition);
+    }
+    Ok(response)
+}
+
+/// A `Content-Disposition` that saves under a name as handed in (RFC 6266).
+pub(in crate::service) fn attachment(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
+    let ascii: String = name.chars().map(|c| if plain(c) { c } else { '_' }).collect();
+    let encode = |byte: u8| if plain(byte as char) { (byte as char).to_string() } else { format!("%{byte:02X}") };
+    let encoded: String = name.bytes().map(encode).collect();
+    format!("attachment; filename=\"{ascii}\"; filename*=UTF-8''{encoded}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_breaks_out_of_its_header() {
+        assert_eq!(attachment("a.vert"), "attachment; filename=\"a.vert\"; filename*=UTF-8''a.vert");
+        assert_eq!(
+            attachment("課\"\r\n.vert"),
+            "attachment; filename=\"____.vert\"; filename*=UTF-8''%E8%AA%B2%22%0D%0A.vert"
+        );
+    }
+}

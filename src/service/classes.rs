@@ -1,0 +1,331 @@
+//! Whole classes: a teacher's archive in, a graded [`Class`] out.
+
+use super::State;
+use super::errors::Problem;
+use super::identity::new_id;
+use super::store::{Batch, BatchEntry, ClassRow, NewSubmission, Stored, Via};
+use super::submit::{file_name, sha256};
+use crate::batch::class::{Class, Outcome, Refused, Student};
+use crate::batch::folder::{Folder, NotOpened};
+use crate::batch::formats::{Format, KEY};
+use crate::batch::intake::{self, Content, HandIn, Intake};
+use crate::batch::page::Pages;
+use crate::batch::{output, run};
+use crate::fault::Fault;
+use crate::grade::Order;
+use crate::language::{Language, Text};
+use crate::sandbox;
+use std::path::{Path, PathBuf};
+
+/// Behind every student who hands in.
+const PRIORITY: i64 = 10;
+
+/// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with.
+pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, Problem> {
+    let assignment = state.assignment;
+    let read = tokio::task::spawn_blocking(move || {
+        let options = intake::Options::new(assignment)?;
+        intake::read(&[path], &options)
+    });
+    let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::internal(&fault))?;
+    if intake.hand_ins.is_empty() {
+        return Err(nothing(&intake));
+    }
+    store(state, intake, title).await
+}
+
+/// The refusal of an archive with nothing in it: the first thing that was left out says why.
+fn nothing(intake: &Intake) -> Problem {
+    let mut problem = Problem::unprocessable(
+        "There is nothing to grade in this archive. Upload the ZIP that Moodle gives, or one with a folder for each student.",
+        "採点できるファイルがありません。Moodle の ZIP、または学生ごとのフォルダを入れた ZIP をアップロードしてください。",
+    );
+    if let Some(refused) = intake.refused.first() {
+        let Text { en, ja } = problem.detail;
+        problem.detail = Text::new(format!("{en} ({})", refused.reason.en), format!("{ja} ({})", refused.reason.ja));
+    }
+    problem
+}
+
+async fn store(state: &State, intake: Intake, title: &str) -> Result<Batch, Problem> {
+    let settings = state.store.assignment(&state.assignment.id).await?;
+    let now = state.clock.now();
+    let batch = Batch {
+        id: new_id(),
+        assignment: settings.id.clone(),
+        title: if title.is_empty() { intake.title } else { title.to_owned() },
+        refused: intake.refused,
+        created_at: now,
+    };
+    let mut entries = Vec::new();
+    let mut files = Vec::new();
+    for hand_in in intake.hand_ins {
+        let mut entry = BatchEntry { student: hand_in.student, path: hand_in.path, submission_id: None, note: None };
+        match hand_in.content {
+            Content::Nothing(why) => entry.note = Some(why),
+            Content::File { name, bytes } => {
+                let id = new_id();
+                entry.submission_id = Some(id.clone());
+                files.push(NewSubmission {
+                    id,
+                    assignment: settings.id.clone(),
+                    sha256: sha256(&bytes),
+                    bytes,
+                    name: file_name(&name, state.assignment),
+                    owner_id: None,
+                    student_id: None,
+                    batch_id: Some(batch.id.clone()),
+                    via: Via::Batch,
+                    seed: settings.seed,
+                    hints: settings.hints,
+                    received_at: now,
+                    priority: PRIORITY,
+                    claim: None,
+                });
+            }
+        }
+        entries.push(entry);
+    }
+    state.store.add_batch(&batch, &entries, &files).await?;
+    state.queue.look();
+    Ok(batch)
+}
+
+/// What a download is made of.
+#[derive(Clone, Debug)]
+pub enum Whose {
+    /// A batch.
+    Batch(Batch),
+    /// Everyone of the roster and everyone who handed in under a number: the best of each, or the latest.
+    Students(Pick),
+}
+
+/// Which of a student's submissions counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Pick {
+    /// The one with most points; of equals the earliest.
+    #[default]
+    Best,
+    /// The one that came last.
+    Latest,
+}
+
+/// A file to be saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Download {
+    /// Its name.
+    pub name: String,
+    /// Its content type.
+    pub kind: &'static str,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// A class in one of the formats; `sheet` is Moodle's worksheet, which one format fills in. Formats of several files
+/// come as a ZIP.
+pub async fn download(
+    state: &State,
+    whose: Whose,
+    format: Format,
+    sheet: Option<Vec<u8>>,
+    language: Language,
+) -> Result<Download, Problem> {
+    if format == Format::MoodleWorksheet && sheet.is_none() {
+        return Err(Problem::unprocessable(
+            "This format fills in the worksheet that Moodle gives: send that CSV file along.",
+            "この形式は Moodle のワークシートに記入するものです。Moodle からダウンロードした CSV を送ってください。",
+        ));
+    }
+    let (title, refused, members) = members(state, whose).await?;
+    let wants = output::wants(&[format]);
+    let mut portraits = Vec::new();
+    for member in &members {
+        portraits.push(match (&member.stored, wants.portraits) {
+            (Some(stored), true) => state.gallery.portrait(state, &stored.submission).await?,
+            _ => None,
+        });
+    }
+    let state = state.clone();
+    let made = tokio::task::spawn_blocking(move || {
+        let temporary = tempfile::tempdir().map_err(|error| disk(&error))?;
+        let mut class = class(&state, title, refused, members, portraits, language)?;
+        if wants.pages {
+            pages(&state, &mut class, temporary.path())?;
+        }
+        written(&class, format, sheet.as_deref(), &temporary.path().join("out"))
+    });
+    made.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::internal(&fault))
+}
+
+/// One student of a class, with what stands for them.
+struct Member {
+    student: Student,
+    path: Option<String>,
+    stored: Option<Stored>,
+    bytes: Vec<u8>,
+    note: Option<Text>,
+}
+
+async fn members(state: &State, whose: Whose) -> Result<(String, Vec<Refused>, Vec<Member>), Problem> {
+    match whose {
+        Whose::Batch(batch) => {
+            let mut members = Vec::new();
+            for entry in state.store.batch_entries(&batch.id).await? {
+                let (stored, bytes) = with_bytes(state, entry.submission_id.as_deref()).await?;
+                members.push(Member { student: entry.student, path: entry.path, stored, bytes, note: entry.note });
+            }
+            Ok((batch.title, batch.refused, members))
+        }
+        Whose::Students(pick) => {
+            let rows = state.store.class(&state.assignment.id, None).await?;
+            let mut members = Vec::new();
+            for student in state.store.students().await? {
+                let theirs = rows.iter().filter(|row| row.number.as_deref() == Some(student.number.as_str()));
+                let chosen = chosen(theirs, pick);
+                if chosen.is_none() && student.on_roster == 0 {
+                    continue;
+                }
+                let (stored, bytes) = with_bytes(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
+                let name = if student.name.is_empty() { student.number.clone() } else { student.name };
+                let path = stored.as_ref().map(|stored| stored.submission.name.clone());
+                let student = Student { key: student.number, name, moodle: None };
+                members.push(Member { student, path, stored, bytes, note: None });
+            }
+            Ok((state.assignment.id.clone(), Vec::new(), members))
+        }
+    }
+}
+
+/// The submission that counts; `rows` has the newest first.
+pub fn chosen<'a>(rows: impl Iterator<Item = &'a ClassRow>, pick: Pick) -> Option<&'a ClassRow> {
+    let mut graded = rows.filter(|row| row.row.score.is_some());
+    match pick {
+        Pick::Latest => graded.next(),
+        // Of equals the last of them is taken here: the earliest that came.
+        Pick::Best => graded.max_by(|a, b| a.row.score.unwrap_or(0.0).total_cmp(&b.row.score.unwrap_or(0.0))),
+    }
+}
+
+async fn with_bytes(state: &State, id: Option<&str>) -> Result<(Option<Stored>, Vec<u8>), Problem> {
+    let Some(id) = id else { return Ok((None, Vec::new())) };
+    let Some(stored) = state.store.stored(id).await? else { return Ok((None, Vec::new())) };
+    let bytes = state.store.upload(&stored.submission.sha256).await?.unwrap_or_default();
+    Ok((Some(stored), bytes))
+}
+
+fn class(
+    state: &State,
+    title: String,
+    refused: Vec<Refused>,
+    members: Vec<Member>,
+    portraits: Vec<Option<Vec<u8>>>,
+    language: Language,
+) -> Result<Class, Fault> {
+    let nobody = || Text::new("nothing was handed in", "提出がありません");
+    let mut outcomes = Vec::new();
+    let mut hand_ins = Vec::new();
+    for member in members {
+        let Member { student, path, stored, bytes, note } = member;
+        let content = match &stored {
+            Some(stored) => Content::File { name: stored.submission.name.clone(), bytes },
+            None => Content::Nothing(note.unwrap_or_else(nobody)),
+        };
+        outcomes.push(stored.map(outcome));
+        hand_ins.push(HandIn { student, path, local: None, content });
+    }
+    let candidates = run::candidates(hand_ins, state.assignment);
+    let entries = candidates.iter().zip(outcomes).zip(portraits).map(|((candidate, outcome), portrait)| {
+        candidate.entry(outcome.unwrap_or_else(|| candidate.nothing()), portrait, None)
+    });
+    Ok(Class {
+        assignment: state.assignment.id.clone(),
+        title,
+        entries: entries.collect(),
+        refused,
+        expected_portrait: state.gallery.portraits()?.expected.clone(),
+        language,
+    })
+}
+
+fn outcome(stored: Stored) -> Outcome {
+    match (stored.report, stored.submission.fault) {
+        (Some(report), _) => Outcome::Graded(Box::new(report)),
+        (None, Some(fault)) => Outcome::Fault(fault),
+        (None, None) => Outcome::NotGraded(Text::new("not graded yet", "まだ採点していません")),
+    }
+}
+
+/// Writes each student's report as a page with its pictures, drawn anew.
+fn pages(state: &State, class: &mut Class, folder: &Path) -> Result<(), Fault> {
+    let maker = Pages::new(state.assignment, class.language);
+    for (index, entry) in class.entries.iter_mut().enumerate() {
+        let Outcome::Graded(report) = &entry.outcome else { continue };
+        // The text is the file as far as a report shows it.
+        let bytes = entry.source.clone().unwrap_or_default().into_bytes();
+        let order = Order { seed: report.probes.seed, hints: Default::default() };
+        let submission = sandbox::Submission {
+            name: &report.source.name,
+            bytes: &bytes,
+            order,
+            wants_frames: !report.frames.is_empty(),
+        };
+        let mut frames = if report.frames.is_empty() { Vec::new() } else { state.pool.grade(submission)?.frames };
+        let page = maker.page(report, &bytes, &mut frames)?;
+        let path = folder.join(format!("{index}.html"));
+        std::fs::write(&path, page).map_err(|error| disk(&error))?;
+        entry.page = Some(path);
+    }
+    Ok(())
+}
+
+/// Writes a format into a folder, and takes its file from there, or all its files as a ZIP.
+fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> Result<Download, Fault> {
+    let folder = match Folder::open(path) {
+        Ok(folder) => folder,
+        Err(NotOpened::Fault(fault)) => return Err(fault),
+        Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
+    };
+    if let (_, Some(fault)) = output::write(class, &[format], sheet, None, &folder) {
+        return Err(fault);
+    }
+    match format.files() {
+        [file] if !file.contains(KEY) => {
+            let bytes = std::fs::read(folder.at(file)).map_err(|error| disk(&error))?;
+            Ok(Download { name: (*file).to_owned(), kind: kind(file), bytes })
+        }
+        _ => {
+            let bytes = zipped(path).map_err(|error| disk(&error))?;
+            Ok(Download { name: format!("{}.zip", format.id()), kind: "application/zip", bytes })
+        }
+    }
+}
+
+/// Every file below a folder, in the order of their names.
+fn zipped(folder: &Path) -> std::io::Result<Vec<u8>> {
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
+        let entry = entry?;
+        let Ok(name) = entry.path().strip_prefix(folder) else { continue };
+        if entry.file_type().is_file() {
+            zip.start_file(name.to_string_lossy(), zip::write::SimpleFileOptions::default())?;
+            std::io::copy(&mut std::fs::File::open(entry.path())?, &mut zip)?;
+        }
+    }
+    Ok(zip.finish()?.into_inner())
+}
+
+fn kind(file: &str) -> &'static str {
+    match file.rsplit('.').next() {
+        Some("html") => "text/html; charset=utf-8",
+        Some("csv") => "text/csv; charset=utf-8",
+        Some("xml") => "application/xml",
+        Some("json" | "sarif") => "application/json",
+        Some("zip") => "application/zip",
+        _ => "text/plain; charset=utf-8",
+    }
+}
+
+fn disk(error: &std::io::Error) -> Fault {
+    Fault::new(Text::new(format!("a temporary file: {error}"), format!("一時ファイルの障害: {error}")))
+}

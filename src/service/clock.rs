@@ -1,0 +1,44 @@
+//! What time it is: the machine's, or one that a test sets.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicI64, Ordering};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+/// Milliseconds since 1970 in UTC.
+pub type Millis = i64;
+
+/// A clock.
+#[derive(Clone, Debug, Default)]
+pub struct Clock(Option<Arc<AtomicI64>>);
+
+impl Clock {
+    /// The machine's clock.
+    pub fn system() -> Self {
+        Self(None)
+    }
+
+    /// A clock that stands at `now` until it is moved.
+    pub fn fixed(now: Millis) -> Self {
+        Self(Some(Arc::new(AtomicI64::new(now))))
+    }
+
+    /// Moves a fixed clock forward; the machine's goes by itself.
+    pub fn advance(&self, by: Duration) {
+        if let Some(fixed) = &self.0 {
+            fixed.fetch_add(millis(by), Ordering::SeqCst);
+        }
+    }
+
+    /// Now.
+    pub fn now(&self) -> Millis {
+        match &self.0 {
+            Some(fixed) => fixed.load(Ordering::SeqCst),
+            None => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, millis),
+        }
+    }
+}
+
+/// A span of time in milliseconds.
+pub fn millis(span: Duration) -> Millis {
+    Millis::try_from(span.as_millis()).unwrap_or(Millis::MAX)
+}

@@ -1,0 +1,208 @@
+//! The service's configuration: flags before environment before file.
+
+use super::store::Location;
+use crate::cli::{LogFormat, Serve};
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::sandbox::Policy;
+use figment::Figment;
+use figment::providers::{Env, Format, Serialized, Toml};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::net::SocketAddr;
+use std::time::Duration;
+
+/// Everything that can be configured; each option is explained by `ggrade serve --help`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct Config {
+    pub listen: SocketAddr,
+    pub database: String,
+    pub public_url: Option<String>,
+    pub trusted_proxies: Vec<String>,
+    pub assignment: String,
+    pub workers: usize,
+    pub sandbox: Policy,
+    pub single_use_workers: bool,
+    pub deadline: f64,
+    pub wait: f64,
+    pub queue: usize,
+    pub uploads_per_student: u32,
+    pub uploads_per_address: u32,
+    pub archive_mib: u64,
+    pub retention_days: u32,
+    pub teacher_token: Option<String>,
+    pub teacher_password_hash: Option<String>,
+    pub metrics_token: Option<String>,
+    pub log_format: LogFormat,
+    pub log: String,
+    pub limits: Timeouts,
+}
+
+/// Times that only a test or an unusual network changes; in seconds.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct Timeouts {
+    /// For the head of a request.
+    pub header_timeout: f64,
+    /// For a whole request, from its head to the head of the answer; teachers' requests get eight times as much.
+    pub request_timeout: f64,
+    /// For a client to take any part of an answer.
+    pub write_timeout: f64,
+    /// For what is under way when the service is told to end.
+    pub drain_timeout: f64,
+    /// After which the files of a process that has gone are graded by another one.
+    pub lease: f64,
+    /// Connections at once, and from one address.
+    pub connections: usize,
+    pub connections_per_address: usize,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            listen: SocketAddr::from(([127, 0, 0, 1], 8080)),
+            database: "ggrade.db".into(),
+            public_url: None,
+            trusted_proxies: Vec::new(),
+            assignment: "ggsample06".into(),
+            workers: std::thread::available_parallelism().map_or(1, usize::from),
+            sandbox: Policy::Required,
+            single_use_workers: false,
+            deadline: 2.0,
+            wait: 5.0,
+            queue: 64,
+            uploads_per_student: 60,
+            uploads_per_address: 1200,
+            archive_mib: 64,
+            retention_days: 0,
+            teacher_token: None,
+            teacher_password_hash: None,
+            metrics_token: None,
+            log_format: LogFormat::Text,
+            log: "info".into(),
+            limits: Timeouts::default(),
+        }
+    }
+}
+
+impl Default for Timeouts {
+    fn default() -> Self {
+        Self {
+            header_timeout: 10.0,
+            request_timeout: 15.0,
+            write_timeout: 20.0,
+            drain_timeout: 10.0,
+            lease: 30.0,
+            connections: 1024,
+            connections_per_address: 256,
+        }
+    }
+}
+
+impl Config {
+    /// The configuration of a command line; a fault names the option that is wrong and where it stands.
+    pub fn load(flags: &Serve) -> Result<Self, Fault> {
+        let mut figment = Figment::from(Serialized::defaults(Self::default()));
+        if let Some(path) = &flags.config {
+            figment = figment.merge(Toml::file_exact(path));
+        }
+        figment = figment.merge(environment()).merge(Serialized::defaults(flags));
+        let config: Self = figment.extract().map_err(|error| {
+            Fault::new(Text::new(format!("the configuration: {error}"), format!("設定に誤りがあります: {error}")))
+        })?;
+        config.check()?;
+        Ok(config)
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        let wrong = |name: &str, what: &str, ja: &str| {
+            Err(Fault::new(Text::new(format!("the configuration: {name} {what}"), format!("設定の {name} {ja}"))))
+        };
+        let times = [
+            ("deadline", self.deadline),
+            ("wait", self.wait),
+            ("header_timeout", self.limits.header_timeout),
+            ("request_timeout", self.limits.request_timeout),
+            ("write_timeout", self.limits.write_timeout),
+            ("drain_timeout", self.limits.drain_timeout),
+            ("lease", self.limits.lease),
+        ];
+        for (name, value) in times {
+            if !(value > 0.0 && value <= 86_400.0) {
+                return wrong(name, "takes seconds above 0", "は 0 より大きい秒数で指定してください");
+            }
+        }
+        let counts = [
+            ("workers", self.workers),
+            ("queue", self.queue),
+            ("connections", self.limits.connections),
+            ("connections_per_address", self.limits.connections_per_address),
+            ("uploads_per_student", self.uploads_per_student as usize),
+            ("uploads_per_address", self.uploads_per_address as usize),
+        ];
+        for (name, value) in counts {
+            if value == 0 {
+                return wrong(name, "takes a number above 0", "は 1 以上で指定してください");
+            }
+        }
+        for (name, secret) in [("teacher_token", &self.teacher_token), ("metrics_token", &self.metrics_token)] {
+            if secret.as_ref().is_some_and(|secret| secret.len() < SHORTEST_SECRET) {
+                return wrong(name, "takes at least 16 characters", "は 16 文字以上にしてください");
+            }
+        }
+        self.location()?;
+        super::limits::Proxies::parse(&self.trusted_proxies)?;
+        Ok(())
+    }
+
+    /// Where the database is.
+    pub fn location(&self) -> Result<Location, Fault> {
+        self.database.parse().map_err(|error: String| {
+            Fault::new(Text::new(
+                format!("the configuration: database: {error}"),
+                "設定の database には、ファイル名か postgres://ユーザ@ホスト/名前 を指定してください",
+            ))
+        })
+    }
+
+    /// Whether browsers reach the service by https.
+    pub fn is_secure(&self) -> bool {
+        self.public_url.as_ref().is_some_and(|url| url.starts_with("https://"))
+    }
+
+    /// A configured number of seconds.
+    pub fn span(seconds: f64) -> Duration {
+        Duration::try_from_secs_f64(seconds).unwrap_or(Duration::from_secs(1))
+    }
+}
+
+/// The options that the environment sets: `GGRADE_QUEUE`, `GGRADE_LIMITS_LEASE`. Other variables with this prefix belong to
+/// the command line.
+fn environment() -> Figment {
+    let known = serde_json::to_value(Config::default()).unwrap_or_default();
+    let mut figment = Figment::new();
+    for (name, value) in known.as_object().into_iter().flatten() {
+        match value {
+            // Text stays text, even where it looks like a number.
+            Value::String(_) | Value::Null => {
+                if let Ok(text) = std::env::var(format!("GGRADE_{}", name.to_uppercase())) {
+                    figment = figment.merge(Serialized::default(name, text));
+                }
+            }
+            Value::Object(_) => {
+                let prefix = format!("{name}_");
+                figment = figment.merge(Env::prefixed("GGRADE_").filter_map(move |key| {
+                    key.as_str().to_lowercase().strip_prefix(&prefix).map(|rest| format!("limits.{rest}").into())
+                }));
+            }
+            _ => figment = figment.merge(Env::prefixed("GGRADE_").only(&[name])),
+        }
+    }
+    figment
+}
+
+/// A secret shorter than this can be guessed.
+const SHORTEST_SECRET: usize = 16;

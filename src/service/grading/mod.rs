@@ -1,0 +1,25 @@
+//! Grading in the background: what is stored is graded, by whichever way it came.
+//!
+//! An upload is claimed by the process that stores it and waits in its [`Queue`]; what nobody holds (a teacher's batch,
+//! files that a process left behind when it ended) is claimed from the database one by one.
+
+mod graders;
+mod queue;
+
+pub use graders::Graders;
+pub use queue::{Full, Job, Outcome, Queue};
+
+use crate::fault::Fault;
+use crate::sandbox::{Answer, Pool, Submission};
+
+/// What grades a file: the pool of workers, or what a test puts in its place.
+pub trait Judge: Send + Sync + std::fmt::Debug {
+    /// Grades one file; may take until the deadline.
+    fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault>;
+}
+
+impl Judge for Pool {
+    fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
+        Self::grade(self, submission)
+    }
+}

@@ -1,0 +1,83 @@
+//! The course link: who has it may say by which number they are known.
+
+use super::secrets::same;
+use super::{Identity, Visitor, new_token};
+use crate::service::State;
+use crate::service::errors::Problem;
+
+/// Name of the setting that holds the secret of the course link.
+const SETTING: &str = "course_secret";
+
+/// Longest student number, in characters.
+const LONGEST_NUMBER: usize = 32;
+
+/// The secret of the course link, `/join/{secret}`.
+pub async fn course_secret(state: &State) -> Result<String, Problem> {
+    Ok(state.store.setting_or(SETTING, &new_token()[..32]).await?)
+}
+
+/// A new secret; the old link opens nothing any more.
+pub async fn renew_course_secret(state: &State) -> Result<String, Problem> {
+    let secret = new_token()[..32].to_owned();
+    state.store.set_setting(SETTING, &secret).await?;
+    Ok(secret)
+}
+
+/// Whether this is the secret of the course link.
+pub async fn check_course_link(state: &State, secret: &str) -> Result<(), Problem> {
+    if same(secret, &course_secret(state).await?) { Ok(()) } else { Err(Problem::not_found()) }
+}
+
+/// Says that the student with `number` sits at this browser. The answer may be another browser in its place: set its
+/// cookie ([`Visitor::set_cookie`]).
+pub async fn join(state: &State, visitor: Visitor, secret: &str, number: &str) -> Result<Visitor, Problem> {
+    check_course_link(state, secret).await?;
+    let number = normal_number(number).ok_or_else(|| {
+        Problem::unprocessable(
+            format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`."),
+            format!("学籍番号は {LONGEST_NUMBER} 文字以内の英数字、`-`、`_`、`.` で入力してください。"),
+        )
+    })?;
+    let student = state.store.student(&number, state.clock.now()).await?;
+    // What another student handed in at this machine is nobody else's to see.
+    let visitor = match &visitor.identity {
+        Identity::Student(_, before) if before.id != student.id => Visitor::replaced(),
+        _ => visitor,
+    };
+    let mut visitor = visitor.known(state).await?;
+    if let Identity::Browser(owner) | Identity::Student(owner, _) = visitor.identity.clone() {
+        state.store.set_owner_student(&owner.id, Some(&student.id)).await?;
+        visitor.identity = Identity::Student(owner, student);
+    }
+    Ok(visitor)
+}
+
+/// Leaves this browser to the next student: a new cookie, whose history is empty.
+pub fn leave() -> Visitor {
+    Visitor::replaced()
+}
+
+/// A student number as it is kept: without spaces around it, full-width letters as the usual ones, in capitals.
+pub fn normal_number(text: &str) -> Option<String> {
+    let narrow = |c: char| match c {
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c),
+        c => c,
+    };
+    let number: String = text.trim().chars().map(narrow).map(|c| c.to_ascii_uppercase()).collect();
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    (!number.is_empty() && number.len() <= LONGEST_NUMBER && number.chars().all(is_plain)).then_some(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_the_same_however_it_is_typed() {
+        assert_eq!(normal_number(" s１２３４Ａ\n").as_deref(), Some("S1234A"));
+        assert_eq!(normal_number("60-256_001").as_deref(), Some("60-256_001"));
+        for wrong in ["", "  ", "a b", "山田", "<script>", &"1".repeat(33)] {
+            assert_eq!(normal_number(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The browser that a page is for.
+
+use super::cookies::{STUDENT_COOKIE, read, set};
+use super::{Identity, csrf, new_token, token_hash};
+use crate::service::State;
+use crate::service::errors::Problem;
+use axum::extract::{FromRequestParts, Request, State as Shared};
+use axum::http::header;
+use axum::http::request::Parts;
+use axum::middleware::Next;
+use axum::response::Response;
+
+/// A year, in seconds: a course and its repetition.
+const COOKIE_LIFE: u64 = 365 * 24 * 3600;
+
+/// A browser, known by its cookie. Nothing is stored of who only looks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Visitor {
+    token: String,
+    is_new: bool,
+    /// Who that is.
+    pub identity: Identity,
+}
+
+impl Visitor {
+    /// A browser that is not known.
+    fn unknown() -> Self {
+        Self { token: new_token(), is_new: true, identity: Identity::Nobody }
+    }
+
+    async fn of(state: &State, headers: &axum::http::HeaderMap) -> Result<Self, Problem> {
+        let Some(token) = read(state, headers, STUDENT_COOKIE) else { return Ok(Self::unknown()) };
+        let identity = match state.store.owner(&token_hash(&token)).await? {
+            None => Identity::Nobody,
+            Some(owner) => match &owner.student_id {
+                None => Identity::Browser(owner),
+                Some(id) => match state.store.student_by_id(id).await? {
+                    Some(student) => Identity::Student(owner, student),
+                    None => Identity::Browser(owner),
+                },
+            },
+        };
+        Ok(Self { token, is_new: false, identity })
+    }
+
+    /// Whether the request brought no cookie.
+    pub fn is_new(&self) -> bool {
+        self.is_new
+    }
+
+    /// The token of every form on a page for this browser: `<input type="hidden" name="csrf">`.
+    pub fn csrf(&self, state: &State) -> String {
+        csrf::token(state, &self.token)
+    }
+
+    /// Lets a form pass that has this browser's token.
+    pub fn check_csrf(&self, state: &State, given: &str) -> Result<(), Problem> {
+        csrf::check(state, &self.token, given)
+    }
+
+    /// The same, known from now on: for who hands something in.
+    pub async fn known(mut self, state: &State) -> Result<Self, Problem> {
+        if self.identity == Identity::Nobody {
+            let owner = state.store.owner_or_new(&token_hash(&self.token), state.clock.now()).await?;
+            self.identity = Identity::Browser(owner);
+        }
+        Ok(self)
+    }
+
+    /// Another browser in the place of this one, for a student who sits down where another one sat.
+    pub(super) fn replaced() -> Self {
+        Self::unknown()
+    }
+
+    /// Makes a response set this browser's cookie.
+    pub fn set_cookie(&self, state: &State, response: &mut Response) {
+        if let Some(cookie) = set(state, STUDENT_COOKIE, &self.token, COOKIE_LIFE) {
+            response.headers_mut().append(header::SET_COOKIE, cookie);
+        }
+    }
+}
+
+/// The layer around pages: gives each browser its cookie.
+pub async fn visit(Shared(state): Shared<State>, mut request: Request, next: Next) -> Result<Response, Problem> {
+    let visitor = Visitor::of(&state, request.headers()).await?;
+    request.extensions_mut().insert(visitor.clone());
+    let mut response = next.run(request).await;
+    // A handler may have put another browser in its place.
+    if visitor.is_new && !response.headers().contains_key(header::SET_COOKIE) {
+        visitor.set_cookie(&state, &mut response);
+    }
+    Ok(response)
+}
+
+impl FromRequestParts<State> for Visitor {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Problem> {
+        match parts.extensions.get::<Self>() {
+            Some(visitor) => Ok(visitor.clone()),
+            None => Self::of(state, &parts.headers).await,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What pages load besides themselves: styles, scripts, the right pictures of each assignment. All of it is part of the
+//! program; an address holds a hash of the content, so that a browser may keep it for ever.
+
+use crate::homework::expected_pictures;
+use crate::report::html::{BASE_STYLE, Motion, REPORT_STYLE, SCRIPT, expected_sheet};
+use axum::extract::Path;
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use reference::Assignment;
+use sha2::{Digest, Sha256};
+use std::borrow::Cow;
+use std::sync::LazyLock;
+
+/// One file.
+#[derive(Debug)]
+struct Asset {
+    name: String,
+    address: String,
+    kind: &'static str,
+    content: Cow<'static, [u8]>,
+}
+
+impl Asset {
+    fn new(name: impl Into<String>, content: impl Into<Cow<'static, [u8]>>) -> Self {
+        let (name, content) = (name.into(), content.into());
+        let hash: String = Sha256::digest(&content).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
+        let kind = match extension {
+            "css" => "text/css; charset=utf-8",
+            "js" => "text/javascript; charset=utf-8",
+            "svg" => "image/svg+xml",
+            "png" => "image/png",
+            _ => "application/octet-stream",
+        };
+        Self { address: format!("/assets/{stem}.{hash}.{extension}"), name, kind, content }
+    }
+
+    fn text(name: &'static str, content: &'static str) -> Self {
+        Self::new(name, content.as_bytes())
+    }
+}
+
+static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
+    let mut assets = vec![
+        Asset::text("base.css", BASE_STYLE),
+        Asset::text("report.css", REPORT_STYLE),
+        Asset::text("report.js", SCRIPT),
+        Asset::text("pages.css", include_str!("../../../templates/service/pages.css")),
+        Asset::text("teacher.css", include_str!("../../../templates/service/teacher.css")),
+        Asset::text("editor.js", include_str!("../../../templates/service/editor.js")),
+        Asset::text("student.js", include_str!("../../../templates/service/student.js")),
+        Asset::text("live.js", include_str!("../../../templates/service/live.js")),
+        Asset::text("icon.svg", include_str!("../../../templates/service/icon.svg")),
+    ];
+    assets.extend(reference::assignments().iter().flat_map(of_assignment));
+    assets
+});
+
+/// How the pictures of an assignment move, and the right ones.
+fn of_assignment(assignment: &Assignment) -> Vec<Asset> {
+    let expected = expected_pictures(assignment);
+    let size = |side: u32| side as usize;
+    let (width, height) = expected.first().map_or((4, 3), |first| (size(first.width), size(first.height)));
+    let motion = Motion::of(expected.len().max(1), width, height).style().into_bytes();
+    let mut assets = vec![Asset::new(motion_name(&assignment.id), motion)];
+    match expected_sheet(&expected, 1) {
+        Ok(sheet) => assets.push(Asset::new(expected_name(&assignment.id), sheet)),
+        Err(fault) => tracing::error!(assignment = %assignment.id, fault = %fault.message.en, "no expected pictures"),
+    }
+    assets
+}
+
+/// Name of the style that moves the pictures of an assignment.
+pub(super) fn motion_name(assignment: &str) -> String {
+    format!("motion-{assignment}.css")
+}
+
+/// Name of the sheet of the right pictures of an assignment.
+pub(super) fn expected_name(assignment: &str) -> String {
+    format!("expected-{assignment}.png")
+}
+
+/// Makes all assets now, so that no student waits for the pictures.
+pub fn warm() {
+    LazyLock::force(&ASSETS);
+}
+
+/// The address of an asset; where there is none, one that answers "not found".
+pub(super) fn address(name: &str) -> &'static str {
+    ASSETS.iter().find(|asset| asset.name == name).map_or("/assets/none", |asset| asset.address.as_str())
+}
+
+/// `GET /assets/{name}`.
+pub(super) async fn serve(Path(name): Path<String>) -> Response {
+    let address = format!("/assets/{name}");
+    let Some(asset) = ASSETS.iter().find(|asset| asset.address == address) else {
+        return StatusCode::NOT_FOUND.into_response();
+    };
+    let headers = [
+        (header::CONTENT_TYPE, HeaderValue::from_static(asset.kind)),
+        (header::CACHE_CONTROL, HeaderValue::from_static("public, max-age=31536000, immutable")),
+    ];
+    (headers, asset.content.as_ref()).into_response()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_asset_has_an_address_of_its_own_content() {
+        let mut addresses: Vec<_> = ASSETS.iter().map(|asset| asset.address.as_str()).collect();
+        addresses.sort_unstable();
+        addresses.dedup();
+        assert_eq!(addresses.len(), ASSETS.len());
+        let one = Asset::new("a.css", b"x".as_slice());
+        let other = Asset::new("a.css", b"y".as_slice());
+        // SHA-256 of "x" begins 2d711642b726b044.
+        assert_eq!(one.address, "/assets/a.2d711642b726b044.css");
+        assert_ne!(one.address, other.address);
+    }
+
+    #[test]
+    fn styles_and_scripts_refer_to_no_other_host() {
+        for asset in ASSETS.iter().filter(|asset| asset.name.ends_with(".css") || asset.name.ends_with(".js")) {
+            let text = String::from_utf8_lossy(&asset.content);
+            for reference in ["http:", "https:", "@import", "url(//"] {
+                assert!(!text.contains(reference), "{} has {reference}", asset.name);
+            }
+        }
+    }
+
+    #[test]
+    fn scripts_make_no_markup_of_text() {
+        for asset in ASSETS.iter().filter(|asset| asset.name.ends_with(".js")) {
+            let text = String::from_utf8_lossy(&asset.content);
+            for way in ["innerHTML", "outerHTML", "insertAdjacentHTML", "document.write", "eval(", "new Function"] {
+                assert!(!text.contains(way), "{} has {way}", asset.name);
+            }
+        }
+    }
+}

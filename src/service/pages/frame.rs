@@ -1,0 +1,120 @@
+//! What every page has around its content: language, address, assets.
+
+use super::assets;
+use crate::language::Language;
+use crate::report::html::SYMBOLS;
+use axum::extract::{FromRequestParts, OriginalUri};
+use axum::http::Uri;
+use axum::http::request::Parts;
+use std::convert::Infallible;
+
+use crate::service::language::of_request;
+
+/// The frame of one page.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Language of every word.
+    pub language: Language,
+    uri: Uri,
+    assignment: String,
+}
+
+/// A language to switch to.
+pub(super) struct Tongue {
+    pub tag: &'static str,
+    pub name: &'static str,
+    pub href: String,
+    pub is_current: bool,
+}
+
+impl Frame {
+    /// The frame of a page at an address.
+    pub fn new(language: Language, uri: Uri) -> Self {
+        Self { language, uri, assignment: reference::assignments().first().map(|a| a.id.clone()).unwrap_or_default() }
+    }
+
+    /// The same for a page of this assignment.
+    pub fn of(self, assignment: &str) -> Self {
+        Self { assignment: assignment.to_owned(), ..self }
+    }
+
+    /// The wording of this page's language.
+    pub fn say(&self, en: &'static str, ja: &'static str) -> &'static str {
+        match self.language {
+            Language::En => en,
+            Language::Ja => ja,
+        }
+    }
+
+    /// The language as a BCP 47 tag.
+    pub fn tag(&self) -> &'static str {
+        tag(self.language)
+    }
+
+    /// The languages to choose from; each leads to this page.
+    pub(super) fn tongues(&self) -> [Tongue; 2] {
+        let tongue = |language, name| {
+            let others = self.uri.query().unwrap_or_default().split('&').filter(|pair| !pair.starts_with("lang="));
+            let query: Vec<String> =
+                others.filter(|pair| !pair.is_empty()).map(str::to_owned).chain([format!("lang={}", tag(language))]).collect();
+            Tongue {
+                tag: tag(language),
+                name,
+                href: format!("{}?{}", self.uri.path(), query.join("&")),
+                is_current: language == self.language,
+            }
+        };
+        [tongue(Language::Ja, "日本語"), tongue(Language::En, "English")]
+    }
+
+    /// The address of an asset.
+    pub fn asset(&self, name: &str) -> &'static str {
+        assets::address(name)
+    }
+
+    /// The address of the style that moves the assignment's pictures.
+    pub fn motion(&self) -> &'static str {
+        assets::address(&assets::motion_name(&self.assignment))
+    }
+
+    /// The signs that reports refer to.
+    pub fn symbols(&self) -> &'static str {
+        SYMBOLS
+    }
+
+    /// Version of ggrade.
+    pub fn version(&self) -> &'static str {
+        env!("CARGO_PKG_VERSION")
+    }
+}
+
+fn tag(language: Language) -> &'static str {
+    match language {
+        Language::En => "en",
+        Language::Ja => "ja",
+    }
+}
+
+impl<S: Sync> FromRequestParts<S> for Frame {
+    type Rejection = Infallible;
+
+    async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, Infallible> {
+        let uri = parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
+        Ok(Self::new(of_request(&parts.headers, &uri), uri))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_switch_of_language_stays_on_the_page() {
+        let frame = Frame::new(Language::En, Uri::from_static("/teacher/x?verdict=wrong&lang=en&q=a%22b"));
+        let [ja, en] = frame.tongues();
+        assert_eq!(ja.href, "/teacher/x?verdict=wrong&q=a%22b&lang=ja");
+        assert!(!ja.is_current && en.is_current);
+        let [ja, _] = Frame::new(Language::Ja, Uri::from_static("/")).tongues();
+        assert_eq!(ja.href, "/?lang=ja");
+    }
+}

@@ -1,0 +1,212 @@
+//! The student's page and its forms: looking, trying, handing in.
+
+use super::frame::Frame;
+use super::student::Desk;
+use super::{result, shown};
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::identity::Visitor;
+use crate::service::limits::Client;
+use crate::service::store::{Audience, Submission, Via};
+use crate::service::submit::{Receipt, Upload, submit};
+use crate::source;
+use axum::extract::{Multipart, Path, Query, State as Shared};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+/// Attempts that the page lists.
+const LISTED: u32 = 60;
+
+/// What the page may be asked to show.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct Wish {
+    /// Id of a submission whose text to go on with.
+    from: Option<String>,
+}
+
+/// `GET /`: the homework that is served.
+pub(super) async fn first(shared: Shared<State>, frame: Frame, visitor: Visitor) -> Result<Response, Problem> {
+    let id = shared.assignment.id.clone();
+    desk(shared, Path(id), Query(Wish::default()), frame, visitor).await
+}
+
+/// `GET /a/{assignment}`.
+pub(super) async fn desk(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    Query(wish): Query<Wish>,
+    frame: Frame,
+    visitor: Visitor,
+) -> Result<Response, Problem> {
+    served(&state, &id)?;
+    let settings = state.store.assignment(&id).await?;
+    let identity = &visitor.identity;
+    let (mut history, mut used) = (Vec::new(), 0);
+    if let Some(owner) = identity.owner_id() {
+        history = state.store.history(&id, owner, LISTED).await?;
+        used = state.store.attempts(&id, owner, identity.student().map(|student| student.id.as_str())).await?;
+    }
+    let needs_number = settings.audience == Audience::Number && identity.student().is_none();
+    let notice = needs_number.then(|| {
+        frame.say(
+            "To hand in, open the link that your teacher gave you and enter your student number.",
+            "提出するには、教員から伝えられたリンクを開き、学籍番号を入力してください。",
+        )
+    });
+    let text = match &wish.from {
+        Some(submission) => text_of(&state, submission).await?,
+        None => None,
+    };
+    let desk = Desk {
+        frame: frame.of(&id),
+        homework: state.assignment,
+        settings: &settings,
+        now: state.clock.now(),
+        who: identity.student().map(|student| student.number.clone()),
+        may_hand_in: !needs_number,
+        csrf: visitor.csrf(&state),
+        history: &history,
+        used,
+        text,
+        notice: notice.map(str::to_owned),
+    };
+    shown(desk.render())
+}
+
+/// The text of a submission, where it is one.
+async fn text_of(state: &State, id: &str) -> Result<Option<String>, Problem> {
+    let Some(submission) = state.store.submission(id).await? else { return Ok(None) };
+    let bytes = state.store.upload(&submission.sha256).await?;
+    Ok(bytes.and_then(|bytes| readable(&submission.name, &bytes)))
+}
+
+/// A file as text, where it can be read as text.
+pub(super) fn readable(name: &str, bytes: &[u8]) -> Option<String> {
+    match source::read(name, bytes) {
+        Ok(source) => Some(source.text),
+        Err(refusal) => refusal.source.map(|source| source.text),
+    }
+}
+
+fn served(state: &State, id: &str) -> Result<(), Problem> {
+    if id == state.assignment.id { Ok(()) } else { Err(Problem::not_found()) }
+}
+
+/// `GET /a/{assignment}/starter`: the handed-out file.
+pub(super) async fn starter(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
+    served(&state, &id)?;
+    let file = state.assignment.files.first().ok_or_else(Problem::not_found)?;
+    let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-cache")];
+    Ok((headers, file.starter.clone()).into_response())
+}
+
+/// `POST /a/{assignment}`: hands in, and goes to the report.
+pub(super) async fn hand_in(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    client: Client,
+    visitor: Visitor,
+    form: Multipart,
+) -> Result<Response, Problem> {
+    let receipt = take(&state, id, client, visitor, form, Via::Page).await?;
+    Ok(Redirect::to(&format!("/r/{}", receipt.submission.id)).into_response())
+}
+
+/// `POST /a/{assignment}/draft`: grades without handing in. A script gets the report as a part of its page.
+pub(super) async fn draft(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    frame: Frame,
+    client: Client,
+    visitor: Visitor,
+    headers: HeaderMap,
+    form: Multipart,
+) -> Result<Response, Problem> {
+    let receipt = take(&state, id, client, visitor, form, Via::Editor).await?;
+    let Submission { id, .. } = &receipt.submission;
+    if !headers.contains_key("x-part") {
+        return Ok(Redirect::to(&format!("/r/{id}")).into_response());
+    }
+    match (receipt.report(), receipt.fault()) {
+        (Some(report), _) => result::draft_part(&frame, id, report),
+        (None, Some(fault)) => Err(Problem::internal(&fault.message.en)),
+        (None, None) => Ok(result::come_back(id)),
+    }
+}
+
+async fn take(
+    state: &State,
+    assignment: String,
+    client: Client,
+    visitor: Visitor,
+    form: Multipart,
+    via: Via,
+) -> Result<Receipt, Problem> {
+    served(state, &assignment)?;
+    // Counted before a byte of the body is read.
+    state.limits.address(&client)?;
+    let form = Form::read(form).await?;
+    visitor.check_csrf(state, &form.csrf)?;
+    let visitor = visitor.known(state).await?;
+    let (name, bytes) = form.file(state)?;
+    submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None }).await
+}
+
+/// The form as it came.
+#[derive(Default)]
+struct Form {
+    csrf: String,
+    file: Option<(String, Vec<u8>)>,
+    text: Option<String>,
+}
+
+impl Form {
+    async fn read(mut parts: Multipart) -> Result<Self, Problem> {
+        let mut form = Self::default();
+        while let Some(field) = parts.next_field().await.map_err(|error| unreadable(&error))? {
+            match field.name().unwrap_or_default() {
+                "csrf" => form.csrf = field.text().await.map_err(|error| unreadable(&error))?,
+                "text" => form.text = Some(field.text().await.map_err(|error| unreadable(&error))?),
+                "file" => {
+                    let name = field.file_name().unwrap_or_default().to_owned();
+                    let bytes = field.bytes().await.map_err(|error| unreadable(&error))?;
+                    // A browser sends a field without a name where no file is chosen.
+                    if !name.is_empty() {
+                        form.file = Some((name, bytes.to_vec()));
+                    }
+                }
+                _ => {}
+            }
+        }
+        Ok(form)
+    }
+
+    /// The chosen file, else the text, which browsers send with CRLF.
+    fn file(self, state: &State) -> Result<(String, Vec<u8>), Problem> {
+        let name = state.assignment.files.first().map(|file| file.name.clone()).unwrap_or_default();
+        match (self.file, self.text) {
+            (Some(file), _) => Ok(file),
+            (None, Some(text)) => Ok((name, text.replace("\r\n", "\n").into_bytes())),
+            (None, None) => Err(Problem::bad_request(
+                "The form has no file and no text. Choose the .vert file, or type in the editor.",
+                "ファイルもテキストも送られていません。.vert ファイルを選ぶか、エディタに入力してください。",
+            )),
+        }
+    }
+}
+
+fn unreadable(error: &axum::extract::multipart::MultipartError) -> Problem {
+    match error.status() {
+        StatusCode::PAYLOAD_TOO_LARGE => Problem::new(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            "too-large",
+            "The file is too large. A shader has a few kilobytes: is it the right file?",
+            "ファイルが大きすぎます。シェーダは数キロバイトです。ファイルが正しいか確認してください。",
+        ),
+        _ => Problem::bad_request(
+            "The upload arrived incomplete. Please send it again.",
+            "アップロードが途中で切れました。もう一度送信してください。",
+        ),
+    }
+}

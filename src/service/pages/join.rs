@@ -1,0 +1,97 @@
+//! The course link: a student says by which number they are known.
+
+use super::frame::Frame;
+use super::{shown, student};
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::identity::{self, Visitor};
+use askama::Template;
+use axum::Form;
+use axum::extract::{Path, State as Shared};
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/join.html")]
+struct View {
+    frame: Frame,
+    title: String,
+    problem: Option<String>,
+    action: String,
+    leave: &'static str,
+    csrf: String,
+    number: String,
+    who: Option<String>,
+}
+
+/// The form of the page.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct Given {
+    #[serde(default)]
+    csrf: String,
+    #[serde(default)]
+    number: String,
+}
+
+fn view(state: &State, frame: Frame, secret: &str, visitor: &Visitor, number: String, problem: Option<String>) -> View {
+    let who = visitor.identity.student().map(|student| student.number.clone());
+    View {
+        title: student::title(state.assignment, frame.language),
+        problem,
+        action: format!("/join/{secret}"),
+        leave: "/leave",
+        csrf: visitor.csrf(state),
+        number: if number.is_empty() { who.clone().unwrap_or_default() } else { number },
+        who,
+        frame,
+    }
+}
+
+/// `GET /join/{secret}`.
+pub(super) async fn page(
+    Shared(state): Shared<State>,
+    Path(secret): Path<String>,
+    frame: Frame,
+    visitor: Visitor,
+) -> Result<Response, Problem> {
+    identity::check_course_link(&state, &secret).await?;
+    shown(view(&state, frame, &secret, &visitor, String::new(), None).render())
+}
+
+/// `POST /join/{secret}`.
+pub(super) async fn join(
+    Shared(state): Shared<State>,
+    Path(secret): Path<String>,
+    frame: Frame,
+    visitor: Visitor,
+    Form(given): Form<Given>,
+) -> Result<Response, Problem> {
+    visitor.check_csrf(&state, &given.csrf)?;
+    match identity::join(&state, visitor.clone(), &secret, &given.number).await {
+        Ok(visitor) => Ok(to_desk(&state, &visitor)),
+        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+            let detail = problem.detail.get(frame.language).to_owned();
+            let mut page = shown(view(&state, frame, &secret, &visitor, given.number, Some(detail)).render())?;
+            *page.status_mut() = problem.status;
+            Ok(page)
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+/// `POST /leave`: leaves the browser to somebody else.
+pub(super) async fn leave(
+    Shared(state): Shared<State>,
+    visitor: Visitor,
+    Form(given): Form<Given>,
+) -> Result<Response, Problem> {
+    visitor.check_csrf(&state, &given.csrf)?;
+    Ok(to_desk(&state, &identity::leave()))
+}
+
+fn to_desk(state: &State, visitor: &Visitor) -> Response {
+    let mut response = Redirect::to(&format!("/a/{}", state.assignment.id)).into_response();
+    visitor.set_cookie(state, &mut response);
+    response
+}

@@ -1,0 +1,107 @@
+//! A report as a part of a page, with what the editor needs of it.
+
+use super::assets;
+use super::frame::Frame;
+use crate::fault::Fault;
+use crate::diagnostic::Severity;
+use crate::report::html::{Gallery, Lines, Mark, Part};
+use crate::report::{Equation, Report, Verdict};
+use crate::language::Text;
+use askama::Template;
+use serde::Serialize;
+
+#[derive(Template)]
+#[template(path = "service/part.html")]
+struct View {
+    label: &'static str,
+    mark: Mark,
+    summary: String,
+    marks: String,
+    body: String,
+}
+
+/// A line of the file that something is said about.
+#[derive(Debug, Serialize)]
+struct LineMark {
+    line: u32,
+    column: Option<u32>,
+    length: u32,
+    kind: &'static str,
+}
+
+/// A report with its pictures at the addresses of a submission; none where it has no pictures to show.
+pub(super) fn part(
+    frame: &Frame,
+    report: &Report,
+    source: Lines<'_>,
+    gallery: Option<&Gallery>,
+    level: u8,
+) -> Result<String, Fault> {
+    let equation = Equation::illumination();
+    let has_footer = level == 1;
+    let part =
+        Part { report, source, gallery, equation: Some(&equation), language: frame.language, level, has_footer };
+    let view = View {
+        label: frame.say("Result", "採点結果"),
+        mark: Mark::of_report(report),
+        summary: summary(frame, report),
+        marks: serde_json::to_string(&marks(report)).unwrap_or_default(),
+        body: part.render()?,
+    };
+    view.render().map_err(|error| Fault::new(Text::verbatim(error.to_string())))
+}
+
+/// The result in one sentence, as a screen reader says it.
+fn summary(frame: &Frame, report: &Report) -> String {
+    let verdict = verdict(frame, report.verdict);
+    let said = format!("{verdict}: {} / {}", report.score.round(), report.max_score.round());
+    let mut errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
+    match errors.next().and_then(|first| first.line) {
+        Some(line) => {
+            let more = match errors.count() {
+                0 => String::new(),
+                more => format!(" (+{more})"),
+            };
+            format!("{said} · {} {line}{more}", frame.say("error in line", "エラーの行:"))
+        }
+        None => said,
+    }
+}
+
+/// A verdict in words.
+pub(super) fn verdict(frame: &Frame, verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Correct => frame.say("Correct", "正解"),
+        Verdict::Wrong => frame.say("Not right yet", "修正が必要"),
+        Verdict::Rejected => frame.say("Not accepted", "受理できません"),
+        Verdict::Stopped => frame.say("Stopped", "実行を中断"),
+    }
+}
+
+fn marks(report: &Report) -> Vec<LineMark> {
+    let diagnostics = report.diagnostics.iter().filter_map(|diagnostic| {
+        let kind = match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => return None,
+        };
+        Some(LineMark { line: diagnostic.line?, column: diagnostic.column, length: diagnostic.length.max(1), kind })
+    });
+    let rubric = report.rubric.iter().filter(|line| line.points < line.max_points);
+    let rubric = rubric.filter_map(|line| Some(LineMark { line: line.line?, column: None, length: 0, kind: "rubric" }));
+    diagnostics.chain(rubric).collect()
+}
+
+/// Where the pictures of a submission are.
+pub(super) fn gallery(id: &str, report: &Report) -> Option<Gallery> {
+    if report.frames.is_empty() {
+        return None;
+    }
+    Some(Gallery {
+        yours: format!("/r/{id}/yours.png"),
+        expected: assets::address(&assets::expected_name(&report.assignment)).to_owned(),
+        difference: format!("/r/{id}/difference.png"),
+        is_reduced: false,
+        terms: Vec::new(),
+    })
+}

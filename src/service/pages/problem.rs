@@ -1,0 +1,34 @@
+//! A problem as a page.
+
+use super::frame::Frame;
+use crate::language::Language;
+use crate::service::errors::Problem;
+use askama::Template;
+use axum::http::Uri;
+use axum::response::Html;
+
+#[derive(Template)]
+#[template(path = "service/problem.html")]
+struct View {
+    frame: Frame,
+    status: u16,
+    heading: &'static str,
+    detail: String,
+}
+
+/// A problem as a page.
+pub fn problem(problem: &Problem, language: Language) -> Html<String> {
+    let frame = Frame::new(language, Uri::from_static("/"));
+    let heading = match problem.status.as_u16() {
+        401 | 403 => frame.say("Not possible here", "この操作はできません"),
+        404 => frame.say("Nothing here", "ページが見つかりません"),
+        413 => frame.say("Too large", "ファイルが大きすぎます"),
+        429 => frame.say("A moment, please", "少しお待ちください"),
+        status if status >= 500 => frame.say("Our fault", "サーバ側の障害です"),
+        _ => frame.say("That did not work", "処理できませんでした"),
+    };
+    let detail = problem.detail.get(language).to_owned();
+    let status = problem.status.as_u16();
+    // A string of a template of ours: there is nothing that could fail.
+    Html(View { frame, status, heading, detail }.render().unwrap_or_default())
+}

@@ -1,0 +1,211 @@
+//! The page of a report, and its pictures.
+
+use super::frame::Frame;
+use super::hand_in::readable;
+use super::moment::Moment;
+use super::{films, internal, part, shown};
+use crate::report::Report;
+use crate::report::html::Lines;
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::gallery::View as Pictured;
+use crate::service::store::{State as Progress, Stored, Submission, Via};
+use askama::Template;
+use axum::extract::{Path, Query, State as Shared};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{Html, IntoResponse, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/report.html")]
+struct View {
+    frame: Frame,
+    title: String,
+    back: String,
+    back_name: &'static str,
+    about: String,
+    again: Option<String>,
+    address: String,
+    source: String,
+    part: String,
+}
+
+#[derive(Template)]
+#[template(path = "service/waiting.html")]
+struct Waiting {
+    frame: Frame,
+    heading: &'static str,
+    detail: String,
+    address: String,
+    refreshes: bool,
+}
+
+async fn stored(state: &State, id: &str) -> Result<Stored, Problem> {
+    state.store.stored(id).await?.ok_or_else(Problem::not_found)
+}
+
+/// `GET /r/{id}`.
+pub(super) async fn page(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let Stored { submission, report } = stored(&state, &id).await?;
+    let frame = frame.of(&submission.assignment);
+    let Some(report) = report else { return waiting(&state, frame, &submission) };
+    let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
+    let text = readable(&submission.name, &bytes);
+    let source = text.as_deref().map_or(Lines::Nowhere, Lines::Here);
+    let gallery = part::gallery(&id, &report);
+    let part = part::part(&frame, &report, source, gallery.as_ref(), 1).map_err(internal)?;
+    let assignment = &submission.assignment;
+    shown(
+        View {
+            title: format!("{} / {} · {}", report.score, report.max_score, report.source.name),
+            back: format!("/a/{assignment}"),
+            back_name: frame.say("To the homework", "課題のページへ"),
+            about: about(&frame, &submission),
+            again: text.map(|_| format!("/a/{assignment}?from={id}")),
+            address: format!("/r/{id}"),
+            source: format!("/r/{id}/source"),
+            part,
+            frame,
+        }
+        .render(),
+    )
+}
+
+fn about(frame: &Frame, submission: &Submission) -> String {
+    let at = Moment::of(submission.received_at, frame.language).text;
+    let what = match submission.via {
+        Via::Editor => frame.say("A draft, not handed in", "下書き（未提出）"),
+        Via::Page | Via::Api | Via::Batch => frame.say("Handed in", "提出"),
+    };
+    format!("{what} · {at}")
+}
+
+fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Response, Problem> {
+    let failed = submission.state == Progress::Failed;
+    let position = state.queue.position(&submission.id).unwrap_or(1);
+    let detail = match (failed, frame.tag()) {
+        (true, "ja") => "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。".into(),
+        (true, _) => "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.".into(),
+        (false, "ja") => format!("提出は保存されました。順番: {position} 番目。結果が出るとこのページに表示されます。"),
+        (false, _) => format!("Your file is kept. Place in the queue: {position}. The report will appear on this page."),
+    };
+    let heading = if failed { frame.say("Our fault", "サーバ側の障害です") } else { frame.say("Being graded", "採点中です") };
+    let address = format!("/r/{}", submission.id);
+    let mut response = shown(Waiting { frame, heading, detail, address, refreshes: true }.render())?;
+    *response.status_mut() = StatusCode::ACCEPTED;
+    Ok(response)
+}
+
+/// `GET /r/{id}/part`: the report for the page with the editor.
+pub(super) async fn part_of(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    match stored(&state, &id).await? {
+        Stored { report: Some(report), .. } => draft_part(&frame, &id, &report),
+        Stored { submission, .. } if submission.state == Progress::Failed => {
+            Err(Problem::internal(&"grading a draft failed"))
+        }
+        Stored { .. } => Ok(come_back(&id)),
+    }
+}
+
+/// A report as a part of the page with the editor, which shows the lines itself.
+pub(super) fn draft_part(frame: &Frame, id: &str, report: &Report) -> Result<Response, Problem> {
+    let gallery = part::gallery(id, report);
+    let part = part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), 2).map_err(internal)?;
+    Ok(([(header::CACHE_CONTROL, "no-store")], Html(part)).into_response())
+}
+
+/// There is no report yet: where to ask for it, in a second.
+pub(super) fn come_back(id: &str) -> Response {
+    let headers = [(header::LOCATION, format!("/r/{id}/part")), (header::RETRY_AFTER, "1".to_owned())];
+    (StatusCode::ACCEPTED, headers).into_response()
+}
+
+/// `GET /r/{id}/source`: the file as it was handed in, to be saved.
+pub(super) async fn source(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
+    let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
+    let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
+    let headers = [
+        (header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream")),
+        (header::CONTENT_DISPOSITION, attachment(&submission.name)),
+    ];
+    Ok((headers, bytes).into_response())
+}
+
+/// A `Content-Disposition` under which a browser saves a file, whatever its name has in it (RFC 6266).
+pub(super) fn attachment(name: &str) -> HeaderValue {
+    let plain: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() || ".-_ ".contains(c) { c } else { '_' }).collect();
+    let encoded: String = name
+        .bytes()
+        .map(|byte| match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'.' | b'-' | b'_' => char::from(byte).to_string(),
+            byte => format!("%{byte:02X}"),
+        })
+        .collect();
+    let value = format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{encoded}");
+    HeaderValue::from_str(&value).unwrap_or_else(|_| HeaderValue::from_static("attachment"))
+}
+
+fn png(bytes: Vec<u8>) -> Response {
+    // The address holds the id of one grading, whose pictures never change.
+    let headers = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, "private, max-age=86400, immutable")];
+    (headers, bytes).into_response()
+}
+
+/// Which of the views of a picture.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct Asked {
+    #[serde(default)]
+    view: Pictured,
+}
+
+/// `GET /r/{id}/{picture}`: the sheets of the page, the portrait, the animation.
+pub(super) async fn picture(
+    Shared(state): Shared<State>,
+    Path((id, picture)): Path<(String, String)>,
+    Query(asked): Query<Asked>,
+) -> Result<Response, Problem> {
+    let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
+    let found = match picture.as_str() {
+        "yours.png" => films::film(&state, &submission).await?.map(|film| film.yours.clone()),
+        "difference.png" => films::film(&state, &submission).await?.map(|film| film.difference.clone()),
+        "portrait.png" => state.gallery.portrait(&state, &submission).await?,
+        "animation.png" => state.gallery.animation(&state, &submission, asked.view).await?,
+        _ => None,
+    };
+    found.map(png).ok_or_else(Problem::not_found)
+}
+
+/// `GET /r/{id}/frames/{n}.png`.
+pub(super) async fn frame(
+    Shared(state): Shared<State>,
+    Path((id, picture)): Path<(String, String)>,
+    Query(asked): Query<Asked>,
+) -> Result<Response, Problem> {
+    let index = picture.strip_suffix(".png").and_then(|index| index.parse().ok()).ok_or_else(Problem::not_found)?;
+    let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
+    let found = state.gallery.frame(&state, &submission, asked.view, index).await?;
+    found.map(png).ok_or_else(Problem::not_found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_cannot_leave_its_header() {
+        let header = attachment("a\"b\r\nSet-Cookie: x=1;課題.vert");
+        let text = header.to_str().expect("ASCII");
+        assert!(text.starts_with("attachment; filename=\"a_b__Set-Cookie_ x_1___.vert\";"), "{text}");
+        // 課 is E8 AA B2 in UTF-8.
+        assert!(text.contains("%0D%0A") && text.contains("%E8%AA%B2"), "{text}");
+    }
+}

@@ -1,0 +1,70 @@
+//! The way in, and out.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::identity::{self, LoginForm, Teacher, TeacherPage, Visitor};
+use crate::service::limits::Client;
+use askama::Template;
+use axum::Form;
+use axum::extract::State as Shared;
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/login.html")]
+struct View {
+    frame: Frame,
+    csrf: String,
+    problem: Option<String>,
+}
+
+/// `GET /teacher/login`.
+pub(in crate::service::pages) async fn page(
+    Shared(state): Shared<State>,
+    frame: Frame,
+    visitor: Visitor,
+    teacher: Option<Teacher>,
+) -> Result<Response, Problem> {
+    if teacher.is_some() {
+        return Ok(Redirect::to("/teacher").into_response());
+    }
+    shown(View { frame, csrf: visitor.csrf(&state), problem: None }.render())
+}
+
+/// `POST /teacher/login`.
+pub(in crate::service::pages) async fn login(
+    Shared(state): Shared<State>,
+    frame: Frame,
+    visitor: Visitor,
+    client: Client,
+    Form(form): Form<LoginForm>,
+) -> Result<Response, Problem> {
+    match identity::login(&state, &client, &visitor, &form).await {
+        Ok(response) => Ok(response),
+        Err(problem) if problem.kind == "login" => {
+            let detail = problem.detail.get(frame.language).to_owned();
+            let mut page = shown(View { frame, csrf: visitor.csrf(&state), problem: Some(detail) }.render())?;
+            *page.status_mut() = problem.status;
+            Ok(page)
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+/// The form of the button.
+#[derive(Debug, Default, Deserialize)]
+pub(in crate::service::pages) struct Token {
+    #[serde(default)]
+    pub csrf: String,
+}
+
+/// `POST /teacher/logout`.
+pub(in crate::service::pages) async fn logout(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Form(token): Form<Token>,
+) -> Result<Response, Problem> {
+    identity::logout(&state, &teacher, &token.csrf).await
+}

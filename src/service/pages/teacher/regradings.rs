@@ -1,0 +1,160 @@
+//! Grading everything again, and what that would change.
+
+use super::super::frame::Frame;
+use super::super::moment::Moment;
+use super::super::{part, shown, student};
+use super::login::Token;
+use super::Place;
+use crate::report::Verdict;
+use crate::service::State;
+use crate::service::api::batches::{Job, progress};
+use crate::service::errors::Problem;
+use crate::service::identity::TeacherPage;
+use crate::service::regrade;
+use crate::service::store::{Compared, Progress};
+use askama::Template;
+use axum::Form;
+use axum::extract::{Path, State as Shared};
+use axum::response::sse::{KeepAlive, Sse};
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+/// Points that differ by less are the same: sums of fractions of points are rounded.
+const SAME_POINTS: f64 = 1e-6;
+
+#[derive(Template)]
+#[template(path = "service/regrading.html")]
+struct View {
+    frame: Frame,
+    place: Place,
+    csrf: String,
+    at: Moment,
+    id: String,
+    seed: u64,
+    events: String,
+    progress: Progress,
+    is_adopted: bool,
+    gains: usize,
+    losses: usize,
+    otherwise: usize,
+    same: usize,
+    rows: Vec<Row>,
+}
+
+/// One submission that changed.
+struct Row {
+    href: String,
+    number: String,
+    name: String,
+    before: Earned,
+    after: Option<Earned>,
+    change: String,
+}
+
+/// What a submission got.
+struct Earned {
+    mark: &'static str,
+    word: &'static str,
+    score: f64,
+    mistakes: Vec<String>,
+}
+
+/// The form of the button.
+#[derive(Debug, Default, Deserialize)]
+pub(in crate::service::pages) struct Wish {
+    #[serde(default)]
+    csrf: String,
+    #[serde(default)]
+    new_seed: String,
+}
+
+/// `POST /teacher/regradings`: begins.
+pub(in crate::service::pages) async fn start(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Form(wish): Form<Wish>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &wish.csrf)?;
+    let regrading = regrade::start(&state, wish.new_seed == "on").await?;
+    Ok(Redirect::to(&format!("/teacher/regradings/{}", regrading.id)).into_response())
+}
+
+/// `POST /teacher/regradings/{id}`: adopts.
+pub(in crate::service::pages) async fn adopt(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Path(id): Path<String>,
+    Form(token): Form<Token>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &token.csrf)?;
+    regrade::adopt(&state, &id).await?;
+    Ok(Redirect::to(&format!("/teacher/regradings/{id}")).into_response())
+}
+
+/// `GET /teacher/regradings/{id}/events`.
+pub(in crate::service::pages) async fn events(
+    Shared(state): Shared<State>,
+    _: TeacherPage,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    state.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
+    Ok(Sse::new(progress(state, Job::Regrading(id))).keep_alive(KeepAlive::default()).into_response())
+}
+
+/// `GET /teacher/regradings/{id}`.
+pub(in crate::service::pages) async fn page(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Path(id): Path<String>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let regrading = state.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
+    let compared = state.store.compared(&id).await?;
+    let differs = |row: &&Compared| row.after.as_ref().is_some_and(|after| changed(&row.before, after));
+    let points = |row: &Compared| row.after.as_ref().map_or(0.0, |after| after.1 - row.before.1);
+    let count = |test: fn(f64) -> bool| compared.iter().filter(|row| test(points(row))).count();
+    let (gains, losses) = (count(|points| points > SAME_POINTS), count(|points| points < -SAME_POINTS));
+    let changes = compared.iter().filter(differs).count();
+    shown(
+        View {
+            place: Place::Batches,
+            csrf: teacher.csrf(&state),
+            at: Moment::of(regrading.created_at, frame.language),
+            seed: regrading.seed,
+            events: format!("/teacher/regradings/{id}/events"),
+            progress: state.store.regrading_progress(&id).await?,
+            is_adopted: regrading.adopted_at.is_some(),
+            gains,
+            losses,
+            otherwise: changes.saturating_sub(gains + losses),
+            same: compared.iter().filter(|row| row.after.is_some()).count() - changes,
+            rows: compared.iter().filter(differs).map(|row| line(&frame, row)).collect(),
+            id,
+            frame,
+        }
+        .render(),
+    )
+}
+
+type Graded = (Verdict, f64, Vec<String>);
+
+fn changed(before: &Graded, after: &Graded) -> bool {
+    before.0 != after.0 || (before.1 - after.1).abs() > SAME_POINTS || before.2 != after.2
+}
+
+fn line(frame: &Frame, row: &Compared) -> Row {
+    let got = |(verdict, score, mistakes): &Graded| Earned {
+        mark: student::mark(*verdict, Some(*score)).id(),
+        word: part::verdict(frame, *verdict),
+        score: *score,
+        mistakes: mistakes.clone(),
+    };
+    Row {
+        href: format!("/r/{}", row.submission.id),
+        number: row.number.clone().unwrap_or_else(|| row.submission.name.clone()),
+        name: row.student_name.clone().unwrap_or_default(),
+        before: got(&row.before),
+        after: row.after.as_ref().map(got),
+        change: row.after.as_ref().map_or_else(String::new, |after| format!("{:+}", after.1 - row.before.1)),
+    }
+}

@@ -1,0 +1,61 @@
+//! What every request gets: a count by its address where it changes something, a time limit, a line in the log, a place in the figures.
+
+use super::errors::Problem;
+use super::{Config, State, metrics};
+use axum::extract::{MatchedPath, Request, State as Shared};
+use axum::http::{HeaderValue, Method, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use std::time::Instant;
+
+/// How many times longer than other requests those may take that a teacher sends: archives come, whole classes go.
+const TEACHERS_PATIENCE: f64 = 8.0;
+
+/// Whether a request is about a whole class. Others than teachers get a short answer there.
+fn is_about_a_class(route: &str) -> bool {
+    ["/api/v1/batches", "/api/v1/class", "/teacher"].iter().any(|start| route.starts_with(start))
+}
+
+/// The layer.
+pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next: Next) -> Response {
+    let start = Instant::now();
+    let method = request.method().clone();
+    let route = request.extensions().get::<MatchedPath>().map_or("none", MatchedPath::as_str).to_owned();
+    let patience = if is_about_a_class(&route) { TEACHERS_PATIENCE } else { 1.0 };
+    let seconds = state.config.limits.request_timeout * patience;
+    // Counted before a byte of the body is read.
+    let counted = if method.is_safe() { Ok(()) } else { state.limits.address(&state.proxies.client_of(&request)) };
+    let mut response = match counted {
+        Err(problem) => problem.into_response(),
+        Ok(()) => {
+            let answered = tokio::time::timeout(Config::span(seconds), next.run(request)).await;
+            answered.unwrap_or_else(|_| too_late())
+        }
+    };
+    let status = response.status().as_u16();
+    let took = start.elapsed();
+    // An id in the address opens a report, and a name in it was written by a student: the route says enough.
+    let milliseconds = took.as_secs_f64() * 1e3;
+    tracing::info!(%method, route, status, milliseconds, "request");
+    metrics::request(&route, if is_known(&method) { method.as_str() } else { "other" }, status, took);
+    if state.is_ending() {
+        response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
+    }
+    response
+}
+
+/// Names of methods are the client's to choose; figures must not grow with them.
+fn is_known(method: &Method) -> bool {
+    [Method::GET, Method::HEAD, Method::POST, Method::PUT, Method::PATCH, Method::DELETE, Method::OPTIONS]
+        .contains(method)
+}
+
+fn too_late() -> Response {
+    Problem::new(
+        StatusCode::REQUEST_TIMEOUT,
+        "timeout",
+        "The request took too long to arrive or to be answered. Please try again.",
+        "時間内にリクエストの受信または処理が終わりませんでした。もう一度試してください。",
+    )
+    .into_response()
+}

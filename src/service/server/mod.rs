@@ -1,0 +1,148 @@
+//! The server around the router: from a configuration to a service that listens, until it is told to end.
+
+mod connections;
+mod steady;
+
+pub use connections::accept;
+
+use super::clock::Clock;
+use super::grading::Graders;
+use super::identity::new_token;
+use super::store::{Store, StoreError};
+use super::{Config, State, app, metrics, upkeep};
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::sandbox::{Pool, Settings};
+use std::net::SocketAddr;
+use std::sync::Arc;
+use tokio::net::TcpListener;
+use tokio::signal::unix::{SignalKind, signal};
+
+/// How often the workers are started before the service gives up.
+const MOST_STARTS: u32 = 4;
+
+/// A service that listens.
+#[derive(Debug)]
+pub struct Started {
+    /// Where.
+    pub address: SocketAddr,
+    /// What its requests share.
+    pub state: State,
+    /// The teacher's token, where nobody set a password or a token: it is new at each start.
+    pub one_time_token: Option<String>,
+    listener: TcpListener,
+    graders: Graders,
+}
+
+/// Opens the database, starts the workers, takes over what was left, and listens; serves nothing yet.
+pub async fn start(mut config: Config) -> Result<Started, Fault> {
+    metrics::install();
+    let store = open(&config).await?;
+    let one_time_token = match has_teacher(&config, &store).await? {
+        true => None,
+        false => Some(new_token()[..32].to_owned()),
+    };
+    if one_time_token.is_some() {
+        config.teacher_token.clone_from(&one_time_token);
+    }
+    let listener = TcpListener::bind(config.listen).await.map_err(|error| cannot_listen(config.listen, &error))?;
+    let address = listener.local_addr().map_err(|error| cannot_listen(config.listen, &error))?;
+    let pool = pool(&config).await?;
+    let state = State::new(config, store, Arc::new(pool), Clock::system()).await?;
+    let graders = Graders::start(&state).await.map_err(|error| database(&error))?;
+    tokio::spawn(upkeep::run(state.clone()));
+    Ok(Started { address, state, one_time_token, listener, graders })
+}
+
+impl Started {
+    /// Serves until SIGTERM or SIGINT; then lets what is under way be finished.
+    pub async fn serve(self) -> Result<(), Fault> {
+        let failed = |error| Fault::new(Text::verbatim(format!("signals: {error}")));
+        let mut terminate = signal(SignalKind::terminate()).map_err(failed)?;
+        let mut interrupt = signal(SignalKind::interrupt()).map_err(failed)?;
+        let state = self.state.clone();
+        tokio::spawn(async move {
+            tokio::select! { _ = terminate.recv() => {}, _ = interrupt.recv() => {} }
+            tracing::info!("told to end: finishing what is under way");
+            state.end();
+        });
+        let Self { state, listener, graders, .. } = self;
+        accept(listener, app(state.clone()), state.clone()).await;
+        graders.finish().await;
+        state.store.close().await;
+        tracing::info!("ended");
+        Ok(())
+    }
+}
+
+/// Opens the database of a configuration.
+pub async fn open(config: &Config) -> Result<Store, Fault> {
+    Store::open(&config.location()?).await.map_err(|error| {
+        let place = config.location().map(|location| location.to_string()).unwrap_or_default();
+        Fault::new(Text::new(
+            format!("the database {place} cannot be opened: {error}"),
+            format!("データベース {place} を開けません: {error}"),
+        ))
+    })
+}
+
+async fn has_teacher(config: &Config, store: &Store) -> Result<bool, Fault> {
+    if config.teacher_token.is_some() || config.teacher_password_hash.is_some() {
+        return Ok(true);
+    }
+    let password = store.setting(super::identity::PASSWORD_SETTING).await.map_err(|error| database(&error))?;
+    Ok(password.is_some())
+}
+
+/// One worker more than files are graded at once draws pictures for who looks at reports.
+async fn pool(config: &Config) -> Result<Pool, Fault> {
+    let settings = Settings {
+        deadline: Config::span(config.deadline),
+        policy: config.sandbox,
+        ..Settings::new(&config.assignment)
+    };
+    let settings = if config.single_use_workers { settings.with_single_use_workers() } else { settings };
+    let workers = config.workers + 1;
+    let started = tokio::task::spawn_blocking(move || start_pool(&settings, workers)).await;
+    let pool = started.map_err(|error| Fault::new(Text::verbatim(error.to_string())))??;
+    if let Some(notice) = pool.notice() {
+        tracing::warn!(notice = notice.en, "the sandbox is not closed");
+    }
+    Ok(pool)
+}
+
+/// Starts the workers; a machine that is busy with starting everything else gets more than one chance.
+fn start_pool(settings: &Settings, workers: usize) -> Result<Pool, Fault> {
+    let mut attempts = 1;
+    loop {
+        match Pool::start(settings.clone(), workers) {
+            Ok(pool) => return Ok(pool),
+            Err(fault) if attempts >= MOST_STARTS => return Err(fault),
+            Err(fault) => tracing::warn!(fault = fault.message.en, "the workers did not start"),
+        }
+        attempts += 1;
+    }
+}
+
+fn cannot_listen(address: SocketAddr, error: &std::io::Error) -> Fault {
+    Fault::new(Text::new(
+        format!("cannot listen on {address}: {error}"),
+        format!("{address} で待ち受けできません: {error}"),
+    ))
+    .remedy(Text::new("Choose another port with --listen.", "--listen で別のポートを指定してください。"))
+}
+
+fn database(error: &StoreError) -> Fault {
+    Fault::new(Text::new(format!("the database: {error}"), format!("データベースの障害: {error}")))
+}
+
+/// Keeps the hash of the teacher's password, and ends every teacher's session.
+pub async fn set_teacher_password(config: &Config, password: &str) -> Result<(), Fault> {
+    let store = open(config).await?;
+    let hash = super::identity::hash_password(password)?;
+    let kept = store.set_setting(super::identity::PASSWORD_SETTING, &hash).await;
+    kept.map_err(|error| database(&error))?;
+    store.close_session(None).await.map_err(|error| database(&error))?;
+    store.close().await;
+    Ok(())
+}

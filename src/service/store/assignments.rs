@@ -1,0 +1,98 @@
+//! What a teacher sets for an assignment.
+
+use super::rows::{from_word, word};
+use super::{Result, Store, on, signed};
+use crate::diagnose::Hints;
+use crate::service::clock::Millis;
+use serde::{Deserialize, Serialize};
+
+/// Who may hand in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Audience {
+    /// Anybody.
+    #[default]
+    Open,
+    /// Whoever came by the course link and gave a student number.
+    Number,
+}
+
+/// The settings of an assignment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Assignment {
+    /// Its id.
+    pub id: String,
+    /// Seed of the probes of every grading: the same for all, so that all are measured alike and the same file always
+    /// gets the same answer. It is drawn at random, and the teacher can draw another.
+    pub seed: u64,
+    /// The most that messages may help.
+    pub hints: Hints,
+    /// When handing in begins.
+    pub opens_at: Option<Millis>,
+    /// When handing in ends.
+    pub closes_at: Option<Millis>,
+    /// How often one student may hand in.
+    pub attempts: Option<u64>,
+    /// Who may hand in.
+    pub audience: Audience,
+}
+
+type Row = (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String);
+
+impl Assignment {
+    fn of((id, seed, hints, opens_at, closes_at, attempts, audience): Row) -> Result<Self> {
+        Ok(Self {
+            id,
+            seed: seed.unsigned_abs(),
+            hints: from_word(hints)?,
+            opens_at,
+            closes_at,
+            attempts: attempts.map(i64::unsigned_abs),
+            audience: from_word(audience)?,
+        })
+    }
+
+    /// Whether it takes files at `now`.
+    pub fn is_open(&self, now: Millis) -> bool {
+        self.opens_at.is_none_or(|opens| opens <= now) && self.closes_at.is_none_or(|closes| now < closes)
+    }
+}
+
+impl Store {
+    /// The settings of an assignment; the usual ones, with a seed that nobody knows, when it is met first.
+    pub async fn assignment(&self, id: &str) -> Result<Assignment> {
+        const SELECT: &str =
+            "SELECT id, seed, hints, opens_at, closes_at, attempts, audience FROM assignments WHERE id = $1";
+        const INSERT: &str = "INSERT INTO assignments (id, seed, hints, audience) VALUES ($1, $2, $3, $4) \
+                              ON CONFLICT (id) DO NOTHING";
+        let found: Option<Row> = on!(&self.read, db => sqlx::query_as(SELECT).bind(id).fetch_optional(db).await?);
+        if let Some(row) = found {
+            return Assignment::of(row);
+        }
+        let seed = signed(crate::grade::random_seed());
+        let (hints, audience) = (word(&Hints::default()), word(&Audience::default()));
+        on!(&self.write, db => {
+            sqlx::query(INSERT).bind(id).bind(seed).bind(&hints).bind(&audience).execute(db).await?;
+        });
+        Assignment::of(on!(&self.write, db => sqlx::query_as(SELECT).bind(id).fetch_one(db).await?))
+    }
+
+    /// Sets everything of an assignment.
+    pub async fn set_assignment(&self, assignment: &Assignment) -> Result<()> {
+        const SQL: &str = "UPDATE assignments SET seed = $2, hints = $3, opens_at = $4, closes_at = $5, \
+                           attempts = $6, audience = $7 WHERE id = $1";
+        on!(&self.write, db => {
+            sqlx::query(SQL)
+                .bind(&assignment.id)
+                .bind(signed(assignment.seed))
+                .bind(word(&assignment.hints))
+                .bind(assignment.opens_at)
+                .bind(assignment.closes_at)
+                .bind(assignment.attempts.map(signed))
+                .bind(word(&assignment.audience))
+                .execute(db)
+                .await?;
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,151 @@
+//! Whole classes that a teacher uploaded.
+
+use super::submissions::{INSERT, INSERT_UPLOAD, bind_submission};
+use super::{NewSubmission, Result, Store, on, signed};
+use crate::batch::class::{Refused, Student};
+use crate::language::Text;
+use crate::service::clock::Millis;
+
+/// A teacher's upload.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch {
+    /// Id.
+    pub id: String,
+    /// Id of the assignment.
+    pub assignment: String,
+    /// Name of the archive. Untrusted.
+    pub title: String,
+    /// What was left out.
+    pub refused: Vec<Refused>,
+    /// When it came.
+    pub created_at: Millis,
+}
+
+/// One student of a batch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BatchEntry {
+    /// Who.
+    pub student: Student,
+    /// Where the file was in the archive.
+    pub path: Option<String>,
+    /// The submission, where there was something to grade.
+    pub submission_id: Option<String>,
+    /// Why there was nothing to grade, where there was not.
+    pub note: Option<Text>,
+}
+
+/// How far a batch is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, utoipa::ToSchema)]
+pub struct Progress {
+    /// Students of the batch.
+    pub entries: u64,
+    /// Files to grade.
+    pub files: u64,
+    /// Graded files.
+    pub graded: u64,
+    /// Files that failed by our fault.
+    pub failed: u64,
+}
+
+impl Progress {
+    /// The progress of files counted by state.
+    pub(super) fn of(states: &[(String, i64)]) -> Self {
+        let of = |state: &str| {
+            states.iter().filter(|(name, _)| name == state).map(|(_, count)| count.unsigned_abs()).sum::<u64>()
+        };
+        let files = states.iter().map(|(_, count)| count.unsigned_abs()).sum();
+        Self { entries: files, files, graded: of("graded"), failed: of("failed") }
+    }
+
+    /// Whether nothing is left to do.
+    pub fn is_done(&self) -> bool {
+        self.graded + self.failed >= self.files
+    }
+}
+
+type Row = (String, String, String, String, i64);
+
+impl Batch {
+    fn of((id, assignment, title, refused, created_at): Row) -> Result<Self> {
+        Ok(Self { id, assignment, title, refused: serde_json::from_str(&refused)?, created_at })
+    }
+}
+
+impl Store {
+    /// Stores a batch with all its files, or nothing of it.
+    pub async fn add_batch(&self, batch: &Batch, entries: &[BatchEntry], files: &[NewSubmission]) -> Result<()> {
+        const BATCH: &str =
+            "INSERT INTO batches (id, assignment, title, refused, created_at) VALUES ($1, $2, $3, $4, $5)";
+        const ENTRY: &str = "INSERT INTO batch_entries (batch_id, position, student, path, submission_id, note) \
+                             VALUES ($1, $2, $3, $4, $5, $6)";
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            sqlx::query(BATCH)
+                .bind(&batch.id)
+                .bind(&batch.assignment)
+                .bind(&batch.title)
+                .bind(serde_json::to_string(&batch.refused)?)
+                .bind(batch.created_at)
+                .execute(&mut *transaction)
+                .await?;
+            for new in files {
+                sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
+                bind_submission!(sqlx::query(INSERT), new, "queued").execute(&mut *transaction).await?;
+            }
+            for (position, entry) in entries.iter().enumerate() {
+                sqlx::query(ENTRY)
+                    .bind(&batch.id)
+                    .bind(signed(position as u64))
+                    .bind(serde_json::to_string(&entry.student)?)
+                    .bind(&entry.path)
+                    .bind(&entry.submission_id)
+                    .bind(entry.note.as_ref().map(serde_json::to_string).transpose()?)
+                    .execute(&mut *transaction)
+                    .await?;
+            }
+            transaction.commit().await?;
+        });
+        Ok(())
+    }
+
+    /// The batch with this id.
+    pub async fn batch(&self, id: &str) -> Result<Option<Batch>> {
+        const SQL: &str = "SELECT id, assignment, title, refused, created_at FROM batches WHERE id = $1";
+        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        row.map(Batch::of).transpose()
+    }
+
+    /// Every batch of an assignment, the newest first.
+    pub async fn batches(&self, assignment: &str) -> Result<Vec<Batch>> {
+        const SQL: &str = "SELECT id, assignment, title, refused, created_at FROM batches WHERE assignment = $1 \
+                           ORDER BY created_at DESC, id";
+        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
+        rows.into_iter().map(Batch::of).collect()
+    }
+
+    /// Everyone of a batch, in the order of the input.
+    pub async fn batch_entries(&self, id: &str) -> Result<Vec<BatchEntry>> {
+        const SQL: &str =
+            "SELECT student, path, submission_id, note FROM batch_entries WHERE batch_id = $1 ORDER BY position";
+        type Row = (String, Option<String>, Option<String>, Option<String>);
+        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
+        let entry = |(student, path, submission_id, note): Row| {
+            Ok(BatchEntry {
+                student: serde_json::from_str(&student)?,
+                path,
+                submission_id,
+                note: note.map(|json| serde_json::from_str(&json)).transpose()?,
+            })
+        };
+        rows.into_iter().map(entry).collect()
+    }
+
+    /// How far a batch is.
+    pub async fn progress(&self, id: &str) -> Result<Progress> {
+        const ENTRIES: &str = "SELECT count(*) FROM batch_entries WHERE batch_id = $1";
+        const FILES: &str = "SELECT state, count(*) FROM submissions WHERE batch_id = $1 GROUP BY state";
+        let entries: i64 = on!(&self.read, db => sqlx::query_scalar(ENTRIES).bind(id).fetch_one(db).await?);
+        let states: Vec<(String, i64)> = on!(&self.read, db => sqlx::query_as(FILES).bind(id).fetch_all(db).await?);
+        Ok(Progress { entries: entries.unsigned_abs(), ..Progress::of(&states) })
+    }
+}

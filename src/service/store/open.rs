@@ -1,0 +1,128 @@
+//! Opening the database and bringing its tables up to date.
+
+use super::{Pool, Result, Store, StoreError};
+use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
+use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::Arc;
+use std::time::Duration;
+
+static SQLITE: sqlx::migrate::Migrator = sqlx::migrate!("migrations/sqlite");
+static POSTGRES: sqlx::migrate::Migrator = sqlx::migrate!("migrations/postgres");
+
+/// Longest wait for a lock of the file, or for a connection. Requests end before.
+const BUSY: Duration = Duration::from_secs(5);
+
+/// Connections that read.
+const READERS: u32 = 4;
+
+/// Where the database is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// An SQLite file, made when missing.
+    File(PathBuf),
+    /// A PostgreSQL database, as `postgres://user:password@host/name`.
+    Postgres(String),
+}
+
+impl FromStr for Location {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        if text.starts_with("postgres://") || text.starts_with("postgresql://") {
+            return Ok(Self::Postgres(text.into()));
+        }
+        let path = text.strip_prefix("sqlite://").or_else(|| text.strip_prefix("sqlite:")).unwrap_or(text);
+        if path.is_empty() || path.contains("://") {
+            return Err("a database is a file name, or postgres://user@host/name".into());
+        }
+        Ok(Self::File(path.into()))
+    }
+}
+
+/// The location without a password, for messages.
+impl std::fmt::Display for Location {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Postgres(url) => {
+                let rest = url.split_once("://").map_or(url.as_str(), |(_, rest)| rest);
+                let rest = rest.rsplit_once('@').map_or(rest, |(_, host)| host);
+                write!(f, "postgres://{}", rest.split(['?', '#']).next().unwrap_or_default())
+            }
+        }
+    }
+}
+
+impl Store {
+    /// Opens the database and brings its tables up to date.
+    pub async fn open(location: &Location) -> Result<Self> {
+        match location {
+            Location::File(path) => Self::open_file(path).await,
+            Location::Postgres(url) => Self::open_postgres(url).await,
+        }
+    }
+
+    async fn open_file(path: &Path) -> Result<Self> {
+        let lock = lock(path)?;
+        // An acknowledged upload outlives a power cut: each commit is on the disk before it is told.
+        let options = SqliteConnectOptions::new()
+            .filename(path)
+            .create_if_missing(true)
+            .journal_mode(SqliteJournalMode::Wal)
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true)
+            .busy_timeout(BUSY);
+        let write =
+            SqlitePoolOptions::new().max_connections(1).acquire_timeout(BUSY).connect_with(options.clone()).await?;
+        SQLITE.run(&write).await?;
+        let read =
+            SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(BUSY).connect_with(options).await?;
+        Ok(Self { read: Pool::Sqlite(read), write: Pool::Sqlite(write), _lock: Some(Arc::new(lock)) })
+    }
+
+    async fn open_postgres(url: &str) -> Result<Self> {
+        let options = PgConnectOptions::from_str(url)?.application_name("ggrade");
+        let pool =
+            PgPoolOptions::new().max_connections(2 * READERS).acquire_timeout(BUSY).connect_with(options).await?;
+        POSTGRES.run(&pool).await?;
+        Ok(Self { read: Pool::Postgres(pool.clone()), write: Pool::Postgres(pool), _lock: None })
+    }
+}
+
+/// Keeps other services off the file for as long as the answer is held; the kernel lets go when the process ends.
+fn lock(path: &Path) -> Result<std::fs::File> {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".lock");
+    let failed = |error: &dyn std::fmt::Display| StoreError::File(format!("{}: {error}", path.display()));
+    let file =
+        std::fs::OpenOptions::new().create(true).truncate(false).write(true).open(&name).map_err(|e| failed(&e))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(std::fs::TryLockError::WouldBlock) => Err(failed(&"another ggrade serve has it open")),
+        Err(std::fs::TryLockError::Error(error)) => Err(failed(&error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_location_is_a_file_or_a_url() {
+        let parse = |text: &str| text.parse::<Location>();
+        assert_eq!(parse("ggrade.db"), Ok(Location::File("ggrade.db".into())));
+        assert_eq!(parse("sqlite:///var/lib/x.db"), Ok(Location::File("/var/lib/x.db".into())));
+        assert_eq!(parse("postgres://a@b/c"), Ok(Location::Postgres("postgres://a@b/c".into())));
+        assert!(parse("mysql://a@b/c").is_err());
+        assert!(parse("").is_err());
+    }
+
+    #[test]
+    fn no_password_is_shown() {
+        let shown = |url: &str| Location::Postgres(url.into()).to_string();
+        assert_eq!(shown("postgres://ta:se@cret@db.local/course?password=x"), "postgres://db.local/course");
+        assert_eq!(shown("postgres:///course?host=/run&password=x"), "postgres:///course");
+    }
+}

@@ -1,0 +1,193 @@
+//! Reports, and the lists that are made of them.
+
+use super::rows::{from_word, submission_columns, word};
+use super::{Result, Store, Submission, on};
+use crate::report::{Report, Verdict};
+use crate::service::clock::Millis;
+
+/// A submission with its report, where it has one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stored {
+    /// What was handed in.
+    pub submission: Submission,
+    /// What came of it.
+    pub report: Option<Report>,
+}
+
+/// One line of a student's own history.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HistoryRow {
+    /// What was handed in.
+    pub submission: Submission,
+    /// The verdict, where it is graded.
+    pub verdict: Option<Verdict>,
+    /// The points.
+    pub score: Option<f64>,
+    /// The possible points.
+    pub max_score: Option<f64>,
+}
+
+/// One submission as the class table has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClassRow {
+    /// What was handed in, the result, and
+    pub row: HistoryRow,
+    /// ids of the mistakes,
+    pub mistakes: Vec<String>,
+    /// student number and
+    pub number: Option<String>,
+    /// name, where they are known.
+    pub student_name: Option<String>,
+}
+
+/// A report as its row.
+pub(super) struct ReportRow {
+    pub verdict: String,
+    pub score: f64,
+    pub max_score: f64,
+    pub mistakes: String,
+    pub report: String,
+    pub ggrade: String,
+}
+
+impl ReportRow {
+    pub fn of(report: &Report) -> Result<Self> {
+        Ok(Self {
+            verdict: word(&report.verdict),
+            score: report.score,
+            max_score: report.max_score,
+            mistakes: serde_json::to_string(&report.mistakes)?,
+            report: serde_json::to_string(report)?,
+            ggrade: env!("CARGO_PKG_VERSION").into(),
+        })
+    }
+}
+
+/// Does nothing where there is a report already: the first one stands.
+pub(super) const INSERT: &str = "INSERT INTO reports (submission_id, graded_at, verdict, score, max_score, mistakes, \
+                                 report, ggrade, reused) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9) \
+                                 ON CONFLICT (submission_id) DO NOTHING";
+
+/// Binds a report to [`INSERT`].
+macro_rules! bind_report {
+    ($query:expr, $id:expr, $graded_at:expr, $row:expr, $reused:expr) => {
+        $query
+            .bind($id)
+            .bind($graded_at)
+            .bind(&$row.verdict)
+            .bind($row.score)
+            .bind($row.max_score)
+            .bind(&$row.mistakes)
+            .bind(&$row.report)
+            .bind(&$row.ggrade)
+            .bind($reused)
+    };
+}
+pub(super) use bind_report;
+
+impl<'r, R: sqlx::Row> sqlx::FromRow<'r, R> for HistoryRow
+where
+    Submission: sqlx::FromRow<'r, R>,
+    &'static str: sqlx::ColumnIndex<R>,
+    Option<String>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
+    Option<f64>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
+{
+    fn from_row(row: &'r R) -> std::result::Result<Self, sqlx::Error> {
+        let verdict: Option<String> = row.try_get("verdict")?;
+        Ok(Self {
+            submission: Submission::from_row(row)?,
+            verdict: verdict.map(from_word).transpose()?,
+            score: row.try_get("score")?,
+            max_score: row.try_get("max_score")?,
+        })
+    }
+}
+
+impl<'r, R: sqlx::Row> sqlx::FromRow<'r, R> for ClassRow
+where
+    HistoryRow: sqlx::FromRow<'r, R>,
+    &'static str: sqlx::ColumnIndex<R>,
+    Option<String>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
+{
+    fn from_row(row: &'r R) -> std::result::Result<Self, sqlx::Error> {
+        let mistakes: Option<String> = row.try_get("mistakes")?;
+        let mistakes = mistakes.map(|json| serde_json::from_str(&json)).transpose();
+        Ok(Self {
+            row: HistoryRow::from_row(row)?,
+            mistakes: mistakes.map_err(|error| sqlx::Error::Decode(Box::new(error)))?.unwrap_or_default(),
+            number: row.try_get("number")?,
+            student_name: row.try_get("student_name")?,
+        })
+    }
+}
+
+impl Store {
+    /// A submission with its report.
+    pub async fn stored(&self, id: &str) -> Result<Option<Stored>> {
+        const SQL: &str = "SELECT report FROM reports WHERE submission_id = $1";
+        let Some(submission) = self.submission(id).await? else { return Ok(None) };
+        let json: Option<String> = on!(&self.read, db => sqlx::query_scalar(SQL).bind(id).fetch_optional(db).await?);
+        let report = json.map(|json| serde_json::from_str(&json)).transpose()?;
+        Ok(Some(Stored { submission, report }))
+    }
+
+    /// What a browser has handed in for an assignment, the newest first; drafts are left out.
+    pub async fn history(&self, assignment: &str, owner_id: &str, limit: u32) -> Result<Vec<HistoryRow>> {
+        const SQL: &str = concat!(
+            "SELECT ",
+            submission_columns!(),
+            ", r.verdict, r.score, r.max_score FROM submissions s LEFT JOIN reports r ON r.submission_id = s.id \
+             WHERE s.assignment = $1 AND s.owner_id = $2 AND s.via <> 'editor' \
+             ORDER BY s.received_at DESC, s.id LIMIT $3"
+        );
+        Ok(on!(&self.read, db => {
+            sqlx::query_as(SQL).bind(assignment).bind(owner_id).bind(i64::from(limit)).fetch_all(db).await?
+        }))
+    }
+
+    /// Everything handed in for an assignment, the newest first; drafts are left out. `batch` takes one batch only.
+    pub async fn class(&self, assignment: &str, batch: Option<&str>) -> Result<Vec<ClassRow>> {
+        const SQL: &str = concat!(
+            "SELECT ",
+            submission_columns!(),
+            ", r.verdict, r.score, r.max_score, r.mistakes, t.number, t.name AS student_name \
+             FROM submissions s LEFT JOIN reports r ON r.submission_id = s.id \
+             LEFT JOIN students t ON t.id = s.student_id \
+             WHERE s.assignment = $1 AND s.via <> 'editor' AND ($2 = '' OR s.batch_id = $2) \
+             ORDER BY s.received_at DESC, s.id"
+        );
+        let batch = batch.unwrap_or_default();
+        Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).bind(batch).fetch_all(db).await?))
+    }
+
+    /// Keeps a report, and says whether it is the first one of its submission.
+    pub async fn finish(&self, submission_id: &str, report: &Report, graded_at: Millis) -> Result<bool> {
+        const STATE: &str = "UPDATE submissions SET state = 'graded', fault = NULL, claimed_by = NULL WHERE id = $1";
+        let row = ReportRow::of(report)?;
+        let is_first = on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            let done = bind_report!(sqlx::query(INSERT), submission_id, graded_at, row, 0_i64)
+                .execute(&mut *transaction)
+                .await?;
+            sqlx::query(STATE).bind(submission_id).execute(&mut *transaction).await?;
+            transaction.commit().await?;
+            done.rows_affected() > 0
+        });
+        Ok(is_first)
+    }
+
+    /// The portrait of a file, where it was made: the picture, or nothing where the file draws nothing.
+    pub async fn portrait(&self, assignment: &str, sha256: &str) -> Result<Option<Option<Vec<u8>>>> {
+        const SQL: &str = "SELECT png FROM portraits WHERE assignment = $1 AND sha256 = $2";
+        Ok(on!(&self.read, db => {
+            sqlx::query_scalar(SQL).bind(assignment).bind(sha256).fetch_optional(db).await?
+        }))
+    }
+
+    /// Keeps a portrait.
+    pub async fn set_portrait(&self, assignment: &str, sha256: &str, png: Option<&[u8]>) -> Result<()> {
+        const SQL: &str = "INSERT INTO portraits (assignment, sha256, png) VALUES ($1, $2, $3) ON CONFLICT DO NOTHING";
+        on!(&self.write, db => { sqlx::query(SQL).bind(assignment).bind(sha256).bind(png).execute(db).await?; });
+        Ok(())
+    }
+}

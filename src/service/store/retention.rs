@@ -1,0 +1,50 @@
+//! Removing what is old.
+
+use super::{Result, Store, on};
+use crate::service::clock::Millis;
+
+/// What was removed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Removed {
+    /// Submissions with their reports.
+    pub submissions: u64,
+    /// Files that no submission has any more.
+    pub uploads: u64,
+    /// Browsers that have nothing here any more.
+    pub owners: u64,
+}
+
+impl Store {
+    /// Removes submissions that came before `before`, drafts that came before `drafts_before`, and what only they had.
+    pub async fn remove_old(&self, before: Option<Millis>, drafts_before: Millis) -> Result<Removed> {
+        const DRAFTS: &str = "DELETE FROM submissions WHERE via = 'editor' AND received_at < $1";
+        const SUBMISSIONS: &str = "DELETE FROM submissions WHERE received_at < $1";
+        const BATCHES: &str = "DELETE FROM batches WHERE created_at < $1";
+        const REGRADINGS: &str = "DELETE FROM regradings WHERE created_at < $1";
+        const UPLOADS: &str = "DELETE FROM uploads WHERE NOT EXISTS \
+                               (SELECT 1 FROM submissions s WHERE s.sha256 = uploads.sha256)";
+        const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
+                                 (SELECT 1 FROM submissions s WHERE s.sha256 = portraits.sha256)";
+        const OWNERS: &str = "DELETE FROM owners WHERE created_at < $1 AND NOT EXISTS \
+                              (SELECT 1 FROM submissions s WHERE s.owner_id = owners.id)";
+        let mut removed = Removed::default();
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            let gone = sqlx::query(DRAFTS).bind(drafts_before).execute(&mut *transaction).await?;
+            removed.submissions += gone.rows_affected();
+            if let Some(before) = before {
+                for sql in [REGRADINGS, SUBMISSIONS, BATCHES] {
+                    let gone = sqlx::query(sql).bind(before).execute(&mut *transaction).await?;
+                    if sql == SUBMISSIONS {
+                        removed.submissions += gone.rows_affected();
+                    }
+                }
+                removed.owners += sqlx::query(OWNERS).bind(before).execute(&mut *transaction).await?.rows_affected();
+            }
+            removed.uploads += sqlx::query(UPLOADS).execute(&mut *transaction).await?.rows_affected();
+            sqlx::query(PORTRAITS).execute(&mut *transaction).await?;
+            transaction.commit().await?;
+        });
+        Ok(removed)
+    }
+}

@@ -1,0 +1,250 @@
+//! The one way in: every file that a student hands in, by page, editor or API.
+
+use super::State;
+use super::clock::millis;
+use super::errors::Problem;
+use super::grading::{Job, Outcome};
+use super::identity::{Identity, new_id};
+use super::store::{Audience, NewSubmission, Submission, Via};
+use super::{Config, store};
+use crate::diagnose::Hints;
+use crate::fault::Fault;
+use crate::report::Report;
+use axum::http::StatusCode;
+use sha2::{Digest, Sha256};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Longest file that is stored, in bytes. The source stage takes less, and says so in the words of a report.
+pub const MAX_UPLOAD: usize = 256 * 1024;
+
+/// Longest file name that is kept, in characters.
+const LONGEST_NAME: usize = 200;
+
+/// A file that somebody hands in.
+#[derive(Clone, Debug)]
+pub struct Upload {
+    /// Id of the assignment.
+    pub assignment: String,
+    /// File name as handed in, with any folders.
+    pub name: String,
+    /// The bytes.
+    pub bytes: Vec<u8>,
+    /// Who hands in.
+    pub identity: Identity,
+    /// The way by which it comes.
+    pub via: Via,
+    /// How much the messages shall help; never more than the course allows.
+    pub hints: Option<Hints>,
+}
+
+/// A file that is stored.
+#[derive(Clone, Debug)]
+pub struct Receipt {
+    /// What was stored.
+    pub submission: Submission,
+    /// What came of it, where that was known in time.
+    pub outcome: Option<Outcome>,
+}
+
+impl Receipt {
+    /// The report, where it was made in time.
+    pub fn report(&self) -> Option<&Arc<Report>> {
+        match &self.outcome {
+            Some(Outcome::Graded(report)) => Some(report),
+            _ => None,
+        }
+    }
+
+    /// Our failure, where it was met in time.
+    pub fn fault(&self) -> Option<&Arc<Fault>> {
+        match &self.outcome {
+            Some(Outcome::Failed(fault)) => Some(fault),
+            _ => None,
+        }
+    }
+}
+
+/// Stores a file, has it graded, and waits a while for the report.
+pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
+    let assignment = checked(state, &upload).await?;
+    let new = new_submission(state, &assignment, &upload);
+    let known = state.store.known_report(&new.assignment, &new.sha256, new.seed, new.hints).await?;
+    if let Some(report) = known {
+        return keep_known(state, new, report).await;
+    }
+    let place = state.queue.reserve().map_err(|full| {
+        let mut problem = Problem::new(
+            StatusCode::TOO_MANY_REQUESTS,
+            "queue-full",
+            format!("Many files wait to be graded; yours would be number {}. It was not stored: please send it again.",
+                full.position),
+            format!("採点待ちのファイルが多く、あなたのファイルは {} 番目になります。保存していませんので、もう一度送信してください。",
+                full.position),
+        )
+        .retry_after(full.retry_after);
+        problem.position = Some(full.position);
+        problem
+    })?;
+    let mut listener = state.queue.listen(&new.id);
+    if let Err(error) = state.store.add_submission(&new).await {
+        drop(listener);
+        state.queue.tidy();
+        return Err(error.into());
+    }
+    metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
+    let submission = submission_of(&new, store::State::Queued);
+    place.fill(Job { submission: submission.clone(), bytes: new.bytes, since: Instant::now() });
+    let outcome = tokio::select! {
+        outcome = listener.recv() => outcome.ok(),
+        () = tokio::time::sleep(Config::span(state.config.wait)) => None,
+        () = state.ended() => None,
+    };
+    Ok(Receipt { submission, outcome })
+}
+
+/// Whether the file may be handed in at all.
+async fn checked(state: &State, upload: &Upload) -> Result<store::Assignment, Problem> {
+    if upload.assignment != state.assignment.id {
+        return Err(Problem::not_found());
+    }
+    if state.is_ending() {
+        return Err(Problem::new(
+            StatusCode::SERVICE_UNAVAILABLE,
+            "ending",
+            "The service is being restarted; nothing was stored. Please try again in a minute.",
+            "サービスを再起動しています。何も保存されていません。1 分ほどしてからもう一度試してください。",
+        )
+        .retry_after(10));
+    }
+    if upload.bytes.is_empty() {
+        return Err(Problem::unprocessable(
+            "The file is empty. Choose the .vert file that you have saved.",
+            "ファイルが空です。保存した .vert ファイルを選んでください。",
+        ));
+    }
+    if upload.bytes.len() > MAX_UPLOAD {
+        return Err(too_large());
+    }
+    if let Some(by) = upload.identity.counted_by() {
+        state.limits.upload(&by)?;
+    }
+    let assignment = state.store.assignment(&upload.assignment).await?;
+    may_hand_in(state, &assignment, upload).await?;
+    Ok(assignment)
+}
+
+async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upload) -> Result<(), Problem> {
+    let forbidden = |kind, en: &str, ja: &str| Err(Problem::new(StatusCode::FORBIDDEN, kind, en, ja));
+    let now = state.clock.now();
+    if assignment.opens_at.is_some_and(|opens| now < opens) {
+        return forbidden("not-open", "Handing in has not begun yet.", "提出の受付はまだ始まっていません。");
+    }
+    if assignment.closes_at.is_some_and(|closes| closes <= now) {
+        return forbidden("closed", "Handing in is over.", "提出の受付は終了しました。");
+    }
+    if assignment.audience == Audience::Number && upload.identity.student().is_none() {
+        return forbidden(
+            "no-number",
+            "Open the course link first and give your student number.",
+            "先に授業のリンクを開き、学籍番号を入力してください。",
+        );
+    }
+    let Some(limit) = assignment.attempts else { return Ok(()) };
+    if upload.via == Via::Editor {
+        return forbidden(
+            "no-drafts",
+            "The number of attempts is limited, so nothing is graded while you type: hand the file in.",
+            "提出回数に制限があるため、入力中の採点は行いません。ファイルを提出してください。",
+        );
+    }
+    let student = upload.identity.student().map(|student| student.id.as_str());
+    let made = match (upload.identity.owner_id(), student) {
+        (None, None) => {
+            return forbidden(
+                "no-number",
+                "The number of attempts is limited: hand in on the page, or say for which student.",
+                "提出回数に制限があります。ページから提出するか、学生を指定してください。",
+            );
+        }
+        (owner, student) => state.store.attempts(&assignment.id, owner.unwrap_or_default(), student).await?,
+    };
+    if made >= limit {
+        return Err(Problem::new(
+            StatusCode::FORBIDDEN,
+            "attempts",
+            format!("All {limit} attempts are used up."),
+            format!("提出できる回数 ({limit} 回) を使い切りました。"),
+        ));
+    }
+    Ok(())
+}
+
+fn too_large() -> Problem {
+    Problem::new(
+        StatusCode::PAYLOAD_TOO_LARGE,
+        "too-large",
+        format!("The file is larger than {} KiB. A shader has a few kilobytes.", MAX_UPLOAD / 1024),
+        format!("ファイルが {} KiB を超えています。シェーダは数キロバイトです。", MAX_UPLOAD / 1024),
+    )
+}
+
+fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload) -> NewSubmission {
+    let now = state.clock.now();
+    let until = now + millis(Config::span(state.config.limits.lease));
+    NewSubmission {
+        id: new_id(),
+        assignment: upload.assignment.clone(),
+        sha256: sha256(&upload.bytes),
+        bytes: upload.bytes.clone(),
+        name: file_name(&upload.name, state.assignment),
+        owner_id: upload.identity.owner_id().map(str::to_owned),
+        student_id: upload.identity.student().map(|student| student.id.clone()),
+        batch_id: None,
+        via: upload.via,
+        seed: assignment.seed,
+        hints: upload.hints.map_or(assignment.hints, |hints| hints.min(assignment.hints)),
+        received_at: now,
+        priority: 0,
+        claim: Some((state.instance.clone(), until)),
+    }
+}
+
+/// SHA-256 in hexadecimal.
+pub(super) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The last part of a name as handed in, of a bearable length; the name that the homework asks for, where none is left.
+pub(super) fn file_name(name: &str, assignment: &reference::Assignment) -> String {
+    let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let clean: String = last.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
+    if clean.trim().is_empty() { assignment.files[0].name.clone() } else { clean }
+}
+
+async fn keep_known(state: &State, new: NewSubmission, mut report: Report) -> Result<Receipt, Problem> {
+    report.source.name.clone_from(&new.name);
+    state.store.add_graded(&new, &report, state.clock.now()).await?;
+    metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
+    metrics::counter!("ggrade_reports_reused_total").increment(1);
+    let submission = submission_of(&new, store::State::Graded);
+    Ok(Receipt { submission, outcome: Some(Outcome::Graded(Arc::new(report))) })
+}
+
+fn submission_of(new: &NewSubmission, state: store::State) -> Submission {
+    Submission {
+        id: new.id.clone(),
+        assignment: new.assignment.clone(),
+        sha256: new.sha256.clone(),
+        name: new.name.clone(),
+        owner_id: new.owner_id.clone(),
+        student_id: new.student_id.clone(),
+        batch_id: new.batch_id.clone(),
+        via: new.via,
+        seed: new.seed,
+        hints: new.hints,
+        received_at: new.received_at,
+        state,
+        fault: None,
+    }
+}

@@ -1,0 +1,42 @@
+//! What is done every now and then: old submissions go, and what nobody needs is forgotten.
+
+use super::State;
+use super::clock::{Millis, millis};
+use super::metrics;
+use std::time::Duration;
+
+const MINUTE: Duration = Duration::from_secs(60);
+const DAY: Duration = Duration::from_secs(24 * 3600);
+
+/// How many minutes lie between two removals.
+const REMOVALS: u32 = 60;
+
+/// Runs until the service is told to end.
+pub(super) async fn run(state: State) {
+    for minute in 0_u32.. {
+        if minute.is_multiple_of(REMOVALS) {
+            remove(&state).await;
+        }
+        state.limits.tidy();
+        state.queue.tidy();
+        metrics::upkeep();
+        tokio::select! {
+            () = tokio::time::sleep(MINUTE) => {}
+            () = state.ended() => return,
+        }
+    }
+}
+
+/// Removes drafts of yesterday, and submissions that are older than the configuration keeps them.
+pub async fn remove(state: &State) {
+    let now = state.clock.now();
+    let before = |days: u32| -> Millis { now - millis(DAY) * Millis::from(days) };
+    let days = state.config.retention_days;
+    match state.store.remove_old((days > 0).then(|| before(days)), before(1)).await {
+        Ok(removed) if removed.submissions > 0 => {
+            tracing::info!(submissions = removed.submissions, files = removed.uploads, "removed what is old");
+        }
+        Ok(_) => {}
+        Err(error) => tracing::error!(%error, "old submissions could not be removed"),
+    }
+}

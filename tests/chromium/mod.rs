@@ -1,0 +1,292 @@
+//! A headless Chromium as the tests of the pages drive it, and the service that it looks at.
+
+pub mod server;
+
+use axum::http::Method;
+use fantoccini::error::CmdError;
+use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand};
+use fantoccini::{Client, ClientBuilder, Locator};
+use reqwest::Url;
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::str::FromStr;
+use std::time::{Duration, Instant};
+
+/// Longest wait for a condition: the machine may be busy with other tests.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// Pause between two looks at a condition.
+const LOOK: Duration = Duration::from_millis(25);
+
+/// A browser.
+pub struct Browser {
+    client: Client,
+    driver: Child,
+    _profile: tempfile::TempDir,
+}
+
+/// A command of the browser's own protocol, through its WebDriver.
+#[derive(Debug)]
+struct Devtools {
+    path: &'static str,
+    body: Value,
+}
+
+impl WebDriverCompatibleCommand for Devtools {
+    fn endpoint(&self, base: &Url, session: Option<&str>) -> Result<Url, <Url as FromStr>::Err> {
+        base.join(&format!("session/{}/{}", session.unwrap_or_default(), self.path))
+    }
+
+    fn method_and_body(&self, _request: &Url) -> (Method, Option<String>) {
+        (Method::POST, Some(self.body.to_string()))
+    }
+}
+
+impl Browser {
+    /// Starts a driver on a free port, and a browser with an empty profile.
+    pub async fn start() -> Self {
+        let mut driver = Command::new("chromedriver")
+            .arg("--port=0")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("chromedriver: run script/bootstrap --test");
+        let output = BufReader::new(driver.stdout.take().expect("standard output"));
+        let port = output
+            .lines()
+            .map_while(Result::ok)
+            .find_map(|line| line.rsplit_once("successfully on port ")?.1.trim_end_matches('.').parse::<u16>().ok())
+            .expect("chromedriver's port");
+        let profile = tempfile::tempdir().expect("a folder");
+        let arguments = [
+            "--headless=new",
+            // The tests may run as root, where the browser's own sandbox does not start; it meets pages of ours only.
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-quic",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+            "--disable-dev-shm-usage",
+            "--force-color-profile=srgb",
+            &format!("--user-data-dir={}", profile.path().display()),
+        ];
+        let mut capabilities = Capabilities::new();
+        capabilities.insert("goog:chromeOptions".into(), json!({ "args": arguments }));
+        capabilities.insert("goog:loggingPrefs".into(), json!({ "browser": "ALL" }));
+        let client = ClientBuilder::new(hyper_util::client::legacy::connect::HttpConnector::new())
+            .capabilities(capabilities)
+            .connect(&format!("http://127.0.0.1:{port}"))
+            .await
+            .expect("a browser");
+        Self { client, driver, _profile: profile }
+    }
+
+    /// Ends browser and driver.
+    pub async fn end(mut self) {
+        let _ = self.client.clone().close().await;
+        let _ = self.driver.kill();
+        let _ = self.driver.wait();
+    }
+
+    /// Goes to an address.
+    pub async fn open(&self, address: &str) {
+        self.client.goto(address).await.unwrap_or_else(|error| panic!("{address}: {error}"));
+    }
+
+    /// Where it is.
+    pub async fn address(&self) -> String {
+        self.client.current_url().await.expect("an address").into()
+    }
+
+    /// What a script gives.
+    pub async fn js(&self, script: &str) -> Value {
+        self.client.execute(script, Vec::new()).await.unwrap_or_else(|error| panic!("{script}: {error}"))
+    }
+
+    /// The text that a reader sees in the first element.
+    pub async fn text(&self, css: &str) -> String {
+        let element = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
+        element.text().await.expect("a text")
+    }
+
+    /// What an address of the page's own service answers, as text.
+    pub async fn fetch(&self, path: &str) -> String {
+        let script = "const done = arguments[1]; fetch(arguments[0]).then(a => a.text()).then(done, e => done(String(e)))";
+        let answer = self.client.execute_async(script, vec![path.into()]).await;
+        answer.unwrap_or_else(|error| panic!("{path}: {error}")).as_str().unwrap_or_default().to_owned()
+    }
+
+    /// Whether there is such an element.
+    pub async fn has(&self, css: &str) -> bool {
+        !self.client.find_all(Locator::Css(css)).await.expect("an answer").is_empty()
+    }
+
+    /// Waits until an expression of the page is true.
+    pub async fn until(&self, condition: &str) {
+        let start = Instant::now();
+        let script = format!("return Boolean({condition})");
+        loop {
+            // Between two pages there may be nothing to ask.
+            let now = self.client.execute(&script, Vec::new()).await;
+            if matches!(now, Ok(Value::Bool(true))) {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "waited in vain for {condition} at {}: {now:?}", self.address().await);
+            tokio::time::sleep(LOOK).await;
+        }
+    }
+
+    /// Waits until such an element is there, without asking a script: pages may have scripts disabled.
+    pub async fn until_there(&self, css: &str) {
+        let found = self.client.wait().at_most(PATIENCE).every(LOOK).for_element(Locator::Css(css)).await;
+        found.unwrap_or_else(|error| panic!("waited in vain for {css}: {error}"));
+    }
+
+    /// Clicks the first element, as soon as the page has scrolled to it.
+    pub async fn click(&self, css: &str) {
+        let start = Instant::now();
+        loop {
+            let element = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
+            match element.click().await {
+                Ok(()) => return,
+                Err(error) => assert!(start.elapsed() < PATIENCE, "{css}: {error}"),
+            }
+            tokio::time::sleep(LOOK).await;
+        }
+    }
+
+    /// Types into an element, or gives a file field its file.
+    pub async fn keys(&self, css: &str, keys: &str) {
+        let element = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
+        element.send_keys(keys).await.unwrap_or_else(|error| panic!("{css}: {error}"));
+    }
+
+    /// A command of the browser's own protocol.
+    pub async fn devtools(&self, command: &str, parameters: Value) -> Value {
+        let body = json!({ "cmd": command, "params": parameters });
+        let answer: Result<Value, CmdError> =
+            self.client.issue_cmd(Devtools { path: "goog/cdp/execute", body }).await;
+        answer.unwrap_or_else(|error| panic!("{command}: {error}"))
+    }
+
+    /// The size of the page's window in CSS pixels.
+    pub async fn size(&self, width: u32, height: u32) {
+        let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500 });
+        self.devtools("Emulation.setDeviceMetricsOverride", metrics).await;
+    }
+
+    /// Dark or light, as the system of a reader is set.
+    pub async fn scheme(&self, scheme: &str) {
+        let features = json!([{ "name": "prefers-color-scheme", "value": scheme }]);
+        self.devtools("Emulation.setEmulatedMedia", json!({ "features": features })).await;
+    }
+
+    /// Whether pages may run scripts.
+    pub async fn scripts(&self, on: bool) {
+        self.devtools("Emulation.setScriptExecutionDisabled", json!({ "value": !on })).await;
+    }
+
+    /// The languages that it asks for.
+    pub async fn languages(&self, accept: &str) {
+        self.devtools("Network.enable", json!({})).await;
+        self.devtools("Network.setExtraHTTPHeaders", json!({ "headers": { "Accept-Language": accept } })).await;
+    }
+
+    /// Writes a picture of the whole page to `target/screenshots/`.
+    pub async fn shot(&self, name: &str) {
+        let metrics = self.devtools("Page.getLayoutMetrics", json!({})).await;
+        let size = &metrics["cssContentSize"];
+        let clip = json!({ "x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1 });
+        let options = json!({ "format": "png", "captureBeyondViewport": true, "clip": clip });
+        let picture = self.devtools("Page.captureScreenshot", options).await;
+        let bytes = base64::Engine::decode(
+            &base64::engine::general_purpose::STANDARD,
+            picture["data"].as_str().expect("a picture"),
+        );
+        let folder = root().join("target/screenshots");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        std::fs::write(folder.join(format!("{name}.png")), bytes.expect("base64")).expect("a file");
+    }
+
+    /// What the browser complained about since it was last asked: errors of scripts, refused loads, violations of the
+    /// content security policy.
+    pub async fn complaints(&self) -> Vec<String> {
+        let log: Value = self
+            .client
+            .issue_cmd(Devtools { path: "se/log", body: json!({ "type": "browser" }) })
+            .await
+            .expect("the browser's log");
+        let entries = log.as_array().cloned().unwrap_or_default();
+        entries.iter().map(|entry| entry["message"].as_str().unwrap_or_default().to_owned()).collect()
+    }
+
+    /// Holds a page to what holds for all: accessible by the rules of axe-core in light and in dark, no wider than the
+    /// window, no complaint of the browser. A picture of each is kept.
+    pub async fn check(&self, name: &str) {
+        for scheme in ["light", "dark"] {
+            self.scheme(scheme).await;
+            let violations = self.axe().await;
+            assert!(violations.is_empty(), "{name} in {scheme}:\n{}", violations.join("\n"));
+            self.shot(&format!("{name}-{scheme}")).await;
+        }
+        self.scheme("light").await;
+        self.narrow_enough(name).await;
+        let complaints = self.complaints().await;
+        assert!(complaints.is_empty(), "{name}:\n{}", complaints.join("\n"));
+    }
+
+    /// Nothing makes the page wider than its window.
+    pub async fn narrow_enough(&self, name: &str) {
+        let overflow = self
+            .js("const wide = document.documentElement.clientWidth; \
+                 if (document.documentElement.scrollWidth <= wide) return []; \
+                 return [...document.querySelectorAll('body *')].filter(e => e.getBoundingClientRect().right > wide + 1) \
+                   .slice(0, 5).map(e => `${e.tagName}.${e.getAttribute('class')}`)")
+            .await;
+        assert_eq!(overflow, json!([]), "{name} scrolls sideways");
+    }
+
+    async fn axe(&self) -> Vec<String> {
+        let library = std::fs::read_to_string(axe()).expect("axe-core: run script/bootstrap --test");
+        if self.js("return typeof window.axe").await == "undefined" {
+            self.client.execute(&format!("{library}; window.axe = axe;"), Vec::new()).await.expect("axe");
+        }
+        let script = "const done = arguments[arguments.length - 1]; \
+                      axe.run(document, { resultTypes: ['violations'] }).then(r => done(r.violations.map(v => \
+                      `${v.id} (${v.impact}): ${v.help}: ${v.nodes.slice(0, 4).map(n => n.html.slice(0, 200) + ' ' + \
+                      (n.any[0]?.message ?? '')).join(' | ')}`)), e => done([String(e)]))";
+        let found = self.client.execute_async(script, Vec::new()).await.expect("axe's answer");
+        let found = found.as_array().cloned().unwrap_or_default();
+        found.iter().map(|violation| violation.as_str().unwrap_or_default().to_owned()).collect()
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        // A test that failed leaves no driver behind; the driver takes its browser along.
+        let _ = self.driver.kill();
+    }
+}
+
+/// The project's folder.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn axe() -> PathBuf {
+    let folder = root().join("target/axe-core");
+    let files = std::fs::read_dir(&folder).expect("target/axe-core: run script/bootstrap --test");
+    let mut files: Vec<_> = files.filter_map(Result::ok).map(|file| file.path()).collect();
+    files.sort();
+    files.pop().expect("axe-core: run script/bootstrap --test")
+}
+
+/// The place of a sample.
+pub fn sample(path: &str) -> String {
+    let path = root().join("submissions").join(path);
+    assert!(path.is_file(), "{}", path.display());
+    path.to_string_lossy().into_owned()
+}

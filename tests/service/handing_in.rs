@@ -1,0 +1,260 @@
+//! Handing in: stored before it is graded, within what the teacher allows, whatever the file is.
+
+use crate::bench::{Bench, Fake, TEACHER, config};
+use crate::cluster::Database;
+use crate::{on_both, right, right_and_new, sample};
+use axum::body::Body;
+use axum::http::{Request, StatusCode, header};
+use ggrade::diagnose::Hints;
+use ggrade::fault::Fault;
+use ggrade::language::Text;
+use ggrade::service::Config;
+use ggrade::service::clock::Clock;
+use ggrade::service::store::{Audience, Store};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
+use std::time::Duration;
+
+on_both!(
+    a_full_queue_says_so_and_stores_nothing,
+    a_fault_of_ours_is_no_report_and_is_tried_again,
+    nothing_is_graded_twice_and_nothing_is_left,
+    only_while_it_is_open,
+    attempts_are_counted_by_student,
+    what_is_old_is_removed,
+    hostile_files_are_answered_as_any_other,
+);
+
+/// A door that graders wait at.
+#[derive(Clone, Default)]
+struct Gate(Arc<(Mutex<bool>, Condvar)>);
+
+impl Gate {
+    fn open(&self) {
+        *self.0.0.lock().expect("a lock") = true;
+        self.0.1.notify_all();
+    }
+
+    fn pass(&self) {
+        let open = self.0.0.lock().expect("a lock");
+        drop(self.0.1.wait_while(open, |open| !*open).expect("a lock"));
+    }
+}
+
+async fn a_full_queue_says_so_and_stores_nothing(database: Database) {
+    let gate = Gate::default();
+    let judge = {
+        let gate = gate.clone();
+        Fake(move || {
+            gate.pass();
+            Ok(())
+        })
+    };
+    let config = Config { workers: 1, queue: 2, wait: 0.05, ..config() };
+    let bench = Bench::with(database, config, Arc::new(judge), Clock::system()).await;
+    let mut accepted = Vec::new();
+    let mut refused = Vec::new();
+    // One is graded, two wait; while the grader has not yet taken the first one, there is room for one less.
+    for number in 0..6 {
+        let reply = bench.hand_in("", format!("file {number}")).await;
+        match reply.status {
+            StatusCode::ACCEPTED => accepted.push(reply),
+            _ => refused.push(reply),
+        }
+    }
+    assert!((2..=3).contains(&accepted.len()), "{accepted:?}");
+    for reply in &accepted {
+        assert_eq!(reply.json()["state"], "queued");
+        assert!(!reply.header("retry-after").is_empty());
+    }
+    for reply in &refused {
+        assert_eq!(reply.status, StatusCode::TOO_MANY_REQUESTS);
+        assert_eq!(reply.problem(), "queue-full");
+        assert_eq!(reply.json()["position"], 3);
+        assert!(reply.header("retry-after").parse::<u64>().expect("seconds") >= 1);
+    }
+    let (waiting, failed) = bench.state.store.waiting().await.expect("counts");
+    assert_eq!((waiting, failed), (accepted.len() as u64, 0));
+    gate.open();
+    for reply in &accepted {
+        graded(&bench, &reply.id()).await;
+    }
+    bench.finish().await;
+}
+
+/// Waits until a submission has its report.
+async fn graded(bench: &Bench, id: &str) {
+    for _ in 0..600 {
+        if bench.get(&format!("/api/v1/submissions/{id}")).await.json()["state"] == "graded" {
+            return;
+        }
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+    panic!("{id} was not graded within 30 s");
+}
+
+async fn a_fault_of_ours_is_no_report_and_is_tried_again(database: Database) {
+    let times = Arc::new(AtomicUsize::new(0));
+    let judge = {
+        let times = Arc::clone(&times);
+        Fake(move || match times.fetch_add(1, Ordering::SeqCst) {
+            0 => Err(Fault::new(Text::new("no driver", "ドライバがありません"))),
+            1 => panic!("a bug of ours"),
+            _ => Ok(()),
+        })
+    };
+    let clock = Clock::fixed(1_700_000_000_000);
+    let bench = Bench::with(database, config(), Arc::new(judge), clock.clone()).await;
+    let reply = bench.hand_in("?lang=ja", "file").await;
+    assert_eq!(reply.status, StatusCode::ACCEPTED, "{reply:?}");
+    let json = reply.json();
+    assert_eq!((&json["state"], &json["report"]), (&"failed".into(), &serde_json::Value::Null));
+    assert_eq!(json["fault"]["message"], "ドライバがありません");
+    // The panic costs another try, and the third one succeeds.
+    while times.load(Ordering::SeqCst) < 3 {
+        clock.advance(Duration::from_secs(61));
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+    graded(&bench, &reply.id()).await;
+    bench.finish().await;
+}
+
+async fn nothing_is_graded_twice_and_nothing_is_left(database: Database) {
+    let times = Arc::new(AtomicUsize::new(0));
+    let judge = {
+        let times = Arc::clone(&times);
+        Arc::new(Fake(move || {
+            times.fetch_add(1, Ordering::SeqCst);
+            Ok(())
+        }))
+    };
+    // What a process that has gone left behind: claims that nobody keeps up.
+    let location = database.location.parse().expect("a location");
+    let store = Store::open(&location).await.expect("a database");
+    let assignment = store.assignment("ggsample06").await.expect("an assignment");
+    for number in 0..40 {
+        let new = ggrade::service::store::NewSubmission {
+            id: format!("left-{number}"),
+            assignment: assignment.id.clone(),
+            sha256: format!("{number}"),
+            bytes: vec![b'x'],
+            name: "a.vert".into(),
+            owner_id: None,
+            student_id: None,
+            batch_id: None,
+            via: ggrade::service::store::Via::Api,
+            seed: assignment.seed,
+            hints: Hints::Full,
+            received_at: 0,
+            priority: 0,
+            claim: Some(("gone".into(), 1)),
+        };
+        store.add_submission(&new).await.expect("stored");
+    }
+    store.close().await;
+    drop(store);
+    let bench = Bench::with(database, Config { workers: 4, ..config() }, judge, Clock::system()).await;
+    for number in 0..40 {
+        graded(&bench, &format!("left-{number}")).await;
+    }
+    assert_eq!(times.load(Ordering::SeqCst), 40);
+    assert_eq!(bench.state.store.waiting().await.expect("counts"), (0, 0));
+    bench.finish().await;
+}
+
+async fn only_while_it_is_open(database: Database) {
+    let clock = Clock::fixed(1_000_000);
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), clock.clone()).await;
+    let mut assignment = bench.state.store.assignment("ggsample06").await.expect("an assignment");
+    assignment.opens_at = Some(1_010_000);
+    assignment.closes_at = Some(1_020_000);
+    bench.state.store.set_assignment(&assignment).await.expect("set");
+    let mut seen = Vec::new();
+    for _ in 0..4 {
+        let reply = bench.hand_in("", "file").await;
+        seen.push(if reply.status == StatusCode::CREATED { "open".into() } else { reply.problem() });
+        clock.advance(Duration::from_millis(9_999));
+    }
+    // 1,000,000; 1,009,999; 1,019,998; 1,029,997: before it opens twice, then inside, then after.
+    assert_eq!(seen, ["not-open", "not-open", "open", "closed"]);
+    bench.finish().await;
+}
+
+async fn attempts_are_counted_by_student(database: Database) {
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::system()).await;
+    let mut assignment = bench.state.store.assignment("ggsample06").await.expect("an assignment");
+    assignment.attempts = Some(2);
+    assignment.audience = Audience::Number;
+    assignment.hints = Hints::Gentle;
+    bench.state.store.set_assignment(&assignment).await.expect("set");
+    assert_eq!(bench.hand_in("", "file").await.problem(), "no-number");
+    let hand_in = |student: &'static str, number: usize| {
+        let request = Request::post(format!("/api/v1/submissions?student={student}&hints=full"))
+            .header(header::CONTENT_TYPE, "text/plain")
+            .header(header::AUTHORIZATION, format!("Bearer {TEACHER}"));
+        bench.send(request.body(Body::from(format!("file {number}"))).expect("a request"))
+    };
+    for number in 0..2 {
+        let reply = hand_in("s1", number).await;
+        assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
+        // No more help than the course allows, whatever is asked for.
+        let stored = bench.state.store.submission(&reply.id()).await.expect("a store").expect("a submission");
+        assert_eq!(stored.hints, Hints::Gentle);
+    }
+    assert_eq!(hand_in("S1", 3).await.problem(), "attempts");
+    assert_eq!(hand_in("s2", 3).await.status, StatusCode::CREATED);
+    bench.finish().await;
+}
+
+async fn what_is_old_is_removed(database: Database) {
+    let clock = Clock::fixed(1_700_000_000_000);
+    let config = Config { retention_days: 30, ..config() };
+    let bench = Bench::with(database, config, Arc::new(Fake(|| Ok(()))), clock.clone()).await;
+    let draft = bench.hand_in("?draft=true", "draft").await.id();
+    let old = bench.hand_in("", "old").await.id();
+    let day = Duration::from_secs(24 * 3600);
+    clock.advance(2 * day);
+    ggrade::service::upkeep::remove(&bench.state).await;
+    let status = async |id: &str| bench.get(&format!("/api/v1/submissions/{id}")).await.status;
+    assert_eq!((status(&draft).await, status(&old).await), (StatusCode::NOT_FOUND, StatusCode::OK));
+    clock.advance(29 * day);
+    let young = bench.hand_in("", "young").await.id();
+    let same_file = bench.hand_in("", "old").await.id();
+    ggrade::service::upkeep::remove(&bench.state).await;
+    assert_eq!((status(&old).await, status(&young).await), (StatusCode::NOT_FOUND, StatusCode::OK));
+    // Another submission still has the very same file.
+    let source = bench.get(&format!("/api/v1/submissions/{same_file}/source")).await;
+    assert_eq!(source.body, b"old");
+    bench.finish().await;
+}
+
+/// Hostile files of every kind, each beside its expected report.
+const HOSTILE: [&str; 8] =
+    ["compile-bombs", "degenerate", "encodings", "loops", "memory", "nesting", "preprocessor", "recursion"];
+
+async fn hostile_files_are_answered_as_any_other(database: Database) {
+    let bench = Bench::new(database).await;
+    for kind in HOSTILE {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/hostile").join(kind);
+        let mut names: Vec<_> = std::fs::read_dir(&folder)
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").path())
+            .filter(|path| path.extension().is_some_and(|extension| extension == "vert"))
+            .collect();
+        names.sort();
+        let path = names.first().expect("a sample");
+        let expected: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(path.with_extension("json")).expect("an expectation")).expect("JSON");
+        let bytes = std::fs::read(path).expect("a sample");
+        let reply = bench.hand_in("", bytes).await;
+        assert_eq!(reply.status, StatusCode::CREATED, "{}: {reply:?}", path.display());
+        assert_eq!(reply.json()["report"]["verdict"], expected["verdict"], "{}", path.display());
+    }
+    // And honest ones go on.
+    let reply = bench.hand_in("", right_and_new()).await;
+    assert_eq!(reply.json()["report"]["verdict"], "correct");
+    assert_eq!(bench.hand_in("", right()).await.json()["report"]["verdict"], "correct");
+    assert_eq!(bench.hand_in("", sample("rejected/brace-missing-at-end.vert")).await.json()["report"]["score"], 0);
+    bench.finish().await;
+}

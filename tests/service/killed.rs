@@ -1,0 +1,86 @@
+//! Killed at random moments under load: what was acknowledged is graded, once.
+
+use crate::cluster::Database;
+use crate::on_both;
+use crate::process::{Server, hand_in, look_up};
+use ggrade::service::store::Store;
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+on_both!(nothing_acknowledged_is_lost_and_nothing_is_doubled);
+
+/// How often the server is killed, and the people who hand in meanwhile.
+const KILLS: usize = 4;
+const PEOPLE: usize = 6;
+
+async fn nothing_acknowledged_is_lost_and_nothing_is_doubled(database: Database) {
+    // Some are graded at once, some take a while, some are refused.
+    let files: Arc<Vec<(Vec<u8>, &str)>> = Arc::new(vec![
+        (crate::right(), "correct"),
+        (crate::sample("wrong/specular-half-unnormalized--average.vert"), "wrong"),
+        (crate::sample("rejected/brace-missing-at-end.vert"), "rejected"),
+    ]);
+    let mut acknowledged: HashMap<String, (String, &str)> = HashMap::new();
+    let mut sent = 0;
+    for round in 0..KILLS {
+        let server = Server::start(&database);
+        let mut people = tokio::task::JoinSet::new();
+        for person in 0..PEOPLE {
+            let (files, address) = (Arc::clone(&files), server.address.clone());
+            people.spawn(async move {
+                let client = reqwest::Client::new();
+                let mut told = Vec::new();
+                let mut sent = 0;
+                for number in 0.. {
+                    let (bytes, verdict) = &files[(person + number) % files.len()];
+                    let mark = format!("\n// round {round}, person {person}, file {number}\n");
+                    sent += 1;
+                    let answer = hand_in(&client, &address, [bytes, mark.as_bytes()].concat()).await;
+                    let Some((status, json)) = answer else { break };
+                    assert!(matches!(status, 201 | 202), "{status}: {json}");
+                    told.push((json["id"].as_str().expect("an id").to_owned(), (mark, *verdict)));
+                }
+                (told, sent)
+            });
+        }
+        // Any moment will do: while files are stored, wait, are graded.
+        let moment = 300 + u64::from_str_radix(&ggrade::service::identity::new_token()[..2], 16).expect("hex") * 4;
+        tokio::time::sleep(Duration::from_millis(moment)).await;
+        server.kill();
+        while let Some(person) = people.join_next().await {
+            let (told, count) = person.expect("a person");
+            acknowledged.extend(told);
+            sent += count;
+        }
+    }
+    let server = Server::start(&database);
+    let client = reqwest::Client::new();
+    for (id, (mark, verdict)) in &acknowledged {
+        let mut json = look_up(&client, &server.address, id).await;
+        for _ in 0..300 {
+            if json["state"] == "graded" {
+                break;
+            }
+            tokio::time::sleep(Duration::from_millis(100)).await;
+            json = look_up(&client, &server.address, id).await;
+        }
+        assert_eq!(json["report"]["verdict"], *verdict, "{id}: {json}");
+        let source = client.get(format!("{}/api/v1/submissions/{id}/source", server.address)).send().await;
+        let source = source.expect("an answer").text().await.expect("a file");
+        assert!(source.ends_with(mark.as_str()), "{id} is another file");
+    }
+    assert!(server.terminate().success());
+    assert!(acknowledged.len() > PEOPLE, "too few to prove anything: {}", acknowledged.len());
+
+    let store = Store::open(&database.location.parse().expect("a location")).await.expect("a database");
+    let class = store.class("ggsample06", None).await.expect("a class");
+    // Every file was marked, so a file that stands twice was stored twice.
+    let mut files: Vec<_> = class.iter().map(|row| &row.row.submission.sha256).collect();
+    files.sort();
+    files.dedup();
+    assert_eq!(files.len(), class.len());
+    assert!((acknowledged.len()..=sent).contains(&class.len()), "{} of {sent}", class.len());
+    assert!(class.iter().all(|row| row.row.verdict.is_some()), "some were never graded");
+    store.close().await;
+}

@@ -1,0 +1,65 @@
+//! The upload service: its router in this process, its server in another one, on both databases.
+
+mod api;
+mod bench;
+
+mod classes;
+mod cluster;
+mod handing_in;
+mod identity;
+mod killed;
+mod limits;
+mod process;
+mod server;
+
+use ggrade::sandbox::{Pool, Settings};
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+use std::time::Duration;
+
+/// Runs a test on each of the two databases.
+macro_rules! on_both {
+    ($($(#[$meta:meta])* $name:ident),+ $(,)?) => {
+        mod sqlite {
+            $(#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+            async fn $name() { super::$name(crate::cluster::Database::sqlite()).await })+
+        }
+        mod postgres {
+            $(#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+            async fn $name() { super::$name(crate::cluster::Database::postgres().await).await })+
+        }
+    };
+}
+pub(crate) use on_both;
+
+/// The workers of every test in this process. A busy machine must not change what a file is, so the deadline is long.
+pub fn pool() -> Arc<Pool> {
+    static POOL: OnceLock<Arc<Pool>> = OnceLock::new();
+    let start = || {
+        let settings = Settings {
+            program: Some(env!("CARGO_BIN_EXE_ggrade").into()),
+            deadline: Duration::from_secs(20),
+            ..Settings::new("ggsample06")
+        };
+        Arc::new(Pool::start(settings, 3).expect("workers"))
+    };
+    Arc::clone(POOL.get_or_init(start))
+}
+
+/// The bytes of a file of the corpus.
+pub fn sample(name: &str) -> Vec<u8> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name);
+    std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// A right answer.
+pub fn right() -> Vec<u8> {
+    sample("accepted/answers/half-by-length.vert")
+}
+
+/// A right answer that no other test hands in.
+pub fn right_and_new() -> Vec<u8> {
+    let mut bytes = right();
+    bytes.extend(format!("\n// {}\n", ggrade::service::identity::new_id()).into_bytes());
+    bytes
+}
