@@ -2,6 +2,8 @@
 
 mod api;
 mod bench;
+
+mod classes;
 mod cluster;
 mod handing_in;
 mod identity;

@@ -19,10 +19,11 @@ pub struct Server {
 pub fn command(database: &Database) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ggrade"));
     command
-        .args(["serve", "--listen", "127.0.0.1:0", "--database", &database.location, "--workers", "2"])
-        .args(["--deadline", "20", "--wait", "60", "--queue", "500"])
+        .args(["serve", "--listen", "127.0.0.1:0", "--database", &database.location, "--workers", "1"])
+        .args(["--deadline", "20", "--queue", "500"])
         .args(["--uploads-per-student", "100000", "--uploads-per-address", "100000"])
         .args(["--teacher-token", crate::bench::TEACHER])
+        .env("GGRADE_WAIT", "60")
         .env("GGRADE_LIMITS_LEASE", "1")
         .env("LANG", "C")
         .env_remove("GGRADE_LANG");

@@ -48,7 +48,7 @@ fn impatient(database: &Database) -> Server {
     for (name, seconds) in [("HEADER_TIMEOUT", "1"), ("REQUEST_TIMEOUT", "2"), ("WRITE_TIMEOUT", "1")] {
         command.env(format!("GGRADE_LIMITS_{name}"), seconds);
     }
-    command.args(["--wait", "1"]).env("GGRADE_LIMITS_CONNECTIONS_PER_ADDRESS", "40");
+    command.env("GGRADE_WAIT", "1").env("GGRADE_LIMITS_CONNECTIONS_PER_ADDRESS", "40");
     Server::of(&mut command)
 }
 
@@ -170,7 +170,7 @@ fn flags_go_before_the_environment_and_the_environment_before_the_file() {
     std::fs::write(&file, text).expect("a file");
     let mut command = command(&database);
     command.arg("--config").arg(&file);
-    // The file alone would be refused: wait is no number. The command line's goes before.
+    // The file alone would be refused: wait is no number. The environment's goes before, and the flag for the address.
     let server = Server::of(command.env("GGRADE_METRICS_TOKEN", "12345678901234567890"));
     assert!(server.socket().starts_with("127.0.0.1:"), "{}", server.address);
     drop(server);

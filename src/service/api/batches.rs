@@ -31,12 +31,13 @@ const TICK: Duration = Duration::from_millis(400);
 pub(super) const CSRF: &str = "x-ggrade-csrf";
 
 /// A form with an archive.
-#[derive(utoipa::ToSchema)]
+#[derive(Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
 #[allow(dead_code, reason = "only its description is used")]
 pub(super) struct ArchiveForm {
     /// A ZIP: Moodle's download, or a folder for each student.
-    #[schema(content_media_type = "application/zip")]
-    file: Vec<u8>,
+    #[schema(content_media_type = "application/zip", min_length = 1)]
+    file: String,
 }
 
 /// Hand in a whole class

@@ -32,7 +32,9 @@ pub(super) struct About {
     /// How much the messages help; never more than the course allows.
     #[param(inline)]
     hints: Option<Hints>,
-    /// Number of the student for whom it is handed in. Needs `course`, or the teacher's token.
+    /// Number of the student for whom it is handed in.
+    /// Needs `course`, or the teacher's token.
+    #[param(pattern = "^[A-Za-z0-9._-]{1,32}$")]
     student: Option<String>,
     /// Secret of the course link.
     course: Option<String>,
@@ -41,21 +43,30 @@ pub(super) struct About {
 }
 
 /// A form with a file.
-#[derive(utoipa::ToSchema)]
+#[derive(Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
 #[allow(dead_code, reason = "only its description is used")]
 pub(super) struct FileForm {
     /// The shader.
-    #[schema(content_media_type = "application/octet-stream")]
-    file: Vec<u8>,
+    #[schema(content_media_type = "application/octet-stream", min_length = 1)]
+    file: String,
     /// Id of the assignment.
     assignment: Option<String>,
     /// How much the messages help.
+    #[schema(inline)]
     hints: Option<Hints>,
     /// Number of the student for whom it is handed in.
+    #[schema(pattern = "^[A-Za-z0-9._-]{1,32}$")]
     student: Option<String>,
     /// Secret of the course link.
     course: Option<String>,
 }
+
+/// The file itself.
+#[derive(utoipa::ToSchema)]
+#[schema(value_type = String, min_length = 1, example = "#version 410 core\nvoid main() { }\n")]
+#[allow(dead_code, reason = "only its description is used")]
+pub(super) struct FileText(String);
 
 /// Hand in a file
 ///
@@ -65,8 +76,8 @@ pub(super) struct FileForm {
     post, path = "/api/v1/submissions", tag = "submissions", params(About), security((), ("teacher" = [])),
     request_body(content(
         (FileForm = "multipart/form-data"),
-        (String = "text/plain", example = "#version 410 core\nvoid main() { }\n"),
-        (Vec<u8> = "application/octet-stream"),
+        (FileText = "text/plain"),
+        (FileText = "application/octet-stream"),
     )),
     responses(
         (status = 201, description = "Graded", body = SubmissionJson, headers(("Location" = String, description = "The submission"))),
@@ -172,7 +183,7 @@ fn answer(state: &State, receipt: &Receipt, language: Language) -> Response {
         headers.insert(header::LOCATION, location);
     }
     if report.is_none() {
-        headers.insert(header::RETRY_AFTER, HeaderValue::from(if fault.is_some() { 60 } else { 1 }));
+        headers.insert(header::RETRY_AFTER, HeaderValue::from(if fault.is_some() { 10 } else { 1 }));
     }
     headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
     response
@@ -181,7 +192,7 @@ fn answer(state: &State, receipt: &Receipt, language: Language) -> Response {
 /// Language of the messages.
 #[derive(Clone, Copy, Debug, Default, Deserialize, utoipa::IntoParams)]
 #[into_params(parameter_in = Query)]
-#[allow(dead_code, reason = "read by the extractor of languages; described here")]
+#[allow(dead_code, reason = "checked here, and read by the extractor of languages")]
 pub(super) struct LangQuery {
     /// Language of the messages: `ja` or `en`.
     #[param(inline)]
@@ -198,7 +209,9 @@ pub(super) async fn read(
     Shared(state): Shared<State>,
     Lang(language): Lang,
     Path(id): Path<String>,
+    asked: Result<Query<LangQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
+    asked.map_err(super::body::other)?;
     let Stored { submission, report } = find(&state, &id).await?;
     let position = state.queue.position(&id);
     let body = SubmissionJson::of(&submission, report.as_ref(), submission.fault.as_ref(), position, language);

@@ -20,9 +20,6 @@ const LOOK: Duration = Duration::from_secs(2);
 /// Pause after the database failed.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Pause before a file that failed by our fault is graded again.
-const RETRY: Duration = Duration::from_secs(60);
-
 /// The running graders.
 #[derive(Debug)]
 pub struct Graders {
@@ -39,6 +36,8 @@ impl Graders {
                 tracing::info!(files = left, "taking over what was not graded");
             }
         }
+        // What failed by a fault of the machine or of an earlier version may succeed now.
+        state.store.retry_failed().await?;
         let workers = state.config.workers;
         state.queue.set_workers(workers);
         let mut tasks = JoinSet::new();
@@ -172,7 +171,7 @@ async fn keep(state: &State, submission: &Submission, judged: Result<Report, Fau
         let now = state.clock.now();
         let kept = match &judged {
             Ok(report) => state.store.finish(&submission.id, report, now).await.map(drop),
-            Err(fault) => state.store.fail(&submission.id, fault, now + millis(RETRY)).await,
+            Err(fault) => state.store.fail(&submission.id, fault, now).await,
         };
         match kept {
             Ok(()) => break,

@@ -1,5 +1,6 @@
 //! Cookies: HttpOnly, SameSite=Lax, and behind https Secure and bound to the host.
 
+use super::secrets::TOKEN_LENGTH;
 use crate::service::State;
 use axum::http::{HeaderMap, HeaderValue, header};
 
@@ -16,7 +17,12 @@ fn name(state: &State, base: &str) -> String {
 /// The value of ours that a request brings.
 pub(super) fn read(state: &State, headers: &HeaderMap, base: &str) -> Option<String> {
     let name = name(state, base);
-    named(headers, &name).filter(|value| value.bytes().all(|byte| byte.is_ascii_hexdigit())).map(str::to_owned)
+    named(headers, &name).filter(|value| is_token(value)).map(str::to_owned)
+}
+
+/// Whether this can be a secret of ours.
+fn is_token(value: &str) -> bool {
+    value.len() == TOKEN_LENGTH && value.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
 
 /// The value of the first cookie with this name.

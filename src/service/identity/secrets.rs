@@ -13,6 +13,9 @@ pub fn new_id() -> String {
     uuid::Uuid::new_v4().to_string()
 }
 
+/// Characters of a secret.
+pub(super) const TOKEN_LENGTH: usize = 96;
+
 /// A secret of 366 random bits, in hexadecimal.
 pub fn new_token() -> String {
     [new_id(), new_id(), new_id()].concat().replace('-', "")
@@ -58,7 +61,7 @@ mod tests {
 
     #[test]
     fn secrets_are_long_and_never_twice_the_same() {
-        assert_eq!(new_token().len(), 96);
+        assert_eq!(new_token().len(), TOKEN_LENGTH);
         assert_ne!(new_token(), new_token());
         assert!(same("abc", "abc") && !same("abc", "abd") && !same("abc", "abcd"));
     }

@@ -18,6 +18,9 @@ use std::sync::Arc;
 use tokio::net::TcpListener;
 use tokio::signal::unix::{SignalKind, signal};
 
+/// How often the workers are started before the service gives up.
+const MOST_STARTS: u32 = 4;
+
 /// A service that listens.
 #[derive(Debug)]
 pub struct Started {
@@ -100,12 +103,25 @@ async fn pool(config: &Config) -> Result<Pool, Fault> {
     };
     let settings = if config.single_use_workers { settings.with_single_use_workers() } else { settings };
     let workers = config.workers + 1;
-    let started = tokio::task::spawn_blocking(move || Pool::start(settings, workers)).await;
+    let started = tokio::task::spawn_blocking(move || start_pool(&settings, workers)).await;
     let pool = started.map_err(|error| Fault::new(Text::verbatim(error.to_string())))??;
     if let Some(notice) = pool.notice() {
         tracing::warn!(notice = notice.en, "the sandbox is not closed");
     }
     Ok(pool)
+}
+
+/// Starts the workers; a machine that is busy with starting everything else gets more than one chance.
+fn start_pool(settings: &Settings, workers: usize) -> Result<Pool, Fault> {
+    let mut attempts = 1;
+    loop {
+        match Pool::start(settings.clone(), workers) {
+            Ok(pool) => return Ok(pool),
+            Err(fault) if attempts >= MOST_STARTS => return Err(fault),
+            Err(fault) => tracing::warn!(fault = fault.message.en, "the workers did not start"),
+        }
+        attempts += 1;
+    }
 }
 
 fn cannot_listen(address: SocketAddr, error: &std::io::Error) -> Fault {

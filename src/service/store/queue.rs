@@ -17,8 +17,8 @@ pub struct Claimed {
     pub bytes: Vec<u8>,
 }
 
-/// How often a file that fails by our fault is graded again.
-pub(super) const MAX_TRIES: i64 = 3;
+/// How often a file is graded that fails by our fault.
+const MAX_TRIES: i64 = 4;
 
 impl Store {
     /// Claims the next file that nobody grades.
@@ -70,13 +70,14 @@ impl Store {
         Ok(done)
     }
 
-    /// Notes that grading failed by our fault; it is tried again from `retry_at` on.
-    pub async fn fail(&self, submission_id: &str, fault: &Fault, retry_at: Millis) -> Result<()> {
+    /// Notes that grading failed by our fault; it is tried again after 10 s, then after a minute, then after ten.
+    pub async fn fail(&self, submission_id: &str, fault: &Fault, now: Millis) -> Result<()> {
         const SQL: &str = "UPDATE submissions SET state = 'failed', fault = $2, tries = tries + 1, claimed_by = NULL, \
-                           claimed_until = $3 WHERE id = $1 AND state <> 'graded'";
+                           claimed_until = $3 + CASE tries WHEN 0 THEN 10000 WHEN 1 THEN 60000 ELSE 600000 END \
+                           WHERE id = $1 AND state <> 'graded'";
         let fault = serde_json::to_string(fault)?;
         on!(&self.write, db => {
-            sqlx::query(SQL).bind(submission_id).bind(&fault).bind(retry_at).execute(db).await?;
+            sqlx::query(SQL).bind(submission_id).bind(&fault).bind(now).execute(db).await?;
         });
         Ok(())
     }
