@@ -2,11 +2,11 @@
 
 use super::assets;
 use super::frame::Frame;
-use crate::fault::Fault;
 use crate::diagnostic::Severity;
+use crate::fault::Fault;
+use crate::language::Text;
 use crate::report::html::{Gallery, Lines, Mark, Part};
 use crate::report::{Equation, Report, Verdict};
-use crate::language::Text;
 use askama::Template;
 use serde::Serialize;
 
@@ -39,8 +39,7 @@ pub(super) fn part(
 ) -> Result<String, Fault> {
     let equation = Equation::illumination();
     let has_footer = level == 1;
-    let part =
-        Part { report, source, gallery, equation: Some(&equation), language: frame.language, level, has_footer };
+    let part = Part { report, source, gallery, equation: Some(&equation), language: frame.language, level, has_footer };
     let view = View {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),

@@ -88,12 +88,23 @@ fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Respo
     let failed = submission.state == Progress::Failed;
     let position = state.queue.position(&submission.id).unwrap_or(1);
     let detail = match (failed, frame.tag()) {
-        (true, "ja") => "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。".into(),
-        (true, _) => "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.".into(),
+        (true, "ja") => {
+            "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。"
+                .into()
+        }
+        (true, _) => {
+            "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.".into()
+        }
         (false, "ja") => format!("提出は保存されました。順番: {position} 番目。結果が出るとこのページに表示されます。"),
-        (false, _) => format!("Your file is kept. Place in the queue: {position}. The report will appear on this page."),
+        (false, _) => {
+            format!("Your file is kept. Place in the queue: {position}. The report will appear on this page.")
+        }
     };
-    let heading = if failed { frame.say("Our fault", "サーバ側の障害です") } else { frame.say("Being graded", "採点中です") };
+    let heading = if failed {
+        frame.say("Our fault", "サーバ側の障害です")
+    } else {
+        frame.say("Being graded", "採点中です")
+    };
     let address = format!("/r/{}", submission.id);
     let mut response = shown(Waiting { frame, heading, detail, address, refreshes: true }.render())?;
     *response.status_mut() = StatusCode::ACCEPTED;

@@ -157,7 +157,8 @@ impl Desk<'_> {
         }
         if let Some(best) = self.best() {
             let score = self.history.iter().find(|row| row.submission.id == best);
-            let (score, most) = score.map_or((0.0, 0.0), |row| (row.score.unwrap_or(0.0), row.max_score.unwrap_or(0.0)));
+            let (score, most) =
+                score.map_or((0.0, 0.0), |row| (row.score.unwrap_or(0.0), row.max_score.unwrap_or(0.0)));
             fact("", format!("Best so far {score} / {most}"), format!("これまでの最高 {score} / {most}"));
         }
         facts
@@ -179,7 +180,9 @@ impl Desk<'_> {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value}"));
         let verdict = match (row.verdict, submission.state) {
             (Some(verdict), _) => part::verdict(&self.frame, verdict),
-            (None, Progress::Failed) => self.frame.say("Failed on our side; tried again soon", "サーバ側の障害。まもなく再採点します"),
+            (None, Progress::Failed) => {
+                self.frame.say("Failed on our side; tried again soon", "サーバ側の障害。まもなく再採点します")
+            }
             (None, _) => self.frame.say("Being graded", "採点中"),
         };
         Attempt {

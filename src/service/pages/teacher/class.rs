@@ -116,8 +116,7 @@ pub(in crate::service::pages) async fn page(
     // Pseudonyms follow an order that says nothing of names, and stay as they are when others join.
     all.sort_by(|a, b| a.key.cmp(&b.key));
     let everyone: Vec<&Person> = all.iter().collect();
-    let mut chosen: Vec<(usize, &Person)> =
-        all.iter().enumerate().filter(|(_, person)| filter.takes(person)).collect();
+    let mut chosen: Vec<(usize, &Person)> = all.iter().enumerate().filter(|(_, person)| filter.takes(person)).collect();
     filter.sort(&mut chosen);
     let trends = charts::trends(&everyone);
     let mut mistakes: Vec<String> =
@@ -205,4 +204,3 @@ pub(super) fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person)
         at: person.latest().map(|at| Moment::of(at, frame.language)),
     }
 }
-

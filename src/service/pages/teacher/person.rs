@@ -78,7 +78,10 @@ fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> A
     Attempt {
         href: format!("/r/{}", submission.id),
         mark: row.row.verdict.map(|verdict| student::mark(verdict, row.row.score).id()),
-        word: row.row.verdict.map_or_else(|| frame.say("Being graded", "採点中"), |verdict| part::verdict(frame, verdict)),
+        word: row
+            .row
+            .verdict
+            .map_or_else(|| frame.say("Being graded", "採点中"), |verdict| part::verdict(frame, verdict)),
         score: number(row.row.score),
         max_score: number(row.row.max_score),
         is_best: best == Some(submission.id.as_str()),

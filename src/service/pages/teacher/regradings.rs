@@ -3,8 +3,8 @@
 use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::{part, shown, student};
-use super::login::Token;
 use super::Place;
+use super::login::Token;
 use crate::report::Verdict;
 use crate::service::State;
 use crate::service::api::batches::{Job, progress};

@@ -170,13 +170,16 @@ pub(in crate::service::pages) async fn save(
 
 fn read(frame: &Frame, before: Assignment, given: &Given) -> Result<Assignment, &'static str> {
     let date = |field: &str| {
-        moment::parse(field).map_err(|_| frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。"))
+        moment::parse(field).map_err(|_| {
+            frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+        })
     };
     let attempts = match given.attempts.trim() {
         "" => None,
-        number => Some(number.parse().ok().filter(|number| *number > 0).ok_or(
-            frame.say("Attempts: a whole number above 0, or nothing.", "提出回数は 1 以上の整数で入力するか、空欄にしてください。"),
-        )?),
+        number => Some(number.parse().ok().filter(|number| *number > 0).ok_or(frame.say(
+            "Attempts: a whole number above 0, or nothing.",
+            "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+        ))?),
     };
     let (opens_at, closes_at) = (date(&given.opens)?, date(&given.closes)?);
     if let (Some(opens), Some(closes)) = (opens_at, closes_at)
@@ -236,8 +239,12 @@ fn read_roster(bytes: &[u8]) -> Result<Vec<(String, String)>, Problem> {
         let line = index + 1;
         let wrong = || {
             Problem::unprocessable(
-                format!("Line {line} of the roster has no student number. A line looks like `s1234567,Family Given`; nothing was changed."),
-                format!("名簿の {line} 行目に学籍番号がありません。各行は「s1234567,氏名」の形にしてください。名簿は変更していません。"),
+                format!(
+                    "Line {line} of the roster has no student number. A line looks like `s1234567,Family Given`; nothing was changed."
+                ),
+                format!(
+                    "名簿の {line} 行目に学籍番号がありません。各行は「s1234567,氏名」の形にしてください。名簿は変更していません。"
+                ),
             )
         };
         let record = record.map_err(|_| wrong())?;
