@@ -6,6 +6,7 @@ use super::moment::Moment;
 use super::{films, internal, part, shown};
 use crate::report::Report;
 use crate::report::html::Lines;
+use crate::report::text::number;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::gallery::View as Pictured;
@@ -61,7 +62,7 @@ pub(super) async fn page(
     let assignment = &submission.assignment;
     shown(
         View {
-            title: format!("{} / {} · {}", report.score, report.max_score, report.source.name),
+            title: format!("{} / {} · {}", number(report.score), number(report.max_score), report.source.name),
             back: format!("/a/{assignment}"),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
