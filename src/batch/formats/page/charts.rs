@@ -83,19 +83,25 @@ pub(super) struct Mistake {
     pub percent: f64,
 }
 
-/// The mistakes that occur, the most frequent first; the label is the rubric line that they cost points in.
+/// A mistake that costs points in more lines of the rubric than these belongs to none of them.
+const MOST_LABELS: usize = 2;
+
+/// The mistakes that occur, the most frequent first; the label names the rubric lines that they cost points in.
 pub(super) fn mistakes(class: &Class, language: Language) -> Vec<Mistake> {
-    let mut labels: HashMap<&str, &str> = HashMap::new();
+    let mut labels: HashMap<&str, Vec<&str>> = HashMap::new();
     for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
         if let Some(id) = &line.mistake {
-            labels.entry(id).or_insert(line.label.get(language));
+            let (labels, label) = (labels.entry(id).or_default(), line.label.get(language));
+            if !labels.contains(&label) {
+                labels.push(label);
+            }
         }
     }
     let found = statistics::mistakes(class);
     let most = found.first().map_or(1, |(_, count)| *count) as f64;
     let of = |(id, count): (&str, usize)| Mistake {
         id: id.to_owned(),
-        label: labels.get(id).copied().unwrap_or_default().to_owned(),
+        label: labels.get(id).filter(|labels| labels.len() <= MOST_LABELS).map_or(String::new(), |l| l.join(" · ")),
         count,
         percent: 100.0 * count as f64 / most,
     };

@@ -110,6 +110,23 @@ fn charts_count_everyone_who_was_graded() {
 }
 
 #[test]
+fn a_mistake_is_labelled_by_the_lines_that_it_costs_points_in() {
+    let mut class = samples::class(Language::En);
+    let Outcome::Graded(report) = &mut class.entries[1].outcome else { panic!("graded") };
+    report.mistakes.push("gamma".into());
+    report.rubric[1].mistake = Some("gamma".into());
+    report.rubric[2].mistake = Some("gamma".into());
+    let labels = |class: &Class| -> Vec<String> {
+        let page = Html::parse_document(&html(class));
+        select(&page, ".rows small").into_iter().map(text).collect()
+    };
+    assert_eq!(labels(&class), ["Specular", "Ambient · Diffuse"]);
+    let Outcome::Graded(report) = &mut class.entries[1].outcome else { panic!("graded") };
+    report.rubric[0].mistake = Some("gamma".into());
+    assert_eq!(labels(&class), ["Specular", ""]);
+}
+
+#[test]
 fn who_shares_an_answer_is_listed_once() {
     let mut class = samples::class(Language::En);
     for (one, others) in [(0, vec!["s1004", "s1006"]), (3, vec!["s1001", "s1006"]), (5, vec!["s1001", "s1004"])] {
