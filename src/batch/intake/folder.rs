@@ -4,6 +4,8 @@ use super::tree::{self, Folder, Held, Node};
 use super::{Reading, archive, limits};
 use crate::language::Text;
 use nix::fcntl::OFlag;
+use std::collections::HashMap;
+use std::ffi::OsString;
 use std::fs::{File, OpenOptions};
 use std::io::Read;
 use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
@@ -15,10 +17,24 @@ pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
     let mut folder = Folder::default();
     let walk = WalkDir::new(root).min_depth(1).follow_links(false).sort_by_file_name();
     let mut entries = walk.into_iter();
+    // How many entries each folder directly below the root has had.
+    let mut within: HashMap<OsString, u64> = HashMap::new();
     while let Some(entry) = entries.next() {
         match entry {
             Ok(entry) => {
                 let is_folder = entry.file_type().is_dir();
+                let first = entry.path().strip_prefix(root).ok().and_then(|below| below.iter().next());
+                let count = within.entry(first.unwrap_or_default().to_owned()).or_default();
+                *count += 1;
+                if *count > reading.options.limits.part.entries {
+                    if *count == reading.options.limits.part.entries + 1 {
+                        reading.refuse(super::shown(entry.path()), limits::too_many());
+                    }
+                    if is_folder {
+                        entries.skip_current_dir();
+                    }
+                    continue;
+                }
                 match add(&mut folder, root, shown, &entry, reading) {
                     Step::On => {}
                     Step::Over if is_folder => entries.skip_current_dir(),
@@ -56,7 +72,7 @@ fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading:
     let mut path: Vec<String> = below.iter().map(tree::decoded).collect();
     let full = || format!("{shown}/{}", path.join("/"));
     if !reading.budget.take_entry() {
-        reading.refuse(full(), limits::too_many(&reading.options.limits));
+        reading.refuse(full(), limits::too_many());
         return Step::Out;
     }
     if path.len() > reading.options.limits.folder_depth {

@@ -16,7 +16,7 @@ mod tests;
 mod tree;
 mod wording;
 
-pub use limits::Limits;
+pub use limits::{Budget, Limits};
 
 use super::class::{Refused, Student};
 use crate::fault::Fault;
@@ -89,11 +89,16 @@ impl Options {
 ///
 /// What cannot be read, or must not be, is named in [`Intake::refused`]; the rest is there.
 pub fn read(inputs: &[PathBuf], options: &Options) -> Result<Intake, Fault> {
-    let mut reading = Reading { options, budget: options.limits.budget(), refused: Vec::new() };
+    let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut groups = Vec::new();
     let mut loose = Vec::new();
     for input in inputs {
-        match reading.input(input) {
+        let found = reading.input(input);
+        let untold = std::mem::take(&mut reading.untold);
+        if untold > 0 {
+            reading.refused.push(Refused { path: shown(input), reason: limits::more_refused(untold) });
+        }
+        match found {
             Some(Input::Folder(folder)) => {
                 let (found, refused) = students::in_folder(&shown(input), folder, options, inputs.len() > 1);
                 groups.extend(found);
@@ -123,8 +128,10 @@ enum Input {
 /// What goes on while everything is read.
 struct Reading<'a> {
     options: &'a Options,
-    budget: limits::Budget,
+    budget: Budget,
     refused: Vec<Refused>,
+    /// How many refusals were too many to be listed.
+    untold: u64,
 }
 
 impl Reading<'_> {
@@ -164,7 +171,29 @@ impl Reading<'_> {
     }
 
     fn refuse(&mut self, path: String, reason: Text) {
-        self.refused.push(Refused { path, reason });
+        match self.budget.refusals.checked_sub(1) {
+            Some(left) => {
+                self.budget.refusals = left;
+                self.refused.push(Refused { path, reason });
+            }
+            None => self.untold += 1,
+        }
+    }
+
+    /// Reads a part of an input, shown as `shown`, within the limits of a part.
+    fn part<T>(&mut self, shown: &str, read: impl FnOnce(&mut Self) -> T) -> T {
+        let whole = self.budget;
+        let before = whole.within(self.options.limits.part);
+        let untold = std::mem::replace(&mut self.untold, 0);
+        self.budget = before;
+        let result = read(self);
+        self.budget = whole.less(before, self.budget);
+        let untold = std::mem::replace(&mut self.untold, untold);
+        if untold > 0 {
+            // One line more than the part may have: what it hides is the whole's affair.
+            self.refused.push(Refused { path: shown.into(), reason: limits::more_refused(untold) });
+        }
+        result
     }
 }
 

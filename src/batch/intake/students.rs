@@ -109,7 +109,7 @@ impl Finding<'_> {
         if is_moodle(&folder) {
             return self.moodle(place, folder);
         }
-        let are_classes = self.is_wrapper(&folder)
+        let are_classes = only_folder(&folder).is_some_and(|(_, only)| self.is_flat_class(only))
             || folder.children().all(|(_, node)| match node {
                 Node::Folder(folder) => folder.is_empty() || self.is_class(folder),
                 Node::File(_) => true,
@@ -119,7 +119,7 @@ impl Finding<'_> {
             match node {
                 Node::Folder(folder) if are_classes && !folder.is_empty() => self.class(&place, folder),
                 Node::Folder(folder) => self.student(without_zip(&name), &place, folder),
-                Node::File(file) if fit(&name, &self.options.file_name) <= Fit::Renamed => {
+                Node::File(file) if self.is_hand_in(&name, &file) => {
                     let who = Who { name: stem(&name).into(), moodle: None, place: place.clone() };
                     let file = Owned { name: name.clone(), below: name, path: place, file };
                     self.groups.push(Group { who, files: vec![file], is_named: true, has_online_text: false });
@@ -133,7 +133,7 @@ impl Finding<'_> {
         for (name, node) in folder.into_children() {
             let place = format!("{place}/{name}");
             match node {
-                Node::Folder(folder) => match moodle::folder(without_zip(&name)) {
+                Node::Folder(folder) => match of_folder(&name) {
                     Some(marked) => {
                         let files = owned(&place, folder);
                         let group = self.participant(&place, &marked);
@@ -152,6 +152,12 @@ impl Finding<'_> {
                 },
             }
         }
+    }
+
+    /// Whether a file beside the students' folders is a student's: a shader, or an archive that cannot be opened.
+    fn is_hand_in(&self, name: &str, file: &File) -> bool {
+        let is_broken = matches!(file.held, Held::Refused(_)) && without_zip(name) != name;
+        is_broken || fit(name, &self.options.file_name) <= Fit::Renamed
     }
 
     /// The group of this participant, made where there is none yet.
@@ -196,24 +202,37 @@ impl Finding<'_> {
         is_moodle(folder) || (!has_file && with_shader.count() >= 2)
     }
 
-    /// Whether all that there is is one folder in which shaders of several students lie.
-    fn is_wrapper(&self, folder: &Folder) -> bool {
-        let mut children = folder.children();
-        let (Some((_, Node::Folder(only))), None) = (children.next(), children.next()) else { return false };
-        let fits: Vec<Fit> = only.file_names().map(|name| fit(name, &self.options.file_name)).collect();
+    /// Whether a folder is full of shaders of several students.
+    fn is_flat_class(&self, folder: &Folder) -> bool {
+        let fits: Vec<Fit> = folder.file_names().map(|name| fit(name, &self.options.file_name)).collect();
         !fits.iter().any(|fit| *fit <= Fit::Copy) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
     }
 
-    /// Whether the whole input is one student's: the wanted file, or beside other inputs any one shader, lies in it,
-    /// and no other below.
+    /// Whether the whole input is one student's: the wanted file lies in it and no other shader below, or in its only
+    /// folder, which has the homework's name. Beside other inputs it is one's unless it shows several students.
     fn is_one_student(&self, folder: &Folder, is_one_of_several: bool) -> bool {
-        let fits: Vec<Fit> = folder.file_names().map(|name| fit(name, &self.options.file_name)).collect();
-        let shaders = fits.iter().filter(|fit| **fit <= Fit::Renamed).count();
+        let fits = |name| fit(name, &self.options.file_name);
         let below = folder.children().any(|(_, node)| match node {
             Node::Folder(folder) => self.has_shader(folder),
             Node::File(_) => false,
         });
-        !below && (fits.contains(&Fit::Exact) || is_one_of_several && shaders == 1)
+        let has_wanted = folder.file_names().any(|name| fits(name) == Fit::Exact);
+        let is_project = only_folder(folder).is_some_and(|(name, _)| fits(name) <= Fit::Renamed);
+        (has_wanted && !below) || is_project || (is_one_of_several && !self.holds_students(folder))
+    }
+
+    fn holds_students(&self, folder: &Folder) -> bool {
+        let holds_within = || only_folder(folder).is_some_and(|(_, folder)| self.holds_students(folder));
+        self.is_class(folder) || self.is_flat_class(folder) || holds_within()
+    }
+}
+
+/// The only thing in a folder, where that is a folder.
+fn only_folder(folder: &Folder) -> Option<(&str, &Folder)> {
+    let mut children = folder.children();
+    match (children.next(), children.next()) {
+        (Some((name, Node::Folder(only))), None) => Some((name, only)),
+        _ => None,
     }
 }
 
@@ -229,9 +248,14 @@ impl Group {
 
 fn is_moodle(folder: &Folder) -> bool {
     folder.children().any(|(name, node)| match node {
-        Node::Folder(_) => moodle::folder(without_zip(name)).is_some(),
+        Node::Folder(_) => of_folder(name).is_some(),
         Node::File(_) => moodle::file(name).is_some(),
     })
+}
+
+/// Whose a folder or an archive is in a Moodle download: Moodle's own folder, or among loose files a student's archive.
+fn of_folder(name: &str) -> Option<Marked<'_>> {
+    moodle::folder(without_zip(name)).or_else(|| moodle::file(name))
 }
 
 /// The files below a student's folder.

@@ -86,6 +86,13 @@ impl Folder {
         Ok(())
     }
 
+    /// Puts a node in the place of the one of this name.
+    pub fn replace(&mut self, name: &str, node: Node) {
+        if let Some(&at) = self.by_name.get(name) {
+            self.children[at].1 = node;
+        }
+    }
+
     fn push(&mut self, name: String, node: Node) -> usize {
         let at = self.children.len();
         self.by_name.insert(name.clone(), at);

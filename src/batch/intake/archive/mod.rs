@@ -9,7 +9,7 @@ mod record;
 mod storage;
 
 use super::choose::{Fit, fit};
-use super::limits::{Limits, too_deep, too_many};
+use super::limits::{Limits, spent, too_deep, too_many};
 use super::tree::{self, Folder, Held, Node};
 use super::{Reading, moodle};
 use crate::language::Text;
@@ -43,11 +43,11 @@ fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut Reading) ->
         reading.refuse(shown.into(), damaged(directory.damaged));
     }
     let flaws = flaws::find(&directory.records);
-    let mut unpacking = Unpacking { storage, shown, depth, folder: Folder::default(), astray: Vec::new(), reading };
+    let (folder, nested, astray) = (Folder::default(), Vec::new(), Vec::new());
+    let mut unpacking = Unpacking { storage, shown, depth, folder, nested, astray, reading };
     for (record, flaw) in directory.records.iter().zip(flaws) {
         if !unpacking.reading.budget.take_entry() {
-            let reason = too_many(&unpacking.limits());
-            unpacking.refuse(&record.name, &reason);
+            unpacking.refuse(&record.name, &too_many());
             break;
         }
         unpacking.add(record, flaw);
@@ -61,6 +61,8 @@ struct Unpacking<'a, 'b> {
     shown: &'a str,
     depth: u32,
     folder: Folder,
+    /// The archives in it, each with its path. They come last, so that none uses up what the files beside it need.
+    nested: Vec<(Vec<String>, Record)>,
     /// Members with names that lead elsewhere, and why they are refused.
     astray: Vec<(String, Text)>,
     reading: &'a mut Reading<'b>,
@@ -78,77 +80,103 @@ impl Unpacking<'_, '_> {
     fn add(&mut self, record: &Record, flaw: Option<Text>) {
         let mut path = match name::path(&record.name) {
             Ok(path) => path,
-            Err(reason) => {
-                self.refuse(&record.name, &reason);
-                self.astray.push((record.name.clone(), reason));
-                return;
-            }
+            Err(reason) => return self.goes_astray(&record.name, reason),
         };
         if path.iter().any(|part| tree::is_litter(part)) {
             return;
         }
         if path.len() > self.limits().folder_depth {
-            let reason = too_deep(&self.limits());
-            return self.refuse(&record.name, &reason);
+            return self.goes_astray(&record.name, too_deep(&self.limits()));
         }
         if record.is_folder() {
             // Where a file has its name, the file has been or will be named.
             let _ = self.folder.folder(&path);
             return;
         }
+        let whole = path.clone();
         let Some(last) = path.pop() else { return };
-        let node = match flaw.map_or_else(|| self.content(record, &last), Err) {
-            Ok(node) => node,
-            Err(reason) => {
-                self.refuse(&record.name, &reason);
-                Node::File(tree::File { local: None, held: Held::Refused(reason) })
-            }
+        let is_archive = is_archive(&last) && flaw.is_none();
+        let held = match flaw {
+            Some(reason) => Err(reason),
+            None if is_archive => Ok(Held::Refused(too_many())),
+            None if fit(&last, &self.reading.options.file_name) == Fit::Other => Ok(Held::Unread),
+            None => self.unpack(record, self.limits().file_bytes, true).map(Held::Bytes),
         };
-        let is_refused = matches!(node, Node::File(tree::File { held: Held::Refused(_), .. }));
+        let is_refused = held.is_err();
+        let held = held.unwrap_or_else(|reason| {
+            self.refuse(&record.name, &reason);
+            Held::Refused(reason)
+        });
+        let node = Node::File(tree::File { local: None, held });
         let inserted = self.folder.folder(&path).and_then(|folder| folder.insert(last, node));
-        if inserted.is_err() && !is_refused {
-            self.refuse(&record.name, &flaws::taken());
+        match inserted {
+            Ok(()) if is_archive => self.nested.push((whole, record.clone())),
+            Err(_) if !is_refused => self.refuse(&record.name, &flaws::taken()),
+            _ => {}
         }
     }
 
-    fn content(&mut self, record: &Record, name: &str) -> Result<Node, Text> {
+    fn open_nested(&mut self) {
+        for (mut path, record) in std::mem::take(&mut self.nested) {
+            let node = self.open(&record).map_or_else(
+                |reason| {
+                    self.refuse(&record.name, &reason);
+                    Node::File(tree::File { local: None, held: Held::Refused(reason) })
+                },
+                Node::Folder,
+            );
+            if let (Some(last), Ok(folder)) = (path.pop(), self.folder.folder(&path)) {
+                folder.replace(&last, node);
+            }
+        }
+    }
+
+    fn open(&mut self, record: &Record) -> Result<Folder, Text> {
         let limits = self.limits();
-        let is_archive = is_archive(name);
-        let held = if is_archive && self.depth >= limits.archive_depth {
+        if self.depth >= limits.archive_depth {
             return Err(nested_too_deep(&limits));
-        } else if is_archive {
-            let storage = Storage::Memory(self.unpack(record, limits.archive_bytes, false)?);
-            let shown = format!("{}/{}", self.shown, record.name);
-            return unpacked(storage, &shown, self.depth + 1, self.reading).map(Node::Folder);
-        } else if fit(name, &self.reading.options.file_name) == Fit::Other {
-            Held::Unread
-        } else {
-            Held::Bytes(self.unpack(record, limits.file_bytes, true)?)
-        };
-        Ok(Node::File(tree::File { local: None, held }))
+        }
+        let storage = Storage::Memory(self.unpack(record, limits.archive_bytes, false)?);
+        let shown = format!("{}/{}", self.shown, record.name);
+        let depth = self.depth + 1;
+        if self.depth > 1 {
+            return unpacked(storage, &shown, depth, self.reading);
+        }
+        self.reading.part(&shown, |reading| unpacked(storage, &shown, depth, reading))
     }
 
     fn unpack(&mut self, record: &Record, limit: u64, is_cut_at_limit: bool) -> Result<Vec<u8>, Text> {
-        let limits = self.limits();
-        if record.size.min(limit) > self.reading.budget.bytes {
-            return Err(spent(&limits));
-        }
-        let bytes = member::unpack(&self.storage, record, &limits, limit, is_cut_at_limit)?;
-        self.reading.budget.bytes = self.reading.budget.bytes.saturating_sub(bytes.len() as u64);
-        Ok(bytes)
+        // What turns out to be damaged has cost its time all the same.
+        let cost = record.size.min(limit);
+        let Some(left) = self.reading.budget.bytes.checked_sub(cost) else { return Err(spent()) };
+        self.reading.budget.bytes = left;
+        member::unpack(&self.storage, record, &self.limits(), limit, is_cut_at_limit)
     }
 
-    /// The tree. A member that went astray is among the files of the student in whose folder its name begins, so that
-    /// they are not left without an answer.
+    /// Refuses a member that cannot stand where its name says. Its student is kept in mind, so that they get an answer.
+    fn goes_astray(&mut self, name: &str, reason: Text) {
+        self.refuse(name, &reason);
+        let first = name.split(['/', '\\']).next().unwrap_or_default();
+        if moodle::folder(first).is_some() {
+            self.answer(name, reason);
+        } else {
+            self.astray.push((name.into(), reason));
+        }
+    }
+
+    /// Puts a refused file into the folder with which its name begins.
+    fn answer(&mut self, name: &str, reason: Text) {
+        let Some((first, rest)) = name.split_once(['/', '\\']) else { return };
+        let node = Node::File(tree::File { local: None, held: Held::Refused(reason) });
+        let _ = self.folder.folder(&[first.into()]).and_then(|folder| folder.insert(rest.into(), node));
+    }
+
     fn finish(mut self) -> Folder {
-        for (name, reason) in self.astray {
-            let mut parts = name.splitn(2, ['/', '\\']);
-            let (Some(first), Some(rest)) = (parts.next(), parts.next()) else { continue };
-            let is_folder = self.folder.children().any(|(name, node)| name == first && matches!(node, Node::Folder(_)));
-            if is_folder || moodle::folder(first).is_some() {
-                let file = tree::File { local: None, held: Held::Refused(reason) };
-                let _ =
-                    self.folder.folder(&[first.into()]).and_then(|folder| folder.insert(rest.into(), Node::File(file)));
+        self.open_nested();
+        for (name, reason) in std::mem::take(&mut self.astray) {
+            let first = name.split(['/', '\\']).next().unwrap_or_default();
+            if self.folder.children().any(|(name, node)| name == first && matches!(node, Node::Folder(_))) {
+                self.answer(&name, reason);
             }
         }
         self.folder
@@ -185,13 +213,5 @@ fn nested_too_deep(limits: &Limits) -> Text {
     Text::new(
         format!("It is an archive in an archive, more than {most} deep."),
         format!("アーカイブが {most} 段を超えて重なっています。"),
-    )
-}
-
-fn spent(limits: &Limits) -> Text {
-    let mib = limits.total_bytes >> 20;
-    Text::new(
-        format!("More than {mib} MiB would have been unpacked in all. Grade it in parts."),
-        format!("展開した合計が {mib} MiB を超えます。分けて採点してください。"),
     )
 }

@@ -136,3 +136,38 @@ with open('python-stream.zip', 'wb') as f, zipfile.ZipFile(Stream(f), 'w', zipfi
         assert_eq!(intake.refused, [], "{name}");
     }
 }
+
+#[test]
+fn a_students_archive_among_loose_files_is_theirs() {
+    let project = archive(&[Member::stored("ggsample06/ggsample06.vert", "a")]);
+    let intake = take_archive(&archive(&[
+        Member::stored("Ann Lee_3_assignsubmission_file_hw.zip", project),
+        Member::stored("Bob_4_assignsubmission_file_hw.zip", "no archive"),
+        Member::stored("Carol_5_assignsubmission_file_x.vert", "c"),
+    ]));
+    let found = everyone(&intake);
+    assert_eq!((found[0], found[2]), (("Ann Lee", Ok("a")), ("Carol", Ok("c"))));
+    assert_eq!(found[1].0, "Bob");
+    assert!(found[1].1.unwrap_err().contains("not a ZIP"), "{found:?}");
+}
+
+#[test]
+fn a_student_whose_archive_is_broken_is_a_student() {
+    let alice = archive(&[Member::stored("ggsample06.vert", "a")]);
+    let intake = take_archive(&archive(&[Member::stored("alice.zip", alice), Member::stored("bob.zip", "broken")]));
+    let found = everyone(&intake);
+    assert_eq!(found[0], ("alice", Ok("a")));
+    assert_eq!(found[1].0, "bob");
+    assert!(found[1].1.unwrap_err().contains("not a ZIP"), "{found:?}");
+}
+
+#[test]
+fn archives_named_one_by_one_are_one_student_each() {
+    let folder = tempfile::tempdir().unwrap();
+    let inputs = ["alice.zip", "bob.zip"].map(|name| folder.path().join(name));
+    for (input, content) in inputs.iter().zip(["a", "b"]) {
+        fs::write(input, archive(&[Member::stored("ggsample06/ggsample06.vert", content)])).unwrap();
+    }
+    assert_eq!(everyone(&take(&inputs)), [("alice", Ok("a")), ("bob", Ok("b"))]);
+    assert_eq!(everyone(&take(&inputs[..1])), [("alice", Ok("a"))]);
+}

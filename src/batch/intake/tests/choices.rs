@@ -119,7 +119,7 @@ fn an_unreadable_file_is_named() {
     use std::os::unix::fs::PermissionsExt;
     let folder = folder(&[("alice/ggsample06.vert", "a"), ("bob/ggsample06.vert", "b")]);
     let file = folder.path().join("class/alice/ggsample06.vert");
-    fs::set_permissions(&file, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o000)).unwrap();
     let intake = take(&[folder.path().join("class")]);
     let found = everyone(&intake);
     assert!(found[0].1.unwrap_err().contains("ggsample06.vert"));

@@ -45,9 +45,9 @@ fn a_participant_whose_file_went_astray_gets_an_answer() {
         Member::stored("Ann_8_assignsubmission_file_/ggsample06.vert", "a"),
     ]));
     let found = everyone(&intake);
-    assert_eq!(found[0], ("Ann", Ok("a")));
-    assert_eq!(found[1].0, "Bob");
-    assert!(found[1].1.unwrap_err().contains("`..`"), "{found:?}");
+    assert_eq!(found[0].0, "Bob");
+    assert!(found[0].1.unwrap_err().contains("`..`"), "{found:?}");
+    assert_eq!(found[1], ("Ann", Ok("a")));
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn what_is_unpacked_in_all_has_a_limit() {
     .take(1000)
     .collect();
     let members: Vec<Member> = (0..5).map(|n| Member::stored(format!("s{n}/ggsample06.vert"), &noise)).collect();
-    let intake = take_archive_within(&archive(&members), Limits { total_bytes: 2500, ..Limits::default() });
+    let intake = take_archive_within(&archive(&members), within(2500, 100));
     assert_eq!(intake.hand_ins.iter().filter(|hand_in| matches!(hand_in.content, Content::File { .. })).count(), 2);
     assert_eq!(intake.refused.len(), 3);
 }
@@ -125,7 +125,7 @@ fn what_is_unpacked_in_all_has_a_limit() {
 #[test]
 fn the_number_of_members_has_a_limit() {
     let members: Vec<Member> = (0..9).map(|n| Member::stored(format!("s{n}/ggsample06.vert"), "x")).collect();
-    let intake = take_archive_within(&archive(&members), Limits { entries: 4, ..Limits::default() });
+    let intake = take_archive_within(&archive(&members), within(1 << 20, 4));
     assert_eq!(names(&intake), ["s0", "s1", "s2", "s3"]);
     assert_eq!(intake.refused.len(), 1);
 }
@@ -195,4 +195,35 @@ fn what_is_no_archive_is_named() {
     let intake = beside_honest(&[Member::stored("bob/hw.zip", "no archive")]);
     assert!(everyone(&intake)[1].1.unwrap_err().contains("hw.zip"), "the student is told");
     assert_eq!(take_archive(&archive(&[])).hand_ins, []);
+}
+
+#[test]
+fn one_students_archive_does_not_use_up_what_the_others_need() {
+    let many: Vec<Member> = (0..50).map(|n| Member::stored(format!("{n}.vert"), format!("{n}"))).collect();
+    let bad: Vec<Member> = (0..50).map(|n| Member::stored(format!("../{n}.vert"), "")).collect();
+    let one_file = archive(&[Member::stored("ggsample06.vert", "z")]);
+    let class = archive(&[
+        Member::stored("Many_1_assignsubmission_file_/a.zip", archive(&many)),
+        Member::stored("Bad_2_assignsubmission_file_/a.zip", archive(&bad)),
+        Member::stored("Ann_3_assignsubmission_file_/ggsample06.vert", "a"),
+        Member::stored("Zoe_4_assignsubmission_file_/a.zip", one_file),
+    ]);
+    let part = Budget { bytes: 1000, entries: 20, refusals: 5 };
+    let total = Budget { bytes: 1 << 20, entries: 60, refusals: 100 };
+    let intake = take_archive_within(&class, Limits { part, total, ..Limits::default() });
+    assert_eq!(names(&intake), ["Many", "Bad", "Ann", "Zoe"]);
+    let found = everyone(&intake);
+    assert_eq!(found[2..], [("Ann", Ok("a")), ("Zoe", Ok("z"))]);
+    assert!(found[0].1.is_err() && found[1].1.is_err(), "{found:?}");
+    // Too many entries once; five members that lead out, and one line for the rest of the 20.
+    assert_eq!(intake.refused.len(), 1 + 5 + 1, "{:?}", refused(&intake));
+    assert!(intake.refused.iter().any(|refused| refused.reason.en.starts_with("16 more files")));
+}
+
+#[test]
+fn a_deep_path_is_refused_and_its_student_told() {
+    let name = format!("Bob_7_assignsubmission_file_/{}ggsample06.vert", "d/".repeat(40));
+    let intake = take_archive(&archive(&[Member::stored(name, "x")]));
+    assert!(everyone(&intake)[0].1.unwrap_err().contains("32 folders"), "{intake:?}");
+    assert_eq!(intake.refused.len(), 1);
 }

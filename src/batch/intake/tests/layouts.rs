@@ -132,7 +132,7 @@ fn what_systems_leave_behind_is_not_there() {
 #[test]
 fn more_files_than_the_limit_are_named_once() {
     let folder = folder(&[("a.vert", ""), ("b.vert", ""), ("c.vert", ""), ("d.vert", "")]);
-    let limits = Limits { entries: 2, ..Limits::default() };
+    let limits = within(1 << 20, 2);
     let intake = read(&[folder.path().join("class")], &Options { limits, ..options() }).unwrap();
     assert_eq!(names(&intake), ["a", "b"]);
     assert_eq!(intake.refused.len(), 1);

@@ -49,6 +49,11 @@ fn take_archive_within(bytes: &[u8], limits: Limits) -> Intake {
     read(&[path], &Options { limits, ..options() }).unwrap()
 }
 
+/// Limits of bytes and entries in all.
+fn within(bytes: u64, entries: u64) -> Limits {
+    Limits { total: Budget { bytes, entries, refusals: 1000 }, ..Limits::default() }
+}
+
 /// Everyone: name, and the file's content or the English reason why there is none.
 fn everyone(intake: &Intake) -> Vec<(&str, Result<&str, &str>)> {
     intake
