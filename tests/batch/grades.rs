@@ -72,7 +72,7 @@ fn nothing_is_graded_without_a_driver() {
         .code(3)
         .stderr(predicate::str::contains("costs no points"));
     // Nothing stands in the way of the next try.
-    place.batch("out").arg("--resume").assert().code(0);
+    place.batch("out").assert().code(0);
 }
 
 #[test]
