@@ -3,7 +3,8 @@
 use super::class::Entry;
 use super::standing::{Counts, Standing};
 use crate::language::{Language, Text};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -22,11 +23,15 @@ impl Progress {
     pub fn new<'a>(total: usize, done: impl Iterator<Item = &'a Entry>, language: Language) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::stderr_with_hz(PER_SECOND));
         let template = Text::new(
-            "{bar:30.green/dim} {pos}/{len}  {msg}  {per_sec:.dim}  {eta} left",
-            "{bar:30.green/dim} {pos}/{len}  {msg}  {per_sec:.dim}  残り {eta}",
+            "{bar:30.green/dim} {pos}/{len}  {msg}  {rate:.dim}  {eta} left",
+            "{bar:30.green/dim} {pos}/{len}  {msg}  {rate:.dim}  残り {eta}",
         );
         if let Ok(style) = ProgressStyle::with_template(template.get(language)) {
-            bar.set_style(style.progress_chars("━━─"));
+            let rate = |state: &ProgressState, out: &mut dyn Write| {
+                // Nothing can be done about a terminal that is gone.
+                let _ = write!(out, "{:.1}/s", state.per_sec());
+            };
+            bar.set_style(style.progress_chars("━━─").with_key("rate", rate));
         }
         let counts = Standing::count(done);
         bar.set_position(counts.iter().sum::<usize>() as u64);

@@ -72,7 +72,7 @@ fn nothing_is_graded_without_a_driver() {
         .code(3)
         .stderr(predicate::str::contains("costs no points"));
     // Nothing stands in the way of the next try.
-    place.batch("out").arg("--resume").assert().code(0);
+    place.batch("out").assert().code(0);
 }
 
 #[test]
@@ -144,10 +144,9 @@ fn the_same_file_is_graded_once_and_both_share_the_answer() {
     assert_eq!(shares("c"), serde_json::json!(["a", "b"]));
     assert_eq!(shares("d"), serde_json::json!([]));
     assert_eq!(shares("e"), serde_json::json!([]), "the hand-out is nobody's own");
-    // One grading has one duration; to the microsecond, two gradings have two.
+    // One grading has one duration.
     let elapsed = |key: &str| of(key)["report"]["elapsed_ms"].clone();
     assert_eq!(elapsed("a"), elapsed("b"));
-    assert_ne!(elapsed("a"), elapsed("c"));
     // The facts of each file are its own.
     assert_ne!(of("a")["report"]["source"]["sha256"], of("b")["report"]["source"]["sha256"]);
     assert_ne!(of("a")["report"]["source"]["bytes"], of("b")["report"]["source"]["bytes"]);

@@ -4,13 +4,13 @@ use crate::batch::changes::Changes;
 use crate::batch::class::{Class, Entry};
 use crate::batch::folder::Folder;
 use crate::batch::formats::Format;
-use crate::batch::journal::{self, Found, Header, Journal, Record};
+use crate::batch::journal::{self, Found, Header, Journal, Record, RecordOf};
 use crate::batch::page::Pages;
 use crate::batch::portrait::Portraits;
 use crate::batch::progress::Progress;
 use crate::batch::run::{Candidate, Run, Wants};
 use crate::batch::start::{self, NotBegun};
-use crate::batch::{lines, output, summary};
+use crate::batch::{anonymous, lines, output, summary};
 use crate::cli::Batch;
 use crate::command::interrupt::Interrupt;
 use crate::command::{Outcome, report_fault, warn, width};
@@ -77,36 +77,18 @@ impl Session<'_> {
         wants: Wants,
         portraits: &Portraits,
     ) -> Result<bool, Fault> {
-        let language = self.header.language;
-        let kept: Vec<_> = candidates
-            .iter()
-            .zip(entries.iter())
-            .filter_map(|(candidate, entry)| Some(candidate.record(&entry.as_ref()?.outcome)))
-            .collect();
-        let journal = Journal::start(self.folder, self.header, &kept)?;
-        drop(kept);
-        for entry in entries.iter().flatten() {
-            self.tell(entry);
-        }
-        if entries.iter().all(Option::is_some) {
-            return Ok(true);
-        }
         let threads = self.arguments.jobs.map_or_else(parallel::processors, usize::from);
-        let pages = Pages::new(self.assignment, language);
         let is_gradable = |(candidate, entry): (&Candidate, &Option<Entry>)| entry.is_none() && candidate.has_file();
         let pool = match candidates.iter().zip(entries.iter()).any(is_gradable) {
             true => Some(self.pool(threads)?),
             false => None,
         };
-        let progress = Progress::new(candidates.len(), entries.iter().flatten(), language);
-        let bar = progress.bar();
-        self.interrupt.defer(move || {
-            let text = Text::new(
-                "stopping after the submissions that are being graded; Ctrl-C again ends at once",
-                "採点中のものが終わりしだい停止します。もう一度 Ctrl-C を押すとすぐに終了します",
-            );
-            bar.suspend(|| anstream::eprintln!("ggrade: {}", text.get(language)));
-        });
+        // Where there is nobody to grade, the folder is left as it was.
+        let journal = Journal::start(self.folder, self.header, &kept(candidates, entries))?;
+        entries.iter().flatten().for_each(|entry| self.tell(entry));
+        let pages = Pages::new(self.assignment, self.header.language);
+        let progress = Progress::new(candidates.len(), entries.iter().flatten(), self.header.language);
+        self.defer_interrupt(&progress);
         let finished = |entry: &Entry| {
             progress.finished(entry);
             self.tell(entry);
@@ -127,16 +109,46 @@ impl Session<'_> {
         self.interrupt.resume();
         journal.sync()?;
         done?;
-        let count = entries.iter().flatten().count();
-        if self.interrupt.happened() && count < entries.len() {
-            let (out, total) = (self.arguments.out.display(), entries.len());
-            self.say(&Text::new(
-                format!("stopped: {count} of {total} results are in {out}. The same command with --resume goes on"),
-                format!("停止しました。{total} 件中 {count} 件の結果が {out} にあります。同じコマンドに --resume を付けると続きから採点します"),
-            ));
-            return Ok(false);
+        self.is_complete(entries)
+    }
+
+    /// Has the first signal stop the run in order.
+    fn defer_interrupt(&self, progress: &Progress) {
+        let (bar, language) = (progress.bar(), self.header.language);
+        self.interrupt.defer(move || {
+            let text = Text::new(
+                "stopping after the submissions that are being graded; Ctrl-C again ends at once",
+                "採点中のものが終わりしだい停止します。もう一度 Ctrl-C を押すとすぐに終了します",
+            );
+            bar.suspend(|| anstream::eprintln!("ggrade: {}", text.get(language)));
+        });
+    }
+
+    /// Whether everyone has an entry; where a signal is why not, says how to go on.
+    fn is_complete(&self, entries: &[Option<Entry>]) -> Result<bool, Fault> {
+        let (count, total) = (entries.iter().flatten().count(), entries.len());
+        if count == total {
+            return Ok(true);
         }
-        Ok(true)
+        let out = self.arguments.out.display();
+        if !self.interrupt.happened() {
+            return Err(Fault::new(Text::new(
+                format!(
+                    "{} submissions were left out by a panic; {count} of {total} results are in {out}",
+                    total - count
+                ),
+                format!(
+                    "異常終了のため {} 件を採点できませんでした。{total} 件中 {count} 件の結果が {out} にあります",
+                    total - count
+                ),
+            ))
+            .remedy(Text::new("--resume tries them again.", "--resume を付けると再試行します。")));
+        }
+        self.say(&Text::new(
+            format!("stopped: {count} of {total} results are in {out}. The same command with --resume goes on"),
+            format!("停止しました。{total} 件中 {count} 件の結果が {out} にあります。同じコマンドに --resume を付けると続きから採点します"),
+        ));
+        Ok(false)
     }
 
     fn pool(&self, threads: usize) -> Result<Pool, Fault> {
@@ -174,17 +186,27 @@ impl Session<'_> {
             "Every result, for --resume, --compare and programs",
             "全員の結果 (--resume、--compare、プログラム用)",
         );
-        written.files.push((self.folder.at(journal::NAME).display().to_string(), what));
-        if self.arguments.json_lines {
-            let text = summary::render(class, changes.as_ref(), &written, width(std::io::stderr().is_terminal()));
-            anstream::eprint!("{text}");
-        } else {
-            let text = summary::render(class, changes.as_ref(), &written, width(std::io::stdout().is_terminal()));
-            anstream::print!("{text}");
+        written.files.push((journal::NAME.into(), what));
+        if self.header.anonymous {
+            let what =
+                Text::new("The key of the pseudonyms: keep it to yourself", "仮名の鍵。ほかの人に渡さないでください");
+            written.files.push((anonymous::KEY_FILE.into(), what));
         }
+        let show = |is_terminal| summary::render(class, changes.as_ref(), &written, width(is_terminal));
+        // A reader that closes the pipe early, such as `head`, has what it wanted.
+        let _ = match self.arguments.json_lines {
+            true => anstream::stderr().write_all(show(std::io::stderr().is_terminal()).as_bytes()),
+            false => anstream::stdout().write_all(show(std::io::stdout().is_terminal()).as_bytes()),
+        };
         if let Some(fault) = fault {
             return Ok(report_fault(&fault));
         }
         Ok(super::outcome(class))
     }
+}
+
+/// What there is already, as it is written down.
+fn kept<'a>(candidates: &'a [Candidate], entries: &'a [Option<Entry>]) -> Vec<RecordOf<'a>> {
+    let pairs = candidates.iter().zip(entries);
+    pairs.filter_map(|(candidate, entry)| Some(candidate.record(&entry.as_ref()?.outcome))).collect()
 }
