@@ -7,6 +7,8 @@ mod build;
 mod concessions;
 mod entry;
 mod fuel;
+#[cfg(fuzzing)]
+pub mod fuzzing;
 mod gate;
 pub mod glslang;
 mod hints;

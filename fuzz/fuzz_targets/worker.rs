@@ -1,0 +1,32 @@
+//! The whole path in a worker process: every file gets a report within its time, and the pool goes on.
+//!
+//! `GGRADE` names the program whose workers are used, such as `target/release/ggrade`.
+#![no_main]
+
+use ggrade::grade::Order;
+use ggrade::sandbox::{Pool, Settings, Submission};
+use ggrade_fuzz::program;
+use libfuzzer_sys::fuzz_target;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+static POOL: LazyLock<Pool> = LazyLock::new(|| {
+    let program = std::env::var_os("GGRADE").expect("GGRADE names the program").into();
+    Pool::start(Settings { program: Some(program), ..Settings::new("ggsample06") }, 1).expect("workers")
+});
+
+/// The deadline, and what ending a worker may take.
+const LONGEST: Duration = Duration::from_millis(2500);
+
+fuzz_target!(|bytes: &[u8]| {
+    let text = program::program(bytes.get(1..).unwrap_or_default());
+    let is_program = bytes.first().is_some_and(|first| first % 2 == 0);
+    let file = if is_program { text.as_bytes() } else { bytes };
+    let order = Order { seed: 1, ..Order::default() };
+    let start = Instant::now();
+    let answer = POOL.grade(Submission { name: "a.vert", bytes: file, order, wants_frames: true });
+    assert!(start.elapsed() < LONGEST, "{:?}", start.elapsed());
+    if let Err(fault) = answer {
+        assert!(fault.message.en.starts_with("valid GLSL, not supported"), "{}", fault.message.en);
+    }
+});

@@ -1,0 +1,290 @@
+//! Random bytes → a vertex shader that mostly compiles: what lies behind the compiler is not reached by random text.
+
+use std::fmt::Write as _;
+
+/// Deepest nesting of statements and of expressions.
+const DEEPEST: usize = 6;
+
+/// Reads a program off `bytes`; where they end, everything becomes as simple as it can.
+pub fn program(bytes: &[u8]) -> String {
+    let mut writer = Writer { bytes: bytes.iter(), text: String::new(), functions: 0, names: 0 };
+    writer.file();
+    writer.text
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Type {
+    Bool,
+    Int,
+    Uint,
+    Float,
+    Vec2,
+    Vec3,
+    Vec4,
+    Mat3,
+}
+
+impl Type {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Bool => "bool",
+            Self::Int => "int",
+            Self::Uint => "uint",
+            Self::Float => "float",
+            Self::Vec2 => "vec2",
+            Self::Vec3 => "vec3",
+            Self::Vec4 => "vec4",
+            Self::Mat3 => "mat3",
+        }
+    }
+}
+
+struct Writer<'a> {
+    bytes: std::slice::Iter<'a, u8>,
+    text: String,
+    functions: usize,
+    names: usize,
+}
+
+impl Writer<'_> {
+    fn byte(&mut self) -> usize {
+        usize::from(self.bytes.next().copied().unwrap_or(0))
+    }
+
+    fn pick<'b>(&mut self, of: &[&'b str]) -> &'b str {
+        of[self.byte() % of.len()]
+    }
+
+    fn file(&mut self) {
+        self.text += "#version 410\nin vec4 pv;\nin vec4 cv;\nuniform mat4 mw;\nuniform mat4 mc;\nuniform mat4 mg;\nout vec4 vc;\n";
+        self.text += "struct S { float f; vec3 v; int a[5]; };\nfloat g;\nvec4 field[7];\nint many[9];\nS made;\n";
+        for _ in 0..self.byte() % 4 {
+            let number = self.functions;
+            let _ = writeln!(
+                self.text,
+                "float f{number}(float x, inout vec3 y, out int z) {{\n  z = int(x);\n  float u = x; int i = 1; uint k = 2u; bool b = true; vec2 d = vec2(x); vec3 n = y; vec4 q = vec4(x); mat3 m = mat3(x);"
+            );
+            self.block(0, true);
+            self.text += "  return u;\n}\n";
+            self.functions += 1;
+        }
+        self.text += "void main() {\n  float u = pv.x; int i = int(cv.y * 9.0); uint k = uint(i); bool b = u > 0.0; vec2 d = pv.xy; vec3 n = cv.xyz; vec4 q = mw * pv; mat3 m = mat3(mg);\n";
+        self.block(0, false);
+        self.text += "  vc = q;\n  gl_Position = mc * pv;\n}\n";
+    }
+
+    fn block(&mut self, depth: usize, returns: bool) {
+        for _ in 0..self.byte() % 5 {
+            self.statement(depth, returns);
+        }
+    }
+
+    fn statement(&mut self, depth: usize, returns: bool) {
+        let choice = self.byte() % 16;
+        match choice {
+            _ if depth >= DEEPEST => self.assignment(depth),
+            0..=6 => self.assignment(depth),
+            7 | 8 => {
+                self.text += "if (";
+                self.expression(Type::Bool, depth);
+                self.text += ") {\n";
+                self.block(depth + 1, returns);
+                self.text += "} else {\n";
+                self.block(depth + 1, returns);
+                self.text += "}\n";
+            }
+            9 | 10 => {
+                let name = self.fresh();
+                let most = self.byte() % 40;
+                let _ = write!(self.text, "for (int {name} = 0; {name} < {most}; ++{name}) {{\ni += {name};\n");
+                self.block(depth + 1, returns);
+                let word = self.pick(&["", "if (u > 3.0) break;", "if (b) continue;"]);
+                self.text += word;
+                self.text += "}\n";
+            }
+            11 => {
+                self.text += "while (";
+                self.expression(Type::Bool, depth);
+                self.text += ") {\n";
+                self.block(depth + 1, returns);
+                self.text += "if (++i > 30) break;\n}\n";
+            }
+            12 => {
+                self.text += "do {\n";
+                self.block(depth + 1, returns);
+                self.text += "} while (++i < 20);\n";
+            }
+            13 => {
+                self.text += "switch (i % 4) {\n";
+                for case in 0..self.byte() % 4 {
+                    let _ = write!(self.text, "case {case}:\n");
+                    self.assignment(depth + 1);
+                    let end = self.pick(&["break;\n", "", "i++;\n"]);
+                    self.text += end;
+                }
+                self.text += "default: i--;\n}\n";
+            }
+            14 if self.functions > 0 => {
+                let number = self.byte() % self.functions;
+                let _ = write!(self.text, "u = f{number}(");
+                self.expression(Type::Float, depth);
+                self.text += ", n, i);\n";
+            }
+            _ if returns => {
+                self.text += "if (b) return ";
+                self.expression(Type::Float, depth);
+                self.text += ";\n";
+            }
+            _ => self.assignment(depth),
+        }
+    }
+
+    fn fresh(&mut self) -> String {
+        self.names += 1;
+        format!("t{}", self.names)
+    }
+
+    fn assignment(&mut self, depth: usize) {
+        let (kind, name) = [
+            (Type::Float, "u"),
+            (Type::Int, "i"),
+            (Type::Uint, "k"),
+            (Type::Bool, "b"),
+            (Type::Vec2, "d"),
+            (Type::Vec3, "n"),
+            (Type::Vec4, "q"),
+            (Type::Mat3, "m"),
+            (Type::Float, "g"),
+            (Type::Float, "made.f"),
+            (Type::Vec3, "made.v"),
+            (Type::Float, "q[i & 3]"),
+            (Type::Vec4, "field[i]"),
+            (Type::Int, "many[k]"),
+            (Type::Vec2, "q.wx"),
+            (Type::Vec3, "m[i]"),
+            (Type::Int, "made.a[i]"),
+        ][self.byte() % 17];
+        let arithmetic = !matches!(kind, Type::Bool | Type::Mat3);
+        let operator = if arithmetic { self.pick(&["=", "+=", "*=", "-="]) } else { "=" };
+        let _ = write!(self.text, "{name} {operator} ");
+        self.expression(kind, depth);
+        self.text += ";\n";
+    }
+
+    fn expression(&mut self, kind: Type, depth: usize) {
+        if depth >= DEEPEST {
+            let leaf = leaf(kind);
+            self.text += leaf;
+            return;
+        }
+        let templates = templates(kind);
+        let template = templates[self.byte() % templates.len()];
+        // B I U F 2 3 4 M stand for an expression of that type.
+        for part in template.chars() {
+            match part {
+                'B' => self.expression(Type::Bool, depth + 1),
+                'I' => self.expression(Type::Int, depth + 1),
+                'U' => self.expression(Type::Uint, depth + 1),
+                'F' => self.expression(Type::Float, depth + 1),
+                '²' => self.expression(Type::Vec2, depth + 1),
+                '³' => self.expression(Type::Vec3, depth + 1),
+                '⁴' => self.expression(Type::Vec4, depth + 1),
+                'M' => self.expression(Type::Mat3, depth + 1),
+                other => self.text.push(other),
+            }
+        }
+    }
+}
+
+fn leaf(kind: Type) -> &'static str {
+    match kind {
+        Type::Bool => "b",
+        Type::Int => "i",
+        Type::Uint => "k",
+        Type::Float => "u",
+        Type::Vec2 => "d",
+        Type::Vec3 => "n",
+        Type::Vec4 => "q",
+        Type::Mat3 => "m",
+    }
+}
+
+fn templates(kind: Type) -> &'static [&'static str] {
+    match kind {
+        Type::Bool => &[
+            "b",
+            "F < F",
+            "!B",
+            "(B && B)",
+            "(B || B)",
+            "(B ^^ B)",
+            "I == I",
+            "any(lessThan(³, ³))",
+            "isnan(F)",
+            "true",
+        ],
+        Type::Int => &[
+            "i",
+            "7",
+            "(I + I)",
+            "I / I",
+            "I % I",
+            "(I << 3)",
+            "(I >> I)",
+            "~I",
+            "int(F)",
+            "many[I]",
+            "(B ? I : I)",
+            "abs(I)",
+            "made.a[I]",
+            "-2147483648",
+        ],
+        Type::Uint => {
+            &["k", "9u", "(U * U)", "U / U", "U % U", "(U ^ U)", "uint(I)", "floatBitsToUint(F)", "bitfieldReverse(U)"]
+        }
+        Type::Float => &[
+            "u",
+            "0.5",
+            "(F + F)",
+            "(F * F)",
+            "F / F",
+            "dot(³, ³)",
+            "max(F, 0.0)",
+            "pow(F, F)",
+            "sqrt(F)",
+            "mod(F, F)",
+            "³.y",
+            "⁴[I]",
+            "length(²)",
+            "float(I)",
+            "g",
+            "intBitsToFloat(I)",
+            "(B ? F : F)",
+            "determinant(M)",
+            "(u += F)",
+            "exp(F)",
+            "fract(F)",
+        ],
+        Type::Vec2 => &["d", "vec2(F)", "vec2(F, F)", "³.zx", "(² * F)", "floor(²)", "min(², ²)", "modf(², d)"],
+        Type::Vec3 => &[
+            "n",
+            "vec3(F)",
+            "vec3(², F)",
+            "normalize(³)",
+            "cross(³, ³)",
+            "reflect(³, ³)",
+            "M * ³",
+            "(³ + ³)",
+            "mix(³, ³, F)",
+            "clamp(³, 0.0, 1.0)",
+            "⁴.wzy",
+            "M[I]",
+            "refract(³, ³, F)",
+            "faceforward(³, ³, ³)",
+        ],
+        Type::Vec4 => {
+            &["q", "vec4(³, F)", "mc * ⁴", "field[I]", "(⁴ - ⁴)", "vec4(², ²)", "pv", "step(⁴, ⁴)", "unpackUnorm4x8(U)"]
+        }
+        Type::Mat3 => &["m", "mat3(F)", "(M * M)", "transpose(M)", "inverse(M)", "outerProduct(³, ³)", "mat3(mg)"],
+    }
+}
