@@ -152,7 +152,7 @@ async fn the_editor_grades_what_is_typed_last() {
     // Tab leaves the editor.
     browser.js("document.querySelector('#code').focus()").await;
     browser.keys("#code", "\u{E004}").await;
-    assert_eq!(browser.js("return document.activeElement.id").await != "code", true);
+    assert_ne!(browser.js("return document.activeElement.id").await, "code");
 
     // What was typed is still there when the page is opened again, and is graded; the hand-out comes back on demand.
     browser.open(&server.at("/")).await;
