@@ -88,9 +88,15 @@ async fn a_moodle_archive_is_graded_behind_the_scenes(database: Database) {
     let mut page = String::new();
     feedback.by_name(name).expect("a page").read_to_string(&mut page).expect("text");
     assert!(page.contains("data:image/png"), "a page without pictures");
-    let sheet = "\u{feff}識別子,氏名,評定\n参加者 101,山田 太郎,\n参加者 102,佐藤 花子,\n";
-    let sheet = request("POST", &format!("{location}/files/moodle-worksheet"), "text/csv", sheet);
-    let filled = bench.send(sheet).await;
+    let fill = |sheet: &'static str| {
+        bench.send(request("POST", &format!("{location}/files/moodle-worksheet"), "text/csv", sheet))
+    };
+    assert_eq!(fill("a,b\n1,2\n").await.problem(), "unprocessable");
+    let filled = fill(
+        "Identifier,Full name,Grade,Maximum Grade,Grade can be changed,Feedback comments\n\
+         Participant 101,山田 太郎,,100,Yes,\nParticipant 102,佐藤 花子,,100,Yes,\n",
+    )
+    .await;
     assert_eq!(filled.status, StatusCode::OK, "{filled:?}");
     assert!(String::from_utf8_lossy(&filled.body).contains("100"));
     bench.finish().await;

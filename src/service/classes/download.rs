@@ -1,95 +1,19 @@
-//! Whole classes: a teacher's archive in, a graded [`Class`] out.
+//! A class in a format of `ggrade batch`.
 
-use super::State;
-use super::errors::Problem;
-use super::identity::new_id;
-use super::store::{Batch, BatchEntry, ClassRow, NewSubmission, Stored, Via};
-use super::submit::{file_name, sha256};
 use crate::batch::class::{Class, Outcome, Refused, Student};
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::{Format, KEY};
-use crate::batch::intake::{self, Content, HandIn, Intake};
+use crate::batch::intake::{Content, HandIn};
 use crate::batch::page::Pages;
 use crate::batch::{output, run};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::{Language, Text};
 use crate::sandbox;
-use std::path::{Path, PathBuf};
-
-/// Behind every student who hands in.
-const PRIORITY: i64 = 10;
-
-/// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with.
-pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, Problem> {
-    let assignment = state.assignment;
-    let read = tokio::task::spawn_blocking(move || {
-        let options = intake::Options::new(assignment)?;
-        intake::read(&[path], &options)
-    });
-    let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::internal(&fault))?;
-    if intake.hand_ins.is_empty() {
-        return Err(nothing(&intake));
-    }
-    store(state, intake, title).await
-}
-
-/// The refusal of an archive with nothing in it: the first thing that was left out says why.
-fn nothing(intake: &Intake) -> Problem {
-    let mut problem = Problem::unprocessable(
-        "There is nothing to grade in this archive. Upload the ZIP that Moodle gives, or one with a folder for each student.",
-        "採点できるファイルがありません。Moodle の ZIP、または学生ごとのフォルダを入れた ZIP をアップロードしてください。",
-    );
-    if let Some(refused) = intake.refused.first() {
-        let Text { en, ja } = problem.detail;
-        problem.detail = Text::new(format!("{en} ({})", refused.reason.en), format!("{ja} ({})", refused.reason.ja));
-    }
-    problem
-}
-
-async fn store(state: &State, intake: Intake, title: &str) -> Result<Batch, Problem> {
-    let settings = state.store.assignment(&state.assignment.id).await?;
-    let now = state.clock.now();
-    let batch = Batch {
-        id: new_id(),
-        assignment: settings.id.clone(),
-        title: if title.is_empty() { intake.title } else { title.to_owned() },
-        refused: intake.refused,
-        created_at: now,
-    };
-    let mut entries = Vec::new();
-    let mut files = Vec::new();
-    for hand_in in intake.hand_ins {
-        let mut entry = BatchEntry { student: hand_in.student, path: hand_in.path, submission_id: None, note: None };
-        match hand_in.content {
-            Content::Nothing(why) => entry.note = Some(why),
-            Content::File { name, bytes } => {
-                let id = new_id();
-                entry.submission_id = Some(id.clone());
-                files.push(NewSubmission {
-                    id,
-                    assignment: settings.id.clone(),
-                    sha256: sha256(&bytes),
-                    bytes,
-                    name: file_name(&name, state.assignment),
-                    owner_id: None,
-                    student_id: None,
-                    batch_id: Some(batch.id.clone()),
-                    via: Via::Batch,
-                    seed: settings.seed,
-                    hints: settings.hints,
-                    received_at: now,
-                    priority: PRIORITY,
-                    claim: None,
-                });
-            }
-        }
-        entries.push(entry);
-    }
-    state.store.add_batch(&batch, &entries, &files).await?;
-    state.queue.look();
-    Ok(batch)
-}
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::store::{Batch, ClassRow, Stored};
+use std::path::Path;
 
 /// What a download is made of.
 #[derive(Clone, Debug)]
@@ -155,7 +79,12 @@ pub async fn download(
         }
         written(&class, format, sheet.as_deref(), &temporary.path().join("out"))
     });
-    made.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::internal(&fault))
+    let made = made.await.map_err(|panic| Problem::internal(&panic))?;
+    made.map_err(|fault| match format {
+        // What can be wrong here is the worksheet.
+        Format::MoodleWorksheet => Problem::unprocessable(fault.message.en, fault.message.ja),
+        _ => Problem::internal(&fault),
+    })
 }
 
 /// One student of a class, with what stands for them.

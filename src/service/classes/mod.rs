@@ -1,0 +1,88 @@
+//! Whole classes: a teacher's archive in, a graded class out in any format ([`download`]).
+
+mod download;
+
+pub use download::{Download, Pick, Whose, chosen, download};
+
+use super::State;
+use super::errors::Problem;
+use super::identity::new_id;
+use super::store::{Batch, BatchEntry, NewSubmission, Via};
+use super::submit::{file_name, sha256};
+use crate::batch::intake::{self, Content, Intake};
+use crate::language::Text;
+use std::path::PathBuf;
+
+/// Behind every student who hands in.
+const PRIORITY: i64 = 10;
+
+/// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with.
+pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, Problem> {
+    let assignment = state.assignment;
+    let read = tokio::task::spawn_blocking(move || {
+        let options = intake::Options::new(assignment)?;
+        intake::read(&[path], &options)
+    });
+    let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::internal(&fault))?;
+    if intake.hand_ins.is_empty() {
+        return Err(nothing(&intake));
+    }
+    store(state, intake, title).await
+}
+
+/// The refusal of an archive with nothing in it: the first thing that was left out says why.
+fn nothing(intake: &Intake) -> Problem {
+    let mut problem = Problem::unprocessable(
+        "There is nothing to grade in this archive. Upload the ZIP that Moodle gives, or one with a folder for each student.",
+        "採点できるファイルがありません。Moodle の ZIP、または学生ごとのフォルダを入れた ZIP をアップロードしてください。",
+    );
+    if let Some(refused) = intake.refused.first() {
+        let Text { en, ja } = problem.detail;
+        problem.detail = Text::new(format!("{en} ({})", refused.reason.en), format!("{ja} ({})", refused.reason.ja));
+    }
+    problem
+}
+
+async fn store(state: &State, intake: Intake, title: &str) -> Result<Batch, Problem> {
+    let settings = state.store.assignment(&state.assignment.id).await?;
+    let now = state.clock.now();
+    let batch = Batch {
+        id: new_id(),
+        assignment: settings.id.clone(),
+        title: if title.is_empty() { intake.title } else { title.to_owned() },
+        refused: intake.refused,
+        created_at: now,
+    };
+    let mut entries = Vec::new();
+    let mut files = Vec::new();
+    for hand_in in intake.hand_ins {
+        let mut entry = BatchEntry { student: hand_in.student, path: hand_in.path, submission_id: None, note: None };
+        match hand_in.content {
+            Content::Nothing(why) => entry.note = Some(why),
+            Content::File { name, bytes } => {
+                let id = new_id();
+                entry.submission_id = Some(id.clone());
+                files.push(NewSubmission {
+                    id,
+                    assignment: settings.id.clone(),
+                    sha256: sha256(&bytes),
+                    bytes,
+                    name: file_name(&name, state.assignment),
+                    owner_id: None,
+                    student_id: None,
+                    batch_id: Some(batch.id.clone()),
+                    via: Via::Batch,
+                    seed: settings.seed,
+                    hints: settings.hints,
+                    received_at: now,
+                    priority: PRIORITY,
+                    claim: None,
+                });
+            }
+        }
+        entries.push(entry);
+    }
+    state.store.add_batch(&batch, &entries, &files).await?;
+    state.queue.look();
+    Ok(batch)
+}
