@@ -110,7 +110,7 @@ pub struct Grade {
     #[arg(long, value_enum, default_value_t)]
     pub hints: Hints,
     /// Seconds that the grading may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, env = "GGRADE_DEADLINE")]
     pub deadline: f64,
 }
 

@@ -35,31 +35,35 @@ impl Rules {
         let mut rules = Self { values: Vec::new(), indices: HashMap::new() };
         let language = class.language;
         for stage_of in [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run] {
+            let id = stage(stage_of);
             let (short, full) = (Labels::of(language).stage(stage_of), about(stage_of));
-            let texts =
-                json!({ "shortDescription": { "text": short }, "fullDescription": { "text": full.get(language) } });
-            rules.add(stage(stage_of), "error", texts);
+            let help = Text::new(
+                "Look at the first error first: later ones often follow from it.",
+                "最初のエラーから直してみましょう。後のエラーは最初のエラーが原因であることがよくあります。",
+            );
+            rules.add(id, "Stage", "error", texts(short, full.get(language), help.get(language)));
         }
         for mistake in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.mistakes) {
-            rules.add(&mistake.id, "warning", described(mistake, language));
+            rules.add(&mistake.id, "Mistake", "warning", described(mistake, language));
         }
         // Mistakes that are found otherwise than by the equation have no description in the assignment.
         let named = class.entries.iter().filter_map(|entry| entry.report());
         let named = named.flat_map(|report| &report.rubric).filter_map(|line| line.mistake.as_deref());
         for id in named.chain([UNEXPLAINED]) {
             let lost = Text::new("Points are lost here.", "この箇所で減点があります。");
-            let texts = json!({ "shortDescription": { "text": one_line(id) }, "fullDescription": { "text": lost.get(language) } });
-            rules.add(id, "warning", texts);
+            let lost = lost.get(language);
+            rules.add(id, "Mistake", "warning", texts(&one_line(id), lost, lost));
         }
         rules
     }
 
-    fn add(&mut self, id: &str, level: &str, mut rule: Value) {
+    /// Adds a rule, if it is not there; `kind` ends its name, which has to be another than its id.
+    fn add(&mut self, id: &str, kind: &str, level: &str, mut rule: Value) {
         if self.indices.contains_key(id) {
             return;
         }
         rule["id"] = json!(id);
-        rule["name"] = json!(pascal_case(id));
+        rule["name"] = json!(format!("{}{kind}", pascal_case(id)));
         rule["defaultConfiguration"] = json!({ "level": level });
         self.indices.insert(id.to_owned(), self.values.len());
         self.values.push(rule);
@@ -95,7 +99,7 @@ fn about(stage: Stage) -> Text {
     }
 }
 
-/// `specular-phong` as `SpecularPhong`, the form in which viewers show the name of a rule.
+/// `specular-phong` as `SpecularPhong`: the form in which viewers show the name of a rule.
 fn pascal_case(id: &str) -> String {
     let capital = |word: &str| {
         let mut letters = word.chars();
@@ -110,11 +114,11 @@ fn described(mistake: &Mistake, language: Language) -> Value {
         let text = text.fill(&[]);
         Text::new(text.en, text.ja).get(language).to_owned()
     };
-    let mut rule = json!({ "shortDescription": { "text": said(&mistake.seen) } });
-    for (field, text) in [("fullDescription", said(&mistake.equation)), ("help", said(&mistake.look))] {
-        if !text.trim().is_empty() {
-            rule[field] = json!({ "text": text });
-        }
-    }
-    rule
+    texts(&said(&mistake.seen), &said(&mistake.equation), &said(&mistake.look))
+}
+
+/// The three texts that GitHub's code scanning wants of every rule; where there is no fuller one, the short one.
+fn texts(short: &str, full: &str, help: &str) -> Value {
+    let text = |text: &str| json!({ "text": if text.trim().is_empty() { short } else { text } });
+    json!({ "shortDescription": text(short), "fullDescription": text(full), "help": text(help) })
 }

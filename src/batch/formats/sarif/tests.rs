@@ -82,10 +82,11 @@ fn the_rules_tell_every_known_mistake_without_open_places() {
     // What GitHub's code scanning asks of every rule.
     for rule in rules {
         assert!(["id", "name"].iter().all(|field| rule[field].is_string()), "{rule}");
-        let described = ["shortDescription", "fullDescription"].iter().all(|field| rule[field]["text"].is_string());
+        let described =
+            ["shortDescription", "fullDescription", "help"].iter().all(|field| rule[field]["text"].is_string());
         assert!(described, "{rule}");
     }
-    assert!(rules.iter().any(|rule| rule["id"] == "specular-phong" && rule["name"] == "SpecularPhong"));
+    assert!(rules.iter().any(|rule| rule["id"] == "specular-phong" && rule["name"] == "SpecularPhongMistake"));
     for mistake in &reference::assignment("ggsample06").unwrap().mistakes {
         let rule = rules.iter().find(|rule| rule["id"] == mistake.id.as_str()).expect(&mistake.id);
         let text = format!("{rule}");
