@@ -137,10 +137,10 @@ impl Writer {
         let Some(Averages { count, mean, median }) = statistics::averages(class) else { return };
         self.heading(self.text("Scores", "得点"));
         let facts = match self.language {
-            Language::En => format!("mean {mean:.1}   median {median:.1}   ({count} graded)"),
-            Language::Ja => format!("平均 {mean:.1}   中央値 {median:.1}   (採点した {count} 名)"),
+            Language::En => format!("mean {mean:.1} · median {median:.1} · {count} graded"),
+            Language::Ja => format!("平均 {mean:.1} · 中央値 {median:.1} · 採点 {count} 名"),
         };
-        self.line(&format!("  {facts}"));
+        self.paragraph(2, Style::new(), &facts);
         let bins = statistics::histogram(class);
         let most = bins.iter().copied().max().unwrap_or(1).max(1);
         let room = self.width.min(BARS) - 18;

@@ -50,7 +50,7 @@ fn everything_that_happened_is_told() {
         "✓ Correct               1   17 %",
         "! Grading failed        1   17 %",
         // The samples have 100, 80, 0 and 0 points.
-        "  mean 45.0   median 40.0   (4 graded)",
+        "  mean 45.0 · median 40.0 · 4 graded",
         "specular-half-unnormalized",
         "    No file was handed in.",
         "    no processor",
