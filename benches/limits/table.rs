@@ -11,20 +11,17 @@ const TOLERANCE: f64 = 1.25;
 
 /// What each figure is.
 const MEANINGS: [(&str, &str); 12] = [
-    ("bare-driver", "CPU time of the bare driver for one submission: the median of 100 shaders"),
+    ("bare-driver", "CPU time of the bare driver for one submission, median"),
     ("grade", "CPU time of a whole grading in one process, in turns with the above"),
     ("grade-to-bare", "the one against the other"),
-    (
-        "pool-cpu",
-        "CPU time a submission of a class of 1,000 in the sandbox's pool, all processes, start and end included",
-    ),
+    ("pool-cpu", "CPU time a submission of a class in the sandbox's pool, all processes, start and end included"),
     ("pool-parent-cpu", "the parent's part of it"),
     ("pool-to-bare", "that against the bare driver"),
     ("pool-rate", "submissions a second by the clock, two workers"),
     ("pool-rate-cpu", "submissions a second that two cores have the CPU time for"),
-    ("growth", "CPU time of 1,000 submissions against that of 250"),
-    ("command", "`ggrade grade FILE` by the clock, median of 20"),
-    ("memory", "resident memory of parent and workers, the most over 10,000 gradings"),
+    ("growth", "CPU time of the class against that of a quarter of it"),
+    ("command", "`ggrade grade FILE` by the clock, median"),
+    ("memory", "resident memory of parent and workers, the most at any time; what they share counts for each"),
     ("memory-growth", "mean of the last tenth of these against that of the second"),
 ];
 
