@@ -10,13 +10,21 @@
 //!   every vertex after the first to say so finds no fuel, so that they all end quickly;
 //! - return one and the same position for every vertex: nothing is to be painted, and the driver has nothing to clip.
 
+mod inputs;
+mod types;
+
+pub use inputs::Attribute;
+pub(super) use inputs::locate;
+
 use super::build::Build;
 use super::fuel::{self, Gauge};
+use inputs::feed;
 use naga::{
-    AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, Expression, Function, FunctionArgument,
-    FunctionResult, GlobalVariable, Handle, Literal, LocalVariable, Module, ResourceBinding, Scalar, Span, Statement,
-    StorageAccess, StructMember, Type, TypeInner, VectorSize,
+    AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, Function, FunctionArgument, FunctionResult,
+    GlobalVariable, Handle, Literal, LocalVariable, Module, ResourceBinding, Span, Statement, StorageAccess, Type,
+    TypeInner,
 };
+use types::Types;
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
 pub const CAPTURE_GROUP: u32 = 1;
@@ -29,21 +37,6 @@ const UNDEFINED_MEMBER: u32 = 2;
 const RECORDS_MEMBER: u32 = 3;
 /// Bytes of one captured vertex: clip-space position and colour, four f32 each.
 pub const CAPTURE_STRIDE: u64 = 32;
-
-/// A vertex attribute that the shader reads.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Attribute {
-    /// Its name in the student's file.
-    pub name: String,
-    /// Its location in the module.
-    pub location: u32,
-    /// Its GLSL type, such as `vec4`.
-    pub ty: String,
-    /// What its components are, where it is a scalar or vector.
-    pub kind: Option<naga::ScalarKind>,
-    /// Bytes of a component.
-    pub width: u8,
-}
 
 /// What the entry point does around the call of `main`.
 #[derive(Clone, Debug)]
@@ -68,34 +61,6 @@ pub(super) fn rebuild(module: &mut Module, inputs: &[&str], output: &str, hooks:
     entry.name = "main".into();
     module.entry_points.push(entry);
     attributes
-}
-
-/// Gives attributes the locations of their places in the interface, and the outputs location 0.
-pub(super) fn locate(module: &mut Module, interface: &super::Interface) {
-    let function = &mut module.entry_points[0].function;
-    for argument in &mut function.arguments {
-        let place = interface.inputs.iter().position(|input| Some(&input.name) == argument.name.as_ref());
-        if let (Some(Binding::Location { location, .. }), Some(place)) = (&mut argument.binding, place) {
-            *location = place as u32;
-        }
-    }
-    let Some(result) = &mut function.result else { return };
-    let old = result.ty;
-    let mut ty = module.types[old].clone();
-    if let TypeInner::Struct { members, .. } = &mut ty.inner {
-        for member in members {
-            if let Some(Binding::Location { location, .. }) = &mut member.binding {
-                *location = 0;
-            }
-        }
-    }
-    result.ty = module.types.insert(ty, Span::UNDEFINED);
-    for (_, expression) in function.expressions.iter_mut() {
-        match expression {
-            Expression::Compose { ty, .. } if *ty == old => *ty = result.ty,
-            _ => {}
-        }
-    }
 }
 
 /// The values that `main` leaves behind, as expressions of the wrapper; none where never written.
@@ -144,118 +109,6 @@ impl Outputs {
         });
         Self { position, colour }
     }
-}
-
-/// Keeps the inputs that the program feeds and takes the others away. Gives the attributes and the
-/// index of the argument that carries `instance_index`.
-fn feed(module: &mut Module, function: &mut Function, inputs: &[&str]) -> (Vec<Attribute>, u32) {
-    let arguments = std::mem::take(&mut function.arguments);
-    let mut attributes = Vec::new();
-    let mut kept = Vec::new();
-    for argument in &arguments {
-        let keep = match (&argument.binding, &argument.name) {
-            (Some(Binding::Location { .. }), Some(name)) if inputs.contains(&name.as_str()) => {
-                let inner = &module.types[argument.ty].inner;
-                attributes.push(Attribute {
-                    name: name.clone(),
-                    location: attributes.len() as u32,
-                    ty: super::interface::type_name(inner),
-                    kind: inner.scalar_kind(),
-                    width: inner.scalar().map_or(0, |scalar| scalar.width),
-                });
-                true
-            }
-            (Some(Binding::BuiltIn(BuiltIn::VertexIndex)), _) => true,
-            _ => false,
-        };
-        kept.push(keep.then(|| {
-            let mut argument = argument.clone();
-            if let (Some(Binding::Location { location, .. }), Some(attribute)) =
-                (&mut argument.binding, attributes.last())
-            {
-                // The compiler's automatic locations may collide with the student's own.
-                *location = attribute.location;
-            }
-            function.arguments.push(argument);
-            function.arguments.len() as u32 - 1
-        }));
-    }
-    let u32_type = scalar_type(module, Scalar::U32);
-    let instance = function.arguments.len() as u32;
-    function.arguments.push(FunctionArgument {
-        name: None,
-        ty: u32_type,
-        binding: Some(Binding::BuiltIn(BuiltIn::InstanceIndex)),
-    });
-
-    let mut dropped = Vec::new();
-    for (handle, expression) in function.expressions.iter_mut() {
-        if let Expression::FunctionArgument(index) = expression {
-            let index = *index as usize;
-            match kept[index] {
-                Some(new) => *expression = Expression::FunctionArgument(new),
-                None => {
-                    *expression = Expression::ZeroValue(arguments[index].ty);
-                    dropped.push((handle, index));
-                }
-            }
-        }
-    }
-    drop_stores(module, function, &arguments, &dropped);
-    (attributes, instance)
-}
-
-/// Removes the copies of dropped inputs; a generic attribute that nothing feeds is (0, 0, 0, 1).
-fn drop_stores(
-    module: &mut Module,
-    function: &mut Function,
-    arguments: &[FunctionArgument],
-    dropped: &[(Handle<Expression>, usize)],
-) {
-    let is_dropped = |value: &Handle<Expression>| {
-        let source = match function.expressions[*value] {
-            Expression::As { expr, .. } => expr,
-            _ => *value,
-        };
-        dropped.iter().find(|(handle, _)| *handle == source).map(|(_, index)| *index)
-    };
-    let mut body = Block::new();
-    let mut defaults = Vec::new();
-    for (statement, span) in std::mem::take(&mut function.body).span_into_iter() {
-        if let Statement::Store { pointer, value } = &statement
-            && let Some(index) = is_dropped(value)
-        {
-            if let Expression::GlobalVariable(global) = function.expressions[*pointer]
-                && matches!(arguments[index].binding, Some(Binding::Location { .. }))
-            {
-                defaults.push(global);
-            }
-            continue;
-        }
-        body.push(statement, span);
-    }
-    function.body = body;
-    for global in defaults {
-        unset_attribute(module, global);
-    }
-}
-
-fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
-    let ty = module.global_variables[global].ty;
-    let TypeInner::Vector { size: VectorSize::Quad, scalar } = module.types[ty].inner else {
-        return;
-    };
-    let Some(one) = Literal::one(scalar) else {
-        return;
-    };
-    let Some(zero) = Literal::zero(scalar) else {
-        return;
-    };
-    let components = [zero, zero, zero, one]
-        .map(|literal| module.global_expressions.append(Expression::Literal(literal), Span::UNDEFINED))
-        .to_vec();
-    let init = module.global_expressions.append(Expression::Compose { ty, components }, Span::UNDEFINED);
-    module.global_variables[global].init = Some(init);
 }
 
 /// Tells in the capture's header what [`super::undefined`] met. Any vertex's answer will do.
@@ -351,39 +204,4 @@ fn write_record(
     let to_colour = build.member(record, 1);
     build.store(to_position, position);
     build.store(to_colour, colour);
-}
-
-struct Types {
-    u32: Handle<Type>,
-    vec4: Handle<Type>,
-    capture: Handle<Type>,
-}
-
-impl Types {
-    fn new(module: &mut Module) -> Self {
-        let u32 = scalar_type(module, Scalar::U32);
-        let vec4 = insert(module, TypeInner::Vector { size: VectorSize::Quad, scalar: Scalar::F32 });
-        let member = |name: &str, binding, offset| StructMember { name: Some(name.into()), ty: vec4, binding, offset };
-        let record = insert(
-            module,
-            TypeInner::Struct { members: vec![member("position", None, 0), member("colour", None, 16)], span: 32 },
-        );
-        let records =
-            insert(module, TypeInner::Array { base: record, size: ArraySize::Dynamic, stride: CAPTURE_STRIDE as u32 });
-        let number = |name: &str, offset| StructMember { name: Some(name.into()), ty: u32, binding: None, offset };
-        let header = [number("ran_out", 0), number("zero", 4), number("undefined", 8)];
-        let behind =
-            StructMember { name: Some("records".into()), ty: records, binding: None, offset: CAPTURE_HEADER as u32 };
-        let span = (CAPTURE_HEADER + CAPTURE_STRIDE) as u32;
-        let capture = insert(module, TypeInner::Struct { members: header.into_iter().chain([behind]).collect(), span });
-        Self { u32, vec4, capture }
-    }
-}
-
-fn scalar_type(module: &mut Module, scalar: Scalar) -> Handle<Type> {
-    insert(module, TypeInner::Scalar(scalar))
-}
-
-fn insert(module: &mut Module, inner: TypeInner) -> Handle<Type> {
-    module.types.insert(Type { name: None, inner }, Span::UNDEFINED)
 }
