@@ -6,11 +6,15 @@ use serde::Serialize;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
+/// Where else options can be given.
+const ELSEWHERE: &str = "Every option can also be an environment variable (GGRADE_QUEUE=64 for --queue 64) or a line of \
+                         the file (queue = 64, teacher_token = \"...\"; trusted_proxies = [\"127.0.0.1\"] for \
+                         --trusted-proxy). A flag goes before the environment, the environment before the file. \
+                         docs/service.md has more, such as the limits for slow clients.";
+
 /// Serve the upload pages.
-///
-/// Every option can also be given as an environment variable (`GGRADE_QUEUE=64` for `--queue 64`) or as a line of a
-/// TOML file (`queue = 64`, `teacher_token = "…"`). A flag goes before the environment, the environment before the file.
 #[derive(Clone, Debug, Default, Args, Serialize)]
+#[command(after_help = ELSEWHERE)]
 pub struct Serve {
     /// A TOML file with any of these options
     #[arg(long, value_name = "FILE", env = "GGRADE_CONFIG")]

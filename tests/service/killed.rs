@@ -81,6 +81,14 @@ async fn nothing_acknowledged_is_lost_and_nothing_is_doubled(database: Database)
         let source = source.expect("an answer").text().await.expect("a file");
         assert!(source.ends_with(mark.as_str()), "{id} is another file");
     }
+    // What was stored and never acknowledged is graded as well.
+    for _ in 0..600 {
+        let figures = client.get(format!("{}/metrics", server.address)).send().await.expect("an answer");
+        if figures.text().await.expect("text").contains("\nggrade_submissions_waiting 0\n") {
+            break;
+        }
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
     assert!(server.terminate().success());
     assert!(acknowledged.len() > 2 * KILLS, "too few to prove anything: {}", acknowledged.len());
 

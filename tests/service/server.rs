@@ -162,6 +162,16 @@ fn a_file_is_served_by_one_process() {
 }
 
 #[test]
+fn a_database_that_does_not_answer_is_named_without_its_password() {
+    let url = "postgres://ta:SECRET@127.0.0.1:1/course";
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ggrade"));
+    let (code, said) = output(command.args(["serve", "--listen", "127.0.0.1:0", "--database", url]).env("LANG", "C"));
+    assert_eq!(code, Some(3), "{said}");
+    assert!(said.contains("postgres://127.0.0.1:1/course") && said.contains("refused"), "{said}");
+    assert!(!said.contains("SECRET"), "{said}");
+}
+
+#[test]
 fn flags_go_before_the_environment_and_the_environment_before_the_file() {
     let database = Database::sqlite();
     let folder = tempfile::tempdir().expect("a folder");

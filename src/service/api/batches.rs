@@ -1,7 +1,7 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
 use super::archive::Archive;
-use super::schema::{BatchJson, Errors, NotFound, Refusals};
+use super::schema::{BatchJson, Errors, FormatName, NotFound, Refusals};
 use super::submissions::attachment;
 use crate::batch::formats::Format;
 use crate::language::Language;
@@ -157,7 +157,7 @@ pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item =
 /// Formats of several files come as a ZIP. `moodle-worksheet` needs the worksheet: POST it here.
 #[utoipa::path(
     get, path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the batch"), ("format" = String, Path, description = "Name of the format")),
+    params(("id" = String, Path, description = "Id of the batch"), ("format" = FormatName, Path, description = "Name of the format")),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]
 pub(super) async fn file(
@@ -173,7 +173,7 @@ pub(super) async fn file(
 /// A batch in Moodle's worksheet
 #[utoipa::path(
     post, path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the batch"), ("format" = String, Path, description = "`moodle-worksheet`")),
+    params(("id" = String, Path, description = "Id of the batch"), ("format" = FormatName, Path, description = "`moodle-worksheet`; others take no file")),
     request_body(content = String, content_type = "text/csv", description = "The worksheet that Moodle gives"),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]
@@ -205,7 +205,7 @@ pub(super) struct PickQuery {
 /// What students handed in themselves, in a format of `ggrade batch`
 #[utoipa::path(
     get, path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("format" = String, Path, description = "Name of the format"), PickQuery),
+    params(("format" = FormatName, Path, description = "Name of the format"), PickQuery),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]
 pub(super) async fn class_file(

@@ -9,6 +9,8 @@ use crate::service::errors::ProblemJson;
 use crate::service::store::{Batch, BatchEntry, Progress, State, Submission, Via};
 use clap::ValueEnum;
 use serde::Serialize;
+use utoipa::openapi::RefOr;
+use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityScheme};
 
 /// A file that was handed in, and what came of it.
@@ -193,6 +195,18 @@ impl BatchJson {
         }
     }
 }
+
+/// The name of a format of `ggrade batch`.
+pub(super) struct FormatName;
+
+impl utoipa::PartialSchema for FormatName {
+    fn schema() -> RefOr<Schema> {
+        let names = Format::value_variants().iter().map(|format| format.id());
+        ObjectBuilder::new().schema_type(Type::String).enum_values(Some(names)).into()
+    }
+}
+
+impl utoipa::ToSchema for FormatName {}
 
 /// The pictures of a submission.
 #[derive(Debug, Serialize, utoipa::ToSchema)]

@@ -51,14 +51,16 @@ pub(super) struct FileForm {
     #[schema(content_media_type = "application/octet-stream", min_length = 1)]
     file: String,
     /// Id of the assignment.
+    #[schema(nullable = false)]
     assignment: Option<String>,
     /// How much the messages help.
-    #[schema(inline)]
+    #[schema(inline, nullable = false)]
     hints: Option<Hints>,
     /// Number of the student for whom it is handed in.
-    #[schema(pattern = "^[A-Za-z0-9._-]{1,32}$")]
+    #[schema(pattern = "^[A-Za-z0-9._-]{1,32}$", nullable = false)]
     student: Option<String>,
     /// Secret of the course link.
+    #[schema(nullable = false)]
     course: Option<String>,
 }
 

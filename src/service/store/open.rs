@@ -3,6 +3,7 @@
 use super::{Pool, Result, Store, StoreError};
 use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
 use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
+use sqlx::{ConnectOptions, Connection};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
@@ -84,6 +85,8 @@ impl Store {
 
     async fn open_postgres(url: &str) -> Result<Self> {
         let options = PgConnectOptions::from_str(url)?.application_name("ggrade");
+        // A pool says only that it waited in vain; one connection says why.
+        options.connect().await?.close().await?;
         let pool =
             PgPoolOptions::new().max_connections(2 * READERS).acquire_timeout(BUSY).connect_with(options).await?;
         POSTGRES.run(&pool).await?;
