@@ -24,18 +24,27 @@ impl Assignment {
         poses.iter().map(|pose| self.frame(pose, &right)).collect()
     }
 
+    /// The vertices of that picture, with the term in place of the colour.
+    pub fn term_corners(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<[ClipVertex; 3]> {
+        self.equation.index(term)?;
+        Some(self.corners(pose, variant, term))
+    }
+
     fn picture(&self, pose: &Pose, variant: &Variant<'_>, shown: &str) -> Frame {
+        let scene = &self.scene;
+        let mut frame = Frame::cleared(scene.width, scene.height, scene.background);
+        frame.draw(&self.corners(pose, variant, shown));
+        frame
+    }
+
+    fn corners(&self, pose: &Pose, variant: &Variant<'_>, shown: &str) -> [ClipVertex; 3] {
         let uniforms = self.uniform_values(&pose.matrices);
-        let triangle = self.scene.triangle.map(|vertex| {
+        self.scene.triangle.map(|vertex| {
             let outcome = variant.evaluate(&uniforms, &self.attribute_values(&vertex));
             ClipVertex {
                 position: outcome.position(),
                 colour: outcome.get(shown).map_or(glam::DVec3::NAN, |v| v.vec3()),
             }
-        });
-        let scene = &self.scene;
-        let mut frame = Frame::cleared(scene.width, scene.height, scene.background);
-        frame.draw(&triangle);
-        frame
+        })
     }
 }

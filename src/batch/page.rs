@@ -7,21 +7,18 @@ use crate::report::html::Page;
 use crate::report::{Equation, Picture, Pictures, Report};
 use crate::source;
 use reference::Assignment;
-use std::sync::{Mutex, PoisonError};
 
 /// Makes the pages of a class.
 pub struct Pages {
     assignment: &'static Assignment,
     equation: Equation,
     language: Language,
-    /// The right pictures, one set for each page that is being made.
-    expected: Mutex<Vec<Vec<Picture>>>,
 }
 
 impl Pages {
     /// The pages for an assignment.
     pub fn new(assignment: &'static Assignment, language: Language) -> Self {
-        Self { assignment, equation: Equation::illumination(), language, expected: Mutex::default() }
+        Self { assignment, equation: Equation::illumination(), language }
     }
 
     /// The page of one report; `bytes` is the file and `frames` what it draws, which is
@@ -34,10 +31,9 @@ impl Pages {
         let is_drawn = !frames.is_empty();
         let mut pictures = Pictures::default();
         if is_drawn {
-            let spare = self.expected.lock().unwrap_or_else(PoisonError::into_inner).pop();
             pictures = Pictures {
                 yours: std::mem::take(frames),
-                expected: spare.unwrap_or_else(|| homework::expected_pictures(self.assignment)),
+                expected: homework::expected_pictures(self.assignment),
                 terms: homework::term_pictures(self.assignment, report.explanation.as_deref(), source.as_ref()),
             };
         }
@@ -51,7 +47,6 @@ impl Pages {
         .render();
         if is_drawn {
             *frames = pictures.yours;
-            self.expected.lock().unwrap_or_else(PoisonError::into_inner).push(pictures.expected);
         }
         page
     }

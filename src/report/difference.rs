@@ -62,18 +62,34 @@ pub(super) fn band_of(difference: f64) -> Option<Band> {
 /// Where they agree, the expected picture shows through as a faint negative in four steps, so that
 /// a difference can be placed. Both pictures have one size.
 pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
-    let pairs = yours.rgba.chunks_exact(4).zip(expected.rgba.chunks_exact(4));
-    pairs.map(|(yours, expected)| pixel(yours, expected)).collect()
+    let ramp = Ramp::new();
+    let pairs = yours.rgba.as_chunks::<4>().0.iter().zip(expected.rgba.as_chunks::<4>().0);
+    pairs.map(|(yours, expected)| ramp.pixel(yours, expected)).collect()
 }
 
-fn pixel(yours: &[u8], expected: &[u8]) -> [u8; 3] {
-    let channels = yours[..3].iter().zip(&expected[..3]);
-    let largest = channels.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
-    band_of(f64::from(largest)).map_or_else(|| ghost(expected), |band| band.colour)
+/// The colour of every difference, and of every sum of channels where there is none.
+pub(super) struct Ramp {
+    bands: [[u8; 3]; 256],
+    ghosts: [[u8; 3]; 3 * 255 + 1],
 }
 
-fn ghost(expected: &[u8]) -> [u8; 3] {
-    let sum: u32 = expected[..3].iter().copied().map(u32::from).sum();
+impl Ramp {
+    pub fn new() -> Self {
+        let band = |level| band_of(level as f64).map_or([0; 3], |band| band.colour);
+        Self { bands: std::array::from_fn(band), ghosts: std::array::from_fn(ghost) }
+    }
+
+    /// The pixel of the difference picture.
+    pub fn pixel(&self, [r, g, b, _]: &[u8; 4], [er, eg, eb, _]: &[u8; 4]) -> [u8; 3] {
+        match r.abs_diff(*er).max(g.abs_diff(*eg)).max(b.abs_diff(*eb)) {
+            0 => self.ghosts[usize::from(*er) + usize::from(*eg) + usize::from(*eb)],
+            level => self.bands[usize::from(level)],
+        }
+    }
+}
+
+/// What shows of a pixel on which both agree, by the sum of its channels.
+fn ghost(sum: usize) -> [u8; 3] {
     let darkness = 3 - (sum * 3 / (3 * 255)).min(3);
     [0x12 + 0x0b * darkness as u8; 3]
 }
@@ -107,7 +123,7 @@ mod tests {
     fn ramp_gets_lighter_band_by_band() {
         // Rec. 709 luma, without its scale.
         let luma = |[r, g, b]: [u8; 3]| 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
-        let faintest_ghost = luma(ghost(&[0, 0, 0]));
+        let faintest_ghost = luma(ghost(0));
         assert!(luma(BANDS[0].colour) > faintest_ghost);
         assert!(BANDS.windows(2).all(|pair| luma(pair[1].colour) > luma(pair[0].colour)));
     }
@@ -128,6 +144,6 @@ mod tests {
             assert_eq!(difference(&dot(rgba), &expected), [BANDS[0].colour]);
         }
         let same = difference(&dot([30, 0, 0, 0]), &expected);
-        assert_eq!(same, [ghost(&[30, 0, 0])]);
+        assert_eq!(same, [ghost(30)]);
     }
 }

@@ -4,7 +4,6 @@ use super::Picture;
 use crate::fault::Fault;
 use crate::language::Text;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
-use std::collections::HashMap;
 
 type Rgb = [u8; 3];
 
@@ -40,9 +39,72 @@ impl Raster {
 ///
 /// Up to 256 colours go into a palette: a third of the size, and of the time.
 pub(super) fn encode(frames: &[&Raster]) -> Result<Vec<u8>, Fault> {
-    let palette = Palette::of(frames);
+    let size = frames.first().map_or((0, 0), |frame| (frame.width, frame.height));
+    let mut palette = Palette::default();
+    let indices = frames.iter().map(|frame| frame.pixels.iter().map(|colour| palette.index(*colour)).collect());
+    match indices.collect::<Option<Vec<Vec<u8>>>>() {
+        Some(indices) => {
+            let frames: Vec<&[u8]> = indices.iter().map(Vec::as_slice).collect();
+            write(size, Some(&palette.colours), &frames)
+        }
+        None => {
+            let frames: Vec<&[u8]> = frames.iter().map(|frame| frame.pixels.as_flattened()).collect();
+            write(size, None, &frames)
+        }
+    }
+}
+
+/// A picture that is painted piece by piece: in a palette for as long as 256 colours are enough.
+pub(super) struct Canvas {
+    pub width: usize,
+    pub height: usize,
+    palette: Palette,
+    pixels: Pixels,
+}
+
+enum Pixels {
+    Indexed(Vec<u8>),
+    Full(Vec<Rgb>),
+}
+
+impl Canvas {
+    /// A canvas of one colour.
+    pub fn new(width: usize, height: usize, blank: Rgb) -> Self {
+        let mut palette = Palette::default();
+        let first = palette.index(blank).unwrap_or_default();
+        Self { width, height, palette, pixels: Pixels::Indexed(vec![first; width * height]) }
+    }
+
+    /// Paints pixels from the `start`th on, counted row by row.
+    pub fn put(&mut self, start: usize, colours: impl Iterator<Item = Rgb> + Clone) {
+        if let Pixels::Indexed(indices) = &mut self.pixels {
+            let mut cells = indices[start..].iter_mut().zip(colours.clone());
+            let fits = cells.all(|(cell, colour)| self.palette.index(colour).map(|index| *cell = index).is_some());
+            if fits {
+                return;
+            }
+            let full = indices.iter().map(|index| self.palette.colours[usize::from(*index)]);
+            self.pixels = Pixels::Full(full.collect());
+        }
+        if let Pixels::Full(pixels) = &mut self.pixels {
+            pixels[start..].iter_mut().zip(colours).for_each(|(cell, colour)| *cell = colour);
+        }
+    }
+
+    /// It as a PNG.
+    pub fn encode(&self) -> Result<Vec<u8>, Fault> {
+        let size = (self.width, self.height);
+        match &self.pixels {
+            Pixels::Indexed(indices) => write(size, Some(&self.palette.colours), &[indices]),
+            Pixels::Full(pixels) => write(size, None, &[pixels.as_flattened()]),
+        }
+    }
+}
+
+/// Frames of bytes as a PNG: places in a palette, or red, green and blue where there is none.
+fn write(size: (usize, usize), palette: Option<&[Rgb]>, frames: &[&[u8]]) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
-    write_frames(frames, palette.as_ref(), &mut bytes).map_err(|error| {
+    write_frames(size, palette, frames, &mut bytes).map_err(|error| {
         Fault::new(Text::new(
             format!("A picture could not be encoded: {error}."),
             format!("画像を PNG にできませんでした（{error}）。"),
@@ -51,21 +113,23 @@ pub(super) fn encode(frames: &[&Raster]) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
-fn write_frames(frames: &[&Raster], palette: Option<&Palette>, out: &mut Vec<u8>) -> Result<(), png::EncodingError> {
-    let (width, height) = frames.first().map_or((0, 0), |frame| (frame.width, frame.height));
+fn write_frames(
+    (width, height): (usize, usize),
+    palette: Option<&[Rgb]>,
+    frames: &[&[u8]],
+    out: &mut Vec<u8>,
+) -> Result<(), png::EncodingError> {
     let mut encoder = Encoder::new(out, width as u32, height as u32);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::Balanced);
+    // Ramps of few colours: row above row there is little left to compress, and noise cannot be compressed at all.
+    encoder.set_compression(Compression::Fast);
+    encoder.set_filter(Filter::Up);
     match palette {
-        Some(palette) => {
+        Some(colours) => {
             encoder.set_color(ColorType::Indexed);
-            encoder.set_palette(palette.colours.as_flattened().to_vec());
-            encoder.set_filter(Filter::NoFilter);
+            encoder.set_palette(colours.as_flattened().to_vec());
         }
-        None => {
-            encoder.set_color(ColorType::Rgb);
-            encoder.set_filter(Filter::Up);
-        }
+        None => encoder.set_color(ColorType::Rgb),
     }
     if frames.len() > 1 {
         let delay = CYCLE_SECONDS * 1000.0 / frames.len() as f64;
@@ -74,51 +138,50 @@ fn write_frames(frames: &[&Raster], palette: Option<&Palette>, out: &mut Vec<u8>
     }
     let mut writer = encoder.write_header()?;
     for frame in frames {
-        match palette {
-            Some(palette) => writer.write_image_data(&palette.indices(frame))?,
-            None => writer.write_image_data(frame.pixels.as_flattened())?,
-        }
+        writer.write_image_data(frame)?;
     }
     writer.finish()
 }
 
-/// The colours of some pictures, where there are at most 256 of them.
+/// The colours of some pictures, at most 256, in the order in which they come.
 struct Palette {
     colours: Vec<Rgb>,
-    index: HashMap<Rgb, u8>,
+    /// Where the colours are found: four times as many places as colours, so that few collide.
+    places: [Option<u8>; 1024],
+    last: Option<(Rgb, u8)>,
+}
+
+impl Default for Palette {
+    fn default() -> Self {
+        Self { colours: Vec::new(), places: [None; 1024], last: None }
+    }
 }
 
 impl Palette {
-    fn of(frames: &[&Raster]) -> Option<Self> {
-        let mut palette = Self { colours: Vec::new(), index: HashMap::new() };
-        let mut last = None;
-        for &colour in frames.iter().flat_map(|frame| &frame.pixels) {
-            if last != Some(colour) {
-                palette.add(colour)?;
-                last = Some(colour);
-            }
+    /// The place of a colour among all; none for the 257th.
+    fn index(&mut self, colour: Rgb) -> Option<u8> {
+        if let Some((last, index)) = self.last
+            && last == colour
+        {
+            return Some(index);
         }
-        Some(palette)
-    }
-
-    fn add(&mut self, colour: Rgb) -> Option<()> {
-        if !self.index.contains_key(&colour) {
-            let next = u8::try_from(self.colours.len()).ok()?;
-            self.colours.push(colour);
-            self.index.insert(colour, next);
-        }
-        Some(())
-    }
-
-    fn indices(&self, frame: &Raster) -> Vec<u8> {
-        let mut last = ([0; 3], self.index.get(&[0; 3]).copied().unwrap_or(0));
-        let index = |&colour: &Rgb| {
-            if last.0 != colour {
-                last = (colour, self.index.get(&colour).copied().unwrap_or(0));
+        let [r, g, b] = colour.map(u32::from);
+        // 2³² divided by the golden ratio, as a hash: the upper ten bits.
+        let mut place = ((r << 16 | g << 8 | b).wrapping_mul(0x9E37_79B9) >> 22) as usize;
+        let index = loop {
+            match self.places[place] {
+                Some(index) if self.colours[usize::from(index)] == colour => break index,
+                Some(_) => place = (place + 1) % self.places.len(),
+                None => {
+                    let index = u8::try_from(self.colours.len()).ok()?;
+                    self.colours.push(colour);
+                    self.places[place] = Some(index);
+                    break index;
+                }
             }
-            last.1
         };
-        frame.pixels.iter().map(index).collect()
+        self.last = Some((colour, index));
+        Some(index)
     }
 }
 

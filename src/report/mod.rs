@@ -18,6 +18,7 @@ pub use equation::{Definition, Equation, Term};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The outcome in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
@@ -169,8 +170,8 @@ pub struct Picture {
 pub struct Pictures {
     /// What the student's shader draws.
     pub yours: Vec<Picture>,
-    /// What a right answer draws.
-    pub expected: Vec<Picture>,
+    /// What a right answer draws: the same for all of a class.
+    pub expected: Arc<[Picture]>,
     /// One term of the equation at a time, where that is known.
     pub terms: Vec<TermPictures>,
 }

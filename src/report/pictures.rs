@@ -16,10 +16,10 @@ const GAP_COLOUR: [u8; 3] = [0x80; 3];
 
 /// One pose: what was drawn, what is expected, and where they differ.
 #[derive(Clone, Debug)]
-pub(super) struct Pose {
-    pub yours: Raster,
-    pub expected: Raster,
-    pub difference: Raster,
+struct Pose {
+    yours: Raster,
+    expected: Raster,
+    difference: Raster,
 }
 
 impl Pose {
@@ -34,22 +34,9 @@ impl Pose {
     }
 
     /// Every pose of a grading, in order; a fault unless all pictures have one size.
-    pub fn all(pictures: &Pictures) -> Result<Vec<Self>, Fault> {
-        Self::pairs(&pictures.yours, &pictures.expected)
-    }
-
-    /// The same of what was drawn and what is expected.
-    pub fn pairs(yours: &[Picture], expected: &[Picture]) -> Result<Vec<Self>, Fault> {
-        if yours.len() != expected.len() {
-            return Err(mismatched());
-        }
-        let mut all = yours.iter().chain(expected);
-        let size = |picture: &Picture| (picture.width, picture.height);
-        let first = all.next().map(size);
-        if all.any(|picture| Some(size(picture)) != first) {
-            return Err(mismatched());
-        }
-        let pairs = yours.iter().zip(expected);
+    fn all(pictures: &Pictures) -> Result<Vec<Self>, Fault> {
+        fit(&pictures.yours, &pictures.expected)?;
+        let pairs = pictures.yours.iter().zip(pictures.expected.iter());
         pairs.map(|(yours, expected)| Self::of(yours, expected)).collect()
     }
 
@@ -59,6 +46,18 @@ impl Pose {
         let pixels = rows.flat_map(|((a, b), c)| [a, &gap, b, &gap, c].concat()).collect();
         Raster { width: 3 * self.yours.width + 2 * GAP, height: self.yours.height, pixels }
     }
+}
+
+/// A fault unless there are as many pictures of each kind, all whole and of one size.
+pub(super) fn fit(yours: &[Picture], expected: &[Picture]) -> Result<(), Fault> {
+    let size = |picture: &Picture| (picture.width, picture.height);
+    let first = yours.first().map(size);
+    let is_sound = |picture: &Picture| {
+        let bytes = picture.width as usize * picture.height as usize * 4;
+        Some(size(picture)) == first && bytes > 0 && picture.rgba.len() == bytes
+    };
+    let fits = yours.len() == expected.len() && yours.iter().chain(expected).all(is_sound);
+    if fits { Ok(()) } else { Err(mismatched()) }
 }
 
 /// Writes `yours-00.png`, `expected-00.png`, `difference-00.png` and so on into a directory, which

@@ -155,10 +155,10 @@ fn frame(pose: u32, level: f64) -> FrameResult {
 
 /// Shaded triangles that turn; the highlight of `yours` is a little darker.
 pub(crate) fn pictures() -> Pictures {
-    let pair = |shine| (0..POSES).map(|pose| triangle(pose, shine)).collect();
+    let pair = |shine| (0..POSES).map(move |pose| triangle(pose, shine));
     Pictures {
-        yours: pair(60),
-        expected: pair(100),
+        yours: pair(60).collect(),
+        expected: pair(100).collect(),
         terms: vec![TermPictures {
             id: "specular".into(),
             t: 0.48,

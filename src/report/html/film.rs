@@ -1,15 +1,17 @@
 //! The moving pictures as files: each a sheet of all poses, and the style that moves it.
 
-use super::sheet::{Grid, Step, address};
+use super::sheet::{Grid, Step};
+use super::shots::Shots;
 use crate::fault::Fault;
-use crate::report::encode::{CYCLE_SECONDS, Raster, encode};
-use crate::report::pictures::Pose;
+use crate::report::encode::{CYCLE_SECONDS, Raster, encode, mismatched};
+use crate::report::pictures::fit;
 use crate::report::{Picture, Pictures, TermPictures};
 use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Bytes of the two sheets of a film. Those of a right answer take about 100 kB; a shader that draws noise
+/// Bytes of the two sheets of a film. Those of a right answer take about 170 kB; a shader that draws noise
 /// would take 15 MB, and is shown at a lower resolution instead.
 const BUDGET: usize = 400_000;
 /// Factors by which the pictures are reduced in turn until they fit.
@@ -33,15 +35,14 @@ impl Film {
     /// The film of a grading in every `finest`-th pixel of every `finest`-th row, or coarser where that is too large;
     /// none when nothing was drawn.
     pub fn of(yours: &[Picture], expected: &[Picture], finest: usize) -> Result<Option<Self>, Fault> {
-        let poses = Pose::pairs(yours, expected)?;
-        let Some(first) = poses.first() else { return Ok(None) };
-        let motion = Motion::of(poses.len(), first.expected.width, first.expected.height);
+        fit(yours, expected)?;
+        let (Some(first), Some(drawn)) = (expected.first(), Shots::of(yours)) else { return Ok(None) };
+        let Some(right) = Shots::of(expected) else { return Ok(None) };
+        let motion = Motion::of(expected.len(), first.width as usize, first.height as usize);
         let mut fitting = None;
         for factor in REDUCTIONS.into_iter().filter(|factor| *factor >= finest) {
-            let sheet = |part: fn(&Pose) -> &Raster| {
-                encode(&[&motion.grid.sheet(&poses.iter().map(part).collect::<Vec<_>>(), factor)])
-            };
-            let (yours, difference) = (sheet(|pose| &pose.yours)?, sheet(|pose| &pose.difference)?);
+            let yours = drawn.sheet(motion.grid, factor).encode()?;
+            let difference = drawn.difference(&right, motion.grid, factor).encode()?;
             let bytes = yours.len() + difference.len();
             fitting = Some(Self { yours, difference, is_reduced: factor > finest, motion, factor });
             if bytes <= BUDGET {
@@ -53,19 +54,14 @@ impl Film {
 
     /// Where a page that holds all pictures itself finds them.
     pub fn embedded(&self, pictures: &Pictures) -> Result<Gallery, Fault> {
-        let inline = |png: &[u8]| format!("data:image/png;base64,{}", STANDARD.encode(png));
+        let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&[&Raster::opaque(picture)?])?));
         let term = |term: &TermPictures| {
-            let yours = term.yours.as_ref().map(|picture| address(&Raster::opaque(picture)?));
-            Ok(Term {
-                id: term.id.clone(),
-                t: term.t,
-                yours: yours.transpose()?,
-                expected: address(&Raster::opaque(&term.expected)?)?,
-            })
+            let yours = term.yours.as_ref().map(address);
+            Ok(Term { id: term.id.clone(), t: term.t, yours: yours.transpose()?, expected: address(&term.expected)? })
         };
         Ok(Gallery {
             yours: inline(&self.yours),
-            expected: inline(&expected_sheet(&pictures.expected, self.factor)?),
+            expected: expected_address(&pictures.expected, self.factor)?,
             difference: inline(&self.difference),
             is_reduced: self.is_reduced,
             terms: pictures.terms.iter().map(term).collect::<Result<_, Fault>>()?,
@@ -75,8 +71,29 @@ impl Film {
 
 /// The sheet of what a right answer draws, the same for every film of an assignment, as a PNG.
 pub fn expected_sheet(expected: &[Picture], finest: usize) -> Result<Vec<u8>, Fault> {
-    let poses = expected.iter().map(Raster::opaque).collect::<Result<Vec<_>, Fault>>()?;
-    encode(&[&Grid::of(poses.len()).sheet(&poses.iter().collect::<Vec<_>>(), finest)])
+    fit(expected, expected)?;
+    let shots = Shots::of(expected).ok_or_else(mismatched)?;
+    shots.sheet(Grid::of(expected.len()), finest).encode()
+}
+
+/// It inside a page: made once for all pages that show the same pictures.
+fn expected_address(expected: &Arc<[Picture]>, finest: usize) -> Result<Arc<str>, Fault> {
+    static MADE: Mutex<Vec<(Weak<[Picture]>, usize, Arc<str>)>> = Mutex::new(Vec::new());
+    let lock = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_this = |pictures: &Weak<[Picture]>| Weak::ptr_eq(pictures, &Arc::downgrade(expected));
+    let known = lock().iter().find(|(pictures, factor, _)| *factor == finest && is_this(pictures)).cloned();
+    if let Some((_, _, address)) = known {
+        return Ok(address);
+    }
+    let address: Arc<str> = inline(&expected_sheet(expected, finest)?).into();
+    let mut made = lock();
+    made.retain(|(pictures, ..)| pictures.strong_count() > 0);
+    made.push((Arc::downgrade(expected), finest, Arc::clone(&address)));
+    Ok(address)
+}
+
+fn inline(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
 }
 
 /// Addresses of the pictures that a report shows.
@@ -85,7 +102,7 @@ pub struct Gallery {
     /// The sheet of what the student's shader draws.
     pub yours: String,
     /// The sheet of what a right answer draws.
-    pub expected: String,
+    pub expected: Arc<str>,
     /// The sheet of where they differ.
     pub difference: String,
     /// Whether to say that the sheets are smaller than they were drawn.

@@ -6,6 +6,7 @@ mod listing;
 mod player;
 pub(crate) mod rich;
 mod sheet;
+mod shots;
 
 pub use self::body::Mark;
 pub use self::film::{Film, Gallery, Motion, Term, expected_sheet};

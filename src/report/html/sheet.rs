@@ -1,9 +1,7 @@
-//! All poses in one image, and images inside the page.
+//! All poses in one image.
 
-use crate::fault::Fault;
-use crate::report::encode::{Raster, encode};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
+use crate::report::encode::Canvas;
+use std::ops::Range;
 
 /// How the poses lie in a sheet: row by row, in a grid that is about as wide as it is high, since
 /// browsers limit the side of an image more tightly than its area.
@@ -32,24 +30,29 @@ impl Grid {
         (0..self.count).map(step).collect()
     }
 
-    /// The pictures, of one size, in their places; cells that are left over are black.
+    /// Pictures of one size in their places, on cells of the colour `blank`.
     ///
-    /// Of every picture, every `factor`-th pixel of every `factor`-th row: no colour is invented.
-    pub fn sheet(self, pictures: &[&Raster], factor: usize) -> Raster {
-        let first = pictures.first();
-        let width = first.map_or(0, |first| first.width.div_ceil(factor));
-        let height = first.map_or(0, |first| first.height.div_ceil(factor));
-        let mut sheet = Raster {
-            width: width * self.columns,
-            height: height * self.rows,
-            pixels: vec![[0; 3]; width * height * self.columns * self.rows],
-        };
-        for (pose, picture) in pictures.iter().enumerate() {
+    /// `row` paints a row of a pose and says which pixels of it are to be seen: the others stay blank. Of every picture,
+    /// every `factor`-th pixel of every `factor`-th row is taken: no colour is invented.
+    pub fn sheet(
+        self,
+        size: (usize, usize),
+        factor: usize,
+        blank: [u8; 3],
+        mut row: impl FnMut(usize, usize, &mut [[u8; 3]]) -> Range<usize>,
+    ) -> Canvas {
+        let (width, height) = (size.0.div_ceil(factor), size.1.div_ceil(factor));
+        let mut sheet = Canvas::new(width * self.columns, height * self.rows, blank);
+        let mut whole = vec![blank; size.0];
+        for pose in 0..self.count {
             let corner = (pose / self.columns * height) * sheet.width + pose % self.columns * width;
-            for (y, row) in picture.rows().step_by(factor).enumerate() {
-                let start = corner + y * sheet.width;
-                let cells = sheet.pixels[start..start + width].iter_mut();
-                cells.zip(row.iter().step_by(factor)).for_each(|(cell, pixel)| *cell = *pixel);
+            for (y, line) in (0..size.1).step_by(factor).enumerate() {
+                let painted = row(pose, line, &mut whole);
+                let first = painted.start.next_multiple_of(factor);
+                if first < painted.end {
+                    let pixels = whole[first..painted.end].iter().step_by(factor).copied();
+                    sheet.put(corner + y * sheet.width + first / factor, pixels);
+                }
             }
         }
         sheet
@@ -64,18 +67,14 @@ pub(super) struct Step {
     pub y: f64,
 }
 
-/// A picture as a `data:` address.
-pub(super) fn address(picture: &Raster) -> Result<String, Fault> {
-    let png = encode(&[picture])?;
-    Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn dot(level: u8) -> Raster {
-        Raster { width: 1, height: 1, pixels: vec![[level; 3]] }
+    /// The pixels of a sheet, as a reader of the file sees them.
+    fn pixels(sheet: &Canvas) -> Vec<[u8; 3]> {
+        let png = sheet.encode().expect("a PNG");
+        image::load_from_memory(&png).expect("a picture").to_rgb8().pixels().map(|pixel| pixel.0).collect()
     }
 
     #[test]
@@ -87,22 +86,47 @@ mod tests {
     #[test]
     fn every_step_shows_the_cell_that_holds_its_pose() {
         let grid = Grid::of(7);
-        let dots: Vec<Raster> = (1..=7).map(dot).collect();
-        let sheet = grid.sheet(&dots.iter().collect::<Vec<_>>(), 1);
+        let sheet = grid.sheet((1, 1), 1, [0; 3], |pose, _, row| {
+            row[0] = [pose as u8 + 1; 3];
+            0..1
+        });
         assert_eq!((sheet.width, sheet.height), (3, 3));
         for (pose, step) in grid.steps().into_iter().enumerate() {
             let x = (step.x / 100.0 * 3.0).round() as usize;
             let y = (step.y / 100.0 * 3.0).round() as usize;
-            assert_eq!(sheet.pixels[y * 3 + x], [pose as u8 + 1; 3]);
+            assert_eq!(pixels(&sheet)[y * 3 + x], [pose as u8 + 1; 3]);
             assert!((step.at - 100.0 * pose as f64 / 7.0).abs() < 1e-9);
         }
     }
 
     #[test]
     fn a_reduced_picture_keeps_its_corner_and_its_odd_edge() {
-        let picture = Raster { width: 3, height: 3, pixels: (0..9).map(|i| [i; 3]).collect() };
-        let half = Grid::of(1).sheet(&[&picture], 2);
+        let half = Grid::of(1).sheet((3, 3), 2, [99; 3], |_, y, row| {
+            (0..3).for_each(|x| row[x] = [(y * 3 + x) as u8; 3]);
+            0..3
+        });
         assert_eq!((half.width, half.height), (2, 2));
-        assert_eq!(half.pixels, [[0; 3], [2; 3], [6; 3], [8; 3]]);
+        assert_eq!(pixels(&half), [[0; 3], [2; 3], [6; 3], [8; 3]]);
+    }
+
+    #[test]
+    fn what_is_not_painted_stays_blank_at_every_reduction() {
+        for (factor, seen) in [(1, vec![9, 9, 9, 7, 7, 9]), (2, vec![9, 9, 7]), (4, vec![9, 7])] {
+            let row = Grid::of(1).sheet((6, 1), factor, [9; 3], |_, _, row| {
+                row.fill([7; 3]);
+                3..5
+            });
+            assert_eq!(pixels(&row), seen.into_iter().map(|level| [level; 3]).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_sheet_of_more_colours_than_a_palette_has_keeps_them_all() {
+        let colour = |i: usize| [(i % 256) as u8, (i / 256) as u8, 9];
+        let sheet = Grid::of(2).sheet((200, 1), 1, [0; 3], |pose, _, row| {
+            row.iter_mut().enumerate().for_each(|(x, cell)| *cell = colour(pose * 200 + x));
+            0..200
+        });
+        assert_eq!(pixels(&sheet), (0..400).map(colour).collect::<Vec<_>>());
     }
 }

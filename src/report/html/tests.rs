@@ -150,7 +150,7 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
         Picture { width: 640, height: 480, rgba: (0..640 * 480 * 4).map(|_| byte()).collect() }
     };
     // Two poses of 0.9 MB a picture: 3 bytes for each of 307,200 pixels, which do not compress.
-    let pictures = Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()], terms: vec![] };
+    let pictures = Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), terms: vec![] };
     let report = samples::wrong();
     let page =
         Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };

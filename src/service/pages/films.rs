@@ -2,6 +2,7 @@
 
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::homework::expected_pictures;
 use crate::report::Picture;
 use crate::report::html::Film;
 use crate::sandbox;
@@ -9,7 +10,7 @@ use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::store::Submission;
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use tokio::sync::{OnceCell, Semaphore};
 
 /// Films that are kept; the largest has some hundred kilobytes.
@@ -21,14 +22,13 @@ type Cell = Arc<OnceCell<Option<Arc<Film>>>>;
 #[derive(Debug)]
 pub struct Films {
     recent: Mutex<VecDeque<(String, Cell)>>,
-    expected: OnceLock<Vec<Picture>>,
     /// One is drawn at a time: who looks leaves the other processors to who hands in.
     turn: Semaphore,
 }
 
 impl Default for Films {
     fn default() -> Self {
-        Self { recent: Mutex::default(), expected: OnceLock::new(), turn: Semaphore::new(1) }
+        Self { recent: Mutex::default(), turn: Semaphore::new(1) }
     }
 }
 
@@ -43,23 +43,18 @@ impl Films {
         }
         entry.1
     }
-
-    fn expected(&self, state: &State) -> &[Picture] {
-        self.expected.get_or_init(|| crate::homework::expected_pictures(state.assignment))
-    }
 }
 
 /// The film of a submission, drawn once for all who ask at once; none where nothing is drawn.
 pub(super) async fn film(state: &State, submission: &Submission) -> Result<Option<Arc<Film>>, Problem> {
     let cell = state.films.cell(&submission.sha256);
-    let film =
-        cell.get_or_try_init(|| async {
-            let yours = frames(state, submission).await?;
-            let film = blocking(state, move |state| {
-                if yours.is_empty() { Ok(None) } else { Film::of(&yours, state.films.expected(state), 1) }
-            });
-            Ok::<_, Problem>(film.await?.map(Arc::new))
+    let film = cell.get_or_try_init(|| async {
+        let yours = frames(state, submission).await?;
+        let film = blocking(state, move |state| {
+            if yours.is_empty() { Ok(None) } else { Film::of(&yours, &expected_pictures(state.assignment), 1) }
         });
+        Ok::<_, Problem>(film.await?.map(Arc::new))
+    });
     film.await.cloned()
 }
 

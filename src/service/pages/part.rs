@@ -104,7 +104,7 @@ pub(super) fn gallery(id: &str, report: &Report) -> Option<Gallery> {
     }
     Some(Gallery {
         yours: format!("/r/{id}/yours.png"),
-        expected: assets::address(&assets::expected_name(&report.assignment)).to_owned(),
+        expected: assets::address(&assets::expected_name(&report.assignment)).into(),
         difference: format!("/r/{id}/difference.png"),
         is_reduced: false,
         terms: Vec::new(),
