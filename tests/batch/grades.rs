@@ -89,8 +89,14 @@ fn an_archive_is_a_class_and_its_bad_members_cost_nobody_else() {
         archive.write_all(&bytes).unwrap();
     }
     archive.finish().unwrap();
+    let sheet = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,\
+                 Last modified (submission),Last modified (grade),Feedback comments\r\n\
+                 Participant 4001,山田 太郎,y@example.org,Submitted,,100.00,Yes,-,-,\r\n\
+                 Participant 4009,佐藤 次郎,s@example.org,No submission,,100.00,Yes,-,-,\r\n";
+    fs::write(place.at("sheet.csv"), sheet).unwrap();
     let mut command = ggrade();
     command.current_dir(place.at("")).args(["batch", "class.zip", "--out", "out", "--deadline", "10", "--lang", "ja"]);
+    command.args(["--moodle-worksheet", "sheet.csv"]);
     command.assert().code(1).stdout(predicate::str::contains("2 名").and(predicate::str::contains("evil")));
     let scores = place.scores("out");
     assert_eq!((scores["4001"].1, scores["4002"].1), (100.0, 80.0));
@@ -98,6 +104,10 @@ fn an_archive_is_a_class_and_its_bad_members_cost_nobody_else() {
     let names: Vec<_> =
         (0..feedback.len()).map(|i| feedback.by_index(i).unwrap().name().unwrap().into_owned()).collect();
     assert_eq!(names.len(), 2, "{names:?}");
+    let filled = fs::read_to_string(place.at("out/moodle-worksheet.csv")).unwrap();
+    let rows: Vec<_> = filled.split("\r\n").zip(sheet.split("\r\n")).collect();
+    assert!(rows[1].0.starts_with("Participant 4001,山田 太郎,y@example.org,Submitted,100"), "{filled}");
+    assert!([0, 2].iter().all(|&row| rows[row].0 == rows[row].1), "{filled}");
     assert!(!place.at("evil_4003_assignsubmission_file").exists());
 }
 
