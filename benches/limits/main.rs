@@ -82,7 +82,11 @@ fn rows(size: Size) -> Vec<Row> {
         Row::ratio("growth", large.cpu / small.cpu, 4.2),
     ]);
     rows.push(Row::at_most("command", "ms", measure::command(&shaders[..size.commands]), 300.0));
-    rows.extend([Row::at_most("memory", "MiB", memory.most, 400.0), Row::ratio("memory-growth", memory.growth, 1.05)]);
+    rows.extend([
+        Row::at_most("memory", "MiB", memory.most, 400.0),
+        Row::mebibytes("memory-with-spare", memory.with_spare),
+        Row::ratio("memory-growth", memory.growth, 1.05),
+    ]);
     if let Some(times) = measure::script(&shaders[..size.commands], large.cpu / size.class as f64) {
         rows.push(Row::at_least("script", "times", times, 10.0));
     }

@@ -147,8 +147,10 @@ pub fn command(submissions: &[Submission]) -> f64 {
 
 /// Resident memory of parent and workers.
 pub struct Memory {
-    /// The most at any time, in MiB.
+    /// The most at any time, in MiB: of the parent and the two largest workers.
     pub most: f64,
+    /// The same with the worker that is kept ready.
+    pub with_spare: f64,
     /// That of the last tenth as a multiple of that of the second tenth.
     pub growth: f64,
 }
@@ -160,17 +162,23 @@ pub fn memory(submissions: &[Submission], count: usize) -> Memory {
     let step = (count / 200).max(1);
     grade_all(&pool, submissions, count, |done| {
         if done % step == 0 {
-            let reading = resident("self") + children();
-            readings.lock().expect("no thread panicked").push((done, reading));
+            let mut workers = children();
+            workers.sort_by(f64::total_cmp);
+            let parent = resident("self");
+            let all = parent + workers.iter().sum::<f64>();
+            let two = parent + workers.iter().rev().take(WORKERS).sum::<f64>();
+            readings.lock().expect("no thread panicked").push((done, two, all));
         }
     });
     let readings = readings.into_inner().expect("no thread panicked");
     let mean = |from: usize, to: usize| {
-        let these: Vec<f64> = readings.iter().filter(|(done, _)| (from..=to).contains(done)).map(|(_, m)| *m).collect();
+        let these: Vec<f64> =
+            readings.iter().filter(|(done, ..)| (from..=to).contains(done)).map(|(_, two, _)| *two).collect();
         these.iter().sum::<f64>() / these.len().max(1) as f64
     };
-    let most = readings.iter().map(|(_, reading)| *reading).fold(0.0, f64::max);
-    Memory { most, growth: mean(count - count / 10, count) / mean(count / 10, count / 5) }
+    let most = readings.iter().map(|(_, two, _)| *two).fold(0.0, f64::max);
+    let with_spare = readings.iter().map(|(_, _, all)| *all).fold(0.0, f64::max);
+    Memory { most, with_spare, growth: mean(count - count / 10, count) / mean(count / 10, count / 5) }
 }
 
 /// Resident MiB of a process.
@@ -181,11 +189,11 @@ fn resident(process: &str) -> f64 {
     kilobytes.unwrap_or(0.0) / 1024.0
 }
 
-/// Resident MiB of the processes that this one started.
-fn children() -> f64 {
+/// Resident MiB of each process that this one started.
+fn children() -> Vec<f64> {
     let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
     let lists = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("children")).ok());
-    lists.flat_map(|list| list.split_whitespace().map(resident).collect::<Vec<_>>()).sum()
+    lists.flat_map(|list| list.split_whitespace().map(resident).collect::<Vec<_>>()).collect()
 }
 
 /// How many times the cost of a grading a script with one OpenGL context a file has, where one is named: the command

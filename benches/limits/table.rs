@@ -10,7 +10,7 @@ const END: &str = "<!-- end of table -->";
 const TOLERANCE: f64 = 1.25;
 
 /// What each figure is.
-const MEANINGS: [(&str, &str); 12] = [
+const MEANINGS: [(&str, &str); 13] = [
     ("bare-driver", "CPU time of the bare driver for one submission, median"),
     ("grade", "CPU time of a whole grading in one process, in turns with the above"),
     ("grade-to-bare", "the one against the other"),
@@ -21,7 +21,8 @@ const MEANINGS: [(&str, &str); 12] = [
     ("pool-rate-cpu", "submissions a second that two cores have the CPU time for"),
     ("growth", "CPU time of the class against that of a quarter of it"),
     ("command", "`ggrade grade FILE` by the clock, median"),
-    ("memory", "resident memory of parent and workers, the most at any time; what they share counts for each"),
+    ("memory", "resident memory of parent and two workers, the most at any time; what they share counts for each"),
+    ("memory-with-spare", "the same with the worker that is kept ready"),
     ("memory-growth", "mean of the last tenth of these against that of the second"),
 ];
 
@@ -44,6 +45,11 @@ impl Row {
     /// A cost without a limit of its own.
     pub fn milliseconds(id: &'static str, value: f64) -> Self {
         Self { id, unit: "ms", value, limit: None }
+    }
+
+    /// An amount of memory without a limit of its own.
+    pub fn mebibytes(id: &'static str, value: f64) -> Self {
+        Self { id, unit: "MiB", value, limit: None }
     }
 
     /// A ratio, which other machines have too.
