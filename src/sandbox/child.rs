@@ -11,6 +11,7 @@ use crate::report::Environment;
 use nix::sys::signal::{Signal, killpg};
 use nix::unistd::Pid;
 use std::os::unix::process::CommandExt;
+use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
@@ -49,10 +50,12 @@ impl Worker {
     /// Starts the process. The kernel ends it with the thread that calls this.
     pub fn spawn(settings: &Settings) -> Result<Self, NotStarted> {
         let cannot = |error: std::io::Error| NotStarted { fault: cannot_start(&error.to_string()), transient: true };
-        let program = settings.program.clone().map_or_else(std::env::current_exe, Ok).map_err(cannot)?;
+        // This very program, also when its file was replaced by a newer one since it was started.
+        let program = settings.program.clone().unwrap_or_else(|| PathBuf::from("/proc/self/exe"));
         let limits = settings.limits();
         let mut command = Command::new(program);
         command
+            .arg0("ggrade")
             .arg("worker")
             .args(["--assignment", &settings.assignment])
             .args(["--adapter", settings.adapter.name()])
