@@ -40,8 +40,12 @@ fn moodle_archive(path: &std::path::Path) {
 /// Chooses a file on the student's page and waits for its result, which is a draft.
 async fn choose(browser: &Browser, file: &str, mark: &str) {
     browser.keys("#file", file).await;
-    browser.until(&format!("document.querySelector('article.report[data-mark={mark}]') && \
-                            !document.querySelector('[aria-busy]')")).await;
+    browser
+        .until(&format!(
+            "document.querySelector('article.report[data-mark={mark}]') && \
+                            !document.querySelector('[aria-busy]')"
+        ))
+        .await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -59,8 +63,10 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     // The half vector is not normalised in line 33: the editor marks it, and a link of the report leads there.
     browser.until("document.querySelectorAll('.gutter li')[32].className === 'rubric'").await;
     browser.click(".rubric a[href='#L33']").await;
-    let at = browser.js("const t = document.querySelector('#code'); return document.activeElement === t && \
-                         t.value.slice(t.selectionStart, t.selectionEnd)").await;
+    let at = browser
+        .js("const t = document.querySelector('#code'); return document.activeElement === t && \
+                         t.value.slice(t.selectionStart, t.selectionEnd)")
+        .await;
     assert_eq!(at, "  vec3 h = (l + v) / 2.0;      // 中間ベクトル");
     browser.until("[...document.querySelectorAll('.report img')].every(i => i.complete && i.naturalWidth > 0)").await;
     browser.check("student-wrong-draft").await;
@@ -119,12 +125,19 @@ async fn the_editor_grades_what_is_typed_last() {
     browser.languages("en").await;
     browser.open(&server.at("/")).await;
     // The cursor goes behind `vc = ` and the answer is typed, with a slip first.
-    browser.js("const t = document.querySelector('#code'); const at = t.value.indexOf('vc = cv;') + 5; \
-                t.focus(); t.setSelectionRange(at, at + 2);").await;
+    browser
+        .js("const t = document.querySelector('#code'); const at = t.value.indexOf('vc = cv;') + 5; \
+                t.focus(); t.setSelectionRange(at, at + 2);")
+        .await;
     browser.keys("#code", "kamb * lam").await;
     browser.until("document.querySelector('article.report[data-mark=none]')").await;
-    browser.keys("#code", "b + max(dot(n, l), 0.0) * kdiff * ldiff \
-                           + pow(max(dot(n, normalize(l + v)), 0.0), kshi) * kspec * lspec").await;
+    browser
+        .keys(
+            "#code",
+            "b + max(dot(n, l), 0.0) * kdiff * ldiff \
+                           + pow(max(dot(n, normalize(l + v)), 0.0), kshi) * kspec * lspec",
+        )
+        .await;
     browser.until("document.querySelector('article.report[data-mark=full]')").await;
     assert!(browser.text("#state").await.starts_with("Correct: 100 / 100"), "said in the live region");
     assert!(!browser.has(".gutter .error").await, "no mark is left behind");
@@ -139,7 +152,7 @@ async fn the_editor_grades_what_is_typed_last() {
     // Tab leaves the editor.
     browser.js("document.querySelector('#code').focus()").await;
     browser.keys("#code", "\u{E004}").await;
-    assert_eq!(browser.js("return document.activeElement.id").await != "code", true);
+    assert_ne!(browser.js("return document.activeElement.id").await, "code");
 
     // What was typed is still there when the page is opened again, and is graded; the hand-out comes back on demand.
     browser.open(&server.at("/")).await;
@@ -150,8 +163,10 @@ async fn the_editor_grades_what_is_typed_last() {
     browser.until("document.querySelector('.brief')").await;
 
     // A file is dropped on the page.
-    browser.js("const data = new DataTransfer(); data.items.add(new File(['no shader'], 'dropped.vert')); \
-                dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));").await;
+    browser
+        .js("const data = new DataTransfer(); data.items.add(new File(['no shader'], 'dropped.vert')); \
+                dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));")
+        .await;
     browser.until("document.querySelector('article.report .file')?.textContent === 'dropped.vert'").await;
     assert_eq!(browser.complaints().await, [] as [String; 0]);
     browser.end().await;
@@ -292,5 +307,22 @@ async fn a_teacher_walks_through_the_class() {
     browser.check("phone-teacher-ja").await;
     browser.open(&server.at("/teacher/settings")).await;
     browser.check("phone-settings-ja").await;
+
+    // A student opens the course link, gives a number in full-width letters, and is known by it; a slip is told.
+    let link = browser.js("return document.querySelector('.link a').href").await;
+    browser.devtools("Network.clearBrowserCookies", serde_json::json!({})).await;
+    browser.size(1280, 900).await;
+    browser.open(link.as_str().expect("a link")).await;
+    browser.check("join").await;
+    browser.keys("#number", "山田").await;
+    browser.click("main .primary").await;
+    browser.until("document.querySelector('[role=alert]')").await;
+    // A refused form is answered with 422, which the browser notes.
+    browser.complaints().await;
+    browser.js("document.querySelector('#number').value = ''").await;
+    browser.keys("#number", "ｓ１００６").await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname.startsWith('/a/')").await;
+    assert!(browser.text(".who").await.contains("S1006"));
     browser.end().await;
 }

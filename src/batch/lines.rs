@@ -15,7 +15,7 @@ struct Line<'a> {
     student: &'a Student,
     path: Option<&'a str>,
     /// The contract's verdicts, and `not-graded` and `fault`.
-    standing: &'static str,
+    standing: Standing,
     /// Why there is no report.
     message: Option<&'a str>,
     shares_with: &'a [String],
@@ -33,7 +33,7 @@ pub fn line(entry: &Entry, language: Language) -> String {
         schema: SCHEMA,
         student: &entry.student,
         path: entry.path.as_deref(),
-        standing: Standing::of(&entry.outcome).id(),
+        standing: Standing::of(&entry.outcome),
         message,
         shares_with: &entry.shares_with,
         report: entry.report().map(|report| json::view(report, language)),

@@ -20,4 +20,5 @@ pub mod run;
 pub mod same;
 pub mod standing;
 pub mod start;
+pub mod statistics;
 pub mod summary;

@@ -79,14 +79,13 @@ pub fn write(
     changes: Option<&Changes>,
     folder: &Folder,
 ) -> (Written, Option<Fault>) {
-    let mut written = Written::default();
+    let mut written = Written { folder: folder.at("").display().to_string(), ..Written::default() };
     let mut first = None;
     for &format in formats {
         match one(class, format, sheet, folder) {
             Ok(notes) => {
                 written.notes.extend(notes);
-                let shown = |file: &&str| folder.at(&file.replace(KEY, "*")).display().to_string();
-                written.files.extend(format.files().iter().map(|file| (shown(file), format.description())));
+                written.files.extend(format.files().iter().map(|file| (file.replace(KEY, "*"), format.description())));
             }
             Err(fault) => first = first.or(Some(fault)),
         }
@@ -94,7 +93,7 @@ pub fn write(
     if let Some(changes) = changes {
         let what = Text::new("What changed, for programs", "前回からの変化 (プログラム用)");
         match folder.write(CHANGES, &json(changes)) {
-            Ok(path) => written.files.push((path.display().to_string(), what)),
+            Ok(_) => written.files.push((CHANGES.into(), what)),
             Err(fault) => first = first.or(Some(fault)),
         }
     }

@@ -1,11 +1,14 @@
 //! What became of a student, in one word.
 
 use super::class::{Entry, Outcome};
-use crate::language::Text;
+use crate::language::Language;
 use crate::report::Verdict;
+use crate::report::labels::Labels;
+use serde::Serialize;
 
 /// What became of a student, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Standing {
     /// Graded, all full marks.
     Correct,
@@ -77,14 +80,17 @@ impl Standing {
     }
 
     /// The words for people.
-    pub fn label(self) -> Text {
-        match self {
-            Self::Correct => Text::new("Correct", "正解"),
-            Self::Wrong => Text::new("Not right yet", "修正が必要です"),
-            Self::Rejected => Text::new("Not accepted", "受理できません"),
-            Self::Stopped => Text::new("Stopped", "実行を中断しました"),
-            Self::NotGraded => Text::new("Nothing to grade", "採点対象なし"),
-            Self::Fault => Text::new("Grading failed", "採点エラー"),
+    pub fn word(self, language: Language) -> &'static str {
+        let labels = Labels::of(language);
+        match (self, language) {
+            (Self::Correct, _) => labels.verdict(Verdict::Correct),
+            (Self::Wrong, _) => labels.verdict(Verdict::Wrong),
+            (Self::Rejected, _) => labels.verdict(Verdict::Rejected),
+            (Self::Stopped, _) => labels.verdict(Verdict::Stopped),
+            (Self::NotGraded, Language::En) => "Nothing to grade",
+            (Self::NotGraded, Language::Ja) => "採点対象なし",
+            (Self::Fault, Language::En) => "Grading failed",
+            (Self::Fault, Language::Ja) => "採点エラー",
         }
     }
 }
@@ -97,6 +103,7 @@ mod tests {
     fn each_stands_at_its_own_place() {
         for (index, standing) in Standing::ALL.into_iter().enumerate() {
             assert_eq!(standing as usize, index);
+            assert_eq!(serde_json::to_value(standing).unwrap(), standing.id());
         }
     }
 }

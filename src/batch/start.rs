@@ -56,8 +56,14 @@ pub fn earlier(folder: &Folder, shown: &Path, mode: Mode) -> Result<Option<Found
     }
 }
 
-/// Whether what is wanted goes on with what was found: the differences, as options of the command line.
-pub fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
+/// Refuses to mix results that were graded otherwise with those that are wanted.
+pub fn same_conditions(shown: &Path, found: &Header, wanted: &Header) -> Result<(), NotBegun> {
+    let differences = differences(found, wanted);
+    if differences.is_empty() { Ok(()) } else { Err(NotBegun::Usage(mixed(shown, &differences))) }
+}
+
+/// What was graded otherwise, as options of the command line.
+fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
     let mut differences = Vec::new();
     let mut compare = |what: Text, found: String, wanted: String| {
         if found != wanted {
@@ -79,8 +85,7 @@ pub fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
     differences
 }
 
-/// What is said where `--resume` would mix results that do not go together.
-pub fn mixed(shown: &Path, differences: &[Text]) -> Text {
+fn mixed(shown: &Path, differences: &[Text]) -> Text {
     let path = shown.display();
     let join = |texts: Vec<&str>| texts.join("; ");
     let en = join(differences.iter().map(|text| text.en.as_str()).collect());

@@ -1,15 +1,33 @@
 //! Arguments of `ggrade watch`.
 
 use super::{Machine, Sandbox};
+use crate::diagnose::Hints;
+use crate::language::Language;
 use clap::Args;
+use std::path::PathBuf;
 
 /// Grade a file again whenever it is saved.
 #[derive(Debug, Args)]
 pub struct Watch {
+    /// The shader that you are working on
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,
     /// The walls around the gradings.
     #[command(flatten)]
     pub sandbox: Sandbox,
+    /// Language of the reports [default: from LC_ALL, LC_MESSAGES or LANG]
+    #[arg(long, value_enum, env = "GGRADE_LANG")]
+    pub lang: Option<Language>,
+    /// Seed of the probes, the same for every save [default: random]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// How much the messages help: only what is seen, also the equation it breaks, or also where to look
+    #[arg(long, value_enum, default_value_t)]
+    pub hints: Hints,
+    /// Seconds that a grading may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    pub deadline: f64,
 }

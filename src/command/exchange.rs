@@ -3,6 +3,7 @@
 //! What reads these formats shows its student whatever comes, so there is a document for every ending: also where there
 //! is no file, and where ggrade itself fails.
 
+use super::view::readable;
 use super::{Outcome, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome as Became, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
@@ -69,18 +70,18 @@ fn fill(
     format: Format,
     deadline: Duration,
 ) -> Result<(), Became> {
-    let bytes = grade::read(&arguments.file).map_err(|error| {
-        let what = grade::unreadable(&arguments.file, &error);
-        match error.kind() {
-            ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Became::NotGraded(what),
-            _ => Became::Fault(Fault::new(what)),
-        }
+    let bytes = grade::read(&arguments.file).map_err(|error| match error.kind() {
+        ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Became::NotGraded(Text::new(
+            format!("There is no file `{}` to grade.", class.title),
+            format!("採点するファイル `{}` がありません。", class.title),
+        )),
+        _ => Became::Fault(Fault::new(grade::unreadable(&arguments.file, &error))),
     })?;
     let (name, language) = (&class.title, class.language);
     let wants_portrait = format == Format::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
     let answer = grade::grade(arguments, deadline, name, &bytes, wants_frames, language).map_err(Became::Fault)?;
-    let source = grade::readable(name, &bytes);
+    let source = readable(name, &bytes);
     if wants_portrait && !answer.frames.is_empty() {
         let assignment = crate::homework::assignment(&answer.report.assignment).map_err(Became::Fault)?;
         let portraits = Portraits::new(assignment).map_err(Became::Fault)?;

@@ -1,22 +1,20 @@
 //! `ggrade grade FILE`: one file to one report.
 
-use super::{Outcome, deadline, exchange, file_fault, language, warn, width, writing};
+use super::view::{View, has_colour, readable};
+use super::{Outcome, deadline, exchange, file_fault, language, warn, writing};
 use crate::cli::{Format, Grade, Reading};
-use crate::excerpt;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::{Language, Text};
-use crate::report::Equation;
-use crate::report::html::Page;
-use crate::report::{Picture, Pictures, Report, Verdict, json, pictures, text};
+use crate::report::{Picture, Pictures, Report, Verdict, pictures};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
-use crate::source::{self, Source};
-use std::io::{IsTerminal, Read, Write};
+use crate::source::Source;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::time::Duration;
 
 /// Longest input that is read: a file over the source stage's limit is refused there, by its own message.
-const MAX_READ: u64 = 1 << 20;
+pub(super) const MAX_READ: u64 = 1 << 20;
 
 /// Grades one file and writes its report.
 pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
@@ -47,8 +45,7 @@ fn run_for_reading(
     let source = readable(&name, &bytes);
     let pictures = pictures(arguments, &report, source.as_ref(), frames)?;
     let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
-    let colour =
-        arguments.output.is_none() && anstream::AutoStream::choice(&std::io::stdout()) != anstream::ColorChoice::Never;
+    let colour = arguments.output.is_none() && has_colour();
     put(arguments, &view.document(reading, colour)?)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
 }
@@ -122,14 +119,6 @@ pub(super) fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// The file as text, for excerpts; none where it cannot be read as text.
-pub(super) fn readable(name: &str, bytes: &[u8]) -> Option<Source> {
-    match source::read(name, bytes) {
-        Ok(source) => Some(source),
-        Err(refusal) => refusal.source,
-    }
-}
-
 /// Writes a document to where it was asked for.
 pub(super) fn put(arguments: &Grade, document: &str) -> Result<(), Fault> {
     match &arguments.output {
@@ -138,42 +127,6 @@ pub(super) fn put(arguments: &Grade, document: &str) -> Result<(), Fault> {
             // A reader that closes the pipe early, such as `head`, has what it wanted.
             let _ = std::io::stdout().lock().write_all(document.as_bytes());
             Ok(())
-        }
-    }
-}
-
-/// Everything that a report is shown with.
-struct View<'a> {
-    report: &'a Report,
-    source: Option<&'a Source>,
-    pictures: Option<&'a Pictures>,
-    language: Language,
-}
-
-impl View<'_> {
-    fn document(&self, reading: Reading, colour: bool) -> Result<String, Fault> {
-        match reading {
-            Reading::Json => Ok(json::render(self.report, self.language)),
-            Reading::Html => Page {
-                report: self.report,
-                source: self.source.map(|source| source.text.as_str()),
-                pictures: self.pictures,
-                equation: Some(&Equation::illumination()),
-                language: self.language,
-            }
-            .render(),
-            Reading::Text => {
-                let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
-                Ok(text::render(
-                    self.report,
-                    &text::Options {
-                        language: self.language,
-                        width: width(std::io::stdout().is_terminal()),
-                        colour,
-                        excerpts: Some(&excerpts),
-                    },
-                ))
-            }
         }
     }
 }

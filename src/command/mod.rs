@@ -7,6 +7,7 @@ mod exchange;
 pub mod grade;
 pub mod interrupt;
 pub mod serve;
+mod view;
 pub mod watch;
 pub mod worker;
 

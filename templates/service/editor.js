@@ -1,7 +1,7 @@
 "use strict";
 // An editor that is a textarea: line numbers, colours and marks are painted behind it, and the keyboard stays the
 // browser's own. Tab leaves it as it leaves every field.
-const editGlsl = (host, textarea, words) => {
+const editGlsl = (host, textarea) => {
   const gutter = document.createElement("ol");
   const paint = document.createElement("pre");
   gutter.className = "gutter";
@@ -180,9 +180,10 @@ const editGlsl = (host, textarea, words) => {
       textarea.setSelectionRange(start, start + (lines[line - 1]?.length ?? 0));
       paint.children[line - 1]?.scrollIntoView({ block: "center", inline: "nearest" });
     },
-    get line() {
-      return textarea.value.slice(0, textarea.selectionStart).split("\n").length;
+    // Brings a line into the middle of the box; the page and the cursor stay where they are.
+    show(line) {
+      const element = paint.children[line - 1];
+      if (element) host.scrollTop = element.offsetTop - host.clientHeight / 2;
     },
-    words,
   };
 };

@@ -7,7 +7,7 @@
   const result = document.querySelector("[data-result]");
   const state = document.getElementById("state");
   const { draft, starter, key, grading, failed, draftword, large } = form.dataset;
-  const editor = editGlsl(form.querySelector("[data-editor]"), textarea, {});
+  const editor = editGlsl(form.querySelector("[data-editor]"), textarea);
   const PAUSE = 350; // milliseconds without a key after which the text is graded
   const LARGEST_SHOWN = 200_000; // bytes
   const brief = [...result.childNodes];
@@ -17,6 +17,7 @@
   let timer = 0;
   let current; // the request under way
   let player;
+  let isLoaded = false; // whether the text came at once, from a file or an earlier attempt, and was not seen yet
 
   const say = (text, kind = "") => {
     state.textContent = text;
@@ -83,6 +84,8 @@
     player = moving ? movePictures(moving, before) ?? before : before;
     const marks = JSON.parse(article.dataset.marks ?? "[]");
     editor.mark(marks);
+    if (isLoaded && marks.length) editor.show(marks[0].line);
+    isLoaded = false;
     textarea.setAttribute("aria-invalid", String(marks.some((mark) => mark.kind === "error")));
     say(`${article.dataset.summary} · ${draftword}`, article.dataset.mark);
   };
@@ -108,6 +111,7 @@
       say(large);
     }
     clearTimeout(timer);
+    isLoaded = true;
     file = chosen;
     // What is handed in is the file itself, byte by byte.
     const transfer = new DataTransfer();
@@ -191,6 +195,7 @@
     kept = localStorage.getItem(key);
   } catch { /* as above */ }
   if (form.dataset.own !== undefined) {
+    isLoaded = true;
     grade();
   } else if (kept && kept !== handedOut) {
     editor.fill(kept);

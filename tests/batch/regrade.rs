@@ -24,7 +24,7 @@ fn who_gains_and_who_loses_is_told_with_the_reason() {
     fs::remove_dir_all(place.at("class/gone")).unwrap();
     place.batch("new").args(["--formats", "csv", "--compare", "old/results.jsonl"]).assert().code(1).stdout(
         predicate::str::contains("better  80 → 100")
-            .and(predicate::str::contains("worse  100 → 0"))
+            .and(predicate::str::contains("worse  100 → 0  Correct → Not accepted"))
             .and(predicate::str::contains("specular  20 → 40  specular-half-unnormalized → –")),
     );
     let changes = changes(&place, "new");

@@ -114,7 +114,8 @@ impl Browser {
 
     /// What an address of the page's own service answers, as text.
     pub async fn fetch(&self, path: &str) -> String {
-        let script = "const done = arguments[1]; fetch(arguments[0]).then(a => a.text()).then(done, e => done(String(e)))";
+        let script =
+            "const done = arguments[1]; fetch(arguments[0]).then(a => a.text()).then(done, e => done(String(e)))";
         let answer = self.client.execute_async(script, vec![path.into()]).await;
         answer.unwrap_or_else(|error| panic!("{path}: {error}")).as_str().unwrap_or_default().to_owned()
     }
@@ -167,8 +168,7 @@ impl Browser {
     /// A command of the browser's own protocol.
     pub async fn devtools(&self, command: &str, parameters: Value) -> Value {
         let body = json!({ "cmd": command, "params": parameters });
-        let answer: Result<Value, CmdError> =
-            self.client.issue_cmd(Devtools { path: "goog/cdp/execute", body }).await;
+        let answer: Result<Value, CmdError> = self.client.issue_cmd(Devtools { path: "goog/cdp/execute", body }).await;
         answer.unwrap_or_else(|error| panic!("{command}: {error}"))
     }
 

@@ -42,7 +42,7 @@ pub fn render_legacy(entry: &Entry, class: &Class) -> String {
     let mut tests: Vec<_> = rubric(entry).iter().map(|line| legacy_test(entry, line, duration, language)).collect();
     if tests.is_empty() {
         tests.push(json!({
-            "name": Standing::of(&entry.outcome).label().get(language),
+            "name": Standing::of(&entry.outcome).word(language),
             "status": status(entry),
             "score": 0,
             "message": message(entry, language),

@@ -30,7 +30,7 @@ pub fn render(entry: &Entry, language: Language) -> String {
 
 fn prologue(entry: &Entry, language: Language) -> String {
     let standing = Standing::of(&entry.outcome);
-    let mut prologue = format!("<p><strong>{}</strong>", html(standing.label().get(language)));
+    let mut prologue = format!("<p><strong>{}</strong>", html(standing.word(language)));
     if let Some(report) = entry.report() {
         prologue.push_str(&format!(" {}", html(&wording::points(report.score, report.max_score))));
     }

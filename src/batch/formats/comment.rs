@@ -1,8 +1,8 @@
 //! The feedback as the piece of HTML that Moodle's feedback comments hold: one line, no quotes but those of one class.
 
 use super::plain::html;
-use super::status::Status;
 use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::standing::Standing;
 use crate::diagnostic::Severity;
 use crate::language::Language;
 use crate::report::html::rich::pieces;
@@ -19,7 +19,7 @@ const CLOSE: &str = "</div>";
 /// The comment on one student.
 pub(super) fn render(entry: &Entry, class: &Class) -> String {
     let language = class.language;
-    let title = Status::of(entry).word(language);
+    let title = Standing::of(&entry.outcome).word(language);
     let body = match &entry.outcome {
         Outcome::Graded(report) => graded(report, title, language),
         Outcome::NotGraded(reason) => format!("<p><strong>{title}</strong></p><p>{}</p>", rich(reason.get(language))),

@@ -5,8 +5,9 @@
 //! do not. So the archive follows the download that the class came from.
 
 use super::plain::{html, one_line};
-use super::status::{Status, summary};
+use super::status::summary;
 use crate::batch::class::{Class, Entry, Outcome, Participant};
+use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
 use std::fs::File;
@@ -94,7 +95,7 @@ fn name_part(participant: &Participant) -> String {
 /// A page for a student of whom there is no report.
 fn notice(entry: &Entry, class: &Class) -> String {
     let language = class.language;
-    let (tag, title) = (crate::report::labels::Labels::of(language).tag, Status::of(entry).word(language));
+    let (tag, title) = (crate::report::labels::Labels::of(language).tag, Standing::of(&entry.outcome).word(language));
     let (name, text) = (html(&entry.student.name), html(&one_line(&summary(entry, language))));
     format!(
         "<!DOCTYPE html>\n<html lang=\"{tag}\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \

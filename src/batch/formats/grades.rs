@@ -3,8 +3,9 @@
 //! UTF-8 with a byte-order mark and CRLF, so that Excel opens it as it is; what could be a formula is text.
 
 use super::plain::cell;
-use super::status::{Status, summary};
+use super::status::summary;
 use crate::batch::class::{Class, Entry};
+use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
 use csv::{QuoteStyle, Terminator, WriterBuilder};
@@ -44,7 +45,7 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
         cell(&student.key),
         cell(&student.name),
         student.moodle.as_ref().map(|moodle| moodle.number.to_string()).unwrap_or_default(),
-        Status::of(entry).id().to_owned(),
+        Standing::of(&entry.outcome).id().to_owned(),
         report.map(|report| exact(report.score)).unwrap_or_default(),
         report.map(|report| exact(report.max_score)).unwrap_or_default(),
     ];

@@ -56,7 +56,7 @@ fn test(line: &RubricLine, number: usize, language: Language) -> Value {
 /// What only the course's staff sees of a failure.
 fn staff_only(entry: &Entry, language: Language) -> Value {
     json!({
-        "name": Standing::Fault.label().get(language),
+        "name": Standing::Fault.word(language),
         "status": "failed",
         "output": rich_html(&wording::fault(entry, language).unwrap_or_default()),
         "visibility": "hidden",
@@ -67,7 +67,7 @@ fn staff_only(entry: &Entry, language: Language) -> Value {
 fn output(entry: &Entry, expected: &[u8], language: Language) -> String {
     let mut output = format!(
         "<p><strong>{}</strong></p>\n<p>{}</p>\n",
-        html(Standing::of(&entry.outcome).label().get(language)),
+        html(Standing::of(&entry.outcome).word(language)),
         rich_html(&wording::explanation(entry, language))
     );
     if let Some(portrait) = &entry.portrait {

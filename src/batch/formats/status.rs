@@ -1,4 +1,4 @@
-//! What became of a student, in one word and in one line.
+//! What became of a student, in one line.
 
 use crate::batch::class::{Entry, Outcome};
 use crate::diagnostic::Severity;
@@ -6,62 +6,6 @@ use crate::language::Language;
 use crate::report::labels::Labels;
 use crate::report::text::number;
 use crate::report::{Report, Verdict};
-
-/// What became of a student, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Status {
-    Correct,
-    Wrong,
-    Rejected,
-    Stopped,
-    NotGraded,
-    Fault,
-}
-
-impl Status {
-    pub const ALL: [Self; 6] =
-        [Self::Correct, Self::Wrong, Self::Rejected, Self::Stopped, Self::NotGraded, Self::Fault];
-
-    pub fn of(entry: &Entry) -> Self {
-        match &entry.outcome {
-            Outcome::Graded(report) => match report.verdict {
-                Verdict::Correct => Self::Correct,
-                Verdict::Wrong => Self::Wrong,
-                Verdict::Rejected => Self::Rejected,
-                Verdict::Stopped => Self::Stopped,
-            },
-            Outcome::NotGraded(_) => Self::NotGraded,
-            Outcome::Fault(_) => Self::Fault,
-        }
-    }
-
-    /// The word for programs: the contract's verdicts, and two more.
-    pub fn id(self) -> &'static str {
-        match self {
-            Self::Correct => "correct",
-            Self::Wrong => "wrong",
-            Self::Rejected => "rejected",
-            Self::Stopped => "stopped",
-            Self::NotGraded => "not-graded",
-            Self::Fault => "fault",
-        }
-    }
-
-    /// The word for people.
-    pub fn word(self, language: Language) -> &'static str {
-        let labels = Labels::of(language);
-        match (self, language) {
-            (Self::Correct, _) => labels.verdict(Verdict::Correct),
-            (Self::Wrong, _) => labels.verdict(Verdict::Wrong),
-            (Self::Rejected, _) => labels.verdict(Verdict::Rejected),
-            (Self::Stopped, _) => labels.verdict(Verdict::Stopped),
-            (Self::NotGraded, Language::En) => "Nothing to grade",
-            (Self::NotGraded, Language::Ja) => "採点対象なし",
-            (Self::Fault, Language::En) => "Grading failed",
-            (Self::Fault, Language::Ja) => "採点エラー",
-        }
-    }
-}
 
 /// The one thing that a student or a teacher should know, in a line of text.
 pub(super) fn summary(entry: &Entry, language: Language) -> String {

@@ -44,7 +44,7 @@ impl Scale {
 /// The output for one submission. After a failure of ours it proposes no grade, and VPL leaves the grading to a teacher.
 pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
     let mut comment = Comment(String::from("<|--\n"));
-    comment.heading(Standing::of(&entry.outcome).label().get(language));
+    comment.heading(Standing::of(&entry.outcome).word(language));
     comment.text(&wording::explanation(entry, language));
     if let Some(report) = entry.report() {
         for diagnostic in &report.diagnostics {

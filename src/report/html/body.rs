@@ -1,9 +1,9 @@
 //! What a report shows, part by part, as the templates need it.
 
 use super::listing::{self, Line};
-use super::{Lines, Part};
 use super::player::{self, FrameView, Player, Swatch, TermView};
 use super::rich::{Piece, pieces};
+use super::{Lines, Part};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use crate::report::labels::Labels;

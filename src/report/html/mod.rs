@@ -43,7 +43,8 @@ pub struct Page<'a> {
 impl Page<'_> {
     /// The page; a fault when the pictures do not go together.
     pub fn render(&self) -> Result<String, Fault> {
-        let film = self.pictures.map(|pictures| Film::of(&pictures.yours, &pictures.expected, 1)).transpose()?.flatten();
+        let film =
+            self.pictures.map(|pictures| Film::of(&pictures.yours, &pictures.expected, 1)).transpose()?.flatten();
         let gallery = match (&film, self.pictures) {
             (Some(film), Some(pictures)) => Some(film.embedded(pictures)?),
             _ => None,

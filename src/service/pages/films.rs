@@ -2,8 +2,8 @@
 
 use crate::fault::Fault;
 use crate::grade::Order;
-use crate::report::html::Film;
 use crate::report::Picture;
+use crate::report::html::Film;
 use crate::sandbox;
 use crate::service::State;
 use crate::service::errors::Problem;
@@ -52,13 +52,14 @@ impl Films {
 /// The film of a submission, drawn once for all who ask at once; none where nothing is drawn.
 pub(super) async fn film(state: &State, submission: &Submission) -> Result<Option<Arc<Film>>, Problem> {
     let cell = state.films.cell(&submission.sha256);
-    let film = cell.get_or_try_init(|| async {
-        let yours = frames(state, submission).await?;
-        let film = blocking(state, move |state| {
-            if yours.is_empty() { Ok(None) } else { Film::of(&yours, state.films.expected(state), 1) }
+    let film =
+        cell.get_or_try_init(|| async {
+            let yours = frames(state, submission).await?;
+            let film = blocking(state, move |state| {
+                if yours.is_empty() { Ok(None) } else { Film::of(&yours, state.films.expected(state), 1) }
+            });
+            Ok::<_, Problem>(film.await?.map(Arc::new))
         });
-        Ok::<_, Problem>(film.await?.map(Arc::new))
-    });
     film.await.cloned()
 }
 

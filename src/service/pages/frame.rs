@@ -55,8 +55,11 @@ impl Frame {
     pub(super) fn tongues(&self) -> [Tongue; 2] {
         let tongue = |language, name| {
             let others = self.uri.query().unwrap_or_default().split('&').filter(|pair| !pair.starts_with("lang="));
-            let query: Vec<String> =
-                others.filter(|pair| !pair.is_empty()).map(str::to_owned).chain([format!("lang={}", tag(language))]).collect();
+            let query: Vec<String> = others
+                .filter(|pair| !pair.is_empty())
+                .map(str::to_owned)
+                .chain([format!("lang={}", tag(language))])
+                .collect();
             Tongue {
                 tag: tag(language),
                 name,
@@ -99,7 +102,8 @@ impl<S: Sync> FromRequestParts<S> for Frame {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, Infallible> {
-        let uri = parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
+        let uri =
+            parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
         Ok(Self::new(of_request(&parts.headers, &uri), uri))
     }
 }

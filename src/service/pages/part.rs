@@ -2,11 +2,12 @@
 
 use super::assets;
 use super::frame::Frame;
-use crate::fault::Fault;
 use crate::diagnostic::Severity;
-use crate::report::html::{Gallery, Lines, Mark, Part};
-use crate::report::{Equation, Report, Verdict};
+use crate::fault::Fault;
 use crate::language::Text;
+use crate::report::html::{Gallery, Lines, Mark, Part};
+use crate::report::text::number;
+use crate::report::{Equation, Report, Verdict};
 use askama::Template;
 use serde::Serialize;
 
@@ -39,8 +40,7 @@ pub(super) fn part(
 ) -> Result<String, Fault> {
     let equation = Equation::illumination();
     let has_footer = level == 1;
-    let part =
-        Part { report, source, gallery, equation: Some(&equation), language: frame.language, level, has_footer };
+    let part = Part { report, source, gallery, equation: Some(&equation), language: frame.language, level, has_footer };
     let view = View {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),
@@ -54,7 +54,7 @@ pub(super) fn part(
 /// The result in one sentence, as a screen reader says it.
 fn summary(frame: &Frame, report: &Report) -> String {
     let verdict = verdict(frame, report.verdict);
-    let said = format!("{verdict}: {} / {}", report.score.round(), report.max_score.round());
+    let said = format!("{verdict}: {} / {}", number(report.score), number(report.max_score));
     let mut errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
     match errors.next().and_then(|first| first.line) {
         Some(line) => {
@@ -66,6 +66,11 @@ fn summary(frame: &Frame, report: &Report) -> String {
         }
         None => said,
     }
+}
+
+/// Points in a table, a dash where there are none yet.
+pub(super) fn points(points: Option<f64>) -> String {
+    points.map_or_else(|| "–".to_owned(), number)
 }
 
 /// A verdict in words.

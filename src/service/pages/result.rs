@@ -6,6 +6,7 @@ use super::moment::Moment;
 use super::{films, internal, part, shown};
 use crate::report::Report;
 use crate::report::html::Lines;
+use crate::report::text::number;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::gallery::View as Pictured;
@@ -61,7 +62,7 @@ pub(super) async fn page(
     let assignment = &submission.assignment;
     shown(
         View {
-            title: format!("{} / {} · {}", report.score, report.max_score, report.source.name),
+            title: format!("{} / {} · {}", number(report.score), number(report.max_score), report.source.name),
             back: format!("/a/{assignment}"),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
@@ -88,12 +89,23 @@ fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Respo
     let failed = submission.state == Progress::Failed;
     let position = state.queue.position(&submission.id).unwrap_or(1);
     let detail = match (failed, frame.tag()) {
-        (true, "ja") => "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。".into(),
-        (true, _) => "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.".into(),
+        (true, "ja") => {
+            "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。"
+                .into()
+        }
+        (true, _) => {
+            "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.".into()
+        }
         (false, "ja") => format!("提出は保存されました。順番: {position} 番目。結果が出るとこのページに表示されます。"),
-        (false, _) => format!("Your file is kept. Place in the queue: {position}. The report will appear on this page."),
+        (false, _) => {
+            format!("Your file is kept. Place in the queue: {position}. The report will appear on this page.")
+        }
     };
-    let heading = if failed { frame.say("Our fault", "サーバ側の障害です") } else { frame.say("Being graded", "採点中です") };
+    let heading = if failed {
+        frame.say("Our fault", "サーバ側の障害です")
+    } else {
+        frame.say("Being graded", "採点中です")
+    };
     let address = format!("/r/{}", submission.id);
     let mut response = shown(Waiting { frame, heading, detail, address, refreshes: true }.render())?;
     *response.status_mut() = StatusCode::ACCEPTED;

@@ -156,8 +156,9 @@ impl Desk<'_> {
             fact(kind, format!("{left} of {most} attempts left"), format!("提出できる回数 残り {left} / {most}"));
         }
         if let Some(best) = self.best() {
-            let score = self.history.iter().find(|row| row.submission.id == best);
-            let (score, most) = score.map_or((0.0, 0.0), |row| (row.score.unwrap_or(0.0), row.max_score.unwrap_or(0.0)));
+            let best = self.history.iter().find(|row| row.submission.id == best);
+            let (score, most) = best.map_or((None, None), |row| (row.score, row.max_score));
+            let (score, most) = (part::points(score), part::points(most));
             fact("", format!("Best so far {score} / {most}"), format!("これまでの最高 {score} / {most}"));
         }
         facts
@@ -176,17 +177,18 @@ impl Desk<'_> {
 
     fn attempt(&self, row: &HistoryRow, best: Option<&str>) -> Attempt {
         let submission = &row.submission;
-        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value}"));
         let verdict = match (row.verdict, submission.state) {
             (Some(verdict), _) => part::verdict(&self.frame, verdict),
-            (None, Progress::Failed) => self.frame.say("Failed on our side; tried again soon", "サーバ側の障害。まもなく再採点します"),
+            (None, Progress::Failed) => {
+                self.frame.say("Failed on our side; tried again soon", "サーバ側の障害。まもなく再採点します")
+            }
             (None, _) => self.frame.say("Being graded", "採点中"),
         };
         Attempt {
             href: format!("/r/{}", submission.id),
             mark: row.verdict.map(|verdict| mark(verdict, row.score).id()),
-            score: number(row.score),
-            max_score: number(row.max_score),
+            score: part::points(row.score),
+            max_score: part::points(row.max_score),
             verdict,
             is_best: best == Some(submission.id.as_str()),
             portrait: draws(row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),

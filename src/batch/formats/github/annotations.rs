@@ -78,7 +78,7 @@ fn of_entry(entry: &Entry, language: Language) -> Vec<Annotation<'_>> {
     let standing = Standing::of(&entry.outcome);
     let Some(report) = entry.report() else {
         let message = wording::fault(entry, language).unwrap_or_else(|| wording::explanation(entry, language));
-        let title = title(entry, standing.label().get(language));
+        let title = title(entry, standing.word(language));
         return vec![Annotation { level: "error", entry, line: None, columns: None, title, message }];
     };
     let lost = report.rubric.iter().filter(|line| !wording::is_full(line));

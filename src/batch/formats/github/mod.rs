@@ -61,8 +61,7 @@ fn line(entry: &Entry, class: &Class) -> String {
         Standing::Fault => wording::fault(entry, class.language).unwrap_or_default(),
         _ => mistakes,
     };
-    let word = standing.label();
-    let label = word.get(class.language);
+    let label = standing.word(class.language);
     let line = format!("{}: {label}{} {detail}", entry.student.name, score.unwrap_or_default());
     format!("{}\n", one_line(line.trim_end()))
 }

@@ -4,7 +4,9 @@ use crate::batch::class::{Class, Entry};
 use crate::batch::formats::untrusted::one_line;
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
+use crate::diagnostic::Severity;
 use crate::language::{Language, Text};
+use crate::report::html::rich::{Piece, pieces};
 use std::fmt::Write;
 
 /// The most bytes that GitHub takes of one step: 1 MiB. A longer summary is refused whole.
@@ -17,11 +19,11 @@ const CLOSING: usize = 400;
 pub fn summary(class: &Class, limit: usize) -> String {
     let language = class.language;
     let mut rows = Rows { out: String::new(), limit: limit.saturating_sub(CLOSING), left_out: 0 };
-    rows.push(&format!("## ggrade: {}\n\n{}\n\n", markdown(&class.title), counts(class)));
+    rows.push(&format!("## ggrade: {}\n\n", markdown(&class.title)));
     if let [entry] = &class.entries[..] {
         rows.push(&single(entry, language));
     } else {
-        rows.push(heading(language));
+        rows.push(&format!("{}\n\n{}", counts(class), heading(language)));
         for entry in &class.entries {
             rows.push(&row(entry, language));
         }
@@ -71,18 +73,15 @@ fn counts(class: &Class) -> String {
     let count = |standing| class.entries.iter().filter(|entry| Standing::of(&entry.outcome) == standing).count();
     let counts = [Correct, Wrong, Rejected, Stopped, NotGraded, Fault].map(|standing| (standing, count(standing)));
     let counts = counts.iter().filter(|(_, count)| *count > 0);
-    counts
-        .map(|(standing, count)| format!("{} {count}", standing.label().get(class.language)))
-        .collect::<Vec<_>>()
-        .join(" · ")
+    counts.map(|(standing, count)| format!("{} {count}", standing.word(class.language))).collect::<Vec<_>>().join(" · ")
 }
 
 fn heading(language: Language) -> &'static str {
     match language {
         Language::En => {
-            "| Student | Outcome | Score | Mistakes | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
+            "| Student | Outcome | Score | Mistakes and errors | Report and pictures |\n| --- | --- | ---: | --- | --- |\n"
         }
-        Language::Ja => "| 学生 | 結果 | 得点 | 間違い | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
+        Language::Ja => "| 学生 | 結果 | 得点 | 間違いとエラー | 採点結果と画像 |\n| --- | --- | ---: | --- | --- |\n",
     }
 }
 
@@ -90,24 +89,33 @@ fn row(entry: &Entry, language: Language) -> String {
     let report = entry.report();
     let score = report.map(|report| wording::points(report.score, report.max_score)).unwrap_or_default();
     let detail = match report {
-        Some(report) => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        Some(report) => match report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
+            Some(error) => {
+                let place = wording::place(error, language);
+                format!("{}: {}", markdown(&place), rich(error.message.get(language)))
+            }
+            None => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+        },
         None => {
             let fault = wording::fault(entry, language);
-            markdown(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
+            rich(&fault.unwrap_or_else(|| wording::explanation(entry, language)))
         }
     };
     let page = entry.page.as_ref().map(|page| code(&page.to_string_lossy())).unwrap_or_default();
     let name = markdown(&entry.student.name);
-    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).label().get(language))
+    format!("| {name} | {} | {score} | {detail} | {page} |\n", Standing::of(&entry.outcome).word(language))
 }
 
 /// The rubric and the diagnostics of the only student.
 fn single(entry: &Entry, language: Language) -> String {
-    let mut out = String::new();
-    if let Some(fault) = wording::fault(entry, language) {
-        let _ = writeln!(out, "{}\n", markdown(&fault));
+    let mut out = format!("**{}**", Standing::of(&entry.outcome).word(language));
+    if let Some(report) = entry.report() {
+        let _ = write!(out, " {}", wording::points(report.score, report.max_score));
     }
-    let _ = writeln!(out, "{}\n", markdown(&wording::explanation(entry, language)));
+    let _ = writeln!(out, "\n\n{}\n", rich(&wording::explanation(entry, language)));
+    if let Some(fault) = wording::fault(entry, language) {
+        let _ = writeln!(out, "{}\n", rich(&fault));
+    }
     let Some(report) = entry.report() else { return out };
     out.push_str(match language {
         Language::En => "| Rubric | Points | Mistake | Feedback |\n| --- | ---: | --- | --- |\n",
@@ -117,13 +125,12 @@ fn single(entry: &Entry, language: Language) -> String {
         let label = markdown(line.label.get(language));
         let points = wording::points(line.points, line.max_points);
         let mistake = line.mistake.as_deref().map(code).unwrap_or_default();
-        let _ = writeln!(out, "| {label} | {points} | {mistake} | {} |", markdown(line.message.get(language)));
+        let _ = writeln!(out, "| {label} | {points} | {mistake} | {} |", rich(line.message.get(language)));
     }
-    let score = wording::points(report.score, report.max_score);
-    let _ = writeln!(out, "| | **{score}** | | |\n");
+    out.push('\n');
     for diagnostic in &report.diagnostics {
         let place = wording::place(diagnostic, language);
-        let _ = writeln!(out, "- **{}** {}", markdown(&place), markdown(&wording::message(diagnostic, language)));
+        let _ = writeln!(out, "- **{}** {}", markdown(&place), rich(&wording::message(diagnostic, language)));
     }
     out
 }
@@ -133,6 +140,12 @@ fn single(entry: &Entry, language: Language) -> String {
 fn markdown(text: &str) -> String {
     let escape = |c: char| if c.is_ascii_punctuation() { format!("&#{};", u32::from(c)) } else { c.to_string() };
     one_line(text).chars().map(escape).collect()
+}
+
+/// A message in one line, its `code` in a typewriter's letters.
+fn rich(message: &str) -> String {
+    let piece = |piece: Piece| if piece.code { code(&piece.text) } else { markdown(&piece.text) };
+    pieces(message).into_iter().map(piece).collect()
 }
 
 /// The same in a typewriter's letters.
@@ -154,6 +167,9 @@ mod tests {
         assert!(summary.contains("| Student 0 | Correct | 100 / 100 |  |  |\n"), "{summary}");
         let mistake = "<code>specular&#45;half&#45;unnormalized</code>";
         assert!(summary.contains(&format!("| Student 1 | Not right yet | 80 / 100 | {mistake} |  |\n")), "{summary}");
+        let error =
+            "| Student 2 | Not accepted | 0 / 100 | error · line 11&#44; column 12: <code>Max</code> is not declared";
+        assert!(summary.contains(error), "{summary}");
         // No score where we failed, nor where there was nothing to grade.
         assert!(summary.contains("| Student 5 | Grading failed |  | no driver"), "{summary}");
         assert!(summary.contains("| Student 4 | Nothing to grade |  | There is no"), "{summary}");
@@ -179,7 +195,8 @@ mod tests {
         let class = Class { entries: vec![entry], language: Language::Ja, ..nasty::class() };
         let summary = summary(&class, LIMIT);
         assert!(summary.contains("| 鏡面反射光 | 20 / 40 | <code>specular&#45;half&#45;unnormalized</code> |"));
-        assert!(summary.contains("| | **80 / 100** | | |"), "{summary}");
+        assert!(summary.contains("**修正が必要です** 80 / 100\n"), "{summary}");
+        assert!(summary.contains("<code>h</code>") && !summary.contains('`'), "{summary}");
         assert!(summary.contains("12 行目 9 文字目"), "{summary}");
     }
 

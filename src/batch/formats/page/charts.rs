@@ -2,9 +2,9 @@
 
 use super::words::Words;
 use crate::batch::class::{Class, Entry};
-use crate::batch::formats::status::Status;
+use crate::batch::standing::Standing;
+use crate::batch::statistics::{self, BINS};
 use crate::language::Language;
-use crate::report::Report;
 use crate::report::text::number;
 use std::collections::HashMap;
 
@@ -19,36 +19,27 @@ pub(super) struct Tally {
 
 /// The verdicts that occur, from right to wrong.
 pub(super) fn tallies(class: &Class, language: Language) -> Vec<Tally> {
-    let count = |status: Status| class.entries.iter().filter(|entry| Status::of(entry) == status).count();
-    let tally = |status: Status| Tally {
+    let counts = Standing::count(&class.entries);
+    let count = |status: Standing| counts[status as usize];
+    let tally = |status: Standing| Tally {
         id: status.id(),
         sign: sign(status, 1.0),
         word: status.word(language),
         count: count(status),
         percent: 100.0 * count(status) as f64 / class.entries.len().max(1) as f64,
     };
-    Status::ALL.into_iter().map(tally).filter(|tally| tally.count > 0).collect()
+    Standing::ALL.into_iter().map(tally).filter(|tally| tally.count > 0).collect()
 }
 
 /// The id of the hand-drawn sign of a verdict, as a teacher marks it.
-pub(super) fn sign(status: Status, score: f64) -> &'static str {
+pub(super) fn sign(status: Standing, score: f64) -> &'static str {
     match status {
-        Status::Correct => "full",
-        Status::Wrong if score > 0.0 => "partial",
-        Status::Wrong | Status::Rejected | Status::Stopped => "none",
-        Status::NotGraded => "nothing",
-        Status::Fault => "fault",
+        Standing::Correct => "full",
+        Standing::Wrong if score > 0.0 => "partial",
+        Standing::Wrong | Standing::Rejected | Standing::Stopped => "none",
+        Standing::NotGraded => "nothing",
+        Standing::Fault => "fault",
     }
-}
-
-/// Parts of the full score that are counted together; full marks are a bin of their own.
-const BINS: usize = 10;
-
-/// The bin of a score.
-pub(super) fn bin(report: &Report) -> usize {
-    let share = if report.max_score > 0.0 { report.score / report.max_score } else { 0.0 };
-    // A tenth is no binary fraction: 0.7 * 10 must not fall below 7.
-    (share * BINS as f64 + 1e-9).clamp(0.0, BINS as f64) as usize
 }
 
 /// Students with scores from `from` on.
@@ -66,10 +57,7 @@ const HIGHEST: f64 = 76.0;
 
 /// The scores of everyone who was graded.
 pub(super) fn bins(class: &Class, max_score: f64, words: &Words) -> Vec<Bin> {
-    let mut counts = [0usize; BINS + 1];
-    for report in class.entries.iter().filter_map(Entry::report) {
-        counts[bin(report)] += 1;
-    }
+    let counts = statistics::histogram(class);
     let most = counts.iter().copied().max().unwrap_or(0).max(1) as f64;
     let from = |id: usize| number(max_score * id as f64 / BINS as f64);
     let of = |(id, &count): (usize, &usize)| {
@@ -87,19 +75,6 @@ pub(super) fn bins(class: &Class, max_score: f64, words: &Words) -> Vec<Bin> {
     counts.iter().enumerate().map(of).collect()
 }
 
-/// Mean and median of the scores; none where nobody was graded.
-pub(super) fn mean_and_median(class: &Class) -> Option<(f64, f64)> {
-    let mut scores: Vec<f64> = class.entries.iter().filter_map(Entry::report).map(|report| report.score).collect();
-    scores.sort_by(f64::total_cmp);
-    let middle = scores.len() / 2;
-    let median = match scores.len() {
-        0 => return None,
-        n if n % 2 == 0 => (scores[middle - 1] + scores[middle]) / 2.0,
-        _ => scores[middle],
-    };
-    Some((scores.iter().sum::<f64>() / scores.len() as f64, median))
-}
-
 /// Students with one mistake.
 pub(super) struct Mistake {
     pub id: String,
@@ -110,24 +85,13 @@ pub(super) struct Mistake {
 
 /// The mistakes that occur, the most frequent first; the label is the rubric line that they cost points in.
 pub(super) fn mistakes(class: &Class, language: Language) -> Vec<Mistake> {
-    let mut found: Vec<(&str, usize)> = Vec::new();
-    let mut place: HashMap<&str, usize> = HashMap::new();
     let mut labels: HashMap<&str, &str> = HashMap::new();
-    for report in class.entries.iter().filter_map(Entry::report) {
-        for id in &report.mistakes {
-            let at = *place.entry(id).or_insert_with(|| {
-                found.push((id, 0));
-                found.len() - 1
-            });
-            found[at].1 += 1;
-        }
-        for line in &report.rubric {
-            if let Some(id) = &line.mistake {
-                labels.entry(id).or_insert(line.label.get(language));
-            }
+    for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
+        if let Some(id) = &line.mistake {
+            labels.entry(id).or_insert(line.label.get(language));
         }
     }
-    found.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(b.0)));
+    let found = statistics::mistakes(class);
     let most = found.first().map_or(1, |(_, count)| *count) as f64;
     let of = |(id, count): (&str, usize)| Mistake {
         id: id.to_owned(),

@@ -3,6 +3,8 @@
 //! A plain table of everyone with scripts off; the one script filters, sorts and lays the pictures out as a contact
 //! sheet. What the page may load and run is fixed by a `Content-Security-Policy` that names style and script by hash.
 
+#[cfg(test)]
+mod browser;
 mod charts;
 mod groups;
 mod portraits;
@@ -14,8 +16,10 @@ use self::charts::{Bin, Mistake, Tally};
 use self::portraits::Portraits;
 use self::words::Words;
 use super::plain::one_line;
-use super::status::{Status, summary};
+use super::status::summary;
 use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::standing::Standing;
+use crate::batch::statistics;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::labels::Labels;
@@ -130,7 +134,7 @@ impl Page {
         let reports = || class.entries.iter().filter_map(Entry::report);
         let full = reports().filter(|report| report.verdict == Verdict::Correct).count();
         let max_score = reports().next().map_or(100.0, |report| report.max_score);
-        let averages = charts::mean_and_median(class);
+        let averages = statistics::averages(class);
         let groups = groups::groups(class);
         let lines = lines(class);
         let row = |(index, entry)| {
@@ -148,9 +152,9 @@ impl Page {
             assignment: title(class),
             assignment_id: one_line(&class.assignment),
             overview: words.overview(class.entries.len(), reports().count()),
-            mean: averages.map(|(mean, _)| number((mean * 10.0).round() / 10.0)),
+            mean: averages.map(|averages| number((averages.mean * 10.0).round() / 10.0)),
             max_score: number(max_score),
-            spread: averages.map(|(_, median)| words.spread(&number(median), full)).unwrap_or_default(),
+            spread: averages.map(|averages| words.spread(&number(averages.median), full)).unwrap_or_default(),
             tallies: charts::tallies(class, language),
             bins: charts::bins(class, max_score, words),
             mistakes: charts::mistakes(class, language),
@@ -198,7 +202,7 @@ fn lines(class: &Class) -> Vec<Line> {
 }
 
 fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, shares: Option<(usize, usize)>) -> Row {
-    let (report, status) = (entry.report(), Status::of(entry));
+    let (report, status) = (entry.report(), Standing::of(&entry.outcome));
     let file = entry.path.as_deref().and_then(|path| path.rsplit('/').next()).map(one_line);
     let number_in_moodle = entry.student.moodle.as_ref().map(|moodle| moodle.number.to_string());
     let points = |line: &Line| {
@@ -209,7 +213,7 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
         })
     };
     let mistake_ids = report.map(|report| report.mistakes.clone()).unwrap_or_default();
-    let is_said_already = status == Status::Correct || !mistake_ids.is_empty();
+    let is_said_already = status == Standing::Correct || !mistake_ids.is_empty();
     Row {
         key: entry.student.key.clone(),
         name: one_line(&entry.student.name),
@@ -218,7 +222,7 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
         status: status.id(),
         sign: charts::sign(status, report.map_or(0.0, |report| report.score)),
         word: status.word(class.language),
-        bin: report.map(|report| charts::bin(report).to_string()).unwrap_or_default(),
+        bin: report.map(|report| statistics::bin(report).to_string()).unwrap_or_default(),
         exact: report.map(|report| report.score.to_string()).unwrap_or_default(),
         score: report.map_or_else(|| "–".into(), |report| number(report.score)),
         lines: lines.iter().map(points).collect(),

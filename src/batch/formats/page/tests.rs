@@ -36,7 +36,7 @@ fn everyone_has_a_row_with_what_a_teacher_looks_for() {
         let points: Vec<String> = select(&page, "tbody tr:nth-child(2) td.line").into_iter().map(text).collect();
         assert_eq!(points, ["10", "20", "30", "20"]);
         let words: Vec<String> = select(&page, "tbody .verdict").into_iter().take(6).map(text).collect();
-        let expected = Status::ALL.map(|status| status.word(language));
+        let expected = Standing::ALL.map(|status| status.word(language));
         assert_eq!(words, expected);
         let links: Vec<_> = select(&page, "tbody th a").iter().filter_map(|a| a.value().attr("href")).collect();
         assert_eq!(links, ["students/s1001.html"], "only who has a page is linked");

@@ -34,10 +34,11 @@ impl Rules {
     pub fn of(class: &Class) -> Self {
         let mut rules = Self { values: Vec::new(), indices: HashMap::new() };
         let language = class.language;
-        for (stage, id) in
-            [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run].map(|s| (s, stage(s)))
-        {
-            rules.add(id, "error", json!({ "shortDescription": { "text": Labels::of(language).stage(stage) } }));
+        for stage_of in [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run] {
+            let (short, full) = (Labels::of(language).stage(stage_of), about(stage_of));
+            let texts =
+                json!({ "shortDescription": { "text": short }, "fullDescription": { "text": full.get(language) } });
+            rules.add(stage(stage_of), "error", texts);
         }
         for mistake in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.mistakes) {
             rules.add(&mistake.id, "warning", described(mistake, language));
@@ -46,7 +47,9 @@ impl Rules {
         let named = class.entries.iter().filter_map(|entry| entry.report());
         let named = named.flat_map(|report| &report.rubric).filter_map(|line| line.mistake.as_deref());
         for id in named.chain([UNEXPLAINED]) {
-            rules.add(id, "warning", json!({ "shortDescription": { "text": one_line(id) } }));
+            let lost = Text::new("Points are lost here.", "この箇所で減点があります。");
+            let texts = json!({ "shortDescription": { "text": one_line(id) }, "fullDescription": { "text": lost.get(language) } });
+            rules.add(id, "warning", texts);
         }
         rules
     }
@@ -56,6 +59,7 @@ impl Rules {
             return;
         }
         rule["id"] = json!(id);
+        rule["name"] = json!(pascal_case(id));
         rule["defaultConfiguration"] = json!({ "level": level });
         self.indices.insert(id.to_owned(), self.values.len());
         self.values.push(rule);
@@ -69,6 +73,35 @@ impl Rules {
     pub fn into_values(self) -> Vec<Value> {
         self.values
     }
+}
+
+/// What a finding of the stage means.
+fn about(stage: Stage) -> Text {
+    match stage {
+        Stage::Source => Text::new("The file cannot be read as a shader.", "ファイルをシェーダとして読み込めません。"),
+        Stage::Compile => Text::new(
+            "The compiler does not take the shader, or warns about it.",
+            "コンパイラがシェーダを受け付けないか、警告しています。",
+        ),
+        Stage::Link => Text::new(
+            "The shader does not go together with the fixed fragment shader.",
+            "シェーダを固定のフラグメントシェーダとリンクできません。",
+        ),
+        Stage::Interface => Text::new(
+            "The inputs, uniforms or outputs are not those of the assignment.",
+            "入力変数、uniform 変数、出力変数が課題の指定と異なります。",
+        ),
+        Stage::Run => Text::new("The shader was stopped while it ran.", "シェーダの実行を中断しました。"),
+    }
+}
+
+/// `specular-phong` as `SpecularPhong`, the form in which viewers show the name of a rule.
+fn pascal_case(id: &str) -> String {
+    let capital = |word: &str| {
+        let mut letters = word.chars();
+        letters.next().map(|first| first.to_ascii_uppercase().to_string() + letters.as_str()).unwrap_or_default()
+    };
+    id.split(|c: char| !c.is_ascii_alphanumeric()).map(capital).collect()
 }
 
 /// What the assignment says of the mistake, with the places left out that only a file can fill in.

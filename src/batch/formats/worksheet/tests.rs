@@ -160,3 +160,89 @@ fn what_is_no_worksheet_is_refused() {
         assert!(fill(&class, bytes).is_err(), "{bytes:?}");
     }
 }
+
+/// Numbers that look random and are the same in every run.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: u64) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) % sides) as usize
+    }
+
+    /// A cell as some program would write it.
+    fn cell(&mut self, content: &str, separator: char) -> String {
+        let must = content.contains(['"', '\r', '\n', separator]);
+        if must || self.roll(3) == 0 { format!("\"{}\"", content.replace('"', "\"\"")) } else { content.to_owned() }
+    }
+}
+
+/// Any worksheet that Moodle or a spreadsheet could have written, with other columns in other places.
+fn any_sheet(dice: &mut Dice, separator: char) -> (String, usize, usize) {
+    let words = [
+        ["Identifier", "Grade", "Maximum Grade", "Feedback comments"],
+        ["ID", "評定", "最大評定", "フィードバックコメント"],
+    ];
+    let words = words[dice.roll(2)];
+    let end = ["\n", "\r\n", "\r"][dice.roll(3)];
+    // The columns as indices into `words`; 4 is any other column, and the maximum follows the grade.
+    let mut columns = vec![4, 4];
+    for kind in [0, 1, 3] {
+        let mut at = dice.roll(columns.len() as u64 + 1);
+        // Nothing comes between a grade and its maximum.
+        at += usize::from(at > 0 && columns[at - 1] == 1);
+        let kinds: &[usize] = if kind == 1 { &[1, 2] } else { &[kind] };
+        columns.splice(at..at, kinds.iter().copied());
+    }
+    let mut sheet = String::from(["", BOM][dice.roll(2)]);
+    for row in 0..=samples::NASTY.len() {
+        let cells: Vec<String> = columns
+            .iter()
+            .map(|&kind| {
+                let content = match (row, kind) {
+                    (0, 4) => "その他 (x)".to_owned(),
+                    (0, kind) => words[kind].to_owned(),
+                    (_, 0) => format!("Participant {}", 1000 + row),
+                    (_, 1) => ["", "-", "12.5", "100"][dice.roll(4)].to_owned(),
+                    (_, 2) => ["100", "20.00", "7,5"][dice.roll(3)].to_owned(),
+                    _ => samples::NASTY[dice.roll(samples::NASTY.len() as u64)].to_owned(),
+                };
+                dice.cell(&content, separator)
+            })
+            .collect();
+        sheet += &(cells.join(&separator.to_string()) + end);
+    }
+    let column = |kind: usize| columns.iter().position(|column| *column == kind).expect("a column");
+    (sheet, column(1), column(3))
+}
+
+#[test]
+fn whatever_the_worksheet_is_like_every_other_cell_stays() {
+    let mut dice = Dice(6);
+    let class = samples::class(Language::Ja);
+    for _ in 0..300 {
+        let separator = [',', ';', '\t'][dice.roll(3)];
+        let (sheet, grade, feedback) = any_sheet(&mut dice, separator);
+        let filled = fill(&class, sheet.as_bytes()).unwrap_or_else(|fault| panic!("{fault}: {sheet}"));
+        let table = |bytes: &[u8]| -> Vec<Vec<String>> {
+            let mut reader = csv::ReaderBuilder::new();
+            let reader = reader.has_headers(false).delimiter(separator as u8);
+            let records = reader.from_reader(bytes).into_records().map(|record| record.expect("a record"));
+            records.map(|record| record.iter().map(str::to_owned).collect()).collect()
+        };
+        let (before, after) = (table(sheet.as_bytes()), table(&filled.bytes));
+        assert_eq!(before.len(), after.len());
+        for (row, (before, after)) in before.iter().zip(&after).enumerate() {
+            for (column, (before, after)) in before.iter().zip(after).enumerate() {
+                if row == 0 || (column != grade && column != feedback) {
+                    assert_eq!(before, after, "row {row}, column {column} of {sheet}");
+                }
+            }
+            if row > 0 && matches!(class.entries[row - 1].outcome, Outcome::Graded(_)) {
+                assert!(points::read(&after[grade]).is_some() && after[feedback].ends_with("</div>"));
+                assert!(after[feedback].starts_with(&before[feedback]), "a teacher's words stay");
+            }
+        }
+        assert_eq!(fill(&class, &filled.bytes).expect("a worksheet"), filled);
+    }
+}

@@ -3,9 +3,9 @@
 use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::shown;
-use super::people::people;
-use super::class::{Filter, Row, row};
 use super::Place;
+use super::class::{Filter, Row, row};
+use super::people::people;
 use crate::batch::formats::Format;
 use crate::service::State;
 use crate::service::api::archive::Archive;
@@ -65,10 +65,10 @@ struct One {
 /// The formats, but for the worksheet, which needs a file of Moodle's first.
 fn formats(frame: &Frame, is_batch: bool) -> Vec<Offer> {
     let all = Format::value_variants().iter();
-    let here = all.filter(|format| {
-        **format != Format::MoodleWorksheet && (is_batch || **format != Format::MoodleFeedback)
-    });
-    here.map(|format| Offer { id: format.id(), what: format.description().get(frame.language).replace('`', "") }).collect()
+    let here =
+        all.filter(|format| **format != Format::MoodleWorksheet && (is_batch || **format != Format::MoodleFeedback));
+    here.map(|format| Offer { id: format.id(), what: format.description().get(frame.language).replace('`', "") })
+        .collect()
 }
 
 /// `GET /teacher/batches`.

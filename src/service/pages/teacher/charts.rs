@@ -113,7 +113,13 @@ pub(super) fn course(people: &[&Person]) -> Option<Course> {
     let dot = |event: &Event<'_>| Dot {
         x: x(event.at),
         y: y(event.share),
-        kind: if event.share >= 1.0 { "full" } else if event.share > 0.0 { "partial" } else { "none" },
+        kind: if event.share >= 1.0 {
+            "full"
+        } else if event.share > 0.0 {
+            "partial"
+        } else {
+            "none"
+        },
     };
     Some(Course { dots: events.iter().map(dot).collect(), line: line.join(" "), from, to })
 }
@@ -169,7 +175,54 @@ fn spark(times: &[Millis], from: Millis, to: Millis) -> Vec<Bar> {
     let bars = counts.iter().enumerate().filter(|(_, count)| **count > 0);
     let bar = |(index, count): (usize, &usize)| {
         let height = SPARK.1 * *count as f64 / most as f64;
-        Bar { from: index, to: index, count: *count, x: index as f64 * step, y: SPARK.1 - height, width: step - 1.0, height }
+        Bar {
+            from: index,
+            to: index,
+            count: *count,
+            x: index as f64 * step,
+            y: SPARK.1 - height,
+            width: step - 1.0,
+            height,
+        }
     };
     bars.map(bar).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::service::pages::teacher::people::samples::person;
+
+    #[test]
+    fn full_marks_have_a_bar_of_their_own() {
+        let people = [person("a", &[(0, 100.0, "")]), person("b", &[(0, 99.5, "")]), person("c", &[(0, 0.0, "")])];
+        let histogram = histogram(&people.iter().collect::<Vec<_>>());
+        let counts: Vec<usize> = histogram.bars.iter().map(|bar| bar.count).collect();
+        assert_eq!(counts, [1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1]);
+        // (100 + 99.5 + 0) / 3 = 66.5
+        assert_eq!(histogram.mean, Some(67.0));
+        assert!(super::histogram(&[]).mean.is_none());
+    }
+
+    #[test]
+    fn the_line_is_the_mean_of_the_best_so_far() {
+        // a: 0 then 100; b: 50 in between, then 40, which changes nothing.
+        let people = [person("a", &[(0, 0.0, ""), (50, 100.0, "")]), person("b", &[(25, 50.0, ""), (100, 40.0, "")])];
+        let course = course(&people.iter().collect::<Vec<_>>()).expect("a course");
+        // Means: 0; (0 + 50)/2 = 25; (100 + 50)/2 = 75; 75. The top is 0, the bottom 160.
+        assert_eq!(course.line, "0.0,160.0 150.0,120.0 300.0,40.0 600.0,40.0");
+        assert_eq!(course.dots.len(), 4);
+        assert!(super::course(&[&people[0]]).is_some());
+        assert!(super::course(&[&person("c", &[(3, 1.0, "")])]).is_none(), "one file is no course");
+    }
+
+    #[test]
+    fn a_mistake_counts_by_people_and_its_history_by_files() {
+        let people =
+            [person("a", &[(0, 10.0, "gamma"), (10, 20.0, "unchanged")]), person("b", &[(20, 20.0, "unchanged")])];
+        let trends = trends(&people.iter().collect::<Vec<_>>());
+        let found: Vec<_> = trends.iter().map(|trend| (trend.id.as_str(), trend.people, trend.bars.len())).collect();
+        assert_eq!(found, [("unchanged", 2, 2), ("gamma", 0, 1)]);
+        assert_eq!(trends[0].percent, 100);
+    }
 }

@@ -116,8 +116,7 @@ pub(in crate::service::pages) async fn page(
     // Pseudonyms follow an order that says nothing of names, and stay as they are when others join.
     all.sort_by(|a, b| a.key.cmp(&b.key));
     let everyone: Vec<&Person> = all.iter().collect();
-    let mut chosen: Vec<(usize, &Person)> =
-        all.iter().enumerate().filter(|(_, person)| filter.takes(person)).collect();
+    let mut chosen: Vec<(usize, &Person)> = all.iter().enumerate().filter(|(_, person)| filter.takes(person)).collect();
     filter.sort(&mut chosen);
     let trends = charts::trends(&everyone);
     let mut mistakes: Vec<String> =
@@ -183,7 +182,6 @@ fn tallies(frame: &Frame, all: &[Person]) -> Vec<Tally> {
 pub(super) fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
     let best = person.best();
     let shown = best.or(person.rows.first());
-    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value}"));
     let standing = person.standing();
     let anonymous = filter.is_anonymous();
     let pseudonym = || match frame.tag() {
@@ -198,11 +196,10 @@ pub(super) fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person)
         portrait: portrait.map(|best| format!("/r/{}/portrait.png", best.row.submission.id)),
         mark: best.and_then(|best| Some(student::mark(best.row.verdict?, best.row.score).id())),
         word: word(frame, standing),
-        score: number(best.and_then(|best| best.row.score)),
-        max_score: number(best.and_then(|best| best.row.max_score)),
+        score: part::points(best.and_then(|best| best.row.score)),
+        max_score: part::points(best.and_then(|best| best.row.max_score)),
         mistakes: shown.map(|row| row.mistakes.clone()).unwrap_or_default(),
         attempts: person.rows.len(),
         at: person.latest().map(|at| Moment::of(at, frame.language)),
     }
 }
-

@@ -1,8 +1,8 @@
 //! The teacher's pages, behind the login.
 //!
 //! [`class`] is the table of everyone with its filters and [`charts`], [`person`] what one student handed in, [`batches`]
-//! whole archives and downloads, [`regradings`] grading again with a comparison, [`settings`] dates, limits, hints, the
-//! course link and the roster, [`login`] the way in.
+//! whole archives and downloads, [`regradings`] grading again with a comparison, [`settings`] dates, limits, hints and the
+//! course link, [`roster`] the list of students, [`login`] the way in.
 
 mod batches;
 mod charts;
@@ -11,6 +11,7 @@ mod login;
 mod people;
 mod person;
 mod regradings;
+mod roster;
 mod settings;
 
 use crate::service::State;
@@ -27,7 +28,7 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher/person", get(person::page))
         .route("/teacher/settings", get(settings::page).post(settings::save))
         .route("/teacher/settings/link", post(settings::renew))
-        .route("/teacher/roster", post(settings::roster))
+        .route("/teacher/roster", post(roster::take))
         .route("/teacher/batches", get(batches::list).post(batches::upload).layer(DefaultBodyLimit::disable()))
         .route("/teacher/batches/{id}", get(batches::one))
         .route("/teacher/batches/{id}/worksheet", post(batches::worksheet))

@@ -128,3 +128,57 @@ pub(in crate::service::pages) async fn people(state: &State, batch: Option<&str>
     }
     Ok(people)
 }
+
+#[cfg(test)]
+pub(super) mod samples {
+    use super::*;
+    use crate::diagnose::Hints;
+    use crate::service::store::{HistoryRow, Submission, Via};
+
+    /// Somebody with files of (time, points of 100, mistake), in the order of time.
+    pub fn person(key: &str, files: &[(Millis, f64, &str)]) -> Person {
+        let row = |(at, score, mistake): &(Millis, f64, &str)| ClassRow {
+            row: HistoryRow {
+                submission: Submission {
+                    id: format!("{key}-{at}"),
+                    assignment: "ggsample06".into(),
+                    sha256: String::new(),
+                    name: "ggsample06.vert".into(),
+                    owner_id: None,
+                    student_id: Some(key.to_owned()),
+                    batch_id: None,
+                    via: Via::Page,
+                    seed: 1,
+                    hints: Hints::Full,
+                    received_at: *at,
+                    state: Progress::Graded,
+                    fault: None,
+                },
+                verdict: Some(if *score >= 100.0 { Verdict::Correct } else { Verdict::Wrong }),
+                score: Some(*score),
+                max_score: Some(100.0),
+            },
+            mistakes: mistake.split_whitespace().map(str::to_owned).collect(),
+            number: Some(key.to_owned()),
+            student_name: None,
+        };
+        let rows = files.iter().rev().map(row).collect();
+        Person { key: key.to_owned(), number: key.to_owned(), name: String::new(), rows }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::samples::person;
+    use super::*;
+
+    #[test]
+    fn the_best_attempt_is_the_first_with_the_most_points() {
+        let best =
+            |files: &[(Millis, f64, &str)]| person("a", files).best().map(|best| best.row.submission.received_at);
+        assert_eq!(best(&[(1, 50.0, ""), (2, 80.0, ""), (3, 80.0, ""), (4, 0.0, "")]), Some(2));
+        assert_eq!(best(&[]), None);
+        assert_eq!(person("a", &[]).standing(), Standing::Nothing);
+        assert_eq!(person("a", &[(1, 100.0, ""), (2, 0.0, "")]).standing(), Standing::Graded(Verdict::Correct));
+    }
+}

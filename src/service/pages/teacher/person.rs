@@ -74,13 +74,15 @@ pub(in crate::service::pages) async fn page(
 
 fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> Attempt {
     let submission = &row.row.submission;
-    let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value}"));
     Attempt {
         href: format!("/r/{}", submission.id),
         mark: row.row.verdict.map(|verdict| student::mark(verdict, row.row.score).id()),
-        word: row.row.verdict.map_or_else(|| frame.say("Being graded", "採点中"), |verdict| part::verdict(frame, verdict)),
-        score: number(row.row.score),
-        max_score: number(row.row.max_score),
+        word: row
+            .row
+            .verdict
+            .map_or_else(|| frame.say("Being graded", "採点中"), |verdict| part::verdict(frame, verdict)),
+        score: part::points(row.row.score),
+        max_score: part::points(row.row.max_score),
         is_best: best == Some(submission.id.as_str()),
         portrait: student::draws(row.row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
         mistakes: row.mistakes.clone(),

@@ -3,9 +3,10 @@
 use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::{part, shown, student};
-use super::login::Token;
 use super::Place;
+use super::login::Token;
 use crate::report::Verdict;
+use crate::report::text::number;
 use crate::service::State;
 use crate::service::api::batches::{Job, progress};
 use crate::service::errors::Problem;
@@ -55,7 +56,7 @@ struct Row {
 struct Earned {
     mark: &'static str,
     word: &'static str,
-    score: f64,
+    score: String,
     mistakes: Vec<String>,
 }
 
@@ -146,7 +147,7 @@ fn line(frame: &Frame, row: &Compared) -> Row {
     let got = |(verdict, score, mistakes): &Graded| Earned {
         mark: student::mark(*verdict, Some(*score)).id(),
         word: part::verdict(frame, *verdict),
-        score: *score,
+        score: number(*score),
         mistakes: mistakes.clone(),
     };
     Row {
@@ -155,6 +156,12 @@ fn line(frame: &Frame, row: &Compared) -> Row {
         name: row.student_name.clone().unwrap_or_default(),
         before: got(&row.before),
         after: row.after.as_ref().map(got),
-        change: row.after.as_ref().map_or_else(String::new, |after| format!("{:+}", after.1 - row.before.1)),
+        change: row.after.as_ref().map_or_else(String::new, |after| signed(after.1 - row.before.1)),
     }
+}
+
+/// A difference of points, with its sign.
+fn signed(points: f64) -> String {
+    let sign = if points > SAME_POINTS { "+" } else { "" };
+    format!("{sign}{}", number(points))
 }

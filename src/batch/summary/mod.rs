@@ -1,20 +1,24 @@
 //! The class at the end of a run, for a terminal.
 
-use super::changes::{Change, Changes, LineChange, Standing as Before};
-use super::class::{Class, Entry, Outcome};
+mod changes;
+#[cfg(test)]
+mod tests;
+
+use super::changes::Changes;
+use super::class::{Class, Outcome};
 use super::standing::Standing;
+use super::statistics::{self, Averages, BINS};
 use crate::language::{Language, Text};
 use crate::report::wrap::{columns, pad, plain, wrap};
 use anstyle::{AnsiColor, Style};
-use std::collections::HashMap;
 
 /// Narrowest terminal that the tables are laid out for, and the widest line that reads well.
 const NARROWEST: usize = 40;
 const WIDEST: usize = 100;
 /// How many of a list are shown; the rest is counted.
 const LISTED: usize = 10;
-/// Points of a step of the histogram; full marks have one of their own.
-const STEP: usize = 10;
+/// Widest line with a bar.
+const BARS: usize = 64;
 
 const BOLD: Style = Style::new().bold();
 const DIM: Style = Style::new().dimmed();
@@ -26,7 +30,9 @@ const ODD: Style = AnsiColor::Magenta.on_default();
 /// What was written, and what there is to say about it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
-    /// Each file, as it is to be shown, with what it is.
+    /// The folder.
+    pub folder: String,
+    /// Each file in it, `*` for what each student has one of, with what it is.
     pub files: Vec<(String, Text)>,
     /// What a teacher should know.
     pub notes: Vec<Text>,
@@ -45,38 +51,6 @@ pub fn render(class: &Class, changes: Option<&Changes>, written: &Written, width
     }
     writer.written(written);
     writer.out
-}
-
-/// Mean and median; none of no scores.
-fn mean_and_median(scores: &mut [f64]) -> Option<(f64, f64)> {
-    scores.sort_by(f64::total_cmp);
-    let middle = scores.len() / 2;
-    let upper = *scores.get(middle)?;
-    let median = if scores.len().is_multiple_of(2) { f64::midpoint(scores[middle - 1], upper) } else { upper };
-    Some((scores.iter().sum::<f64>() / scores.len() as f64, median))
-}
-
-/// How many scores lie in each step of [`STEP`] points below full marks, and how many have them.
-fn histogram(scores: &[(f64, f64)]) -> Vec<usize> {
-    let mut bins = vec![0; 100 / STEP + 1];
-    let last = bins.len() - 1;
-    for (score, max_score) in scores {
-        let percent = 100.0 * score / max_score;
-        let bin = if score >= max_score { last } else { ((percent / STEP as f64) as usize).min(last - 1) };
-        bins[bin] += 1;
-    }
-    bins
-}
-
-/// The mistakes of the class, the most frequent first.
-fn mistakes(class: &Class) -> Vec<(&str, usize)> {
-    let mut counts: HashMap<&str, usize> = HashMap::new();
-    for mistake in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.mistakes) {
-        *counts.entry(mistake).or_default() += 1;
-    }
-    let mut counts: Vec<_> = counts.into_iter().collect();
-    counts.sort_by(|(a, n), (b, m)| m.cmp(n).then(a.cmp(b)));
-    counts
 }
 
 struct Writer {
@@ -141,17 +115,17 @@ impl Writer {
         let counts = Standing::count(&class.entries);
         let total = class.entries.len().max(1);
         self.out.push('\n');
-        self.line(&stacked(&counts, total, self.width.min(60)));
+        self.line(&stacked(&counts, total, self.width.min(BARS)));
         let present = || Standing::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0);
-        let label = |standing: Standing| standing.label().get(self.language).to_owned();
-        let column = present().map(|(standing, _)| columns(&label(standing))).max().unwrap_or(0);
+        let word = |standing: Standing| standing.word(self.language);
+        let column = present().map(|(standing, _)| columns(word(standing))).max().unwrap_or(0);
         let lines: Vec<_> = present()
             .map(|(standing, count)| {
                 let share = 100.0 * count as f64 / total as f64;
                 let sign = paint(style(standing), standing.sign());
                 format!(
                     "{sign} {}  {count:>5}  {}",
-                    pad(&label(standing), column),
+                    pad(word(standing), column),
                     paint(DIM, &format!("{share:>3.0} %"))
                 )
             })
@@ -160,39 +134,36 @@ impl Writer {
     }
 
     fn scores(&mut self, class: &Class) {
-        let reports = class.entries.iter().filter_map(Entry::report);
-        let scores: Vec<_> = reports.map(|report| (report.score, report.max_score)).collect();
-        let mut points: Vec<_> = scores.iter().map(|(score, _)| *score).collect();
-        let Some((mean, median)) = mean_and_median(&mut points) else { return };
+        let Some(Averages { count, mean, median }) = statistics::averages(class) else { return };
         self.heading(self.text("Scores", "得点"));
         let facts = match self.language {
-            Language::En => format!("mean {mean:.1}   median {median:.1}   of {} graded", scores.len()),
-            Language::Ja => format!("平均 {mean:.1}   中央値 {median:.1}   (採点した {} 件)", scores.len()),
+            Language::En => format!("mean {mean:.1}   median {median:.1}   ({count} graded)"),
+            Language::Ja => format!("平均 {mean:.1}   中央値 {median:.1}   (採点した {count} 名)"),
         };
         self.line(&format!("  {facts}"));
-        let bins = histogram(&scores);
+        let bins = statistics::histogram(class);
         let most = bins.iter().copied().max().unwrap_or(1).max(1);
-        let room = self.width.min(60) - 17;
+        let room = self.width.min(BARS) - 18;
         for (bin, &count) in bins.iter().enumerate() {
-            let label = if bin + 1 == bins.len() {
-                "100".into()
+            let (label, style) = if bin == BINS {
+                ("100 %".to_owned(), GOOD)
             } else {
-                format!("{}–{}", bin * STEP, bin * STEP + STEP - 1)
+                (format!("{}–{} %", bin * 100 / BINS, (bin + 1) * 100 / BINS - 1), PARTIAL)
             };
-            let style = if bin + 1 == bins.len() { GOOD } else { PARTIAL };
-            let number = if count > 0 { count.to_string() } else { paint(DIM, "·") };
-            self.line(&format!("  {label:>6}  {} {number}", paint(style, &bar(count, most, room))));
+            let bar =
+                if count > 0 { format!("{} {count}", paint(style, &bar(count, most, room))) } else { paint(DIM, "·") };
+            self.line(&format!("  {label:>7}  {bar}"));
         }
     }
 
     fn mistakes(&mut self, class: &Class) {
-        let mistakes = mistakes(class);
+        let mistakes = statistics::mistakes(class);
         if mistakes.is_empty() {
             return;
         }
         self.heading(self.text("Most frequent mistakes", "多かった間違い"));
         let column = mistakes.iter().take(LISTED).map(|(id, _)| columns(id)).max().unwrap_or(0);
-        let room = self.width.min(72).saturating_sub(column + 12);
+        let room = self.width.min(BARS).saturating_sub(column + 12);
         let most = mistakes[0].1;
         for (id, count) in mistakes.iter().take(LISTED) {
             let bar = paint(BAD, &bar(*count, most, room));
@@ -237,75 +208,15 @@ impl Writer {
         self.more(items.len());
     }
 
-    fn changes(&mut self, changes: &Changes) {
-        let since = &changes.before;
-        let heading = match self.language {
-            Language::En => format!("Since ggrade {}, seed {}", since.ggrade, since.seed),
-            Language::Ja => format!("前回 (ggrade {}、シード {}) からの変化", since.ggrade, since.seed),
-        };
-        self.heading(&plain(&heading));
-        if changes.is_empty() {
-            self.line(self.text("  Nothing changed.", "  変化はありません。"));
-            return;
-        }
-        let (gains, losses) = (changes.gains.len(), changes.losses.len());
-        let counts = match self.language {
-            Language::En => format!("▲ {gains} gain   ▼ {losses} lose   = {} unchanged", changes.unchanged),
-            Language::Ja => format!("▲ {gains} 名が増点   ▼ {losses} 名が減点   = {} 名は変化なし", changes.unchanged),
-        };
-        self.line(&format!("  {counts}"));
-        for (list, sign, style) in [
-            (&changes.losses, "▼", BAD),
-            (&changes.gains, "▲", GOOD),
-            (&changes.otherwise, "◇", PARTIAL),
-            (&changes.unclear, "!", ODD),
-        ] {
-            for change in list.iter().take(LISTED) {
-                self.change(change, &paint(style, sign));
-            }
-            self.more(list.len());
-        }
-        for (students, en, ja) in
-            [(&changes.new, "New", "新たな学生"), (&changes.gone, "No longer there", "いなくなった学生")]
-        {
-            if !students.is_empty() {
-                let names: Vec<_> = students.iter().take(LISTED).map(|student| student.name.as_str()).collect();
-                let separator = self.text(": ", ": ");
-                let text = format!("{} ({}){separator}{}", self.text(en, ja), students.len(), names.join(", "));
-                self.paragraph(2, Style::new(), &text);
-                self.more(students.len());
-            }
-        }
-    }
-
-    fn change(&mut self, change: &Change, sign: &str) {
-        let name = plain(&change.student.name).replace('\n', " ");
-        let [before, after] = [&change.before, &change.after].map(|standing| self.result(standing));
-        let file = if change.is_new_file { self.text("  another file", "  別のファイル") } else { "" };
-        self.line(&format!("  {sign} {name}  {before} → {after}{}", paint(DIM, file)));
-        for line in &change.rubric {
-            let text = rubric_line(line);
-            self.paragraph(6, DIM, &text);
-        }
-    }
-
-    fn result(&self, standing: &Before) -> String {
-        match (standing.score, standing.outcome) {
-            (Some(score), _) => number(score),
-            (None, "fault") => Standing::Fault.label().get(self.language).to_owned(),
-            (None, _) => Standing::NotGraded.label().get(self.language).to_owned(),
-        }
-    }
-
     fn written(&mut self, written: &Written) {
         if !written.files.is_empty() {
-            self.heading(self.text("Written", "出力"));
+            let heading = format!("{} {}", self.text("Written into", "出力先"), written.folder);
+            self.heading(&plain(&heading));
             let column = written.files.iter().map(|(path, _)| columns(path)).max().unwrap_or(0);
             for (path, what) in &written.files {
                 let what = what.get(self.language);
-                let path = plain(path);
                 if column + 4 + columns(what) <= self.width {
-                    self.line(&format!("  {}  {}", pad(&path, column), paint(DIM, what)));
+                    self.line(&format!("  {}  {}", pad(path, column), paint(DIM, what)));
                 } else {
                     self.line(&format!("  {path}"));
                     self.paragraph(4, DIM, what);
@@ -317,17 +228,6 @@ impl Writer {
             self.paragraph(0, PARTIAL, note.get(self.language));
         }
     }
-}
-
-/// `specular  20 → 40  specular-phong → –`
-fn rubric_line(line: &LineChange) -> String {
-    let points = |earned: &Option<super::changes::Earned>| earned.as_ref().map_or("–".into(), |e| number(e.points));
-    let mistake = |earned: &Option<super::changes::Earned>| {
-        earned.as_ref().and_then(|e| e.mistake.clone()).unwrap_or_else(|| "–".into())
-    };
-    let (before, after) = (mistake(&line.before), mistake(&line.after));
-    let why = if before == after { before } else { format!("{before} → {after}") };
-    format!("{}  {} → {}  {why}", line.id, points(&line.before), points(&line.after))
 }
 
 /// A number with at most two decimals, and none that says nothing.

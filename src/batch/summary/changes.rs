@@ -1,0 +1,81 @@
+//! What changed since an earlier grading.
+
+use super::{BAD, DIM, GOOD, LISTED, ODD, PARTIAL, Writer, number, paint};
+use crate::batch::changes::{Change, Changes, Earned, Grade, LineChange};
+use crate::batch::class::Student;
+use crate::language::Language;
+use crate::report::wrap::{columns, pad, plain};
+use anstyle::Style;
+
+impl Writer {
+    pub(super) fn changes(&mut self, changes: &Changes) {
+        let since = &changes.before;
+        let heading = match self.language {
+            Language::En => format!("Since ggrade {}, seed {}", since.ggrade, since.seed),
+            Language::Ja => format!("前回 (ggrade {}、シード {}) からの変化", since.ggrade, since.seed),
+        };
+        self.heading(&plain(&heading));
+        if changes.is_empty() {
+            self.line(self.text("  Nothing changed.", "  変化はありません。"));
+            return;
+        }
+        let (gains, losses) = (changes.gains.len(), changes.losses.len());
+        let counts = match self.language {
+            Language::En => format!("▲ {gains} gain   ▼ {losses} lose   = {} unchanged", changes.unchanged),
+            Language::Ja => format!("▲ {gains} 名が増点   ▼ {losses} 名が減点   = {} 名は変化なし", changes.unchanged),
+        };
+        self.line(&format!("  {counts}"));
+        for (list, sign, style) in [
+            (&changes.losses, "▼", BAD),
+            (&changes.gains, "▲", GOOD),
+            (&changes.otherwise, "◇", PARTIAL),
+            (&changes.unclear, "!", ODD),
+        ] {
+            for change in list.iter().take(LISTED) {
+                self.change(change, &paint(style, sign));
+            }
+            self.more(list.len());
+        }
+        self.students(self.text("New", "新たな学生"), &changes.new);
+        self.students(self.text("No longer there", "いなくなった学生"), &changes.gone);
+    }
+
+    fn change(&mut self, change: &Change, sign: &str) {
+        let (before, after) = (&change.before, &change.after);
+        let name = plain(&change.student.name).replace('\n', " ");
+        let points = |grade: &Grade| grade.score.map_or("–".into(), number);
+        let mut line = format!("  {sign} {name}  {} → {}", points(before), points(after));
+        if before.standing != after.standing {
+            let word = |grade: &Grade| grade.standing.word(self.language);
+            line += &format!("  {} → {}", word(before), word(after));
+        }
+        if change.is_new_file {
+            line += &paint(DIM, self.text("  (another file)", "  (別のファイル)"));
+        }
+        self.line(&line);
+        let column = change.rubric.iter().map(|line| columns(&line.id)).max().unwrap_or(0);
+        for line in &change.rubric {
+            self.line(&format!("      {}", paint(DIM, &plain(&rubric_line(line, column)))));
+        }
+    }
+
+    fn students(&mut self, what: &str, students: &[Student]) {
+        if students.is_empty() {
+            return;
+        }
+        let names: Vec<_> = students.iter().take(LISTED).map(|student| student.name.as_str()).collect();
+        self.paragraph(2, Style::new(), &format!("{what} ({}): {}", students.len(), names.join(", ")));
+        self.more(students.len());
+    }
+}
+
+/// `specular  20 → 40  specular-phong → –`
+fn rubric_line(line: &LineChange, column: usize) -> String {
+    let points = |earned: &Option<Earned>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
+    let mistake = |earned: &Option<Earned>| {
+        earned.as_ref().and_then(|earned| earned.mistake.clone()).unwrap_or_else(|| "–".into())
+    };
+    let (before, after) = (mistake(&line.before), mistake(&line.after));
+    let why = if before == after { before } else { format!("{before} → {after}") };
+    format!("{}  {} → {}  {why}", pad(&line.id, column), points(&line.before), points(&line.after))
+}

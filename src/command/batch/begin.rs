@@ -1,0 +1,116 @@
+//! What is looked at before anything is graded.
+
+use crate::batch::anonymous::{self, Pseudonyms};
+use crate::batch::class::Class;
+use crate::batch::folder::{Folder, NotOpened};
+use crate::batch::formats::worksheet;
+use crate::batch::intake::Intake;
+use crate::batch::journal::{self, Found, Header, Unreadable};
+use crate::batch::start::NotBegun;
+use crate::cli::Batch;
+use crate::command::{file_fault, language, writing};
+use crate::language::{Language, Text};
+use crate::report::wrap::plain;
+use std::path::Path;
+
+/// Refuses an output folder that a later run would read as part of the input.
+pub(super) fn outside(arguments: &Batch) -> Result<(), NotBegun> {
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    let absolute = std::path::absolute(&arguments.out).unwrap_or_else(|_| arguments.out.clone());
+    // The nearest folder that is there already tells where the others will be.
+    let Some(out) = absolute.ancestors().find_map(real) else { return Ok(()) };
+    let inside =
+        arguments.inputs.iter().find(|input| real(input).is_some_and(|input| input.is_dir() && out.starts_with(input)));
+    let Some(input) = inside else { return Ok(()) };
+    let (out, input) = (arguments.out.display(), input.display());
+    Err(NotBegun::Usage(Text::new(
+        format!("--out {out} lies inside the input {input}, and would be handed in with it: name a folder beside it"),
+        format!(
+            "--out {out} が入力 {input} の中にあり、提出物と混ざってしまいます。入力の外のフォルダを指定してください"
+        ),
+    )))
+}
+
+pub(super) fn open(arguments: &Batch) -> Result<Folder, NotBegun> {
+    Folder::open(&arguments.out).map_err(|error| match error {
+        NotOpened::Fault(fault) => NotBegun::Fault(fault),
+        NotOpened::InUse => {
+            let path = arguments.out.display();
+            NotBegun::Usage(Text::new(
+                format!("another ggrade is writing into {path}: wait for it, or name another folder"),
+                format!("別の ggrade が {path} に書き込んでいます。終わるまで待つか、別のフォルダを指定してください"),
+            ))
+        }
+    })
+}
+
+fn usage_unreadable(path: &Path, detail: &str) -> NotBegun {
+    let path = path.display();
+    NotBegun::Usage(Text::new(format!("cannot read {path}: {detail}"), format!("{path} を読み込めません: {detail}")))
+}
+
+/// Moodle's worksheet; one that cannot be filled in is found before anything is graded.
+pub(super) fn read_sheet(path: &Path) -> Result<Vec<u8>, NotBegun> {
+    let sheet = std::fs::read(path).map_err(|error| usage_unreadable(path, &error.to_string()))?;
+    let nobody = Class {
+        assignment: String::new(),
+        title: String::new(),
+        entries: Vec::new(),
+        refused: Vec::new(),
+        expected_portrait: Vec::new(),
+        language: Language::En,
+    };
+    worksheet::fill(&nobody, &sheet).map_err(|fault| {
+        let path = path.display();
+        NotBegun::Usage(Text::new(format!("{path}: {}", fault.message.en), format!("{path}: {}", fault.message.ja)))
+    })?;
+    Ok(sheet)
+}
+
+/// The earlier results to compare with: a journal, or the folder that has it.
+pub(super) fn read_earlier(path: &Path) -> Result<Found, NotBegun> {
+    let path = if path.is_dir() { &path.join(journal::NAME) } else { path };
+    journal::read(path).map_err(|error| match error {
+        Unreadable::Missing => usage_unreadable(path, "no such file"),
+        Unreadable::Foreign(text) => NotBegun::Usage(text),
+        Unreadable::Fault(fault) => NotBegun::Usage(fault.message),
+    })
+}
+
+pub(super) fn tell_empty(intake: &Intake, language: Language) {
+    let text = Text::new("there is nothing to grade in the input", "入力に採点するものがありません");
+    anstream::eprintln!("ggrade: {}", text.get(language));
+    for refused in &intake.refused {
+        anstream::eprintln!("  {}: {}", plain(&refused.path), plain(refused.reason.get(language)));
+    }
+}
+
+/// What this run grades with. A run that goes on keeps what was not asked for otherwise, and one that compares takes the
+/// seed: then no difference comes from other probes.
+pub(super) fn header(arguments: &Batch, found: Option<&Found>, before: Option<&Found>) -> Header {
+    let earlier = found.map(|found| &found.header);
+    let seed = earlier.or(before.map(|before| &before.header)).map(|header| header.seed);
+    let seed = arguments.seed.or(seed).unwrap_or_else(crate::grade::random_seed);
+    let asked = arguments.lang.or(earlier.map(|header| header.language));
+    Header {
+        schema: journal::SCHEMA.into(),
+        assignment: arguments.machine.assignment.clone(),
+        ggrade: env!("CARGO_PKG_VERSION").into(),
+        seed,
+        hints: arguments.hints,
+        deadline: arguments.deadline,
+        adapter: arguments.machine.adapter.name().into(),
+        language: language(asked),
+        anonymous: arguments.anonymous,
+    }
+}
+
+/// Takes the names away, and writes down whose they were where that is asked for.
+pub(super) fn hide(arguments: &Batch, intake: Intake, folder: &Folder, file: &str) -> Result<Intake, NotBegun> {
+    let (intake, named) = Pseudonyms::of(folder)?.hide(intake, file);
+    if let Some(path) = &arguments.names {
+        let table = anonymous::table(&named)?;
+        std::fs::write(path, table).map_err(|error| file_fault(&writing(), path, &error))?;
+    }
+    Ok(intake)
+}

@@ -1,0 +1,98 @@
+//! `ggrade batch`: a class to its reports. [`begin`] looks at what is wanted, [`session`] does it.
+
+mod begin;
+mod session;
+
+use super::interrupt::Interrupt;
+use super::{Outcome, deadline, language};
+use crate::batch::class::Class;
+use crate::batch::intake;
+use crate::batch::output::{self, Given};
+use crate::batch::portrait::Portraits;
+use crate::batch::run;
+use crate::batch::standing::Standing;
+use crate::batch::start::{self, Mode, NotBegun};
+use crate::cli::Batch;
+use crate::fault::Fault;
+use session::Session;
+use std::time::Duration;
+
+/// Grades a class.
+pub fn run(arguments: &Batch) -> Result<Outcome, Fault> {
+    // Before any thread is started.
+    let interrupt = Interrupt::watch()?;
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
+    match grade(arguments, deadline, &interrupt) {
+        Ok(outcome) => Ok(outcome),
+        Err(NotBegun::Fault(fault)) => Err(fault),
+        Err(NotBegun::Usage(text)) => {
+            anstream::eprintln!("ggrade: {}", text.get(language(arguments.lang)));
+            Ok(Outcome::Usage)
+        }
+    }
+}
+
+fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result<Outcome, NotBegun> {
+    let assignment = crate::homework::assignment(&arguments.machine.assignment)?;
+    begin::outside(arguments)?;
+    let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
+    let before = arguments.compare.as_deref().map(begin::read_earlier).transpose()?;
+    let options = intake::Options::new(assignment)?;
+    let intake = intake::read(&arguments.inputs, &options)?;
+    if intake.hand_ins.is_empty() {
+        begin::tell_empty(&intake, language(arguments.lang));
+        return Ok(Outcome::Nothing);
+    }
+    let given = Given {
+        anonymous: arguments.anonymous,
+        worksheet: sheet.is_some(),
+        moodle: intake.hand_ins.iter().any(|hand_in| hand_in.student.moodle.is_some()),
+    };
+    let formats = output::choose(&arguments.formats, given).map_err(NotBegun::Usage)?;
+    let folder = begin::open(arguments)?;
+    let mode = match (arguments.resume, arguments.force) {
+        (true, _) => Mode::Resume,
+        (_, true) => Mode::Force,
+        _ => Mode::New,
+    };
+    let found = start::earlier(&folder, &arguments.out, mode)?;
+    let header = begin::header(arguments, found.as_ref(), before.as_ref());
+    if let Some(found) = &found {
+        start::same_conditions(&arguments.out, &found.header, &header)?;
+    }
+    let intake =
+        if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.file_name)? } else { intake };
+    let title = arguments.title.clone().unwrap_or(intake.title);
+    let candidates = run::candidates(intake.hand_ins, assignment);
+    let portraits = Portraits::new(assignment)?;
+    let session = Session { arguments, assignment, interrupt, deadline, folder: &folder, header: &header };
+    let wants = output::wants(&formats);
+    let mut entries = session.reuse(&candidates, found, wants)?;
+    if !session.fill(&candidates, &mut entries, wants, &portraits)? {
+        return Ok(Outcome::Interrupted);
+    }
+    let class = Class {
+        assignment: assignment.id.clone(),
+        title: if title.is_empty() { assignment.id.clone() } else { title },
+        entries: entries.into_iter().flatten().collect(),
+        refused: intake.refused,
+        expected_portrait: portraits.expected,
+        language: header.language,
+    };
+    session.finish(&candidates, &class, &formats, sheet.as_deref(), before)
+}
+
+/// How a graded class ends the program.
+fn outcome(class: &Class) -> Outcome {
+    let has = |wanted: Standing| class.entries.iter().any(|entry| Standing::of(&entry.outcome) == wanted);
+    let all = |wanted: Standing| class.entries.iter().all(|entry| Standing::of(&entry.outcome) == wanted);
+    if has(Standing::Fault) {
+        Outcome::Fault
+    } else if all(Standing::NotGraded) {
+        Outcome::Nothing
+    } else if all(Standing::Correct) && class.refused.is_empty() {
+        Outcome::FullMarks
+    } else {
+        Outcome::Graded
+    }
+}

@@ -1,0 +1,107 @@
+//! What a save changed.
+
+use crate::language::Text;
+use crate::report::{Report, RubricLine, Verdict};
+
+/// What is different in `after`: the score, the lines of the rubric, the mistakes.
+pub(super) fn between(before: &Report, after: &Report) -> Text {
+    let score = score(before, after);
+    let (mut en, mut ja) = (vec![score.en], vec![score.ja]);
+    for line in &after.rubric {
+        let same = |other: &&RubricLine| other.id == line.id;
+        if let Some(other) = before.rubric.iter().find(same).filter(|other| other.points != line.points) {
+            let points = format!("{} → {}", number(other.points), number(line.points));
+            en.push(format!("{} {points}", line.label.en));
+            ja.push(format!("{} {points}", line.label.ja));
+        }
+    }
+    let missing_in = |report: &Report, other: &Report| {
+        let missing = other.mistakes.iter().filter(|mistake| !report.mistakes.contains(mistake));
+        missing.cloned().collect::<Vec<_>>().join(", ")
+    };
+    for (mistakes, in_english, in_japanese) in
+        [(missing_in(after, before), "mended", "解消"), (missing_in(before, after), "new", "新規")]
+    {
+        if !mistakes.is_empty() {
+            en.push(format!("{in_english}: {mistakes}"));
+            ja.push(format!("{in_japanese}: {mistakes}"));
+        }
+    }
+    Text::new(en.join(" · "), ja.join(" · "))
+}
+
+fn score(before: &Report, after: &Report) -> Text {
+    let runs = |report: &Report| matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+    let points = format!("{} → {} / {}", number(before.score), number(after.score), number(after.max_score));
+    match (runs(before), runs(after)) {
+        (false, true) => Text::new(format!("It runs now: {points}"), format!("動くようになりました: {points}")),
+        (true, false) => Text::new(format!("It no longer runs: {points}"), format!("動かなくなりました: {points}")),
+        _ if before.score == after.score => {
+            let points = format!("{} / {}", number(after.score), number(after.max_score));
+            Text::new(format!("The score stays {points}"), format!("得点は {points} のままです"))
+        }
+        _ => {
+            let gain = after.score - before.score;
+            let sign = if gain > 0.0 { "+" } else { "−" };
+            let points = format!("{points} ({sign}{})", number(gain.abs()));
+            Text::new(format!("Since the last save {points}"), format!("前回の保存から {points}"))
+        }
+    }
+}
+
+/// With at most two decimals.
+fn number(value: f64) -> String {
+    ((value * 100.0).round() / 100.0).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Environment;
+
+    fn report(verdict: Verdict, specular: f64, mistakes: &[&str]) -> Report {
+        let line = |id: &str, en: &str, ja: &str, points, max_points| RubricLine {
+            id: id.into(),
+            label: Text::new(en, ja),
+            points,
+            max_points,
+            mistake: None,
+            message: Text::default(),
+            line: None,
+        };
+        let rubric =
+            vec![line("shape", "Shape", "形", 10.0, 10.0), line("specular", "Specular", "鏡面反射光", specular, 40.0)];
+        let assignment = crate::homework::assignment("ggsample06").unwrap();
+        let source = crate::grade::source_info("x.vert", b"");
+        Report {
+            score: 10.0 + specular,
+            max_score: 50.0,
+            rubric,
+            mistakes: mistakes.iter().map(|id| (*id).into()).collect(),
+            ..crate::grade::unfinished(assignment, source, verdict, Vec::new(), Environment::default())
+        }
+    }
+
+    #[test]
+    fn a_gain_names_the_line_and_the_mistake_that_is_mended() {
+        let before = report(Verdict::Wrong, 20.5, &["specular-phong", "gamma"]);
+        let after = report(Verdict::Wrong, 40.0, &["gamma"]);
+        let change = between(&before, &after);
+        assert_eq!(
+            change.en,
+            "Since the last save 30.5 → 50 / 50 (+19.5) · Specular 20.5 → 40 · mended: specular-phong"
+        );
+        assert_eq!(change.ja, "前回の保存から 30.5 → 50 / 50 (+19.5) · 鏡面反射光 20.5 → 40 · 解消: specular-phong");
+        let back = between(&after, &before).en;
+        assert_eq!(back, "Since the last save 50 → 30.5 / 50 (−19.5) · Specular 40 → 20.5 · new: specular-phong");
+    }
+
+    #[test]
+    fn a_file_that_begins_or_ceases_to_run_is_told_first() {
+        let before = report(Verdict::Rejected, 0.0, &[]);
+        let after = report(Verdict::Correct, 40.0, &[]);
+        assert!(between(&before, &after).en.starts_with("It runs now: 10 → 50 / 50"));
+        assert!(between(&after, &before).en.starts_with("It no longer runs: 50 → 10 / 50"));
+        assert_eq!(between(&after, &after).en, "The score stays 50 / 50");
+    }
+}
