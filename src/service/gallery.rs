@@ -47,13 +47,17 @@ pub struct Drawn {
     animations: [OnceLock<Vec<u8>>; 4],
 }
 
+/// The pictures of a file, or the place where those wait who asked for them.
+type Cell = Arc<OnceCell<Arc<Drawn>>>;
+
 /// The pictures drawn lately.
 #[derive(Debug)]
 pub struct Gallery {
     assignment: &'static Assignment,
     expected: OnceLock<Expected>,
     portraits: OnceLock<Portraits>,
-    recent: Mutex<VecDeque<(String, Arc<OnceCell<Arc<Drawn>>>)>>,
+    /// By SHA-256 of the file; those looked at last come last.
+    recent: Mutex<VecDeque<(String, Cell)>>,
     /// One file is drawn at a time.
     turn: Semaphore,
 }
@@ -217,7 +221,7 @@ impl Gallery {
         drawn.await.map(Arc::new)
     }
 
-    fn cell(&self, sha256: &str) -> Arc<OnceCell<Arc<Drawn>>> {
+    fn cell(&self, sha256: &str) -> Cell {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         let known = recent.iter().position(|(key, _)| key == sha256).and_then(|index| recent.remove(index));
         let entry = known.unwrap_or_else(|| (sha256.to_owned(), Arc::default()));
@@ -228,7 +232,7 @@ impl Gallery {
     /// Forgets what was not looked at for longest, until the rest has room.
     fn make_room(&self) {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let size = |cell: &OnceCell<Arc<Drawn>>| cell.get().map_or(0, |drawn| drawn.size());
+        let size = |cell: &Cell| cell.get().map_or(0, |drawn| drawn.size());
         let mut total: usize = recent.iter().map(|(_, cell)| size(cell)).sum();
         while (total > ROOM || recent.len() > MOST) && recent.len() > 1 {
             if let Some((_, cell)) = recent.pop_front() {

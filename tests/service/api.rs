@@ -161,6 +161,12 @@ async fn the_description_names_every_route_and_is_served_with_a_page() {
     for path in ["/api/v1/submissions", "/api/v1/submissions/{id}", "/healthz", "/metrics"] {
         assert!(paths.contains(&&path.to_owned()), "{path} is not among {paths:?}");
     }
+    let text = document.to_string();
+    let references: Vec<&str> = text.split("\"$ref\":\"#").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert!(!references.is_empty());
+    for reference in references {
+        assert!(document.pointer(reference).is_some(), "{reference} leads nowhere");
+    }
     let page = bench.get("/api/docs/").await;
     assert_eq!(page.status, StatusCode::OK);
     let text = String::from_utf8_lossy(&page.body);

@@ -115,12 +115,12 @@ async fn a_history_belongs_to_its_browser(database: Database) {
         join(&bench.state, visitor, &secret, "s1").await.expect("joined");
     }
     let first = hand_in(&bench, &mine, "same-origin", "mine").await;
-    assert_eq!(history(&bench, &mine).await, [first.clone()]);
-    assert_eq!(history(&bench, &theirs).await, [String::new(); 0]);
+    assert_eq!(history(&bench, &mine).await, std::slice::from_ref(&first));
+    assert!(history(&bench, &theirs).await.is_empty());
     // Drafts are in no history, and a page of another site hands in under nobody's name.
     hand_in(&bench, &mine, "cross-site", "forged").await;
     hand_in(&bench, &mine, "same-site", "forged by a neighbour").await;
-    assert_eq!(history(&bench, &mine).await, [first.clone()]);
+    assert_eq!(history(&bench, &mine).await, std::slice::from_ref(&first));
     // The class table has the student by number.
     let class = bench.state.store.class("ggsample06", None).await.expect("a class");
     let numbers: Vec<_> = class.iter().filter_map(|row| row.number.as_deref()).collect();
@@ -137,7 +137,7 @@ async fn the_next_student_at_a_machine_sees_nothing(database: Database) {
     let second = join(&bench.state, first.clone(), &secret, "s2").await.expect("joined");
     let new_cookie = cookie_of(&bench.state, &second);
     assert_ne!(new_cookie, cookie);
-    assert_eq!(history(&bench, &new_cookie).await, [String::new(); 0]);
+    assert!(history(&bench, &new_cookie).await.is_empty());
     assert_eq!(second.identity.student().map(|student| student.number.as_str()), Some("S2"));
     // The same student again keeps the history.
     let again = join(&bench.state, first, &secret, " ｓ１ ").await.expect("joined");

@@ -228,7 +228,7 @@ pub(in crate::service) fn named(name: &str) -> Result<Format, Problem> {
 pub(in crate::service) fn saved(download: Download) -> Result<Response, Problem> {
     let mut response = download.bytes.into_response();
     let headers = response.headers_mut();
-    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(download.kind));
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream"));
     headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-store"));
     if let Ok(disposition) = HeaderValue::from_str(&attachment(&download.name)) {
         headers.insert(header::CONTENT_DISPOSITION, disposition);

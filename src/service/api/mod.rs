@@ -13,7 +13,7 @@ use super::State;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::routing::get;
-use schema::Security;
+use schema::{FormatName, Security};
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -29,7 +29,7 @@ pub const MAX_BODY: usize = 4 * super::submit::MAX_UPLOAD;
                        (RFC 9457), in the language of `?lang=` or `Accept-Language`.",
         license(name = "MIT OR Apache-2.0")
     ),
-    components(schemas(super::errors::ProblemJson)),
+    components(schemas(super::errors::ProblemJson, FormatName)),
     modifiers(&Security),
     tags(
         (name = "submissions", description = "One file. Its id opens it: who has the id may read the report."),

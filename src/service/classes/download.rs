@@ -40,8 +40,6 @@ pub enum Pick {
 pub struct Download {
     /// Its name.
     pub name: String,
-    /// Its content type.
-    pub kind: &'static str,
     /// Its bytes.
     pub bytes: Vec<u8>,
 }
@@ -221,11 +219,11 @@ fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> 
     match format.files() {
         [file] if !file.contains(KEY) => {
             let bytes = std::fs::read(folder.at(file)).map_err(|error| disk(&error))?;
-            Ok(Download { name: (*file).to_owned(), kind: kind(file), bytes })
+            Ok(Download { name: (*file).to_owned(), bytes })
         }
         _ => {
             let bytes = zipped(path).map_err(|error| disk(&error))?;
-            Ok(Download { name: format!("{}.zip", format.id()), kind: "application/zip", bytes })
+            Ok(Download { name: format!("{}.zip", format.id()), bytes })
         }
     }
 }
@@ -242,17 +240,6 @@ fn zipped(folder: &Path) -> std::io::Result<Vec<u8>> {
         }
     }
     Ok(zip.finish()?.into_inner())
-}
-
-fn kind(file: &str) -> &'static str {
-    match file.rsplit('.').next() {
-        Some("html") => "text/html; charset=utf-8",
-        Some("csv") => "text/csv; charset=utf-8",
-        Some("xml") => "application/xml",
-        Some("json" | "sarif") => "application/json",
-        Some("zip") => "application/zip",
-        _ => "text/plain; charset=utf-8",
-    }
 }
 
 fn disk(error: &std::io::Error) -> Fault {
