@@ -15,14 +15,22 @@ use std::sync::Weak;
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Passes records on; OpenGL's clip range of z, [−w, w], becomes wgpu's [0, w].
+///
+/// A colour beyond ±2²⁰ is painted as if it were that: white or black at every pixel that shows any of it, as it is anyway,
+/// but the driver's conversion to 8 bits goes through an `i32` and would make black of what that cannot hold.
 const PASS_ON: &str = "
 struct Vertex {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(perspective, center) colour: vec4f,
 }
 
+fn bounded(colour: vec4f) -> vec4f {
+    let most = 1048576.0;
+    return select(colour, sign(colour) * most, abs(colour) > vec4f(most));
+}
+
 @vertex fn pass_on(@location(0) position: vec4f, @location(1) colour: vec4f) -> Vertex {
-    return Vertex(vec4f(position.xy, (position.z + position.w) * 0.5, position.w), colour);
+    return Vertex(vec4f(position.xy, (position.z + position.w) * 0.5, position.w), bounded(colour));
 }
 ";
 

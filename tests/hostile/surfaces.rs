@@ -2,7 +2,7 @@
 
 use super::files::{self, Hostile, Seen};
 use super::settings;
-use super::workers::{GGRADE, children, grade};
+use super::workers::{GGRADE, alone, children, grade};
 use ggrade::sandbox::Pool;
 use std::process::Command;
 use std::sync::Mutex;
@@ -16,6 +16,7 @@ const CALLERS: usize = 2;
 
 #[test]
 fn the_pool_gives_each_file_its_verdict() {
+    let _alone = alone();
     let pool = Pool::start(settings(), CALLERS).unwrap();
     hold(&files::all(), &|file| match grade(&pool, &file.bytes) {
         Ok(answer) => Ok(Seen::of(&answer.report)),
@@ -27,6 +28,7 @@ fn the_pool_gives_each_file_its_verdict() {
 
 #[test]
 fn the_command_gives_each_file_its_verdict() {
+    let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     hold(&files::all(), &|file| {
         let path = folder.path().join(&file.name);
