@@ -5,6 +5,7 @@
 //! there.
 
 use super::language::of_request;
+use crate::fault::Fault;
 use crate::language::{Language, Text};
 use axum::body::{Body, to_bytes};
 use axum::extract::Request;
@@ -89,6 +90,11 @@ impl Problem {
             "Something failed on our side; it is no fault of yours and costs no points. Please try again later.",
             "サーバ側の障害です。あなたの誤りではなく、減点にもなりません。しばらくしてからもう一度試してください。",
         )
+    }
+
+    /// A fault of ours. What it says after its colon may quote a student's file, which the log must not.
+    pub fn of_fault(fault: &Fault) -> Self {
+        Self::internal(&fault.message.en.split(':').next().unwrap_or_default())
     }
 
     /// The object for a client.

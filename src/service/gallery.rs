@@ -82,6 +82,10 @@ impl Gallery {
 
     /// The pictures of a submission: from memory, or drawn anew. Many who ask at once wait for one drawing.
     pub async fn drawn(&self, state: &State, submission: &Submission) -> Result<Arc<Drawn>, Problem> {
+        // What was refused or stopped once is not run again for who looks at it.
+        if !state.store.is_drawn(&submission.id).await? {
+            return Ok(Arc::default());
+        }
         let cell = self.cell(&submission.sha256);
         let drawn = cell.get_or_try_init(|| self.draw(state, submission)).await.cloned();
         self.make_room();
@@ -149,6 +153,9 @@ impl Gallery {
     /// where nothing is drawn.
     pub async fn portrait(&self, state: &State, submission: &Submission) -> Result<Option<Vec<u8>>, Problem> {
         let Submission { assignment, sha256, .. } = submission;
+        if !state.store.is_drawn(&submission.id).await? {
+            return Ok(None);
+        }
         if let Some(kept) = state.store.portrait(assignment, sha256).await? {
             return Ok(kept);
         }
@@ -256,7 +263,7 @@ async fn blocking<T: Send + 'static>(
 ) -> Result<T, Problem> {
     let state = state.clone();
     match tokio::task::spawn_blocking(move || work(&state)).await {
-        Ok(result) => result.map_err(|fault| Problem::internal(&fault)),
+        Ok(result) => result.map_err(|fault| Problem::of_fault(&fault)),
         Err(panic) => Err(Problem::internal(&panic)),
     }
 }

@@ -111,6 +111,9 @@ async fn a_fault_of_ours_is_no_report_and_is_tried_again(database: Database) {
     let json = reply.json();
     assert_eq!((&json["state"], &json["report"]), (&"failed".into(), &serde_json::Value::Null));
     assert_eq!(json["fault"]["message"], "ドライバがありません");
+    // Who looks at its pictures does not have it graded once more.
+    let animation = bench.get(json["links"]["animation"].as_str().expect("a link")).await;
+    assert_eq!((animation.status, times.load(Ordering::SeqCst)), (StatusCode::NOT_FOUND, 1));
     // The panic costs another try, and the third one succeeds.
     while times.load(Ordering::SeqCst) < 3 {
         clock.advance(Duration::from_secs(61));

@@ -81,7 +81,7 @@ pub async fn download(
     made.map_err(|fault| match format {
         // What can be wrong here is the worksheet.
         Format::MoodleWorksheet => Problem::unprocessable(fault.message.en, fault.message.ja),
-        _ => Problem::internal(&fault),
+        _ => Problem::of_fault(&fault),
     })
 }
 

@@ -23,7 +23,7 @@ pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, 
         let options = intake::Options::new(assignment)?;
         intake::read(&[path], &options)
     });
-    let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::internal(&fault))?;
+    let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::of_fault(&fault))?;
     if intake.hand_ins.is_empty() {
         return Err(nothing(&intake));
     }

@@ -95,7 +95,7 @@ async fn take_from_database(state: &State) -> Result<bool, StoreError> {
     let id = again.submission.id.clone();
     let judged = judge(state, Job { submission: again.submission, bytes: again.bytes, since: Instant::now() }).await;
     if let Err(fault) = &judged {
-        tracing::error!(fault = fault.message.en, submission = id, "grading again failed");
+        tracing::error!(fault = kind_of(fault), submission = id, "grading again failed");
     }
     // As with a first grading: a claim that is kept up must come to an end.
     while let Err(error) = state.store.finish_again(&again.regrading_id, &id, judged.as_ref().ok()).await {
@@ -165,7 +165,7 @@ async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
 /// When the service ends before, the claim ends with it, and the file is graded again.
 async fn keep(state: &State, submission: &Submission, judged: Result<Report, Fault>) -> Option<Outcome> {
     if let Err(fault) = &judged {
-        tracing::error!(fault = fault.message.en, submission = submission.id, "grading failed");
+        tracing::error!(fault = kind_of(fault), submission = submission.id, "grading failed");
     }
     loop {
         let now = state.clock.now();
@@ -186,4 +186,9 @@ async fn keep(state: &State, submission: &Submission, judged: Result<Report, Fau
         Ok(report) => Outcome::Graded(Arc::new(report)),
         Err(fault) => Outcome::Failed(Arc::new(fault)),
     })
+}
+
+/// What a fault says of itself. What follows the colon may quote the file, which the log must not; the database has it.
+fn kind_of(fault: &Fault) -> &str {
+    fault.message.en.split(':').next().unwrap_or_default()
 }

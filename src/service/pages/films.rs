@@ -76,7 +76,7 @@ async fn blocking<T: Send + 'static>(
 ) -> Result<T, Problem> {
     let state = state.clone();
     match tokio::task::spawn_blocking(move || work(&state)).await {
-        Ok(result) => result.map_err(|fault| Problem::internal(&fault)),
+        Ok(result) => result.map_err(|fault| Problem::of_fault(&fault)),
         Err(panic) => Err(Problem::internal(&panic)),
     }
 }

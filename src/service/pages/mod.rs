@@ -80,5 +80,5 @@ fn shown(page: askama::Result<String>) -> Result<Response, Problem> {
 }
 
 fn internal(fault: Fault) -> Problem {
-    Problem::internal(&fault)
+    Problem::of_fault(&fault)
 }

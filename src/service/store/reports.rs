@@ -131,6 +131,14 @@ impl Store {
         Ok(Some(Stored { submission, report }))
     }
 
+    /// Whether a submission's report has pictures: whether the file could be drawn to the end.
+    pub async fn is_drawn(&self, id: &str) -> Result<bool> {
+        const SQL: &str = "SELECT verdict FROM reports WHERE submission_id = $1";
+        let verdict: Option<String> = on!(&self.read, db => sqlx::query_scalar(SQL).bind(id).fetch_optional(db).await?);
+        let verdict: Option<Verdict> = verdict.map(from_word).transpose()?;
+        Ok(verdict.is_some_and(|verdict| matches!(verdict, Verdict::Correct | Verdict::Wrong)))
+    }
+
     /// What a browser has handed in for an assignment, the newest first; drafts are left out.
     pub async fn history(&self, assignment: &str, owner_id: &str, limit: u32) -> Result<Vec<HistoryRow>> {
         const SQL: &str = concat!(
