@@ -76,9 +76,12 @@ pub fn expected_sheet(expected: &[Picture], finest: usize) -> Result<Vec<u8>, Fa
     shots.sheet(Grid::of(expected.len()), finest).encode()
 }
 
+/// A sheet of what is expected, as an address: of which pictures, and how much they are reduced.
+type Made = (Weak<[Picture]>, usize, Arc<str>);
+
 /// It inside a page: made once for all pages that show the same pictures.
 fn expected_address(expected: &Arc<[Picture]>, finest: usize) -> Result<Arc<str>, Fault> {
-    static MADE: Mutex<Vec<(Weak<[Picture]>, usize, Arc<str>)>> = Mutex::new(Vec::new());
+    static MADE: Mutex<Vec<Made>> = Mutex::new(Vec::new());
     let lock = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let is_this = |pictures: &Weak<[Picture]>| Weak::ptr_eq(pictures, &Arc::downgrade(expected));
     let known = lock().iter().find(|(pictures, factor, _)| *factor == finest && is_this(pictures)).cloned();
