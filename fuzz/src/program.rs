@@ -24,21 +24,6 @@ enum Type {
     Mat3,
 }
 
-impl Type {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Bool => "bool",
-            Self::Int => "int",
-            Self::Uint => "uint",
-            Self::Float => "float",
-            Self::Vec2 => "vec2",
-            Self::Vec3 => "vec3",
-            Self::Vec4 => "vec4",
-            Self::Mat3 => "mat3",
-        }
-    }
-}
-
 struct Writer<'a> {
     bytes: std::slice::Iter<'a, u8>,
     text: String,
