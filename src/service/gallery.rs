@@ -257,7 +257,7 @@ impl Drawn {
 }
 
 /// Does work that takes a processor for a while.
-async fn blocking<T: Send + 'static>(
+pub async fn blocking<T: Send + 'static>(
     state: &State,
     work: impl FnOnce(&State) -> Result<T, Fault> + Send + 'static,
 ) -> Result<T, Problem> {

@@ -8,7 +8,7 @@ mod saves;
 mod screen;
 
 use super::view::{View, has_colour, readable};
-use super::{Outcome, deadline, language, warn};
+use super::{Outcome, deadline, grade, language, warn};
 use crate::cli::{Reading, Watch};
 use crate::fault::Fault;
 use crate::grade::Order;
@@ -34,7 +34,7 @@ async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
     if let Err(error) = std::fs::File::open(&arguments.file) {
-        anstream::eprintln!("ggrade: {}", saves::unreadable(&arguments.file, &error).get(language));
+        anstream::eprintln!("ggrade: {}", grade::unreadable(&arguments.file, &error).get(language));
         return Ok(Outcome::Nothing);
     }
     let mut saves = Saves::of(&arguments.file);

@@ -4,7 +4,7 @@
 //! and what counts is the file that then stands under the name. Folders that tell nothing, on network drives say, are
 //! looked at twice a second.
 
-use crate::command::grade::MAX_READ;
+use crate::command::grade::{MAX_READ, unreadable};
 use crate::language::Text;
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{RecursiveMode, Watcher};
@@ -159,14 +159,6 @@ fn read(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     std::fs::File::open(path)?.take(MAX_READ).read_to_end(&mut bytes)?;
     Ok(bytes)
-}
-
-/// The file is there and cannot be read, or never was there.
-pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Text {
-    Text::new(
-        format!("cannot read {}: {error}", path.display()),
-        format!("{} を読み込めません: {error}", path.display()),
-    )
 }
 
 /// The file went away.

@@ -1,6 +1,5 @@
 //! The moving pictures of a submission: drawn when a page first shows them, kept for a while.
 
-use crate::fault::Fault;
 use crate::grade::Order;
 use crate::homework::expected_pictures;
 use crate::report::Picture;
@@ -8,6 +7,7 @@ use crate::report::html::Film;
 use crate::sandbox;
 use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::gallery::blocking;
 use crate::service::store::Submission;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -67,16 +67,4 @@ async fn frames(state: &State, submission: &Submission) -> Result<Vec<Picture>, 
         Ok(state.pool.grade(submission)?.frames)
     })
     .await
-}
-
-/// Does work that takes a processor for a while.
-async fn blocking<T: Send + 'static>(
-    state: &State,
-    work: impl FnOnce(&State) -> Result<T, Fault> + Send + 'static,
-) -> Result<T, Problem> {
-    let state = state.clone();
-    match tokio::task::spawn_blocking(move || work(&state)).await {
-        Ok(result) => result.map_err(|fault| Problem::of_fault(&fault)),
-        Err(panic) => Err(Problem::internal(&panic)),
-    }
 }
