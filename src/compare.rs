@@ -5,7 +5,9 @@
 
 use crate::render::{Frames, Sample};
 use crate::report::FrameResult;
+use bytemuck::pod_collect_to_vec;
 use reference::rasteriser::{Coverage, Frame};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Largest difference of an interior pixel's channel that still agrees, in 1/255.
@@ -50,7 +52,7 @@ const RGB: Pixel = Pixel::from_ne_bytes([255, 255, 255, 0]);
 struct Run {
     coverage: Coverage,
     columns: Range<usize>,
-    /// What is expected there.
+    /// What is expected there, without alpha.
     pixels: Vec<Pixel>,
 }
 
@@ -67,7 +69,8 @@ impl ExpectedFrame {
                 let columns = column..column + alike.len();
                 column = columns.end;
                 if alike[0] != Coverage::Outside {
-                    let pixels = pixels[columns.clone()].iter().map(|pixel| Pixel::from_ne_bytes(*pixel)).collect();
+                    let pixels =
+                        pixels[columns.clone()].iter().map(|pixel| Pixel::from_ne_bytes(*pixel) & RGB).collect();
                     runs.push(Run { coverage: alike[0], columns, pixels });
                 }
             }
@@ -85,20 +88,17 @@ pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameR
     assert_eq!((expected.width, expected.height), (candidate.width, candidate.height), "frame sizes");
     let mut tally = Tally { background: expected.background, ..Tally::default() };
     let area = candidate.area(index);
-    let mut row = vec![expected.background; candidate.width as usize];
     let shown = area.x as usize..(area.x + area.width) as usize;
-    let mut is_blank = true;
-    for (y, runs) in expected.rows.iter().enumerate() {
-        if (area.y..area.y + area.height).contains(&(y as u32)) {
-            let pixels = candidate.row(index, y as u32).chunks_exact(4);
-            let place = &mut row[shown.clone()];
-            place.iter_mut().zip(pixels).for_each(|(to, p)| *to = Pixel::from_ne_bytes([p[0], p[1], p[2], p[3]]));
-            is_blank = false;
-        } else if !is_blank {
-            row[shown.clone()].fill(expected.background);
-            is_blank = true;
+    for (y, runs) in (0..).zip(&expected.rows) {
+        let runs = &expected.runs[runs.clone()];
+        if (area.y..area.y + area.height).contains(&y) {
+            let row = candidate.row(index, y);
+            // The device's memory is aligned; a copy of it need not be.
+            let pixels = bytemuck::try_cast_slice(row).map_or_else(|_| pod_collect_to_vec(row).into(), Cow::Borrowed);
+            tally.row(&pixels, shown.clone(), runs);
+        } else {
+            tally.row(&[], 0..0, runs);
         }
-        tally.row(&row, shown.clone(), &expected.runs[runs.clone()]);
     }
     tally.result(expected.t)
 }
@@ -113,24 +113,34 @@ struct Tally {
     covered: u64,
 }
 
-/// Pixels that are looked at together.
+/// Pixels that are looked at together, and the bytes that they have.
 const LANES: usize = 16;
+const BYTES: usize = LANES * 4;
+
+/// Pixels whose differences a `u16` can add up for each byte of a lane.
+const MOST_PIXELS: usize = LANES * 256;
 
 impl Tally {
-    /// `shown`: the columns outside of which the row is background.
+    /// `row`: the columns `shown` of a row that is background elsewhere.
     fn row(&mut self, row: &[Pixel], shown: Range<usize>, runs: &[Run]) {
         let mut left = shown.start;
         for run in runs {
-            self.outside(row.get(left..run.columns.start).unwrap_or_default());
-            left = left.max(run.columns.end);
+            let start = run.columns.start.clamp(left, shown.end);
+            self.outside(&row[left - shown.start..start - shown.start]);
+            left = run.columns.end.clamp(start, shown.end);
             match run.coverage {
-                Coverage::Outside => {}
-                // The rasteriser's rounding decides whether it is painted at all.
-                Coverage::Silhouette => {}
-                Coverage::Interior => self.inside(&run.pixels, &row[run.columns.clone()]),
+                // The rasteriser's rounding decides whether a pixel of the silhouette is painted at all.
+                Coverage::Outside | Coverage::Silhouette => {}
+                Coverage::Interior => {
+                    let (before, rest) = run.pixels.split_at((start - run.columns.start).min(run.pixels.len()));
+                    let (expected, after) = rest.split_at(left - start);
+                    self.unpainted(before);
+                    self.inside(expected, &row[start - shown.start..left - shown.start]);
+                    self.unpainted(after);
+                }
             }
         }
-        self.outside(row.get(left..shown.end).unwrap_or_default());
+        self.outside(&row[left - shown.start..]);
     }
 
     fn outside(&mut self, pixels: &[Pixel]) {
@@ -138,51 +148,49 @@ impl Tally {
         self.coverage_mismatches += painted.sum::<u32>();
     }
 
+    fn unpainted(&mut self, expected: &[Pixel]) {
+        expected.iter().for_each(|expected| self.one(*expected, self.background));
+    }
+
     fn inside(&mut self, expected: &[Pixel], found: &[Pixel]) {
-        let (expected, last_expected) = expected.as_chunks::<LANES>();
-        let (found, last_found) = found.as_chunks::<LANES>();
-        for (expected, found) in expected.iter().zip(found) {
+        for (expected, found) in expected.chunks(MOST_PIXELS).zip(found.chunks(MOST_PIXELS)) {
             // A pixel that nothing was painted to is rare; without one, none needs a decision of its own.
             if found.iter().fold(false, |any, pixel| any | (*pixel == self.background)) {
-                self.one_by_one(expected, found);
+                expected.iter().zip(found).for_each(|(expected, found)| self.one(*expected, *found));
             } else {
-                self.together(expected, found);
+                self.painted(expected, found);
             }
         }
-        self.one_by_one(last_expected, last_found);
     }
 
-    fn together(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
-        let (expected, found) = (expected.map(|pixel| pixel & RGB), found.map(|pixel| pixel & RGB));
-        let (expected, found): (&[u8; LANES * 4], &[u8; LANES * 4]) =
-            (bytemuck::cast_ref(&expected), bytemuck::cast_ref(&found));
-        let mut differences = [0_u8; LANES * 4];
-        for index in 0..LANES * 4 {
-            differences[index] = expected[index].abs_diff(found[index]);
-        }
-        let largest = differences.iter().fold(0, |largest, difference| largest.max(*difference));
+    /// Pixels that are all painted, at most [`MOST_PIXELS`].
+    fn painted(&mut self, expected: &[Pixel], found: &[Pixel]) {
+        let mut differences = Differences { most: [0; BYTES], sums: [0; BYTES] };
+        let (full, rest) = found.as_chunks::<LANES>();
+        let (full_expected, rest_expected) = expected.as_chunks::<LANES>();
+        full_expected.iter().zip(full).for_each(|(expected, found)| differences.add(expected, found));
+        let mut last = [[0; LANES]; 2];
+        last[0][..rest_expected.len()].copy_from_slice(rest_expected);
+        last[1][..rest.len()].copy_from_slice(rest);
+        differences.add(&last[0], &last[1]);
+        let largest = differences.most.into_iter().max().unwrap_or(0);
         self.max = self.max.max(largest);
-        self.sum += u64::from(differences.iter().map(|difference| u32::from(*difference)).sum::<u32>());
-        self.covered += 3 * LANES as u64;
+        self.sum += differences.sums.into_iter().map(u64::from).sum::<u64>();
+        self.covered += 3 * found.len() as u64;
         if largest > PIXEL_TOLERANCE {
-            let far = |pixel: &&[u8]| pixel.iter().any(|difference| *difference > PIXEL_TOLERANCE);
-            self.mismatched += differences.chunks_exact(4).filter(far).count() as u32;
+            let far = expected
+                .iter()
+                .zip(found)
+                .filter(|(expected, found)| largest_difference(**expected, **found) > PIXEL_TOLERANCE);
+            self.mismatched += far.count() as u32;
         }
     }
 
-    fn one_by_one(&mut self, expected: &[Pixel], found: &[Pixel]) {
-        for (expected, found) in expected.iter().zip(found) {
-            if *found == self.background && (expected ^ self.background) & RGB != 0 {
-                self.coverage_mismatches += 1;
-                continue;
-            }
-            let (expected, found) = (expected.to_ne_bytes(), found.to_ne_bytes());
-            let differences = [0, 1, 2].map(|channel| expected[channel].abs_diff(found[channel]));
-            let largest = differences.into_iter().max().unwrap_or(0);
-            self.max = self.max.max(largest);
-            self.sum += differences.iter().map(|d| u64::from(*d)).sum::<u64>();
-            self.covered += 3;
-            self.mismatched += u32::from(largest > PIXEL_TOLERANCE);
+    fn one(&mut self, expected: Pixel, found: Pixel) {
+        if found == self.background && (expected ^ self.background) & RGB != 0 {
+            self.coverage_mismatches += 1;
+        } else {
+            self.painted(&[expected], &[found]);
         }
     }
 
@@ -195,6 +203,32 @@ impl Tally {
             mismatched_pixels: self.mismatched,
         }
     }
+}
+
+/// For each byte of a lane, its largest difference and the sum of all.
+struct Differences {
+    most: [u8; BYTES],
+    sums: [u16; BYTES],
+}
+
+impl Differences {
+    // Whole lanes without a branch, so that the compiler makes vector instructions of it.
+    fn add(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
+        let found = found.map(|pixel| pixel & RGB);
+        let (expected, found): (&[u8; BYTES], &[u8; BYTES]) =
+            (bytemuck::cast_ref(expected), bytemuck::cast_ref(&found));
+        for index in 0..BYTES {
+            let difference = expected[index].abs_diff(found[index]);
+            self.most[index] = self.most[index].max(difference);
+            self.sums[index] += u16::from(difference);
+        }
+    }
+}
+
+/// Of red, green and blue.
+fn largest_difference(expected: Pixel, found: Pixel) -> u8 {
+    let (expected, found) = (expected.to_ne_bytes(), found.to_ne_bytes());
+    (0..3).map(|channel| expected[channel].abs_diff(found[channel])).max().unwrap_or(0)
 }
 
 impl FrameResult {

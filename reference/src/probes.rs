@@ -124,6 +124,17 @@ impl Assignment {
         }
         ProbeSet { seed, groups, probes }
     }
+
+    /// Probes of another assignment with what is right by this one's equation, which may have other constants.
+    pub fn reprobe(&self, probes: &ProbeSet) -> ProbeSet {
+        let right = self.equation.right();
+        let mut theirs = probes.clone();
+        for probe in &mut theirs.probes {
+            let outcome = right.evaluate(&probes.groups[probe.group].uniforms, &probe.attributes);
+            (probe.colour, probe.position) = (outcome.colour(), outcome.position());
+        }
+        theirs
+    }
 }
 
 /// A camera that turns and shifts but, like the course's own, never stretches.

@@ -259,7 +259,7 @@ fn an_answer_with_other_constants_is_right_for_those_constants() {
     let probes = assignment.probes(8);
     let changed = assignment.with_constants(&[("kshi", Value::Float(20.0))]).expect("a constant");
     let given = samples(&changed, &probes, &[]);
-    assert!(explain(&changed, &probes, &given, TOLERANCE).is_right());
+    assert!(explain(&changed, &changed.reprobe(&probes), &given, TOLERANCE).is_right());
     match explain(assignment, &probes, &given, TOLERANCE) {
         Fit::Explained(found) => assert_eq!(found[0].parameter, Some(20.0), "{found:?}"),
         other => panic!("{other:?}"),

@@ -12,7 +12,7 @@ use crate::report::{FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
 use constants::ChangedConstant;
 use reference::Assignment;
-use reference::fit::{Fit, TermJudgement, explain};
+use reference::fit::{Fit, TermJudgement, explain, is_right};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
@@ -170,12 +170,12 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let Evidence { assignment, probes, .. } = *evidence;
     let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
-    let fit = explain(assignment, probes, &samples, COLOUR_TOLERANCE);
-    if fit.is_right() && evidence.undefined.is_some() {
+    let is_right = is_right(probes, &samples, COLOUR_TOLERANCE);
+    if is_right && evidence.undefined.is_some() {
         let found = vec![Found { id: UNDEFINED_POWER.into(), form: 0, parameter: None }];
         return Cause::Known { constants: Vec::new(), found };
     }
-    if fit.is_right() {
+    if is_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
         return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
     }
@@ -183,7 +183,7 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     if let Some(found) = explained_by(&constants, evidence, &samples) {
         return Cause::Known { constants, found };
     }
-    match fit {
+    match explain(assignment, probes, &samples, COLOUR_TOLERANCE) {
         Fit::Explained(found)
             if hard_coded::is_lookup(probes, evidence.samples)
                 && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
@@ -205,7 +205,7 @@ fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples:
     }
     let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
     let changed = evidence.assignment.with_constants(&changes).ok()?;
-    match explain(&changed, evidence.probes, samples, COLOUR_TOLERANCE) {
+    match explain(&changed, &changed.reprobe(evidence.probes), samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) => Some(found),
         Fit::Unexplained(_) => None,
     }

@@ -7,7 +7,7 @@ use crate::source::Source;
 pub fn words(source: &Source, interface: &Interface) -> Option<Vec<u32>> {
     gate::check_text(source).ok()?;
     let accepted = first_pass(source, interface).ok()?;
-    second_pass(&accepted.text, text::version(source.code()), interface).ok()
+    second_pass(&accepted.text, text::version(source.code())).ok()
 }
 
 /// Bounds and reworks any words, damaged ones too.

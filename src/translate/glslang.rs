@@ -57,8 +57,8 @@ pub struct Outcome {
 pub struct Request<'a> {
     /// The student's text.
     pub vertex: &'a CStr,
-    /// The assignment's fixed fragment shader.
-    pub fragment: &'a CStr,
+    /// The assignment's fixed fragment shader; without one, the vertex shader is linked alone.
+    pub fragment: Option<&'a CStr>,
     /// Text that stands before the first line of the vertex shader without counting as a line.
     pub preamble: &'a CStr,
     /// Whose rules.
@@ -78,20 +78,20 @@ pub fn compile(request: &Request<'_>) -> Outcome {
     });
     let mut outcome =
         Outcome { reached: Reached::Vertex, vertex_log: String::new(), link_log: String::new(), spirv: Vec::new() };
-    let vertex = Shader::new(request, Stage::Vertex);
+    let vertex = Shader::new(request, Stage::Vertex, request.vertex);
     let parsed = vertex.parse();
     outcome.vertex_log = vertex.log();
     if !parsed {
         return outcome;
     }
     outcome.reached = Reached::Fragment;
-    let fragment = Shader::new(request, Stage::Fragment);
-    if !fragment.parse() {
+    let fragment = request.fragment.map(|text| Shader::new(request, Stage::Fragment, text));
+    if let Some(fragment) = fragment.as_ref().filter(|fragment| !fragment.parse()) {
         outcome.link_log = fragment.log();
         return outcome;
     }
     outcome.reached = Reached::Link;
-    let program = Program::new(&vertex, &fragment);
+    let program = Program::new(&vertex, fragment.as_ref());
     if program.link(request.rules) {
         outcome.reached = Reached::Done;
         if request.rules == Rules::SpirV {
@@ -131,9 +131,9 @@ struct Shader {
 }
 
 impl Shader {
-    fn new(request: &Request<'_>, stage: Stage) -> Self {
+    fn new(request: &Request<'_>, stage: Stage, code: &CStr) -> Self {
         let is_vertex = stage == Stage::Vertex;
-        let code: CString = if is_vertex { request.vertex } else { request.fragment }.to_owned();
+        let code: CString = code.to_owned();
         let resource = Box::new(super::limits::desktop());
         let spirv = request.rules == Rules::SpirV;
         let input = Box::new(sys::glslang_input_t {
@@ -201,26 +201,28 @@ impl Drop for Shader {
     }
 }
 
-/// A program of two shaders that outlive it.
+/// A program of shaders that outlive it.
 struct Program<'a> {
     raw: *mut sys::glslang_program_t,
-    _shaders: (&'a Shader, &'a Shader),
+    _shaders: (&'a Shader, Option<&'a Shader>),
 }
 
 impl<'a> Program<'a> {
-    fn new(vertex: &'a Shader, fragment: &'a Shader) -> Self {
-        // SAFETY: no precondition; both shaders are parsed and outlive the program by the lifetime.
+    fn new(vertex: &'a Shader, fragment: Option<&'a Shader>) -> Self {
+        // SAFETY: no precondition; the shaders are parsed and outlive the program by the lifetime.
         let raw = unsafe {
             let raw = sys::glslang_program_create();
             sys::glslang_program_add_shader(raw, vertex.raw);
-            sys::glslang_program_add_shader(raw, fragment.raw);
+            if let Some(fragment) = fragment {
+                sys::glslang_program_add_shader(raw, fragment.raw);
+            }
             raw
         };
         Self { raw, _shaders: (vertex, fragment) }
     }
 
     fn link(&self, rules: Rules) -> bool {
-        // SAFETY: `raw` is live and has two parsed shaders; map_io follows a successful link.
+        // SAFETY: `raw` is live and has parsed shaders; map_io follows a successful link.
         unsafe {
             sys::glslang_program_link(self.raw, rules.messages().0) != 0
                 && (rules == Rules::OpenGl || sys::glslang_program_map_io(self.raw) != 0)

@@ -75,7 +75,7 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     diagnostics.extend(warnings);
     diagnostics.extend(portability::warnings(source, interface));
-    let spirv = second_pass(&text, text::version(source.code()), interface)?;
+    let spirv = second_pass(&text, text::version(source.code()))?;
     gate::check_words(&spirv, source)?;
     let shader = module::build(spirv, source, interface, false)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
@@ -120,7 +120,7 @@ fn first_pass(source: &Source, interface: &Interface) -> Result<Accepted, Refusa
 fn check(text: &str, interface: &Interface) -> Outcome {
     compile(&Request {
         vertex: &text::c_text(text),
-        fragment: &interface.fragment,
+        fragment: Some(&interface.fragment),
         preamble: c"",
         rules: Rules::OpenGl,
         version: None,
@@ -143,11 +143,12 @@ fn rejected(verdict: Outcome, text: &str, source: &Source, interface: &Interface
 }
 
 /// SPIR-V of a text that the first pass accepts.
-fn second_pass(text: &str, version: i32, interface: &Interface) -> Result<Vec<u32>, Fault> {
+fn second_pass(text: &str, version: i32) -> Result<Vec<u32>, Fault> {
     let ready = text::for_spirv(text, version);
     let request = Request {
         vertex: &ready.text,
-        fragment: &interface.fragment,
+        // That the two fit together, the first pass has seen.
+        fragment: None,
         preamble: &ready.preamble,
         rules: Rules::SpirV,
         version: ready.version,
@@ -168,7 +169,7 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
     warm(interface, vertex);
     let outcome = compile(&Request {
         vertex: &text::c_text(vertex),
-        fragment: &interface.fragment,
+        fragment: Some(&interface.fragment),
         preamble: c"",
         rules: Rules::SpirV,
         version: None,

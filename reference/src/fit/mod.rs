@@ -40,20 +40,15 @@ impl Fit {
     }
 }
 
-/// Looks for the mistakes that explain `samples`: red, green and blue at each probe, in the probes' order.
+/// Looks for the mistakes that explain `samples`: red, green and blue at each probe, in the probes' order. The probes are the
+/// assignment's own ([`Assignment::reprobe`] makes them so).
 ///
 /// A channel agrees if it is within `tolerance` of what is expected, relative to what is expected where that is over 1. Where
 /// GLSL leaves the expected value undefined (`pow` of a negative base is NaN on real drivers), only what is not finite agrees;
 /// a sample that is missing counts as NaN.
 pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> Fit {
-    let given = samples.iter().map(|s| DVec3::from_array(*s));
-    let samples: Vec<DVec3> = given.chain(std::iter::repeat(DVec3::NAN)).take(probes.probes.len()).collect();
-    let right = assignment.equation.right();
-    let is_right = |place: &usize| {
-        let probe = &probes.probes[*place];
-        let outcome = right.evaluate(probes.uniforms(probe), &probe.attributes);
-        agrees(outcome.colour(), samples[*place], tolerance)
-    };
+    let samples = padded(probes, samples);
+    let is_right = |place: &usize| agrees(probes.probes[*place].colour, samples[*place], tolerance);
     let (rest, wrong): (Vec<_>, Vec<_>) = (0..samples.len()).partition(is_right);
     if wrong.is_empty() {
         return Fit::Explained(Vec::new());
@@ -63,6 +58,18 @@ pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]],
         Some(found) => Fit::Explained(found),
         None => Fit::Unexplained(terms::judge(assignment, probes, &samples, tolerance)),
     }
+}
+
+/// Whether every sample is what is right at its probe, see [`explain`].
+pub fn is_right(probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> bool {
+    let samples = padded(probes, samples);
+    probes.iter().zip(samples).all(|(probe, sample)| agrees(probe.colour, sample, tolerance))
+}
+
+/// A sample for each probe.
+fn padded(probes: &ProbeSet, samples: &[[f64; 3]]) -> Vec<DVec3> {
+    let given = samples.iter().map(|s| DVec3::from_array(*s));
+    given.chain(std::iter::repeat(DVec3::NAN)).take(probes.probes.len()).collect()
 }
 
 /// Wrong and right places in turn: an explanation must explain the ones and leave the others, and most candidates fail soon at

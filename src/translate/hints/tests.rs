@@ -59,7 +59,7 @@ fn outcome(text: &str, interface: &Interface) -> Outcome {
     let vertex = CString::new(text).expect("no test has a NUL");
     glslang::compile(&Request {
         vertex: &vertex,
-        fragment: &interface.fragment,
+        fragment: Some(&interface.fragment),
         preamble: c"",
         rules: Rules::OpenGl,
         version: None,

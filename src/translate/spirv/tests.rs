@@ -14,7 +14,7 @@ fn words(globals: &str, body: &str) -> Vec<u32> {
     );
     let outcome = glslang::compile(&Request {
         vertex: &CString::new(text).expect("no NUL"),
-        fragment: c"#version 410\nin vec4 c;\nout vec4 f;\nvoid main() { f = c; }\n",
+        fragment: None,
         preamble: c"",
         rules: Rules::SpirV,
         version: None,
