@@ -3,9 +3,12 @@
 //! The two sides are different types, so that nothing can be compared with itself by accident: the expected frame
 //! comes from the reference crate in f64, the candidate from the renderer.
 
+mod lanes;
+
 use crate::render::{Frames, Sample};
 use crate::report::FrameResult;
 use bytemuck::pod_collect_to_vec;
+use lanes::{LANES, Lanes, MOST_ADDED};
 use reference::rasteriser::{Coverage, Frame};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -100,6 +103,7 @@ pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameR
             tally.row(&[], 0..0, runs);
         }
     }
+    tally.settle();
     tally.result(expected.t)
 }
 
@@ -111,79 +115,70 @@ struct Tally {
     max: u8,
     sum: u64,
     covered: u64,
+    lanes: Lanes,
 }
-
-/// Pixels that are looked at together, and the bytes that they have.
-const LANES: usize = 16;
-const BYTES: usize = LANES * 4;
-
-/// Pixels whose differences a `u16` can add up for each byte of a lane.
-const MOST_PIXELS: usize = LANES * 256;
 
 impl Tally {
     /// `row`: the columns `shown` of a row that is background elsewhere.
     fn row(&mut self, row: &[Pixel], shown: Range<usize>, runs: &[Run]) {
-        let mut left = shown.start;
+        let mut left = 0;
         for run in runs {
-            let start = run.columns.start.clamp(left, shown.end);
-            self.outside(&row[left - shown.start..start - shown.start]);
-            left = run.columns.end.clamp(start, shown.end);
-            match run.coverage {
-                // The rasteriser's rounding decides whether a pixel of the silhouette is painted at all.
-                Coverage::Outside | Coverage::Silhouette => {}
-                Coverage::Interior => {
-                    let (before, rest) = run.pixels.split_at((start - run.columns.start).min(run.pixels.len()));
-                    let (expected, after) = rest.split_at(left - start);
-                    self.unpainted(before);
-                    self.inside(expected, &row[start - shown.start..left - shown.start]);
-                    self.unpainted(after);
-                }
+            let Overlap { columns, before, expected, after } = run.overlap(&shown);
+            self.outside(&row[left..columns.start.max(left)]);
+            left = left.max(columns.end);
+            // The rasteriser's rounding decides whether a pixel of the silhouette is painted at all.
+            if run.coverage == Coverage::Interior {
+                [before, after].into_iter().flatten().for_each(|expected| self.one(*expected, self.background));
+                self.inside(expected, &row[columns]);
             }
         }
-        self.outside(&row[left - shown.start..]);
+        self.outside(&row[left..]);
     }
 
     fn outside(&mut self, pixels: &[Pixel]) {
-        let painted = pixels.iter().map(|pixel| u32::from((pixel ^ self.background) & RGB != 0));
-        self.coverage_mismatches += painted.sum::<u32>();
-    }
-
-    fn unpainted(&mut self, expected: &[Pixel]) {
-        expected.iter().for_each(|expected| self.one(*expected, self.background));
+        let painted = |pixel: &Pixel| (pixel ^ self.background) & RGB;
+        // Hardly ever is there anything to count.
+        if pixels.iter().fold(0, |any, pixel| any | painted(pixel)) != 0 {
+            self.coverage_mismatches += pixels.iter().filter(|pixel| painted(pixel) != 0).count() as u32;
+        }
     }
 
     fn inside(&mut self, expected: &[Pixel], found: &[Pixel]) {
-        for (expected, found) in expected.chunks(MOST_PIXELS).zip(found.chunks(MOST_PIXELS)) {
-            // A pixel that nothing was painted to is rare; without one, none needs a decision of its own.
-            if found.iter().fold(false, |any, pixel| any | (*pixel == self.background)) {
-                expected.iter().zip(found).for_each(|(expected, found)| self.one(*expected, *found));
-            } else {
-                self.painted(expected, found);
+        // A pixel that nothing was painted to is rare; without one, none needs a decision of its own.
+        if found.iter().fold(false, |any, pixel| any | (*pixel == self.background)) {
+            expected.iter().zip(found).for_each(|(expected, found)| self.one(*expected, *found));
+        } else {
+            self.painted(expected, found);
+        }
+    }
+
+    fn painted(&mut self, expected: &[Pixel], found: &[Pixel]) {
+        self.covered += 3 * found.len() as u64;
+        let (chunks, rest) = found.as_chunks::<LANES>();
+        for (expected, found) in expected.as_chunks::<LANES>().0.iter().zip(chunks) {
+            self.add(expected, found);
+        }
+        match (expected.last_chunk::<LANES>(), found.last_chunk::<LANES>()) {
+            (Some(expected), Some(found)) if !rest.is_empty() => {
+                // Of the last lanes, those that were looked at already differ in nothing.
+                let known = LANES - rest.len();
+                self.add(expected, &std::array::from_fn(|i| if i < known { expected[i] } else { found[i] }));
+            }
+            (Some(_), Some(_)) => {}
+            _ => {
+                let mut last = [[0; LANES]; 2];
+                last[0][..expected.len()].copy_from_slice(expected);
+                last[1][..found.len()].copy_from_slice(found);
+                self.add(&last[0], &last[1]);
             }
         }
     }
 
-    /// Pixels that are all painted, at most [`MOST_PIXELS`].
-    fn painted(&mut self, expected: &[Pixel], found: &[Pixel]) {
-        let mut differences = Differences { most: [0; BYTES], sums: [0; BYTES] };
-        let (full, rest) = found.as_chunks::<LANES>();
-        let (full_expected, rest_expected) = expected.as_chunks::<LANES>();
-        full_expected.iter().zip(full).for_each(|(expected, found)| differences.add(expected, found));
-        let mut last = [[0; LANES]; 2];
-        last[0][..rest_expected.len()].copy_from_slice(rest_expected);
-        last[1][..rest.len()].copy_from_slice(rest);
-        differences.add(&last[0], &last[1]);
-        let largest = differences.most.into_iter().max().unwrap_or(0);
-        self.max = self.max.max(largest);
-        self.sum += differences.sums.into_iter().map(u64::from).sum::<u64>();
-        self.covered += 3 * found.len() as u64;
-        if largest > PIXEL_TOLERANCE {
-            let far = expected
-                .iter()
-                .zip(found)
-                .filter(|(expected, found)| largest_difference(**expected, **found) > PIXEL_TOLERANCE);
-            self.mismatched += far.count() as u32;
+    fn add(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
+        if self.lanes.added == MOST_ADDED {
+            self.settle();
         }
+        self.lanes.add(expected, found);
     }
 
     fn one(&mut self, expected: Pixel, found: Pixel) {
@@ -192,6 +187,14 @@ impl Tally {
         } else {
             self.painted(&[expected], &[found]);
         }
+    }
+
+    /// Takes over what has been added up lane by lane.
+    fn settle(&mut self) {
+        let Lanes { most, sums, far, .. } = std::mem::take(&mut self.lanes);
+        self.max = most.into_iter().fold(self.max, u8::max);
+        self.sum += sums.into_iter().map(u64::from).sum::<u64>();
+        self.mismatched += far.into_iter().sum::<u32>();
     }
 
     fn result(self, t: f64) -> FrameResult {
@@ -205,30 +208,24 @@ impl Tally {
     }
 }
 
-/// For each byte of a lane, its largest difference and the sum of all.
-struct Differences {
-    most: [u8; BYTES],
-    sums: [u16; BYTES],
+/// Where a run meets the columns that a row shows.
+struct Overlap<'a> {
+    /// The columns of the run that are shown, counted from the first one shown.
+    columns: Range<usize>,
+    /// What is expected left of them, in them and right of them.
+    before: &'a [Pixel],
+    expected: &'a [Pixel],
+    after: &'a [Pixel],
 }
 
-impl Differences {
-    // Whole lanes without a branch, so that the compiler makes vector instructions of it.
-    fn add(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
-        let found = found.map(|pixel| pixel & RGB);
-        let (expected, found): (&[u8; BYTES], &[u8; BYTES]) =
-            (bytemuck::cast_ref(expected), bytemuck::cast_ref(&found));
-        for index in 0..BYTES {
-            let difference = expected[index].abs_diff(found[index]);
-            self.most[index] = self.most[index].max(difference);
-            self.sums[index] += u16::from(difference);
-        }
+impl Run {
+    fn overlap(&self, shown: &Range<usize>) -> Overlap<'_> {
+        let start = self.columns.start.clamp(shown.start, shown.end);
+        let end = self.columns.end.clamp(start, shown.end);
+        let (before, rest) = self.pixels.split_at((start - self.columns.start.min(start)).min(self.pixels.len()));
+        let (expected, after) = rest.split_at(end - start);
+        Overlap { columns: start - shown.start..end - shown.start, before, expected, after }
     }
-}
-
-/// Of red, green and blue.
-fn largest_difference(expected: Pixel, found: Pixel) -> u8 {
-    let (expected, found) = (expected.to_ne_bytes(), found.to_ne_bytes());
-    (0..3).map(|channel| expected[channel].abs_diff(found[channel])).max().unwrap_or(0)
 }
 
 impl FrameResult {

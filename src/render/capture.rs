@@ -129,7 +129,7 @@ fn pipeline(device: &wgpu::Device, shader: &Shader, groups: [&wgpu::BindGroupLay
         .attributes
         .iter()
         .map(|a| {
-            [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x3, offset: 0, shader_location: a.location }]
+            [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x4, offset: 0, shader_location: a.location }]
         })
         .collect();
     let buffers: Vec<_> = attributes
