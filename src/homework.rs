@@ -103,14 +103,22 @@ fn picture(frame: Frame) -> Picture {
 
 /// Each term of the equation on its own, right and as the explanation has it, at the pose where the two differ most.
 ///
-/// `source` is where changed constants are read from.
+/// `source` is where changed constants are read from. Those of right answers are drawn once a process.
 pub fn term_pictures(
     assignment: &Assignment,
     explanation: Option<&[Hypothesis]>,
     source: Option<&Source>,
-) -> Vec<TermPictures> {
+) -> Arc<[TermPictures]> {
+    static RIGHT: Mutex<Vec<(String, Arc<[TermPictures]>)>> = Mutex::new(Vec::new());
     let changed = source.map(|source| constants::changed(source, assignment)).unwrap_or_default();
     let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
+    let is_right = values.is_empty() && explanation.is_some_and(<[_]>::is_empty);
+    let lock = || RIGHT.lock().unwrap_or_else(PoisonError::into_inner);
+    let known =
+        lock().iter().find(|(id, _)| is_right && *id == assignment.id).map(|(_, pictures)| Arc::clone(pictures));
+    if let Some(known) = known {
+        return known;
+    }
     let theirs = explanation.and_then(|_| assignment.with_constants(&values).ok());
     let found: Vec<Found> = explanation
         .unwrap_or_default()
@@ -118,7 +126,11 @@ pub fn term_pictures(
         .map(|h| Found { id: h.id.clone(), form: h.form, parameter: h.parameter })
         .collect();
     let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
-    terms.filter_map(|line| one_term(assignment, theirs.as_ref(), &found, line)).collect()
+    let pictures: Arc<[_]> = terms.filter_map(|line| one_term(assignment, theirs.as_ref(), &found, line)).collect();
+    if is_right {
+        lock().push((assignment.id.clone(), Arc::clone(&pictures)));
+    }
+    pictures
 }
 
 fn one_term(

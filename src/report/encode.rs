@@ -55,6 +55,7 @@ pub(super) fn encode(frames: &[&Raster]) -> Result<Vec<u8>, Fault> {
 }
 
 /// A picture that is painted piece by piece: in a palette for as long as 256 colours are enough.
+#[derive(Clone)]
 pub(super) struct Canvas {
     pub width: usize,
     pub height: usize,
@@ -62,6 +63,7 @@ pub(super) struct Canvas {
     pixels: Pixels,
 }
 
+#[derive(Clone)]
 enum Pixels {
     Indexed(Vec<u8>),
     Full(Vec<Rgb>),
@@ -89,6 +91,11 @@ impl Canvas {
         if let Pixels::Full(pixels) = &mut self.pixels {
             pixels[start..].iter_mut().zip(colours).for_each(|(cell, colour)| *cell = colour);
         }
+    }
+
+    /// Whether a palette was enough so far.
+    pub fn is_indexed(&self) -> bool {
+        matches!(self.pixels, Pixels::Indexed(_))
     }
 
     /// It as a PNG.
@@ -144,6 +151,7 @@ fn write_frames(
 }
 
 /// The colours of some pictures, at most 256, in the order in which they come.
+#[derive(Clone)]
 struct Palette {
     colours: Vec<Rgb>,
     /// Where the colours are found: four times as many places as colours, so that few collide.

@@ -165,6 +165,13 @@ pub struct Picture {
     pub rgba: Vec<u8>,
 }
 
+impl Picture {
+    /// Its pixels row by row, RGBA.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        self.rgba.as_chunks().0
+    }
+}
+
 /// The pictures of a grading: what was drawn beside what is expected, one pair a pose.
 #[derive(Clone, Debug, Default)]
 pub struct Pictures {
@@ -173,7 +180,7 @@ pub struct Pictures {
     /// What a right answer draws: the same for all of a class.
     pub expected: Arc<[Picture]>,
     /// One term of the equation at a time, where that is known.
-    pub terms: Vec<TermPictures>,
+    pub terms: Arc<[TermPictures]>,
 }
 
 /// One term of the equation on its own, at the pose where it shows best.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::diagnostic::Stage;
+use std::sync::Arc;
 
 /// The course's frame, an eighth in each direction.
 pub(crate) const WIDTH: u32 = 80;
@@ -159,12 +160,12 @@ pub(crate) fn pictures() -> Pictures {
     Pictures {
         yours: pair(60).collect(),
         expected: pair(100).collect(),
-        terms: vec![TermPictures {
+        terms: Arc::new([TermPictures {
             id: "specular".into(),
             t: 0.48,
             yours: Some(triangle(12, 30)),
             expected: triangle(12, 90),
-        }],
+        }]),
     }
 }
 

@@ -3,7 +3,7 @@
 //! A worker that does not read, does not write or writes nonsense costs the caller its deadline and no more, so all
 //! ends are non-blocking and waited on together.
 
-use super::protocol::{self, Longest};
+use super::protocol::{self, Body, Longest};
 use nix::fcntl::{FcntlArg, OFlag, fcntl};
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 use serde::de::DeserializeOwned;
@@ -12,6 +12,9 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::os::fd::AsFd;
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout};
 use std::time::Instant;
+
+/// What a pipe may hold without a privilege.
+const PIPE_BYTES: i32 = 1 << 20;
 
 /// How much of a worker's standard error is kept.
 const TAIL_BYTES: usize = 4096;
@@ -46,6 +49,8 @@ impl Channel {
         never_block(&stdin)?;
         never_block(&stdout)?;
         never_block(&stderr)?;
+        // Frames are large, and every pause of theirs wakes two processes. A smaller pipe does as well.
+        let _ = fcntl(&stdout, FcntlArg::F_SETPIPE_SZ(PIPE_BYTES));
         Ok(Self { stdin, stdout, stderr: Some(stderr), tail: VecDeque::new() })
     }
 
@@ -55,7 +60,7 @@ impl Channel {
         message: &[u8],
         longest: Longest,
         deadline: Instant,
-    ) -> Result<(T, Vec<u8>), Lost> {
+    ) -> Result<(T, Body), Lost> {
         let mut unsent = message;
         let mut received = Vec::new();
         loop {
@@ -63,7 +68,7 @@ impl Channel {
             self.listen();
             unsent = self.push(unsent);
             let open = self.pull(&mut received, longest)?;
-            match protocol::decode(&received, longest) {
+            match protocol::decode(&mut received, longest) {
                 Ok(Some(answer)) => return Ok(answer),
                 Ok(None) if open => {}
                 Ok(None) => return Err(Lost::Closed),
@@ -111,19 +116,22 @@ impl Channel {
 
     /// Reads what is there; false at the end of the pipe.
     fn pull(&mut self, received: &mut Vec<u8>, longest: Longest) -> Result<bool, Lost> {
-        let mut chunk = [0; 64 << 10];
-        // A writer that never pauses is left to the check of the lengths.
-        while received.len() <= longest.head + longest.body {
-            match self.stdout.read(&mut chunk) {
+        loop {
+            let needed = protocol::needed(received, longest).map_err(|error| Lost::Garbled(error.to_string()))?;
+            // One byte more would show: a writer that never pauses is left to who decodes.
+            let end = needed + 1;
+            if received.len() >= end {
+                return Ok(true);
+            }
+            received.reserve(end - received.len());
+            match (&mut self.stdout).take((end - received.len()) as u64).read_to_end(received) {
+                // Either the pipe has ended, or its bytes say how many more are to come.
                 Ok(0) => return Ok(false),
-                Ok(read) => received.extend(&chunk[..read]),
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Ok(_) => {}
                 Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(true),
                 Err(error) => return Err(Lost::Garbled(error.to_string())),
             }
-            protocol::lengths(received, longest).map_err(|error| Lost::Garbled(error.to_string()))?;
         }
-        Ok(true)
     }
 
     /// Keeps the end of what standard error says, and never waits for more of it.

@@ -3,7 +3,7 @@
 use super::channel::{Channel, Lost};
 use super::ending::Ending;
 use super::protection::{Policy, Protection};
-use super::protocol::{self, Hello, Longest, Reply, Request};
+use super::protocol::{self, Body, Hello, Longest, Reply, Request};
 use super::{Settings, environment, schedule};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -122,7 +122,7 @@ impl Worker {
         bytes: &[u8],
         frames_bytes: usize,
         deadline: Duration,
-    ) -> Result<(Reply, Vec<u8>), Ending> {
+    ) -> Result<(Reply, Body), Ending> {
         self.gradings += 1;
         let message = protocol::encode(request, bytes).map_err(|error| Ending::Garbled(error.to_string()))?;
         let before = schedule::cpu_time(self.id());

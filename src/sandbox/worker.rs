@@ -11,7 +11,7 @@ use crate::render::{AdapterKind, Frames};
 use nix::sys::resource::Resource;
 use reference::Assignment;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 
 /// Stack of the thread that grades: translators recurse over the student's nesting.
 const STACK_BYTES: usize = 256 << 20;
@@ -55,11 +55,11 @@ fn serve(job: Job, confined: Confined) -> io::Result<()> {
     let Confined { mut output, layers, meter } = confined;
     let (mut grader, protection) = match prepare(job, layers) {
         Ok(ready) => ready,
-        Err(fault) => return send(&mut output, &Hello::Failed(fault), &[]),
+        Err(fault) => return send(&mut output, &Hello::Failed(fault), 0, |_| Ok(())),
     };
     let hello = Hello::Ready { environment: grader.environment().clone(), protection };
     let size = meter.size()?;
-    send(&mut output, &hello, &[])?;
+    send(&mut output, &hello, 0, |_| Ok(()))?;
     let mut input = io::stdin().lock();
     while answer(&mut input, &mut output, &mut grader, job, &meter, size)? {}
     Ok(())
@@ -97,38 +97,35 @@ fn answer(
         Err(error) => return Err(error),
     };
     meter.next(job.adapter)?;
-    let (outcome, body) = outcome(grader.grade(&request.name, &bytes, request.order), request.wants_frames);
+    let graded = grader.grade(&request.name, &bytes, request.order);
     let spent = meter.size()? > start + job.limits.memory;
-    send(output, &Reply { id: request.id, spent, outcome }, &body)?;
+    let (outcome, frames) = match graded {
+        Err(fault) => (Outcome::Failed(fault), None),
+        Ok(Graded { report, frames }) => {
+            let frames = frames.filter(|_| request.wants_frames);
+            let tiles = frames.as_ref().map(tiles).unwrap_or_default();
+            (Outcome::Graded { report: Box::new(report), frames: tiles.clone() }, frames.map(|frames| (frames, tiles)))
+        }
+    };
+    let (frames, tiles) = frames.unwrap_or_default();
+    let length = tiles.iter().map(|tile| tile.width as usize * tile.height as usize * 4).sum();
+    let reply = Reply { id: request.id, spent, outcome };
+    // Row by row from where the device left them: a copy of all would be as large as everything else.
+    send(output, &reply, length, |to| {
+        for (index, tile) in (0..).zip(&tiles) {
+            let left = tile.x.saturating_sub(frames.area(index).x) as usize * 4;
+            for y in tile.y..tile.y + tile.height {
+                to.write_all(&frames.row(index, y)[left..left + tile.width as usize * 4])?;
+            }
+        }
+        Ok(())
+    })?;
     Ok(true)
 }
 
-fn outcome(graded: Result<Graded, Fault>, wants_frames: bool) -> (Outcome, Vec<u8>) {
-    match graded {
-        Err(fault) => (Outcome::Failed(fault), Vec::new()),
-        Ok(Graded { report, frames }) => {
-            let (tiles, body) = frames.filter(|_| wants_frames).map(|frames| cut(&frames)).unwrap_or_default();
-            (Outcome::Graded { report: Box::new(report), frames: tiles }, body)
-        }
-    }
-}
-
-/// The frames without their margins of background.
-fn cut(frames: &Frames) -> (Vec<Tile>, Vec<u8>) {
-    let mut body = Vec::new();
-    let tiles = (0..frames.count)
-        .map(|index| {
-            let tile = painted(frames, index);
-            let area = frames.area(index);
-            for y in tile.y..tile.y + tile.height {
-                let row = frames.row(index, y);
-                let start = (tile.x - area.x) as usize * 4;
-                body.extend_from_slice(&row[start..start + tile.width as usize * 4]);
-            }
-            tile
-        })
-        .collect();
-    (tiles, body)
+/// The frames' parts without their margins of background.
+fn tiles(frames: &Frames) -> Vec<Tile> {
+    (0..frames.count).map(|index| painted(frames, index)).collect()
 }
 
 /// The least rectangle that holds every pixel that was painted.

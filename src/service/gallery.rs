@@ -111,7 +111,7 @@ impl Gallery {
                 let pictures = Pictures {
                     yours: vec![pictures::decode(yours)?],
                     expected: expected.into_iter().collect(),
-                    terms: Vec::new(),
+                    terms: Arc::default(),
                 };
                 pictures::animation(&pictures).map(Some)
             })
@@ -144,7 +144,7 @@ impl Gallery {
         blocking(state, move |state| {
             let yours = drawn.yours.iter().map(|png| pictures::decode(png)).collect::<Result<_, _>>()?;
             let expected = state.gallery.expected()?.pictures.clone();
-            Ok(Some(Pictures { yours, expected, terms: Vec::new() }))
+            Ok(Some(Pictures { yours, expected, terms: Arc::default() }))
         })
         .await
     }
@@ -194,7 +194,7 @@ impl Gallery {
             View::Difference => pictures::animated(&decoded(&drawn.difference)?)?,
             View::All => {
                 let yours = decoded(&drawn.yours)?;
-                pictures::animation(&Pictures { yours, expected: expected.clone(), terms: Vec::new() })?
+                pictures::animation(&Pictures { yours, expected: expected.clone(), terms: Arc::default() })?
             }
         };
         Ok(cell.get_or_init(|| bytes).clone())

@@ -1,5 +1,7 @@
 //! The moving pictures as files: each a sheet of all poses, and the style that moves it.
 
+use super::base::Base;
+use super::memo::Memo;
 use super::sheet::{Grid, Step};
 use super::shots::Shots;
 use crate::fault::Fault;
@@ -9,7 +11,7 @@ use crate::report::{Picture, Pictures, TermPictures};
 use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::Arc;
 
 /// Bytes of the two sheets of a film. Those of a right answer take about 170 kB; a shader that draws noise
 /// would take 15 MB, and is shown at a lower resolution instead.
@@ -34,26 +36,45 @@ pub struct Film {
 impl Film {
     /// The film of a grading in every `finest`-th pixel of every `finest`-th row, or coarser where that is too large;
     /// none when nothing was drawn.
-    pub fn of(yours: &[Picture], expected: &[Picture], finest: usize) -> Result<Option<Self>, Fault> {
+    pub fn of(yours: &[Picture], expected: &Arc<[Picture]>, finest: usize) -> Result<Option<Self>, Fault> {
         fit(yours, expected)?;
-        let (Some(first), Some(drawn)) = (expected.first(), Shots::of(yours)) else { return Ok(None) };
-        let Some(right) = Shots::of(expected) else { return Ok(None) };
+        let Some(first) = expected.first() else { return Ok(None) };
         let motion = Motion::of(expected.len(), first.width as usize, first.height as usize);
+        let made = |yours: Vec<u8>, difference: Vec<u8>, factor: usize| Self {
+            yours,
+            difference,
+            is_reduced: factor > finest,
+            motion,
+            factor,
+        };
+        if finest == 1
+            && let Some((yours, difference)) = Base::of(expected, motion.grid)?.sheets(yours, expected)
+        {
+            let film = made(yours.encode()?, difference.encode()?, 1);
+            if film.bytes() <= BUDGET {
+                return Ok(Some(film));
+            }
+        }
+        let (Some(drawn), Some(right)) = (Shots::of(yours), Shots::of(expected)) else { return Ok(None) };
         let mut fitting = None;
         for factor in REDUCTIONS.into_iter().filter(|factor| *factor >= finest) {
             let yours = drawn.sheet(motion.grid, factor).encode()?;
             let difference = drawn.difference(&right, motion.grid, factor).encode()?;
-            let bytes = yours.len() + difference.len();
-            fitting = Some(Self { yours, difference, is_reduced: factor > finest, motion, factor });
-            if bytes <= BUDGET {
+            let film = fitting.insert(made(yours, difference, factor));
+            if film.bytes() <= BUDGET {
                 break;
             }
         }
         Ok(fitting)
     }
 
+    fn bytes(&self) -> usize {
+        self.yours.len() + self.difference.len()
+    }
+
     /// Where a page that holds all pictures itself finds them.
     pub fn embedded(&self, pictures: &Pictures) -> Result<Gallery, Fault> {
+        static TERMS: Memo<[TermPictures], Arc<[Term]>> = Memo::new();
         let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&[&Raster::opaque(picture)?])?));
         let term = |term: &TermPictures| {
             let yours = term.yours.as_ref().map(address);
@@ -64,7 +85,7 @@ impl Film {
             expected: expected_address(&pictures.expected, self.factor)?,
             difference: inline(&self.difference),
             is_reduced: self.is_reduced,
-            terms: pictures.terms.iter().map(term).collect::<Result<_, Fault>>()?,
+            terms: TERMS.get(&pictures.terms, 0, || pictures.terms.iter().map(term).collect())?,
         })
     }
 }
@@ -76,23 +97,10 @@ pub fn expected_sheet(expected: &[Picture], finest: usize) -> Result<Vec<u8>, Fa
     shots.sheet(Grid::of(expected.len()), finest).encode()
 }
 
-/// A sheet of what is expected, as an address: of which pictures, and how much they are reduced.
-type Made = (Weak<[Picture]>, usize, Arc<str>);
-
-/// It inside a page: made once for all pages that show the same pictures.
+/// It inside a page.
 fn expected_address(expected: &Arc<[Picture]>, finest: usize) -> Result<Arc<str>, Fault> {
-    static MADE: Mutex<Vec<Made>> = Mutex::new(Vec::new());
-    let lock = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
-    let is_this = |pictures: &Weak<[Picture]>| Weak::ptr_eq(pictures, &Arc::downgrade(expected));
-    let known = lock().iter().find(|(pictures, factor, _)| *factor == finest && is_this(pictures)).cloned();
-    if let Some((_, _, address)) = known {
-        return Ok(address);
-    }
-    let address: Arc<str> = inline(&expected_sheet(expected, finest)?).into();
-    let mut made = lock();
-    made.retain(|(pictures, ..)| pictures.strong_count() > 0);
-    made.push((Arc::downgrade(expected), finest, Arc::clone(&address)));
-    Ok(address)
+    static MADE: Memo<[Picture], Arc<str>> = Memo::new();
+    MADE.get(expected, finest, || Ok(inline(&expected_sheet(expected, finest)?).into()))
 }
 
 fn inline(png: &[u8]) -> String {
@@ -111,7 +119,7 @@ pub struct Gallery {
     /// Whether to say that the sheets are smaller than they were drawn.
     pub is_reduced: bool,
     /// Single terms of the equation.
-    pub terms: Vec<Term>,
+    pub terms: Arc<[Term]>,
 }
 
 /// Addresses of the pictures of one term of the equation.

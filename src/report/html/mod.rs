@@ -1,8 +1,10 @@
 //! The report as HTML: a page that needs nothing else (no network, no script, no other file), or a part of another page.
 
+mod base;
 mod body;
 mod film;
 mod listing;
+mod memo;
 mod player;
 pub(crate) mod rich;
 mod sheet;

@@ -2,6 +2,7 @@ use super::*;
 use crate::report::labels::Labels;
 use crate::report::samples;
 use crate::report::{Picture, TermPictures};
+use std::sync::Arc;
 
 fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
@@ -130,7 +131,7 @@ fn terms_are_shown_when_there_are_pictures_of_them() {
     let html = page(&samples::wrong(), Language::En);
     assert!(html.contains("alt=\"Yours: Specular\"") && html.contains("alt=\"Expected: Specular\""));
     let mut pictures = samples::pictures();
-    pictures.terms[0] = TermPictures { yours: None, ..pictures.terms[0].clone() };
+    pictures.terms = Arc::new([TermPictures { yours: None, ..pictures.terms[0].clone() }]);
     let report = samples::wrong();
     let page =
         Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };
@@ -150,7 +151,8 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
         Picture { width: 640, height: 480, rgba: (0..640 * 480 * 4).map(|_| byte()).collect() }
     };
     // Two poses of 0.9 MB a picture: 3 bytes for each of 307,200 pixels, which do not compress.
-    let pictures = Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), terms: vec![] };
+    let pictures =
+        Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), terms: Arc::default() };
     let report = samples::wrong();
     let page =
         Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };

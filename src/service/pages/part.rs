@@ -10,6 +10,7 @@ use crate::report::text::number;
 use crate::report::{Equation, Report, Verdict};
 use askama::Template;
 use serde::Serialize;
+use std::sync::Arc;
 
 #[derive(Template)]
 #[template(path = "service/part.html")]
@@ -107,6 +108,6 @@ pub(super) fn gallery(id: &str, report: &Report) -> Option<Gallery> {
         expected: assets::address(&assets::expected_name(&report.assignment)).into(),
         difference: format!("/r/{id}/difference.png"),
         is_reduced: false,
-        terms: Vec::new(),
+        terms: Arc::default(),
     })
 }

@@ -1,0 +1,102 @@
+//! The sheets of a right answer, from which those of a submission are made: most of what is handed in is right, and a right
+//! answer draws nearly every pixel as it is expected.
+
+use super::memo::Memo;
+use super::sheet::Grid;
+use super::shots::Shots;
+use crate::fault::Fault;
+use crate::report::Picture;
+use crate::report::difference::Ramp;
+use crate::report::encode::{Canvas, mismatched};
+use std::sync::Arc;
+
+/// Neighbours in a row that are compared at once.
+const STRIDE: usize = 16;
+
+/// What is expected, as the two sheets of a submission that draws just that.
+#[derive(Clone)]
+pub(super) struct Base {
+    grid: Grid,
+    yours: Canvas,
+    difference: Canvas,
+}
+
+impl Base {
+    /// The base for these pictures.
+    pub fn of(expected: &Arc<[Picture]>, grid: Grid) -> Result<Arc<Self>, Fault> {
+        static MADE: Memo<[Picture], Arc<Base>> = Memo::new();
+        MADE.get(expected, 0, || {
+            let shots = Shots::of(expected).ok_or_else(mismatched)?;
+            let (yours, difference) = (shots.sheet(grid, 1), shots.difference(&shots, grid, 1));
+            Ok(Arc::new(Self { grid, yours, difference }))
+        })
+    }
+
+    /// The sheet of `yours`, and that of where it differs from `expected`, which the base is made of; none where the two
+    /// have more colours together than a palette has. All pictures have one size.
+    pub fn sheets(&self, yours: &[Picture], expected: &[Picture]) -> Option<(Canvas, Canvas)> {
+        let ramp = Ramp::new();
+        let (mut drawn, mut difference) = (self.yours.clone(), self.difference.clone());
+        for (pose, (yours, expected)) in yours.iter().zip(expected).enumerate() {
+            let (width, height) = (expected.width as usize, expected.height as usize);
+            let corner = pose / self.grid.columns * height * drawn.width + pose % self.grid.columns * width;
+            let rows = |picture| Picture::pixels(picture).chunks_exact(width);
+            for (y, (yours, expected)) in rows(yours).zip(rows(expected)).enumerate() {
+                let start = corner + y * drawn.width;
+                let strides = yours.chunks(STRIDE).zip(expected.chunks(STRIDE)).enumerate();
+                for (index, (yours, expected)) in strides.filter(|(_, (yours, expected))| !look_alike(yours, expected))
+                {
+                    let start = start + index * STRIDE;
+                    drawn.put(start, yours.iter().map(|[r, g, b, _]| [*r, *g, *b]));
+                    difference.put(start, yours.iter().zip(expected).map(|(yours, right)| ramp.pixel(yours, right)));
+                }
+            }
+            if !drawn.is_indexed() {
+                return None;
+            }
+        }
+        Some((drawn, difference))
+    }
+}
+
+/// Whether pixels have the same colours; alpha is not seen.
+fn look_alike(a: &[[u8; 4]], b: &[[u8; 4]]) -> bool {
+    const RGB: u32 = u32::from_ne_bytes([255, 255, 255, 0]);
+    let differences = a.iter().zip(b).map(|(a, b)| (u32::from_ne_bytes(*a) ^ u32::from_ne_bytes(*b)) & RGB);
+    differences.fold(0, |any, difference| any | difference) == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::samples;
+
+    fn pixels(sheet: &Canvas) -> Vec<u8> {
+        image::load_from_memory(&sheet.encode().expect("a PNG")).expect("a picture").to_rgb8().into_raw()
+    }
+
+    #[test]
+    fn the_sheets_are_those_that_are_painted_without_a_base() {
+        let mut pictures = samples::pictures();
+        // A pixel outside, a missing one, one of another alpha.
+        let width = pictures.yours[3].width as usize;
+        pictures.yours[3].rgba[..4].copy_from_slice(&[1, 2, 3, 255]);
+        pictures.yours[4].rgba[4 * (20 * width + 40)..][..4].copy_from_slice(&[255, 255, 255, 0]);
+        pictures.yours[5].rgba[7] = 9;
+        let grid = Grid::of(pictures.expected.len());
+        let base = Base::of(&pictures.expected, grid).expect("a base");
+        let (drawn, difference) = base.sheets(&pictures.yours, &pictures.expected).expect("few colours");
+        let (yours, right) = (Shots::of(&pictures.yours).unwrap(), Shots::of(&pictures.expected).unwrap());
+        assert_eq!(pixels(&drawn), pixels(&yours.sheet(grid, 1)));
+        assert_eq!(pixels(&difference), pixels(&yours.difference(&right, grid, 1)));
+    }
+
+    #[test]
+    fn more_colours_than_a_palette_has_are_painted_anew() {
+        let mut pictures = samples::pictures();
+        let noise = pictures.yours[0].rgba.chunks_exact_mut(4).enumerate();
+        noise.for_each(|(i, pixel)| pixel.copy_from_slice(&(i as u32 | 0xff00_0000).to_le_bytes()));
+        let grid = Grid::of(pictures.expected.len());
+        assert!(Base::of(&pictures.expected, grid).unwrap().sheets(&pictures.yours, &pictures.expected).is_none());
+    }
+}

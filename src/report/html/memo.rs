@@ -1,0 +1,32 @@
+//! What is made once for all pages that show the same pictures.
+
+use crate::fault::Fault;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+
+/// Things made of shared pictures, for as long as somebody has these.
+pub(super) struct Memo<K: ?Sized, V> {
+    /// Of which pictures, in which variant, and what was made.
+    made: Mutex<Vec<(Weak<K>, usize, V)>>,
+}
+
+impl<K: ?Sized, V: Clone> Memo<K, V> {
+    pub const fn new() -> Self {
+        Self { made: Mutex::new(Vec::new()) }
+    }
+
+    /// What `make` makes of `pictures` in this variant, unless it is there already.
+    pub fn get(&self, pictures: &Arc<K>, variant: usize, make: impl FnOnce() -> Result<V, Fault>) -> Result<V, Fault> {
+        let lock = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_this = |of: &Weak<K>| Weak::ptr_eq(of, &Arc::downgrade(pictures));
+        let known = lock().iter().find(|(of, known, _)| *known == variant && is_this(of)).map(|(.., v)| v.clone());
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        // Not under the lock: two that come at once make it twice.
+        let value = make()?;
+        let mut made = lock();
+        made.retain(|(of, ..)| of.strong_count() > 0);
+        made.push((Arc::downgrade(pictures), variant, value.clone()));
+        Ok(value)
+    }
+}
