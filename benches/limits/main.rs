@@ -7,6 +7,7 @@ mod bare;
 mod class;
 mod machine;
 mod measure;
+mod surfaces;
 mod table;
 
 use std::process::ExitCode;
@@ -23,6 +24,8 @@ struct Size {
     gradings: usize,
     /// Commands.
     commands: usize,
+    /// Uploads.
+    uploads: usize,
 }
 
 fn main() -> ExitCode {
@@ -37,18 +40,19 @@ fn main() -> ExitCode {
         return measure::again_with_driver_settings(&arguments);
     }
     let size = if has("--quick") {
-        Size { shaders: 12, class: 100, gradings: 400, commands: 5 }
+        Size { shaders: 12, class: 100, gradings: 400, commands: 5, uploads: 40 }
     } else {
-        Size { shaders: 100, class: 1000, gradings: 10_000, commands: 20 }
+        Size { shaders: 100, class: 1000, gradings: 10_000, commands: 20, uploads: 400 }
     };
     let mut machine = machine::describe();
     machine.push(format!(
-        "{} shaders, classes of {} and {}, {} gradings for memory, {} commands",
+        "{} shaders, classes of {} and {}, {} gradings for memory, {} commands, {} uploads",
         size.shaders,
         size.class / 4,
         size.class,
         size.gradings,
-        size.commands
+        size.commands,
+        size.uploads
     ));
     let table = Table { machine, rows: rows(size) };
     print!("{}", table.text());
@@ -81,6 +85,7 @@ fn rows(size: Size) -> Vec<Row> {
         Row::at_least("pool-rate-cpu", "submissions/s", measure::CORES * 1e3 * size.class as f64 / large.cpu, 100.0),
         Row::ratio("growth", large.cpu / small.cpu, 4.2),
     ]);
+    rows.extend(on_surfaces(size));
     rows.push(Row::at_most("command", "ms", measure::command(&shaders[..size.commands]), 300.0));
     rows.extend([
         Row::at_most("memory", "MiB", memory.most, 400.0),
@@ -91,4 +96,22 @@ fn rows(size: Size) -> Vec<Row> {
         rows.push(Row::at_least("script", "times", times, 10.0));
     }
     rows
+}
+
+/// By the clock: what people wait for.
+fn on_surfaces(size: Size) -> Vec<Row> {
+    let (small, large) = (class::submissions(size.class / 4), class::submissions(size.class));
+    let rate = |seconds: f64| size.class as f64 / seconds;
+    let (quarter, whole) = (surfaces::batch(&small, "csv"), surfaces::batch(&large, "csv"));
+    let pages = surfaces::batch(&large, "csv,html");
+    let latency = surfaces::service(&class::submissions(size.uploads + 8));
+    let [p50, p99] = [0.5, 0.99].map(|part| measure::percentile(&latency.new, part));
+    vec![
+        Row::at_least("batch-rate", "submissions/s", rate(whole), 100.0),
+        Row::ratio("batch-growth", whole / quarter, 4.2),
+        Row::rate("batch-rate-pages", rate(pages)),
+        Row::at_most("upload-p50", "ms", p50, 40.0),
+        Row::at_most("upload-p99", "ms", p99, 120.0),
+        Row::at_most("upload-known-p50", "ms", measure::percentile(&latency.known, 0.5), 3.0),
+    ]
 }

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 /// The cores that the goals are stated for, and the workers that are started.
 pub const CORES: f64 = 2.0;
-const WORKERS: usize = 2;
+pub const WORKERS: usize = 2;
 /// The seed of a class.
 const ORDER: Order = Order { seed: 1, hints: ggrade::diagnose::Hints::Full };
 /// Set in the process that has the driver's settings.
@@ -81,8 +81,27 @@ fn start() -> Pool {
     Pool::start(settings, WORKERS).unwrap_or_else(|fault| panic!("{}", fault.message.en))
 }
 
-fn program() -> std::path::PathBuf {
+/// ggrade itself.
+pub fn program() -> std::path::PathBuf {
     env!("CARGO_BIN_EXE_ggrade").into()
+}
+
+/// A command with the environment that this program was started with, not the driver's settings.
+pub fn clean(program: impl AsRef<std::ffi::OsStr>) -> Command {
+    let mut command = Command::new(program);
+    command.env_remove(MARK);
+    for (name, _) in sandbox::driver_settings(AdapterKind::Software) {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// The value that so great a part of `values` is not above.
+pub fn percentile(values: &[f64], part: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let place = (part * sorted.len() as f64).ceil() as usize;
+    sorted.get(place.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }
 
 /// Grades all, on as many threads as there are workers, and calls `after` with the number that are done.
@@ -138,7 +157,7 @@ pub fn command(submissions: &[Submission]) -> f64 {
         let file = folder.path().join(&submission.name);
         std::fs::write(&file, &submission.text).expect("a file");
         let began = Instant::now();
-        let output = Command::new(program()).arg("grade").arg(&file).env_remove(MARK).output().expect("ggrade starts");
+        let output = clean(program()).arg("grade").arg(&file).output().expect("ggrade starts");
         assert!(matches!(output.status.code(), Some(0 | 1)), "{}", String::from_utf8_lossy(&output.stderr));
         began.elapsed().as_secs_f64() * 1e3
     });
@@ -208,7 +227,7 @@ pub fn script(submissions: &[Submission], grade: f64) -> Option<f64> {
     for submission in submissions {
         let file = folder.path().join(&submission.name);
         std::fs::write(&file, &submission.text).expect("a file");
-        let mut script = Command::new(program);
+        let mut script = clean(program);
         script.args(&words).arg(&file).arg("--out").arg(folder.path().join("out")).args(["--poses", "25"]);
         let status = script.stdout(Stdio::null()).stderr(Stdio::null()).status();
         assert!(status.is_ok_and(|status| status.success()), "{command} {}", submission.name);

@@ -10,7 +10,7 @@ const END: &str = "<!-- end of table -->";
 const TOLERANCE: f64 = 1.25;
 
 /// What each figure is.
-const MEANINGS: [(&str, &str); 13] = [
+const MEANINGS: [(&str, &str); 19] = [
     ("bare-driver", "CPU time of the bare driver for one submission, median"),
     ("grade", "CPU time of a whole grading in one process, in turns with the above"),
     ("grade-to-bare", "the one against the other"),
@@ -20,6 +20,15 @@ const MEANINGS: [(&str, &str); 13] = [
     ("pool-rate", "submissions a second by the clock, two workers"),
     ("pool-rate-cpu", "submissions a second that two cores have the CPU time for"),
     ("growth", "CPU time of the class against that of a quarter of it"),
+    ("batch-rate", "submissions a second of `ggrade batch --formats csv`, by the clock, its start and end included"),
+    ("batch-growth", "time of that against the time for a quarter of the class"),
+    ("batch-rate-pages", "the same with a page for each student, `--formats csv,html`"),
+    (
+        "upload-p50",
+        "`POST /api/v1/submissions` of a new file to a warm service until its report is there, 20 a second, median",
+    ),
+    ("upload-p99", "the longest but one in a hundred of these"),
+    ("upload-known-p50", "the same of a file that was graded before, median"),
     ("command", "`ggrade grade FILE` by the clock, median"),
     ("memory", "resident memory of parent and two workers, the most at any time; what they share counts for each"),
     ("memory-with-spare", "the same with the worker that is kept ready"),
@@ -45,6 +54,11 @@ impl Row {
     /// A cost without a limit of its own.
     pub fn milliseconds(id: &'static str, value: f64) -> Self {
         Self { id, unit: "ms", value, limit: None }
+    }
+
+    /// Submissions a second, without a limit of its own.
+    pub fn rate(id: &'static str, value: f64) -> Self {
+        Self { id, unit: "submissions/s", value, limit: None }
     }
 
     /// An amount of memory without a limit of its own.
