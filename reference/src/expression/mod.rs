@@ -143,12 +143,13 @@ impl Node {
                 _ => no.evaluate(lookup),
             },
             Self::Call(function, arguments) => {
-                let mut values = [const { Value::Float(0.0) }; 3];
-                for (value, argument) in values.iter_mut().zip(arguments) {
-                    *value = argument.evaluate(lookup);
-                }
-                let values = values.get(..arguments.len()).unwrap_or_default();
-                function.call(values).unwrap_or(Value::Float(f64::NAN))
+                let value = match arguments.as_slice() {
+                    [a] => function.unary(&a.evaluate(lookup)),
+                    [a, b] => function.binary(&a.evaluate(lookup), &b.evaluate(lookup)),
+                    [a, b, c] => function.ternary(&a.evaluate(lookup), &b.evaluate(lookup), &c.evaluate(lookup)),
+                    _ => None,
+                };
+                value.unwrap_or(Value::Float(f64::NAN))
             }
             Self::Construct(kind, arguments) => construct(*kind, arguments, lookup),
             Self::Swizzle(a, places, width) => {
@@ -187,9 +188,17 @@ impl Comparison {
 impl Operator {
     /// GLSL 4.10, 5.9: component by component, except that `*` with a matrix is the linear-algebra product.
     fn apply(self, a: Value, b: Value) -> Value {
-        use Value::{Float, Vec4};
+        use Value::{Float, Vec3, Vec4};
         match (self, &a, &b) {
             // The common cases by name: a search evaluates them by the hundred thousand.
+            (Self::Add, Float(x), Float(y)) => Float(x + y),
+            (Self::Subtract, Float(x), Float(y)) => Float(x - y),
+            (Self::Multiply, Float(x), Float(y)) => Float(x * y),
+            (Self::Divide, Float(x), Float(y)) => Float(x / y),
+            (Self::Add, Vec3(v), Vec3(w)) => Vec3(v + w),
+            (Self::Subtract, Vec3(v), Vec3(w)) => Vec3(v - w),
+            (Self::Multiply, Vec3(v), Float(x)) | (Self::Multiply, Float(x), Vec3(v)) => Vec3(v * x),
+            (Self::Divide, Vec3(v), Float(x)) => Vec3(v / x),
             (Self::Add, Vec4(v), Vec4(w)) => Vec4(v + w),
             (Self::Multiply, Vec4(v), Vec4(w)) => Vec4(v * w),
             (Self::Multiply, Vec4(v), Float(x)) | (Self::Multiply, Float(x), Vec4(v)) => Vec4(v * x),
