@@ -1,7 +1,8 @@
 //! Macro expansion as far as counting needs it: what the preprocessor would write, or a little more.
 //!
-//! Conditions are not decided: every `#define` of the file holds from its line on, and of several for one name the
-//! longest. A file that deceives this count meets the worker's limits of time and memory instead.
+//! Conditions are not decided: what stands between `#if` and `#endif` may hold or not, so that a name may have several
+//! definitions, and each of them is written where it is used. A file that deceives this count meets the worker's limits
+//! of time and memory instead.
 
 use super::text::{Excess, MAX_TOKENS};
 use std::collections::HashMap;
@@ -40,7 +41,7 @@ fn token_length(text: &str) -> usize {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Macro {
     /// `None` for a macro without parentheses.
     parameters: Option<Vec<Rc<str>>>,
@@ -61,25 +62,34 @@ pub(super) type Sink<'a> = dyn FnMut(&Token) -> Result<(), (Excess, u32)> + 'a;
 /// The macros of a file, and how many tokens they have written.
 #[derive(Debug, Default)]
 pub(super) struct Expander {
-    macros: HashMap<Rc<str>, Macro>,
+    /// What each name may stand for.
+    macros: HashMap<Rc<str>, Vec<Macro>>,
     hidden: HashMap<Rc<str>, i32>,
     written: usize,
 }
 
 impl Expander {
-    /// Takes what stands after `#define`.
-    pub fn define(&mut self, text: &str) {
-        let text = text.trim_start();
-        let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
-        let (name, rest) = text.split_at(end);
+    /// Takes what stands after `#define`. It takes the place of what the name stood for, if it `is_certain` to be read.
+    pub fn define(&mut self, text: &str, is_certain: bool) {
+        let (name, rest) = split_name(text);
         let (parameters, body) = match rest.strip_prefix('(').and_then(|list| list.split_once(')')) {
             Some((list, body)) => (Some(list.split(',').map(|parameter| parameter.trim().into()).collect()), body),
             None => (None, rest),
         };
         let body: Vec<Rc<str>> = tokens(body, 0).into_iter().map(|token| token.text).collect();
-        if self.macros.get(name).is_none_or(|known| known.body.len() <= body.len()) {
-            self.macros.insert(name.into(), Macro { parameters, body });
+        let known = self.macros.entry(name.into()).or_default();
+        if is_certain {
+            known.clear();
         }
+        let defined = Macro { parameters, body };
+        if !known.contains(&defined) {
+            known.push(defined);
+        }
+    }
+
+    /// Takes what stands after an `#undef` that is certain to be read.
+    pub fn undefine(&mut self, text: &str) {
+        self.macros.remove(split_name(text).0);
     }
 
     /// Expands `tokens` and gives each that is left to `sink`.
@@ -103,27 +113,31 @@ impl Expander {
     fn written_by(&mut self, token: &Token, items: &mut Vec<Item>) -> Result<bool, (Excess, u32)> {
         let is_hidden = self.hidden.get(&token.text).is_some_and(|count| *count > 0);
         let Some(found) = self.macros.get(&token.text).filter(|_| !is_hidden) else { return Ok(false) };
-        let arguments = match &found.parameters {
-            None => Vec::new(),
-            Some(_) => match arguments(items, &mut self.hidden) {
-                Some(arguments) => arguments,
-                None => return Ok(false),
-            },
-        };
+        let takes_arguments = found.iter().any(|one| one.parameters.is_some());
+        let arguments = if takes_arguments { arguments(items, &mut self.hidden) } else { None };
+        if arguments.is_none() && found.iter().all(|one| one.parameters.is_some()) {
+            return Ok(false);
+        }
+        let arguments = arguments.unwrap_or_default();
         let mut pushed = vec![Item::Hide(token.text.clone(), 1)];
-        for text in paste(&found.body) {
-            let parameter = found.parameters.iter().flatten().position(|name| *name == text);
-            match parameter.and_then(|index| arguments.get(index)) {
-                // Inside its own argument a macro's name is expanded.
-                Some(argument) => {
-                    pushed.push(Item::Hide(token.text.clone(), -1));
-                    pushed.extend(argument.iter().cloned());
-                    pushed.push(Item::Hide(token.text.clone(), 1));
+        for one in found {
+            for text in paste(&one.body) {
+                let parameter = one.parameters.iter().flatten().position(|name| *name == text);
+                match parameter.and_then(|index| arguments.get(index)) {
+                    // Inside its own argument a macro's name is expanded.
+                    Some(argument) => {
+                        pushed.push(Item::Hide(token.text.clone(), -1));
+                        pushed.extend(argument.iter().cloned());
+                        pushed.push(Item::Hide(token.text.clone(), 1));
+                    }
+                    None => pushed.push(Item::Token(Token { text, line: token.line })),
                 }
-                None => pushed.push(Item::Token(Token { text, line: token.line })),
+                if self.written + pushed.len() > MAX_TOKENS {
+                    return Err((Excess::Tokens, token.line));
+                }
             }
-            if self.written + pushed.len() > MAX_TOKENS {
-                return Err((Excess::Tokens, token.line));
+            if one.parameters.is_none() {
+                pushed.extend(arguments.iter().flatten().cloned());
             }
         }
         pushed.push(Item::Hide(token.text.clone(), -1));
@@ -131,6 +145,12 @@ impl Expander {
         items.extend(pushed.into_iter().rev());
         Ok(true)
     }
+}
+
+/// The name that a text begins with, and the rest.
+pub(super) fn split_name(text: &str) -> (&str, &str) {
+    let text = text.trim_start();
+    text.split_at(text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len()))
 }
 
 /// Takes `( … )` from the items and splits it at its commas; none where no parenthesis follows.

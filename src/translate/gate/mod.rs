@@ -9,6 +9,7 @@ mod cost;
 mod expand;
 mod nesting;
 mod storage;
+mod structures;
 mod text;
 mod weight;
 
