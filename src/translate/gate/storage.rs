@@ -23,8 +23,7 @@ enum Kind {
 
 /// Refuses a shader that uses such a variable. One that only declares it draws the same picture without it.
 pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Result<(), Refusal> {
-    let names: HashMap<u32, String> =
-        instructions(words).filter_map(|i| name(&i)).collect();
+    let names: HashMap<u32, String> = instructions(words).filter_map(|i| name(&i)).collect();
     let buffers: HashSet<u32> = instructions(words)
         .filter_map(|i| match (i.opcode, i.words) {
             (op::DECORATE, [_, id, BUFFER_BLOCK, ..]) => Some(*id),
@@ -88,7 +87,9 @@ fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> 
                 lengths.insert(*id, u64::from(*value));
                 continue;
             }
-            (op::TYPE_VECTOR | op::TYPE_MATRIX, [_, id, part, count]) => (*id, size(part).saturating_mul(u64::from(*count))),
+            (op::TYPE_VECTOR | op::TYPE_MATRIX, [_, id, part, count]) => {
+                (*id, size(part).saturating_mul(u64::from(*count)))
+            }
             (op::TYPE_ARRAY, [_, id, element, length]) => {
                 (*id, size(element).saturating_mul(lengths.get(length).copied().unwrap_or(1)))
             }

@@ -82,7 +82,7 @@ mod tests {
     /// Members of `T`, and whether any structure has too many.
     fn members(code: &str) -> (u64, bool) {
         let mut structures = Structures::default();
-        let is_too_many = tokens(code, 1).into_iter().fold(false, |is, token| structures.take(&token.text) || is);
+        let is_too_many = tokens(code, 1).into_iter().any(|token| structures.take(&token.text));
         (structures.members.get("T").copied().unwrap_or(0), is_too_many)
     }
 

@@ -201,7 +201,7 @@ mod tests {
         // With and without arguments under one name.
         let both = format!("#if 1\n#define F(x) x\n#else\n#define F {harmless}\n#endif\nF(a19) F\n");
         assert_eq!(check(&format!("{code}{both}")), Err((Excess::Tokens, 26)));
-        let neither = format!("#if 1\n#define F 1 +\n#else\n#define F(x) 1\n#endif\nF(a19)\n");
+        let neither = "#if 1\n#define F 1 +\n#else\n#define F(x) 1\n#endif\nF(a19)\n";
         assert_eq!(check(&format!("{code}{neither}")), Err((Excess::Tokens, 26)));
     }
 

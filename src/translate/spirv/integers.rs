@@ -9,7 +9,9 @@ pub(super) fn lowered(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, operan
     let &first = operands.first()?;
     let first_ty = b.type_of(first)?;
     match (opcode, operands) {
-        (op::U_DIV | op::S_DIV | op::S_REM | op::S_MOD | op::U_MOD, &[x, y]) => return divided(b, opcode, id, ty, [x, y]),
+        (op::U_DIV | op::S_DIV | op::S_REM | op::S_MOD | op::U_MOD, &[x, y]) => {
+            return divided(b, opcode, id, ty, [x, y]);
+        }
         (op::I_ADD_CARRY, &[x, y]) => {
             let sum = b.op(op::I_ADD, first_ty, &[x, y]);
             let carry = flag(b, first_ty, [sum, x])?;
