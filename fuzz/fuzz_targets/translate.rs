@@ -3,7 +3,7 @@
 #![no_main]
 
 use ggrade::translate::{Refusal, translate};
-use ggrade_fuzz::{INTERFACE, check_diagnostics, check_module};
+use ggrade_fuzz::{INTERFACE, check_diagnostics, check_module, written};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -16,6 +16,7 @@ fuzz_target!(|bytes: &[u8]| {
         Err(Refusal::Rejected(diagnostics) | Refusal::Stopped(diagnostics)) => {
             assert!(!diagnostics.is_empty());
             check_diagnostics(&diagnostics, source.line_count());
+            written::check(bytes, Some(&source), &diagnostics);
         }
         Err(Refusal::Fault(fault)) => assert!(!fault.message.en.is_empty()),
     }

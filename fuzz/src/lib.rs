@@ -1,6 +1,7 @@
 //! What the fuzz targets share: the homework, and programs made of random bytes.
 
 pub mod program;
+pub mod written;
 
 use ggrade::source::Source;
 use ggrade::translate::{Interface, Translation};

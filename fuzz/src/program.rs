@@ -272,9 +272,17 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "refract(³, ³, F)",
             "faceforward(³, ³, ³)",
         ],
-        Type::Vec4 => {
-            &["q", "vec4(³, F)", "(mc * ⁴)", "field[i + I]", "(⁴ - ⁴)", "vec4(², ²)", "pv", "step(⁴, ⁴)", "unpackUnorm4x8(U)"]
-        }
+        Type::Vec4 => &[
+            "q",
+            "vec4(³, F)",
+            "(mc * ⁴)",
+            "field[i + I]",
+            "(⁴ - ⁴)",
+            "vec4(², ²)",
+            "pv",
+            "step(⁴, ⁴)",
+            "unpackUnorm4x8(U)",
+        ],
         Type::Mat3 => &["m", "mat3(F)", "(M * M)", "transpose(M)", "inverse(M)", "outerProduct(³, ³)", "mat3(mg)"],
     }
 }
