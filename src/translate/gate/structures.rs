@@ -4,8 +4,8 @@
 use std::collections::HashMap;
 
 /// Most members of one structure, those of the structures in it written out; arrays count once. As many scalars are all
-/// that the variables of a shader may have ([`super::bounds::MAX_SCALARS`]). The compiler walks through this many in
-/// 0.2 ms.
+/// that the variables of a shader may have ([`super::bounds::MAX_SCALARS`]). A file with two variables of so many members
+/// takes 20 ms before the driver.
 pub(super) const MAX_MEMBERS: u64 = super::bounds::MAX_SCALARS;
 
 /// Follows the definitions of structures.
