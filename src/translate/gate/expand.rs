@@ -121,23 +121,9 @@ impl Expander {
         let arguments = arguments.unwrap_or_default();
         let mut pushed = vec![Item::Hide(token.text.clone(), 1)];
         for one in found {
-            for text in paste(&one.body) {
-                let parameter = one.parameters.iter().flatten().position(|name| *name == text);
-                match parameter.and_then(|index| arguments.get(index)) {
-                    // Inside its own argument a macro's name is expanded.
-                    Some(argument) => {
-                        pushed.push(Item::Hide(token.text.clone(), -1));
-                        pushed.extend(argument.iter().cloned());
-                        pushed.push(Item::Hide(token.text.clone(), 1));
-                    }
-                    None => pushed.push(Item::Token(Token { text, line: token.line })),
-                }
-                if self.written + pushed.len() > MAX_TOKENS {
-                    return Err((Excess::Tokens, token.line));
-                }
-            }
-            if one.parameters.is_none() {
-                pushed.extend(arguments.iter().flatten().cloned());
+            one.write(token, &arguments, &mut pushed);
+            if self.written + pushed.len() > MAX_TOKENS {
+                return Err((Excess::Tokens, token.line));
             }
         }
         pushed.push(Item::Hide(token.text.clone(), -1));
@@ -165,12 +151,19 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
     let mut depth = 0_u32;
     let mut found = vec![Vec::new()];
     while let Some(item) = items.pop() {
-        let Item::Token(token) = &item else {
-            // A macro that ends among the arguments is not hidden in what comes after them.
-            if let Item::Hide(name, change) = item {
-                *hidden.entry(name).or_default() += change;
+        let token = match &item {
+            Item::Token(token) => token,
+            // Before the parenthesis.
+            Item::Hide(name, change) if depth == 0 => {
+                *hidden.entry(name.clone()).or_default() += change;
+                continue;
             }
-            continue;
+            Item::Hide(..) => {
+                if let Some(last) = found.last_mut() {
+                    last.push(item);
+                }
+                continue;
+            }
         };
         match (&*token.text, depth) {
             ("(", 0) => {
@@ -190,25 +183,92 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
             last.push(item);
         }
     }
-    Some(found)
+    Some(found.into_iter().map(|argument| settle(argument, hidden)).collect())
 }
 
-/// The body with `a ## b` made one token.
-fn paste(body: &[Rc<str>]) -> Vec<Rc<str>> {
-    let mut pasted: Vec<Rc<str>> = Vec::with_capacity(body.len());
-    let mut at = 0;
-    while at < body.len() {
-        let is_paste = &*body[at] == "#" && body.get(at + 1).is_some_and(|next| &**next == "#");
-        match (is_paste, body.get(at + 2), pasted.last_mut()) {
-            (true, Some(right), Some(left)) => {
-                *left = format!("{left}{right}").into();
-                at += 3;
-            }
-            _ => {
-                pasted.push(body[at].clone());
-                at += 1;
+/// Keeps in an argument the pairs that let a macro's name be expanded in its own argument; what else there is of that kind
+/// belongs to macros that end among the arguments, and holds from here on.
+fn settle(argument: Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Vec<Item> {
+    let mut open: HashMap<Rc<str>, Vec<usize>> = HashMap::new();
+    let mut is_kept = vec![true; argument.len()];
+    for (at, item) in argument.iter().enumerate() {
+        let Item::Hide(name, change) = item else { continue };
+        match (*change, open.get_mut(name).and_then(Vec::pop)) {
+            (1, Some(_)) => {}
+            (_, before) => {
+                let waiting = open.entry(name.clone()).or_default();
+                waiting.extend(before);
+                if *change < 0 {
+                    waiting.push(at);
+                } else {
+                    is_kept[at] = false;
+                }
             }
         }
     }
-    pasted
+    open.into_values().flatten().for_each(|at| is_kept[at] = false);
+    let mut kept = Vec::with_capacity(argument.len());
+    for (item, is_kept) in argument.into_iter().zip(is_kept) {
+        match item {
+            Item::Hide(name, change) if !is_kept => *hidden.entry(name).or_default() += change,
+            item => kept.push(item),
+        }
+    }
+    kept
+}
+
+impl Macro {
+    /// Writes what stands for `token`; arguments that no parameter takes are written as well.
+    fn write(&self, token: &Token, arguments: &[Vec<Item>], pushed: &mut Vec<Item>) {
+        let parameters = self.parameters.as_deref().unwrap_or_default();
+        let mut is_pasted = false;
+        let mut at = 0;
+        while let Some(text) = self.body.get(at) {
+            if &**text == "#" && self.body.get(at + 1).is_some_and(|next| &**next == "#") {
+                is_pasted = true;
+                at += 2;
+                continue;
+            }
+            let before = if std::mem::take(&mut is_pasted) { take_last(pushed) } else { None };
+            let start = pushed.len();
+            let parameter = parameters.iter().position(|name| name == text);
+            match parameter.and_then(|index| arguments.get(index)) {
+                // Inside its own argument a macro's name is expanded.
+                Some(argument) => {
+                    pushed.push(Item::Hide(token.text.clone(), -1));
+                    pushed.extend(argument.iter().cloned());
+                    pushed.push(Item::Hide(token.text.clone(), 1));
+                }
+                None => pushed.push(Item::Token(Token { text: text.clone(), line: token.line })),
+            }
+            if let Some(before) = before {
+                paste(before, pushed, start, token.line);
+            }
+            at += 1;
+        }
+        let are_all_named = parameters.iter().all(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'));
+        if arguments.len() > parameters.len() || !are_all_named {
+            pushed.extend(arguments.iter().flatten().cloned());
+        }
+    }
+}
+
+/// Takes the last token out of the items.
+fn take_last(items: &mut Vec<Item>) -> Option<Rc<str>> {
+    let at = items.iter().rposition(|item| matches!(item, Item::Token(_)))?;
+    match items.remove(at) {
+        Item::Token(token) => Some(token.text),
+        Item::Hide(..) => None,
+    }
+}
+
+/// Makes `before` and the first token from `start` on one, as `##` does. What is pasted is none of an argument's own, so
+/// it stands in front of what lets the macro's name be expanded there.
+fn paste(before: Rc<str>, items: &mut Vec<Item>, start: usize, line: u32) {
+    let first = (start..items.len()).find(|&at| matches!(items[at], Item::Token(_)));
+    let text = match first.map(|at| items.remove(at)) {
+        Some(Item::Token(token)) => format!("{before}{}", token.text).into(),
+        _ => before,
+    };
+    items.insert(start, Item::Token(Token { text, line }));
 }

@@ -206,6 +206,24 @@ mod tests {
     }
 
     #[test]
+    fn what_macros_write_by_way_of_others_counts() {
+        // 10³ copies by G, 10⁹ by H.
+        let by_arguments = "#define F(x) x x x x x x x x x x\n#define G(x) F(F(F(x)))\n#define H(x) G(G(G(x)))\n";
+        assert_eq!(check(&format!("{by_arguments}G(1)\n")), Ok(()));
+        assert_eq!(check(&format!("{by_arguments}H(1)\n")), Err((Excess::Tokens, 4)));
+        let mut doubled = String::from("#define a0 x\n");
+        for n in 1..20 {
+            doubled.push_str(&format!("#define a{n} a{0} a{0}\n", n - 1));
+        }
+        let pasted = "#define P(a, b) a ## b\n#define Q(n) P(a, n)\n";
+        assert_eq!(check(&format!("{doubled}{pasted}P(a1, 9)\n")), Err((Excess::Tokens, 23)));
+        assert_eq!(check(&format!("{doubled}{pasted}Q(19)\n")), Err((Excess::Tokens, 23)));
+        assert_eq!(check(&format!("{doubled}{pasted}P(b, 19)\n")), Ok(()));
+        let variadic = "#define V(...) __VA_ARGS__\n";
+        assert_eq!(check(&format!("{doubled}{variadic}V(a19)\n")), Err((Excess::Tokens, 22)));
+    }
+
+    #[test]
     fn arguments_that_double_are_stopped() {
         let nested = format!("#define D(x) x x\n{}y{}\n", "D(".repeat(20), ")".repeat(20));
         assert_eq!(check(&nested), Err((Excess::Tokens, 2)));
