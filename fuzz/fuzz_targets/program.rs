@@ -2,20 +2,14 @@
 #![no_main]
 
 use ggrade::translate::{Refusal, translate};
-use ggrade_fuzz::{INTERFACE, program};
+use ggrade_fuzz::{INTERFACE, check_module, program};
 use libfuzzer_sys::fuzz_target;
-use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 fuzz_target!(|bytes: &[u8]| {
     let text = program::program(bytes);
     let source = ggrade::source::read("a.vert", text.as_bytes()).expect("plain ASCII");
     match translate(&source, &INTERFACE) {
-        Ok(translation) => {
-            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
-            if let Err(error) = validator.validate(&translation.shader.module) {
-                panic!("{}\n{text}", error.emit_to_string(""));
-            }
-        }
+        Ok(translation) => check_module(&translation, &text),
         Err(Refusal::Rejected(diagnostics)) => panic!("{}\n{text}", diagnostics[0].message.en),
         Err(Refusal::Stopped(_)) => {}
         Err(Refusal::Fault(fault)) => panic!("{}\n{text}", fault.message.en),

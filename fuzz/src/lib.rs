@@ -1,9 +1,11 @@
 //! What the fuzz targets share: the homework, and programs made of random bytes.
 
 pub mod program;
+pub mod written;
 
 use ggrade::source::Source;
-use ggrade::translate::Interface;
+use ggrade::translate::{Interface, Translation};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::sync::LazyLock;
 
 /// The assignment whose files are graded.
@@ -35,6 +37,14 @@ pub fn check_source(source: &Source) {
     }
     for note in &source.notes {
         assert!(note.line.is_none_or(|line| (1..=lines).contains(&line)), "{note:?}");
+    }
+}
+
+/// What must hold for every translation: the module with gate, fuel and capture in it is valid.
+pub fn check_module(translation: &Translation, text: &str) {
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
+    if let Err(error) = validator.validate(&translation.shader.module) {
+        panic!("{}\n{text}", error.emit_to_string(""));
     }
 }
 

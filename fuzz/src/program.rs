@@ -164,9 +164,14 @@ impl Writer<'_> {
         }
         let templates = templates(kind);
         let template = templates[self.byte() % templates.len()];
-        // B I U F 2 3 4 M stand for an expression of that type.
-        for part in template.chars() {
+        // B I U F ² ³ ⁴ M that stand alone are an expression of that type.
+        let mut before = ' ';
+        for (at, part) in template.char_indices() {
+            let after = template[at + part.len_utf8()..].chars().next().unwrap_or(' ');
+            let is_in_a_word = before.is_ascii_alphanumeric() || after.is_ascii_alphanumeric();
+            before = part;
             match part {
+                part if is_in_a_word => self.text.push(part),
                 'B' => self.expression(Type::Bool, depth + 1),
                 'I' => self.expression(Type::Int, depth + 1),
                 'U' => self.expression(Type::Uint, depth + 1),
@@ -198,12 +203,12 @@ fn templates(kind: Type) -> &'static [&'static str] {
     match kind {
         Type::Bool => &[
             "b",
-            "F < F",
+            "(F < F)",
             "!B",
             "(B && B)",
             "(B || B)",
             "(B ^^ B)",
-            "I == I",
+            "(I == I)",
             "any(lessThan(³, ³))",
             "isnan(F)",
             "true",
@@ -218,10 +223,10 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "(I >> I)",
             "~I",
             "int(F)",
-            "many[I]",
+            "many[i + I]",
             "(B ? I : I)",
             "abs(I)",
-            "made.a[I]",
+            "made.a[i - I]",
             "-2147483648",
         ],
         Type::Uint => {
@@ -239,7 +244,7 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "sqrt(F)",
             "mod(F, F)",
             "³.y",
-            "⁴[I]",
+            "⁴[i ^ I]",
             "length(²)",
             "float(I)",
             "g",
@@ -258,18 +263,26 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "normalize(³)",
             "cross(³, ³)",
             "reflect(³, ³)",
-            "M * ³",
+            "(M * ³)",
             "(³ + ³)",
             "mix(³, ³, F)",
             "clamp(³, 0.0, 1.0)",
             "⁴.wzy",
-            "M[I]",
+            "M[i + I]",
             "refract(³, ³, F)",
             "faceforward(³, ³, ³)",
         ],
-        Type::Vec4 => {
-            &["q", "vec4(³, F)", "mc * ⁴", "field[I]", "(⁴ - ⁴)", "vec4(², ²)", "pv", "step(⁴, ⁴)", "unpackUnorm4x8(U)"]
-        }
+        Type::Vec4 => &[
+            "q",
+            "vec4(³, F)",
+            "(mc * ⁴)",
+            "field[i + I]",
+            "(⁴ - ⁴)",
+            "vec4(², ²)",
+            "pv",
+            "step(⁴, ⁴)",
+            "unpackUnorm4x8(U)",
+        ],
         Type::Mat3 => &["m", "mat3(F)", "(M * M)", "transpose(M)", "inverse(M)", "outerProduct(³, ³)", "mat3(mg)"],
     }
 }

@@ -1,12 +1,13 @@
 //! What every request gets: a count by its address where it changes something, a time limit, a line in the log, a place in the figures.
 
 use super::errors::Problem;
-use super::{Config, State, metrics};
+use super::{Config, State, api, metrics, submit};
 use axum::extract::{MatchedPath, Request, State as Shared};
 use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use std::time::Instant;
+use futures_util::StreamExt;
+use std::time::{Duration, Instant};
 
 /// How many times longer than other requests those may take that a teacher sends: archives come, whole classes go.
 const TEACHERS_PATIENCE: f64 = 8.0;
@@ -27,6 +28,11 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
     let counted = if method.is_safe() { Ok(()) } else { state.limits.address(&state.proxies.client_of(&request)) };
     let mut response = match counted {
         Err(problem) => problem.into_response(),
+        Ok(()) if !is_about_a_class(&route) && declared_length(&request) > api::MAX_BODY as u64 => {
+            // Later than the time limit there is nobody left to tell.
+            let _ = tokio::time::timeout(Config::span(seconds), pass_over(request)).await;
+            submit::too_large().into_response()
+        }
         Ok(()) => {
             let answered = tokio::time::timeout(Config::span(seconds), next.run(request)).await;
             answered.unwrap_or_else(|_| too_late())
@@ -42,6 +48,27 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
         response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
     }
     response
+}
+
+/// How long a body is by its head.
+fn declared_length(request: &Request) -> u64 {
+    let length = request.headers().get(header::CONTENT_LENGTH);
+    length.and_then(|length| length.to_str().ok()?.parse().ok()).unwrap_or(0)
+}
+
+/// Most bytes of a body that are read for nothing, and how long the next ones may take.
+const MOST_PASSED_OVER: usize = 32 << 20;
+const LONGEST_PAUSE: Duration = Duration::from_secs(1);
+
+/// Reads a body for nothing: who is still sending when the connection ends never sees the answer.
+async fn pass_over(request: Request) {
+    let mut body = request.into_body().into_data_stream();
+    let mut passed = 0;
+    while passed < MOST_PASSED_OVER
+        && let Ok(Some(Ok(bytes))) = tokio::time::timeout(LONGEST_PAUSE, body.next()).await
+    {
+        passed += bytes.len();
+    }
 }
 
 /// Names of methods are the client's to choose; figures must not grow with them.

@@ -180,7 +180,8 @@ async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upl
     Ok(())
 }
 
-fn too_large() -> Problem {
+/// The answer to a file that is larger.
+pub(super) fn too_large() -> Problem {
     Problem::new(
         StatusCode::PAYLOAD_TOO_LARGE,
         "too-large",

@@ -15,6 +15,6 @@ pub fn bear(words: &[u32], source: &Source) {
     // A refusal is as good an answer as any here.
     let _ = gate::check_words(words, source);
     for poisons in [false, true] {
-        spirv::rework(words, &["mw", "mc", "mg"], poisons);
+        let _ = spirv::rework(words, &["mw", "mc", "mg"], poisons);
     }
 }

@@ -23,7 +23,7 @@ mod tokens;
 mod types;
 mod vocabulary;
 
-pub use directives::{missing_version, without_line_directives};
+pub use directives::{missing_version, refused_line_directive, without_line_directives};
 pub use file::File;
 pub use overlooked::overlooked_errors;
 

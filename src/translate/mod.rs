@@ -131,7 +131,11 @@ fn check(text: &str, interface: &Interface) -> Outcome {
 fn rejected(verdict: Outcome, text: &str, source: &Source, interface: &Interface) -> Refusal {
     // With `#line` the compiler counts as the student tells it to; a person counts lines of the file.
     let plain = hints::without_line_directives(text).map(|text| check(&text, interface));
-    let verdict = plain.filter(|plain| plain.reached == verdict.reached).unwrap_or(verdict);
+    let verdict = match plain {
+        None => verdict,
+        Some(plain) if plain.reached == verdict.reached => plain,
+        Some(_) => return Refusal::Rejected(vec![hints::refused_line_directive(text)]),
+    };
     match verdict.reached {
         Reached::Vertex => Refusal::Rejected(log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface)),
         Reached::Link => Refusal::Rejected(log::link_diagnostics(&verdict.link_log, &source.text, interface)),

@@ -4,7 +4,7 @@ use super::entry::{self, Attribute};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
 use super::opaque;
-use super::spirv::{self, Lines, Reworked, Unset};
+use super::spirv::{self, Lines, Reworked, Unset, Unworkable};
 use super::undefined;
 use super::{Interface, Refusal, Variable};
 use crate::diagnostic::Diagnostic;
@@ -66,8 +66,8 @@ impl Shader {
     /// The module as the compiler wrote it, without fuel, capture and whatever else ggrade adds: to measure what they cost.
     /// Its attributes have locations in the interface's order, its output location 0, its uniforms binding 0 of group 0.
     pub fn plain(&self, interface: &Interface) -> Result<Module, Fault> {
-        let set: Vec<_> = interface.uniforms.iter().map(|variable| variable.name.clone()).collect();
-        let mut module = parse(&rework(&self.written, &set, false)?.words)?;
+        let set: Vec<_> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
+        let mut module = parse(&spirv::rework(&self.written, &set, false).map_err(damaged)?.words)?;
         bind_uniforms(&mut module);
         entry::locate(&mut module, interface);
         Ok(module)
@@ -88,7 +88,8 @@ pub(super) fn build(
 ) -> Result<Shader, Refusal> {
     let names = |variables: &'_ [Variable]| variables.iter().map(|variable| variable.name.clone()).collect::<Vec<_>>();
     let (inputs, set) = (names(&interface.inputs), names(&interface.uniforms));
-    let Reworked { words, lines, unset } = rework(&written, &set, poisons)?;
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    let Reworked { words, lines, unset } = spirv::rework(&written, &set, poisons).map_err(refusal)?;
     let mut module = parse(&words)?;
     let costs = Costs::of(&module);
     gate::check_module(&module, &costs, &lines, source)?;
@@ -102,9 +103,15 @@ pub(super) fn build(
     Ok(Shader { module, attributes, uniforms, unset, lines, meters, written })
 }
 
-fn rework(words: &[u32], set: &[String], poisons: bool) -> Result<Reworked, Fault> {
-    let set: Vec<&str> = set.iter().map(String::as_str).collect();
-    spirv::rework(words, &set, poisons).ok_or_else(|| unsupported("a `switch` of this size"))
+fn refusal(unworkable: Unworkable) -> Refusal {
+    match unworkable {
+        Unworkable::Damaged => damaged(unworkable).into(),
+        Unworkable::Cases(line) => gate::too_many_cases(line),
+    }
+}
+
+fn damaged(unworkable: Unworkable) -> Fault {
+    unsupported(&format!("the words of the compiler: {unworkable:?}"))
 }
 
 fn parse(words: &[u32]) -> Result<Module, Fault> {
@@ -172,7 +179,7 @@ fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> Uni
 
 /// Makes the module of the assignment's fixed fragment stage; it reads `varying` at location 0.
 pub(super) fn build_fixed_stage(words: &[u32], varying: &str) -> Result<Module, Fault> {
-    let mut module = parse(&rework(words, &[], false)?.words)?;
+    let mut module = parse(&spirv::rework(words, &[], false).map_err(damaged)?.words)?;
     for argument in &mut module.entry_points[0].function.arguments {
         if let Some(naga::Binding::Location { location, .. }) = &mut argument.binding
             && argument.name.as_deref() == Some(varying)

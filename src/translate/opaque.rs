@@ -156,8 +156,16 @@ impl Hide {
                     Statement::If { condition, accept, reject: self.block(expressions, reject) }
                 }
                 Statement::Switch { selector, mut cases } => {
-                    let is_signed = cases.iter().any(|case| matches!(case.value, SwitchValue::I32(_)));
-                    let selector = self.selector(expressions, &mut hidden, selector, is_signed);
+                    // Where every label stands beside `default`, nothing is chosen, and nothing tells the type.
+                    let is_signed = cases.iter().find_map(|case| match case.value {
+                        SwitchValue::I32(_) => Some(true),
+                        SwitchValue::U32(_) => Some(false),
+                        SwitchValue::Default => None,
+                    });
+                    let selector = match is_signed {
+                        Some(is_signed) => self.selector(expressions, &mut hidden, selector, is_signed),
+                        None => selector,
+                    };
                     for case in &mut cases {
                         case.body = self.block(expressions, std::mem::take(&mut case.body));
                     }

@@ -4,5 +4,6 @@ mod anonymous;
 mod begin;
 mod class;
 mod grades;
+mod hostile;
 mod interrupted;
 mod regrade;

@@ -6,6 +6,7 @@ mod bench;
 mod classes;
 mod cluster;
 mod handing_in;
+mod hostile;
 mod identity;
 mod killed;
 mod limits;

@@ -1,7 +1,8 @@
 //! Macro expansion as far as counting needs it: what the preprocessor would write, or a little more.
 //!
-//! Conditions are not decided: every `#define` of the file holds from its line on, and of several for one name the
-//! longest. A file that deceives this count meets the worker's limits of time and memory instead.
+//! Conditions are not decided: what stands between `#if` and `#endif` may hold or not, so that a name may have several
+//! definitions, and each of them is written where it is used. A file that deceives this count meets the worker's limits
+//! of time and memory instead.
 
 use super::text::{Excess, MAX_TOKENS};
 use std::collections::HashMap;
@@ -40,7 +41,7 @@ fn token_length(text: &str) -> usize {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Macro {
     /// `None` for a macro without parentheses.
     parameters: Option<Vec<Rc<str>>>,
@@ -61,25 +62,34 @@ pub(super) type Sink<'a> = dyn FnMut(&Token) -> Result<(), (Excess, u32)> + 'a;
 /// The macros of a file, and how many tokens they have written.
 #[derive(Debug, Default)]
 pub(super) struct Expander {
-    macros: HashMap<Rc<str>, Macro>,
+    /// What each name may stand for.
+    macros: HashMap<Rc<str>, Vec<Macro>>,
     hidden: HashMap<Rc<str>, i32>,
     written: usize,
 }
 
 impl Expander {
-    /// Takes what stands after `#define`.
-    pub fn define(&mut self, text: &str) {
-        let text = text.trim_start();
-        let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
-        let (name, rest) = text.split_at(end);
+    /// Takes what stands after `#define`. It takes the place of what the name stood for, if it `is_certain` to be read.
+    pub fn define(&mut self, text: &str, is_certain: bool) {
+        let (name, rest) = split_name(text);
         let (parameters, body) = match rest.strip_prefix('(').and_then(|list| list.split_once(')')) {
             Some((list, body)) => (Some(list.split(',').map(|parameter| parameter.trim().into()).collect()), body),
             None => (None, rest),
         };
         let body: Vec<Rc<str>> = tokens(body, 0).into_iter().map(|token| token.text).collect();
-        if self.macros.get(name).is_none_or(|known| known.body.len() <= body.len()) {
-            self.macros.insert(name.into(), Macro { parameters, body });
+        let known = self.macros.entry(name.into()).or_default();
+        if is_certain {
+            known.clear();
         }
+        let defined = Macro { parameters, body };
+        if !known.contains(&defined) {
+            known.push(defined);
+        }
+    }
+
+    /// Takes what stands after an `#undef` that is certain to be read.
+    pub fn undefine(&mut self, text: &str) {
+        self.macros.remove(split_name(text).0);
     }
 
     /// Expands `tokens` and gives each that is left to `sink`.
@@ -103,25 +113,15 @@ impl Expander {
     fn written_by(&mut self, token: &Token, items: &mut Vec<Item>) -> Result<bool, (Excess, u32)> {
         let is_hidden = self.hidden.get(&token.text).is_some_and(|count| *count > 0);
         let Some(found) = self.macros.get(&token.text).filter(|_| !is_hidden) else { return Ok(false) };
-        let arguments = match &found.parameters {
-            None => Vec::new(),
-            Some(_) => match arguments(items, &mut self.hidden) {
-                Some(arguments) => arguments,
-                None => return Ok(false),
-            },
-        };
+        let takes_arguments = found.iter().any(|one| one.parameters.is_some());
+        let arguments = if takes_arguments { arguments(items, &mut self.hidden) } else { None };
+        if arguments.is_none() && found.iter().all(|one| one.parameters.is_some()) {
+            return Ok(false);
+        }
+        let arguments = arguments.unwrap_or_default();
         let mut pushed = vec![Item::Hide(token.text.clone(), 1)];
-        for text in paste(&found.body) {
-            let parameter = found.parameters.iter().flatten().position(|name| *name == text);
-            match parameter.and_then(|index| arguments.get(index)) {
-                // Inside its own argument a macro's name is expanded.
-                Some(argument) => {
-                    pushed.push(Item::Hide(token.text.clone(), -1));
-                    pushed.extend(argument.iter().cloned());
-                    pushed.push(Item::Hide(token.text.clone(), 1));
-                }
-                None => pushed.push(Item::Token(Token { text, line: token.line })),
-            }
+        for one in found {
+            one.write(token, &arguments, &mut pushed);
             if self.written + pushed.len() > MAX_TOKENS {
                 return Err((Excess::Tokens, token.line));
             }
@@ -131,6 +131,12 @@ impl Expander {
         items.extend(pushed.into_iter().rev());
         Ok(true)
     }
+}
+
+/// The name that a text begins with, and the rest.
+pub(super) fn split_name(text: &str) -> (&str, &str) {
+    let text = text.trim_start();
+    text.split_at(text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len()))
 }
 
 /// Takes `( … )` from the items and splits it at its commas; none where no parenthesis follows.
@@ -145,12 +151,19 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
     let mut depth = 0_u32;
     let mut found = vec![Vec::new()];
     while let Some(item) = items.pop() {
-        let Item::Token(token) = &item else {
-            // A macro that ends among the arguments is not hidden in what comes after them.
-            if let Item::Hide(name, change) = item {
-                *hidden.entry(name).or_default() += change;
+        let token = match &item {
+            Item::Token(token) => token,
+            // Before the parenthesis.
+            Item::Hide(name, change) if depth == 0 => {
+                *hidden.entry(name.clone()).or_default() += change;
+                continue;
             }
-            continue;
+            Item::Hide(..) => {
+                if let Some(last) = found.last_mut() {
+                    last.push(item);
+                }
+                continue;
+            }
         };
         match (&*token.text, depth) {
             ("(", 0) => {
@@ -170,25 +183,92 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
             last.push(item);
         }
     }
-    Some(found)
+    Some(found.into_iter().map(|argument| settle(argument, hidden)).collect())
 }
 
-/// The body with `a ## b` made one token.
-fn paste(body: &[Rc<str>]) -> Vec<Rc<str>> {
-    let mut pasted: Vec<Rc<str>> = Vec::with_capacity(body.len());
-    let mut at = 0;
-    while at < body.len() {
-        let is_paste = &*body[at] == "#" && body.get(at + 1).is_some_and(|next| &**next == "#");
-        match (is_paste, body.get(at + 2), pasted.last_mut()) {
-            (true, Some(right), Some(left)) => {
-                *left = format!("{left}{right}").into();
-                at += 3;
-            }
-            _ => {
-                pasted.push(body[at].clone());
-                at += 1;
+/// Keeps in an argument the pairs that let a macro's name be expanded in its own argument; what else there is of that kind
+/// belongs to macros that end among the arguments, and holds from here on.
+fn settle(argument: Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Vec<Item> {
+    let mut open: HashMap<Rc<str>, Vec<usize>> = HashMap::new();
+    let mut is_kept = vec![true; argument.len()];
+    for (at, item) in argument.iter().enumerate() {
+        let Item::Hide(name, change) = item else { continue };
+        match (*change, open.get_mut(name).and_then(Vec::pop)) {
+            (1, Some(_)) => {}
+            (_, before) => {
+                let waiting = open.entry(name.clone()).or_default();
+                waiting.extend(before);
+                if *change < 0 {
+                    waiting.push(at);
+                } else {
+                    is_kept[at] = false;
+                }
             }
         }
     }
-    pasted
+    open.into_values().flatten().for_each(|at| is_kept[at] = false);
+    let mut kept = Vec::with_capacity(argument.len());
+    for (item, is_kept) in argument.into_iter().zip(is_kept) {
+        match item {
+            Item::Hide(name, change) if !is_kept => *hidden.entry(name).or_default() += change,
+            item => kept.push(item),
+        }
+    }
+    kept
+}
+
+impl Macro {
+    /// Writes what stands for `token`; arguments that no parameter takes are written as well.
+    fn write(&self, token: &Token, arguments: &[Vec<Item>], pushed: &mut Vec<Item>) {
+        let parameters = self.parameters.as_deref().unwrap_or_default();
+        let mut is_pasted = false;
+        let mut at = 0;
+        while let Some(text) = self.body.get(at) {
+            if &**text == "#" && self.body.get(at + 1).is_some_and(|next| &**next == "#") {
+                is_pasted = true;
+                at += 2;
+                continue;
+            }
+            let before = if std::mem::take(&mut is_pasted) { take_last(pushed) } else { None };
+            let start = pushed.len();
+            let parameter = parameters.iter().position(|name| name == text);
+            match parameter.and_then(|index| arguments.get(index)) {
+                // Inside its own argument a macro's name is expanded.
+                Some(argument) => {
+                    pushed.push(Item::Hide(token.text.clone(), -1));
+                    pushed.extend(argument.iter().cloned());
+                    pushed.push(Item::Hide(token.text.clone(), 1));
+                }
+                None => pushed.push(Item::Token(Token { text: text.clone(), line: token.line })),
+            }
+            if let Some(before) = before {
+                paste(before, pushed, start, token.line);
+            }
+            at += 1;
+        }
+        let are_all_named = parameters.iter().all(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'));
+        if arguments.len() > parameters.len() || !are_all_named {
+            pushed.extend(arguments.iter().flatten().cloned());
+        }
+    }
+}
+
+/// Takes the last token out of the items.
+fn take_last(items: &mut Vec<Item>) -> Option<Rc<str>> {
+    let at = items.iter().rposition(|item| matches!(item, Item::Token(_)))?;
+    match items.remove(at) {
+        Item::Token(token) => Some(token.text),
+        Item::Hide(..) => None,
+    }
+}
+
+/// Makes `before` and the first token from `start` on one, as `##` does. What is pasted is none of an argument's own, so
+/// it stands in front of what lets the macro's name be expanded there.
+fn paste(before: Rc<str>, items: &mut Vec<Item>, start: usize, line: u32) {
+    let first = (start..items.len()).find(|&at| matches!(items[at], Item::Token(_)));
+    let text = match first.map(|at| items.remove(at)) {
+        Some(Item::Token(token)) => format!("{before}{}", token.text).into(),
+        _ => before,
+    };
+    items.insert(start, Item::Token(Token { text, line }));
 }

@@ -9,6 +9,7 @@ mod cost;
 mod expand;
 mod nesting;
 mod storage;
+mod structures;
 mod text;
 mod weight;
 
@@ -20,6 +21,17 @@ pub(super) use text::check_text;
 use super::Refusal;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
+
+/// The answer to a `switch` whose cases run into one another at length; the translator needs each by itself.
+pub(super) fn too_many_cases(line: Option<u32>) -> Refusal {
+    let message = Text::new(
+        "the cases of this `switch` run into one another, and each written out with all that it runs into, they are too \
+         long (limit of the grader)",
+        "この `switch` では case が次の case に続いています。続く文をそれぞれの case に書き足すと長くなりすぎます \
+         (採点システムの上限)",
+    );
+    stopped(Stage::Compile, line, message)
+}
 
 /// The answer to a file that exceeds a bound.
 fn stopped(stage: Stage, line: Option<u32>, message: Text) -> Refusal {

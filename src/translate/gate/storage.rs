@@ -9,7 +9,7 @@ use crate::language::Text;
 use crate::source::Source;
 use crate::translate::Refusal;
 use crate::translate::interface::place;
-use crate::translate::spirv::{instructions, op, text};
+use crate::translate::spirv::{Instruction, instructions, op, text};
 use std::collections::{HashMap, HashSet};
 
 /// What the program does not provide.
@@ -23,11 +23,12 @@ enum Kind {
 
 /// Refuses a shader that uses such a variable. One that only declares it draws the same picture without it.
 pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Result<(), Refusal> {
-    let names: HashMap<u32, String> =
-        instructions(words).filter(|i| i.opcode == op::NAME).map(|i| (i.words[1], text(&i.words[2..]))).collect();
+    let names: HashMap<u32, String> = instructions(words).filter_map(|i| name(&i)).collect();
     let buffers: HashSet<u32> = instructions(words)
-        .filter(|i| i.opcode == op::DECORATE && i.words.get(2) == Some(&BUFFER_BLOCK))
-        .map(|i| i.words[1])
+        .filter_map(|i| match (i.opcode, i.words) {
+            (op::DECORATE, [_, id, BUFFER_BLOCK, ..]) => Some(*id),
+            _ => None,
+        })
         .collect();
     check_sizes(words, &names, source)?;
     let mut textures = HashSet::new();
@@ -67,6 +68,14 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
     Ok(())
 }
 
+/// What an instruction names, and how.
+fn name(instruction: &Instruction<'_>) -> Option<(u32, String)> {
+    match (instruction.opcode, instruction.words) {
+        (op::NAME, [_, id, name @ ..]) => Some((*id, text(name))),
+        _ => None,
+    }
+}
+
 /// Refuses a variable that is too large by itself; naga counts bytes in 32 bits and gives up beyond.
 fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> Result<(), Refusal> {
     let mut lengths: HashMap<u32, u64> = HashMap::new();
@@ -78,7 +87,9 @@ fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> 
                 lengths.insert(*id, u64::from(*value));
                 continue;
             }
-            (op::TYPE_VECTOR | op::TYPE_MATRIX, [_, id, part, count]) => (*id, size(part) * u64::from(*count)),
+            (op::TYPE_VECTOR | op::TYPE_MATRIX, [_, id, part, count]) => {
+                (*id, size(part).saturating_mul(u64::from(*count)))
+            }
             (op::TYPE_ARRAY, [_, id, element, length]) => {
                 (*id, size(element).saturating_mul(lengths.get(length).copied().unwrap_or(1)))
             }

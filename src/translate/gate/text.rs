@@ -1,8 +1,9 @@
 //! The look before the compiler: it is the compiler that a macro bomb or a tower of parentheses kills.
 
-use super::expand::{Expander, Token, tokens};
+use super::expand::{Expander, Token, split_name, tokens};
 use super::nesting::{MAX_NESTING, Nesting};
 use super::stopped;
+use super::structures::{MAX_MEMBERS, Structures};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
@@ -22,6 +23,7 @@ pub(super) enum Excess {
     Tokens,
     Nesting,
     Conditions,
+    Members,
 }
 
 /// Refuses a text whose macros write too much, or that nests too deeply after they did.
@@ -67,7 +69,7 @@ fn check_extensions(source: &Source) -> Result<(), Refusal> {
 
 fn check(code: &str) -> Result<(), (Excess, u32)> {
     let mut expander = Expander::default();
-    let mut nesting = Nesting::default();
+    let mut shape = Shape::default();
     let mut conditions = 0_usize;
     // Plain lines are expanded together: a macro's arguments may go on to the next line.
     let mut plain = Vec::new();
@@ -78,27 +80,39 @@ fn check(code: &str) -> Result<(), (Excess, u32)> {
             plain.extend(tokens);
             continue;
         }
-        measure(&mut expander, &mut nesting, std::mem::take(&mut plain))?;
-        let directive = line.trim_start().trim_start_matches('#').trim_start();
-        if let Some(text) = directive.strip_prefix("define") {
-            expander.define(text);
-        } else if directive.starts_with("endif") {
-            conditions = conditions.saturating_sub(1);
-        } else if directive.starts_with("if") || directive.starts_with("elif") {
-            conditions += usize::from(directive.starts_with("if"));
-            if conditions > MAX_CONDITIONS {
-                return Err((Excess::Conditions, number));
+        measure(&mut expander, &mut shape, std::mem::take(&mut plain))?;
+        let (name, text) = split_name(line.trim_start().trim_start_matches('#'));
+        match name {
+            "define" => expander.define(text, conditions == 0),
+            "undef" if conditions == 0 => expander.undefine(text),
+            "endif" => conditions = conditions.saturating_sub(1),
+            "if" | "ifdef" | "ifndef" | "elif" => {
+                conditions += usize::from(name != "elif");
+                if conditions > MAX_CONDITIONS {
+                    return Err((Excess::Conditions, number));
+                }
+                measure(&mut expander, &mut Shape::default(), tokens.into_iter().skip(2).collect())?;
             }
-            measure(&mut expander, &mut Nesting::default(), tokens.into_iter().skip(2).collect())?;
+            _ => {}
         }
     }
-    measure(&mut expander, &mut nesting, plain)
+    measure(&mut expander, &mut shape, plain)
 }
 
-fn measure(expander: &mut Expander, nesting: &mut Nesting, tokens: Vec<Token>) -> Result<(), (Excess, u32)> {
+/// What is followed through the tokens that the macros leave.
+#[derive(Debug, Default)]
+struct Shape {
+    nesting: Nesting,
+    structures: Structures,
+}
+
+fn measure(expander: &mut Expander, shape: &mut Shape, tokens: Vec<Token>) -> Result<(), (Excess, u32)> {
     expander.expand(tokens, &mut |token| {
-        nesting.take(&token.text);
-        if nesting.depth() > MAX_NESTING { Err((Excess::Nesting, token.line)) } else { Ok(()) }
+        shape.nesting.take(&token.text);
+        if shape.nesting.depth() > MAX_NESTING {
+            return Err((Excess::Nesting, token.line));
+        }
+        if shape.structures.take(&token.text) { Err((Excess::Members, token.line)) } else { Ok(()) }
     })
 }
 
@@ -131,6 +145,14 @@ fn refusal(excess: Excess, line: u32) -> Refusal {
             format!("#if, #ifdef and #ifndef are nested more than {MAX_CONDITIONS} deep (limit of the grader)"),
             format!("#if、#ifdef、#ifndef の入れ子が {MAX_CONDITIONS} 段を超えています (採点システムの上限)"),
         ),
+        Excess::Members => Text::new(
+            format!(
+                "this structure has more than {MAX_MEMBERS} members with those of the structures in it (limit of the grader)"
+            ),
+            format!(
+                "この構造体のメンバは、含まれる構造体のメンバも数えると {MAX_MEMBERS} 個を超えます (採点システムの上限)"
+            ),
+        ),
     };
     stopped(Stage::Compile, Some(line), message)
 }
@@ -157,6 +179,48 @@ mod tests {
         assert_eq!(check(&code), Ok(()), "nothing is used yet");
         code.push_str("a19\n");
         assert_eq!(check(&code), Err((Excess::Tokens, 21)));
+    }
+
+    #[test]
+    fn a_longer_definition_hides_no_other() {
+        let mut code = String::from("#define a0 x\n");
+        for n in 1..20 {
+            code.push_str(&format!("#define a{n} a{0} a{0}\n", n - 1));
+        }
+        let harmless = "x + ".repeat(100);
+        // What holds is the last; where a condition decides, either may.
+        assert_eq!(check(&format!("#define a19 {harmless}\n{code}a19\n")), Err((Excess::Tokens, 22)));
+        assert_eq!(check(&format!("{code}#undef a19\n#define a19 {harmless}\na19\n")), Ok(()));
+        assert_eq!(check(&format!("{code}#undef a19\na19\n")), Ok(()));
+        assert_eq!(
+            check(&format!("{code}#if 0\n#undef a19\n#define a19 {harmless}\n#endif\na19\n")),
+            Err((Excess::Tokens, 25))
+        );
+        // No directive, so it defines nothing.
+        assert_eq!(check(&format!("{code}#definea19 x\n#undefa19\na19\n")), Err((Excess::Tokens, 23)));
+        // With and without arguments under one name.
+        let both = format!("#if 1\n#define F(x) x\n#else\n#define F {harmless}\n#endif\nF(a19) F\n");
+        assert_eq!(check(&format!("{code}{both}")), Err((Excess::Tokens, 26)));
+        let neither = "#if 1\n#define F 1 +\n#else\n#define F(x) 1\n#endif\nF(a19)\n";
+        assert_eq!(check(&format!("{code}{neither}")), Err((Excess::Tokens, 26)));
+    }
+
+    #[test]
+    fn what_macros_write_by_way_of_others_counts() {
+        // 10³ copies by G, 10⁹ by H.
+        let by_arguments = "#define F(x) x x x x x x x x x x\n#define G(x) F(F(F(x)))\n#define H(x) G(G(G(x)))\n";
+        assert_eq!(check(&format!("{by_arguments}G(1)\n")), Ok(()));
+        assert_eq!(check(&format!("{by_arguments}H(1)\n")), Err((Excess::Tokens, 4)));
+        let mut doubled = String::from("#define a0 x\n");
+        for n in 1..20 {
+            doubled.push_str(&format!("#define a{n} a{0} a{0}\n", n - 1));
+        }
+        let pasted = "#define P(a, b) a ## b\n#define Q(n) P(a, n)\n";
+        assert_eq!(check(&format!("{doubled}{pasted}P(a1, 9)\n")), Err((Excess::Tokens, 23)));
+        assert_eq!(check(&format!("{doubled}{pasted}Q(19)\n")), Err((Excess::Tokens, 23)));
+        assert_eq!(check(&format!("{doubled}{pasted}P(b, 19)\n")), Ok(()));
+        let variadic = "#define V(...) __VA_ARGS__\n";
+        assert_eq!(check(&format!("{doubled}{variadic}V(a19)\n")), Err((Excess::Tokens, 22)));
     }
 
     #[test]

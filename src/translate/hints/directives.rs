@@ -25,6 +25,26 @@ pub fn without_line_directives(text: &str) -> Option<String> {
     (kept > 0).then_some(blanked)
 }
 
+/// What to say of a file with which the compiler gets further where its `#line` directives are blanked.
+pub fn refused_line_directive(text: &str) -> Diagnostic {
+    let message = Text::new(
+        "the compiler refuses what the `#line` directives of this file make of it; without them it gets further.",
+        "`#line` 指令があるためにここでコンパイルが止まります。`#line` を除けば先に進みます。",
+    );
+    let hint = Text::new(
+        "Delete the `#line` directives: this homework needs none.",
+        "`#line` を削除してください。この課題では必要ありません。",
+    );
+    let all = tokens(text);
+    let first = all.iter().find(|token| token.kind == Kind::Directive && directive_name(token.text) == "line");
+    let line = first.map(|token| text[..token.start].bytes().filter(|byte| *byte == b'\n').count() as u32 + 1);
+    let diagnostic = Diagnostic::error(Stage::Compile, message).hint(hint);
+    match line {
+        Some(line) => diagnostic.at(line, None),
+        None => diagnostic,
+    }
+}
+
 pub fn directive_name(directive: &str) -> &str {
     let rest = directive.trim_start_matches('#').trim_start();
     let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());

@@ -1,7 +1,6 @@
 //! SPIR-V as instructions, with what a pass over them needs: new ids, types, constants.
 
-use super::Lines;
-use super::op;
+use super::{Lines, op, sound};
 use std::collections::{BTreeMap, HashMap};
 
 const HEADER_WORDS: usize = 5;
@@ -55,7 +54,7 @@ pub struct Code {
 }
 
 impl Code {
-    /// Reads words; `None` where they are cut off. Lines move from `OpLine` into the instructions.
+    /// Reads words; `None` where they are not sound. Lines move from `OpLine` into the instructions.
     pub fn parse(words: &[u32]) -> Option<Self> {
         let header = words.get(..HEADER_WORDS)?.try_into().ok()?;
         let mut code = Self { header, heads: Vec::new(), globals: Vec::new(), functions: Vec::new() };
@@ -71,7 +70,7 @@ impl Code {
                 opcode => code.place(Instruction { opcode, operands, line }),
             }
         }
-        Some(code)
+        sound::is_sound(&code).then_some(code)
     }
 
     fn place(&mut self, mut instruction: Instruction) {
@@ -108,6 +107,17 @@ impl Code {
     /// How many words the functions have.
     pub fn function_words(&self) -> usize {
         self.functions.iter().map(|instruction| instruction.operands.len() + 1).sum()
+    }
+
+    /// The id of the instructions of `GLSL.std.450`, which the compiler imports whether or not it uses one.
+    pub fn glsl(&self) -> u32 {
+        let import = self.heads.iter().find(|i| i.opcode == op::EXT_INST_IMPORT);
+        import.and_then(|import| import.operands.first()).copied().unwrap_or_default()
+    }
+
+    /// The number above all ids.
+    pub fn bound(&self) -> u32 {
+        self.header[BOUND]
     }
 
     /// An id that nothing has.

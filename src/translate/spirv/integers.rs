@@ -1,4 +1,5 @@
-//! Integer instructions that naga does not know, or whose operands it wants of one sign.
+//! Integer instructions that naga does not know, whose operands it wants of one sign, or whose divisor it wants not to be
+//! zero.
 
 use super::lower::Builder;
 use super::op;
@@ -8,6 +9,9 @@ pub(super) fn lowered(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, operan
     let &first = operands.first()?;
     let first_ty = b.type_of(first)?;
     match (opcode, operands) {
+        (op::U_DIV | op::S_DIV | op::S_REM | op::S_MOD | op::U_MOD, &[x, y]) => {
+            return divided(b, opcode, id, ty, [x, y]);
+        }
         (op::I_ADD_CARRY, &[x, y]) => {
             let sum = b.op(op::I_ADD, first_ty, &[x, y]);
             let carry = flag(b, first_ty, [sum, x])?;
@@ -35,6 +39,43 @@ pub(super) fn lowered(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, operan
         _ => return None,
     }
     Some(())
+}
+
+/// A division or remainder by what is not zero.
+///
+/// GLSL leaves a division by zero undefined; here it divides by one. naga's back end sees to that for what it cannot know,
+/// and its validator refuses a zero that it can see.
+fn divided(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, [x, y]: [u32; 2]) -> Option<()> {
+    let divisor = divisor(b, y)?;
+    // GLSL leaves the sign of a remainder open; drivers take that of the dividend.
+    let lowered = if opcode == op::S_MOD { op::S_REM } else { opcode };
+    if (lowered, divisor) == (opcode, y) {
+        return None;
+    }
+    b.op_as(id, lowered, ty, &[x, divisor]);
+    Some(())
+}
+
+/// The divisor with ones in place of zeros, where it is a constant or may have one among its components.
+fn divisor(b: &mut Builder<'_>, id: u32) -> Option<u32> {
+    let ty = b.type_of(id)?;
+    let size = b.shape(ty)?.size;
+    let Some(constant) = b.code.global(id).cloned() else {
+        if size == 1 {
+            return Some(id);
+        }
+        let (zero, one, bools) = (b.splat(ty, &[0]), b.splat(ty, &[1]), b.bools(size));
+        let is_zero = b.op(op::I_EQUAL, bools, &[id, zero]);
+        return Some(b.op(op::SELECT, ty, &[is_zero, one, id]));
+    };
+    match (constant.opcode, &constant.operands[2..]) {
+        (op::CONSTANT_NULL, _) | (op::CONSTANT, [0]) => Some(b.splat(ty, &[1])),
+        (op::CONSTANT_COMPOSITE, parts) => {
+            let parts: Option<Vec<u32>> = parts.iter().map(|&part| divisor(b, part)).collect();
+            Some(b.code.constant(op::CONSTANT_COMPOSITE, ty, &parts?))
+        }
+        _ => Some(id),
+    }
 }
 
 /// 1 where the left is less than the right, as unsigned numbers, else 0.

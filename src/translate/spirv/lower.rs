@@ -13,9 +13,9 @@ pub(super) fn lower(code: &mut Code) {
 
 /// Replaces the instructions of all functions for which `replaced` writes others.
 pub(super) fn rewrite(code: &mut Code, replaced: impl Fn(&mut Builder<'_>, &Instruction) -> Option<()>) {
-    let types = code.value_types();
+    let (types, set) = (code.value_types(), code.glsl());
     let functions = std::mem::take(&mut code.functions);
-    let mut builder = Builder { code, types, out: Vec::with_capacity(functions.len()), line: None, set: 0 };
+    let mut builder = Builder { code, types, out: Vec::with_capacity(functions.len()), line: None, set };
     for instruction in functions {
         builder.line = instruction.line;
         if replaced(&mut builder, &instruction).is_none() {
@@ -129,15 +129,7 @@ fn lowered(b: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
     let (ty, id) = instruction.result()?;
     let operands = &instruction.operands[2..];
     match (instruction.opcode, operands) {
-        (op::EXT_INST, [set, number, arguments @ ..]) => {
-            b.set = *set;
-            extended(b, id, ty, *number, arguments)
-        }
-        // GLSL leaves the sign of a remainder open; drivers take that of the dividend.
-        (op::S_MOD, _) => {
-            b.op_as(id, op::S_REM, ty, operands);
-            Some(())
-        }
+        (op::EXT_INST, [_, number, arguments @ ..]) => extended(b, id, ty, *number, arguments),
         (op::F_MOD, &[x, y]) => {
             let ratio = b.op(op::F_DIV, ty, &[x, y]);
             let floor = b.glsl(glsl::FLOOR, ty, &[ratio]);

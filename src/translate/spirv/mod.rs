@@ -9,6 +9,7 @@ mod lower;
 pub(super) mod op;
 mod packing;
 mod poison;
+mod sound;
 mod switch;
 #[cfg(test)]
 mod tests;
@@ -16,7 +17,7 @@ mod walk;
 
 pub(super) use globals::{DEFAULT_BLOCK, Unset};
 pub(super) use poison::NEGATIVE;
-pub(super) use walk::{instructions, text};
+pub(super) use walk::{Instruction, instructions, text};
 
 use code::Code;
 use std::collections::BTreeMap;
@@ -31,8 +32,16 @@ pub(super) struct Reworked {
     pub unset: Vec<Unset>,
 }
 
-/// Reworks `words`; `set` are the uniforms that the program sets. `None` where the words are
-/// damaged, or grow beyond reason.
+/// Why words are not reworked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Unworkable {
+    /// They are damaged.
+    Damaged,
+    /// The cases of the `switch` on this line, each with all that it runs into, grow beyond reason.
+    Cases(Option<u32>),
+}
+
+/// Reworks `words`; `set` are the uniforms that the program sets.
 ///
 /// - Uniforms that the program sets become members of one block; any other is a private variable with
 ///   its initial value, for nothing ever sets it ([`globals`]).
@@ -44,8 +53,8 @@ pub(super) struct Reworked {
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
 ///   there, and zero is the same each time.
 /// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
-pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Option<Reworked> {
-    let mut code = Code::parse(words)?;
+pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Result<Reworked, Unworkable> {
+    let mut code = Code::parse(words).ok_or(Unworkable::Damaged)?;
     let unset = globals::rework(&mut code, set);
     undefined(&mut code);
     code.functions.retain(|instruction| instruction.opcode != op::MEMORY_BARRIER);
@@ -56,7 +65,7 @@ pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Option<Rewor
     }
     infinite::rework(&mut code);
     let (words, lines) = code.encode();
-    Some(Reworked { words, lines, unset })
+    Ok(Reworked { words, lines, unset })
 }
 
 fn undefined(code: &mut Code) {

@@ -1,7 +1,7 @@
 //! `switch` without falling through: naga's front end takes a case only where it ends by itself.
 
 use super::code::{Code, Instruction};
-use super::op;
+use super::{Unworkable, op};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
@@ -10,15 +10,15 @@ use std::ops::Range;
 const MAX_WORDS: usize = 1 << 20;
 
 /// Gives every case that runs into the next a copy of that one, and takes the labels that share a block with `default`
-/// out of their `switch`. `None` where the copies grow beyond reason.
-pub(super) fn separate_cases(code: &mut Code) -> Option<()> {
+/// out of their `switch`.
+pub(super) fn separate_cases(code: &mut Code) -> Result<(), Unworkable> {
     // An inner switch stands behind its outer one, so that its cases are whole before they are copied.
     let mut before = code.functions.len();
     while let Some(at) = code.functions[..before].iter().rposition(|i| i.opcode == op::SWITCH) {
         before = at;
         separate(code, at)?;
     }
-    Some(())
+    Ok(())
 }
 
 /// A case: the label that it begins with, and its blocks.
@@ -27,13 +27,15 @@ struct Case {
     blocks: Range<usize>,
 }
 
-fn separate(code: &mut Code, at: usize) -> Option<()> {
+fn separate(code: &mut Code, at: usize) -> Result<(), Unworkable> {
     let switch = code.functions[at].operands.clone();
-    let default = *switch.get(1)?;
+    let line = code.functions[at].line;
+    let default = *switch.get(1).ok_or(Unworkable::Damaged)?;
     let shared = switch[2..].chunks_exact(2).filter(|pair| pair[1] != default).flatten().copied();
     code.functions[at].operands = switch[..2].iter().copied().chain(shared).collect();
-    let merge = *code.functions[..at].last().filter(|i| i.opcode == op::SELECTION_MERGE)?.operands.first()?;
-    let cases = cases(&code.functions, at, &switch, merge)?;
+    let merge = code.functions[..at].last().filter(|i| i.opcode == op::SELECTION_MERGE);
+    let merge = *merge.and_then(|merge| merge.operands.first()).ok_or(Unworkable::Damaged)?;
+    let cases = cases(&code.functions, at, &switch, merge).ok_or(Unworkable::Damaged)?;
     let labels: HashSet<u32> = cases.iter().map(|case| case.label).collect();
     // From the last case to the first: what a case runs into is whole by then.
     let mut whole: HashMap<u32, Vec<Instruction>> = HashMap::new();
@@ -56,13 +58,13 @@ fn separate(code: &mut Code, at: usize) -> Option<()> {
         }
         whole.insert(case.label, blocks);
         if whole.values().flatten().map(|i| i.operands.len() + 1).sum::<usize>() + code.function_words() > MAX_WORDS {
-            return None;
+            return Err(Unworkable::Cases(line));
         }
     }
-    let (Some(first), Some(last)) = (cases.first(), cases.last()) else { return Some(()) };
+    let (Some(first), Some(last)) = (cases.first(), cases.last()) else { return Ok(()) };
     let all: Vec<Instruction> = cases.iter().filter_map(|case| whole.get(&case.label)).flatten().cloned().collect();
     code.functions.splice(first.blocks.start..last.blocks.end, all);
-    Some(())
+    Ok(())
 }
 
 /// The cases of the switch at `at` in the order of the text, which is that of their blocks.

@@ -1,7 +1,7 @@
 //! What the compiler writes for small shaders, before and after.
 
 use super::code::{Code, Instruction};
-use super::{Reworked, op, op::storage, rework};
+use super::{Reworked, Unworkable, op, op::storage, rework};
 use crate::translate::glslang::{self, Reached, Request, Rules, Stage};
 use std::collections::HashSet;
 use std::ffi::CString;
@@ -56,8 +56,8 @@ fn code_comes_out_as_it_went_in() {
 fn cut_words_are_refused() {
     let whole = words("", "");
     // The first instruction behind the five words of the header is an `OpCapability` of two words.
-    assert!(rework(&whole[..6], &[], false).is_none());
-    assert!(rework(&whole[..3], &[], false).is_none());
+    assert_eq!(rework(&whole[..6], &[], false).err(), Some(Unworkable::Damaged));
+    assert_eq!(rework(&whole[..3], &[], false).err(), Some(Unworkable::Damaged));
 }
 
 #[test]
@@ -95,7 +95,9 @@ fn copies_that_explode_are_refused() {
     let cases = |inner: &str| (0..60).map(|k| format!("case {k}: {inner}\n")).collect::<String>();
     let inner = format!("switch (int(a.y)) {{ {} }}", cases("c.x += sin(c.x);"));
     let outer = format!("switch (int(a.x)) {{ {} }}", cases(&inner));
-    assert!(rework(&words("", &outer), &[], false).is_none());
+    let Err(Unworkable::Cases(Some(line))) = rework(&words("", &outer), &[], false) else { panic!("it is refused") };
+    // The body begins on line 7 of the text, and an inner switch with its 60 cases has 61 lines.
+    assert_eq!((line - 7) % 61, 0, "line {line} begins an inner switch");
 }
 
 #[test]
@@ -132,4 +134,33 @@ fn textures_are_plain_variables() {
                    vec4 read(sampler2D s) { return texture(s, vec2(0.0)) + vec4(textureSize(s, 0), 0, 0); }";
     let (code, _) = reworked(globals, "c = read(t) + texelFetch(b, 1) + texture(q[1], vec3(1.0));");
     assert!(code.functions.iter().all(|i| !(op::SAMPLED_IMAGE..=op::IMAGE_LAST).contains(&i.opcode)));
+}
+
+#[test]
+fn damaged_words_are_refused() {
+    let whole = words("struct S { vec3 v; float a[3]; }; S s;", "s.v = a.xyz; s.a[int(a.x)] = 1.0; c = s.v.xyzz;");
+    assert!(rework(&whole, &[], false).is_ok());
+    let refused = |words: &[u32]| rework(words, &[], false).err() == Some(Unworkable::Damaged);
+    let place = |opcode: u16| {
+        let mut at = 5;
+        while whole[at] as u16 != opcode {
+            at += (whole[at] >> 16) as usize;
+        }
+        at
+    };
+    let changed = |at: usize, word: u32| {
+        let mut words = whole.clone();
+        words[at] = word;
+        words
+    };
+    // A length of one word takes the operands away, and their words are instructions of no known kind.
+    assert!(refused(&changed(place(op::TYPE_FLOAT), 1 << 16 | u32::from(op::TYPE_FLOAT))));
+    let vector = place(op::TYPE_VECTOR);
+    // A vector of vectors of vectors, one of two thousand million, and a structure in itself.
+    assert!(refused(&changed(vector + 2, whole[vector + 1])));
+    assert!(refused(&changed(vector + 3, 2_000_000_000)));
+    let structure = place(op::TYPE_STRUCT);
+    assert!(refused(&changed(structure + 2, whole[structure + 1])));
+    // The bound of all ids, from which new ones are counted.
+    assert!(refused(&changed(3, u32::MAX)));
 }

@@ -1,0 +1,43 @@
+//! What the process that was started makes of a student's bytes: everything that a person or a program reads.
+
+use ggrade::batch::same::HandOut;
+use ggrade::diagnostic::Diagnostic;
+use ggrade::language::Language;
+use ggrade::report::html::{Lines, Part};
+use ggrade::report::{Verdict, json, text};
+use ggrade::source::Source;
+use std::sync::LazyLock;
+
+static HAND_OUT: LazyLock<HandOut> = LazyLock::new(|| HandOut::new(&crate::assignment().files[0].starter));
+
+/// Writes a report with these diagnostics in every form. No form has a control character that a terminal obeys, or an
+/// element that the page does not write itself.
+pub fn check(bytes: &[u8], source: Option<&Source>, diagnostics: &[Diagnostic]) {
+    if let Some(source) = source {
+        let _ = HAND_OUT.answer(source.code());
+    }
+    let info = ggrade::grade::source_info("a.vert", bytes);
+    let environment = Default::default();
+    let report =
+        ggrade::grade::unfinished(crate::assignment(), info, Verdict::Rejected, diagnostics.to_vec(), environment);
+    for language in [Language::En, Language::Ja] {
+        let excerpts = ggrade::excerpt::excerpt(source, diagnostics, language, false);
+        let options = text::Options { language, width: 80, colour: false, excerpts: Some(&excerpts) };
+        let shown = text::render(&report, &options);
+        assert!(!shown.contains(|c: char| c.is_control() && c != '\n'), "{shown:?}");
+        let read: serde_json::Value = serde_json::from_str(&json::render(&report, language)).expect("JSON");
+        assert_eq!(read["verdict"], "rejected");
+        let lines = source.map_or(Lines::Nowhere, |source| Lines::Here(&source.text));
+        let part = Part {
+            report: &report,
+            source: lines,
+            gallery: None,
+            equation: None,
+            language,
+            level: 1,
+            has_footer: true,
+        };
+        let page = part.render().expect("a page");
+        assert!(!page.contains("<script") && !page.contains("<img"), "{page}");
+    }
+}
