@@ -43,9 +43,7 @@ impl Lanes {
             beyond[index] = difference.saturating_sub(PIXEL_TOLERANCE);
         }
         let beyond: &[Pixel; LANES] = bytemuck::cast_ref(&beyond);
-        for index in 0..LANES {
-            self.far[index] += u32::from(beyond[index] != 0);
-        }
+        self.far.iter_mut().zip(beyond).for_each(|(far, beyond)| *far += u32::from(*beyond != 0));
         self.added += 1;
     }
 }

@@ -4,6 +4,7 @@ use super::constants::ChangedConstant;
 use super::locate::{self, Located};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
+use crate::report::FrameResult;
 use crate::translate::NO_LINE;
 use reference::assignment::RubricLine;
 use reference::fit::Worst;
@@ -85,7 +86,12 @@ impl Blanks {
                 let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);
                 blanks.parameter(parameter, evidence);
             }
-            _ => blanks.place(locate::find(evidence.source, &mistake.near)),
+            _ => {
+                if evidence.frames.iter().all(FrameResult::agrees) {
+                    blanks.values.push(("frames", evidence.frames.len().to_string()));
+                }
+                blanks.place(locate::find(evidence.source, &mistake.near));
+            }
         }
         blanks
     }

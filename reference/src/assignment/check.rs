@@ -1,13 +1,14 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
+mod mistakes;
+
 use super::{Assignment, AssignmentError, Constant, HandedIn, Input, Interface, Output, Uniform, error};
 use crate::equation::{COLOUR, Definition, Equation, MAX_INPUTS, POSITION};
 use crate::expression::{Expression, Scope, Type, Value};
 use crate::manifest::{self, Manifest};
-use crate::mistake::{Form, FreeParameter, Mistake, Override};
 use crate::scene::{Scene, Vertex};
 use glam::DVec3;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 
 /// Definitions and rubric lines are held as the bits of a u64.
 const MAX_DEFINITIONS: usize = 64;
@@ -39,7 +40,7 @@ pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) ->
         if !ids.insert(entry.id.clone()) {
             return Err(error(format!("mistake `{}`", entry.id), "stands twice"));
         }
-        mistakes.push(mistake(entry, &equation, &lines)?);
+        mistakes.push(mistakes::mistake(entry, &equation, &lines)?);
     }
     probing(&m.probes, &constants)?;
     Ok(Assignment {
@@ -187,74 +188,6 @@ fn rubric(lines: &[manifest::RubricLine], equation: &Equation) -> Checked<HashSe
 
 fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> Checked<()> {
     if lines.contains(line) { Ok(()) } else { Err(error(place, format!("there is no rubric line `{line}`"))) }
-}
-
-fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &HashSet<String>) -> Checked<Mistake> {
-    let place = format!("mistake `{}`", entry.id);
-    for (line, fraction) in &entry.keeps {
-        known_line(lines, line, &place)?;
-        if !(0.0..=1.0).contains(fraction) {
-            return Err(error(place, format!("keeps {fraction} of `{line}`: not a fraction")));
-        }
-    }
-    let mut scope = equation.scope.clone();
-    let fit = match entry.fit {
-        None => None,
-        Some(f) => {
-            declare(&mut scope, &f.name, Type::Float)?;
-            if !(f.from > 0.0 && f.from < f.example && f.example < f.to && f.to.is_finite()) {
-                return Err(error(place, "`fit` needs 0 < from < example < to"));
-            }
-            Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example })
-        }
-    };
-    let forms = entry
-        .forms
-        .iter()
-        .enumerate()
-        .map(|(i, f)| form(f, equation, &scope, &format!("{place}, form {i}")))
-        .collect::<Checked<Vec<_>>>()?;
-    if fit.is_some() && !forms.iter().any(|f| f.free) {
-        return Err(error(place, "no form uses the name in `fit`"));
-    }
-    Ok(Mistake {
-        id: entry.id,
-        keeps: entry.keeps.into_iter().collect(),
-        forms,
-        fit,
-        near: entry.near,
-        seen: entry.seen,
-        equation: entry.equation,
-        look: entry.look,
-    })
-}
-
-fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, place: &str) -> Checked<Form> {
-    let mut overrides = Vec::new();
-    let mut free = false;
-    for (name, text) in texts {
-        let place = format!("{place}, `{name}`");
-        let definition = named(equation, name, &place)?;
-        let expression = Expression::parse(text, scope).map_err(|e| error(&place, e.to_string()))?;
-        let wanted = equation.definitions[definition].kind();
-        if expression.kind() != wanted {
-            return Err(error(place, format!("is a {}, not a {}", expression.kind().glsl(), wanted.glsl())));
-        }
-        let parameter = equation.parameter_slot();
-        let later = |slot: &&usize| **slot >= equation.slot(definition) && **slot != parameter;
-        if let Some(slot) = expression.slots().iter().find(later) {
-            let used = scope.get(*slot).map_or("", |(n, _)| n);
-            return Err(error(place, format!("uses `{used}`, which is defined later")));
-        }
-        definition_uses(&expression, equation, &place)?;
-        free |= expression.slots().contains(&parameter);
-        overrides.push(Override { definition, expression });
-    }
-    if overrides.is_empty() {
-        return Err(error(place, "replaces nothing"));
-    }
-    overrides.sort_by_key(|o| o.definition);
-    Ok(Form { overrides, free })
 }
 
 /// A search keeps what a definition uses in a few places.

@@ -110,7 +110,7 @@ fn every_text_stands_in_both_languages_and_can_do_without_values() {
             }
             assert!(bare.en.is_ascii() || !bare.en.contains(['。', '、']));
             assert!(bare.ja.contains(['。', '?']), "{}: {}", mistake.id, bare.ja);
-            let places = [("line", "7"), ("name", "h"), ("expected", "1"), ("found", "2")];
+            let places = [("line", "7"), ("name", "h"), ("expected", "1"), ("found", "2"), ("frames", "25")];
             let full = text.fill(&places);
             assert!(!full.en.contains('{') && !full.ja.contains('{'));
         }

@@ -1,5 +1,7 @@
 //! From text to a typed tree, by recursive descent.
 
+mod lex;
+
 use super::builtin::Builtin;
 use super::value::Type;
 use super::{Comparison, ExpressionError, Node, Operator, Scope};
@@ -34,31 +36,6 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    fn error(&self, at: usize, message: impl Into<String>) -> ExpressionError {
-        ExpressionError { column: at + 1, message: message.into() }
-    }
-
-    fn skip_space(&mut self) {
-        while self.text.get(self.at).is_some_and(|c| c.is_whitespace()) {
-            self.at += 1;
-        }
-    }
-
-    /// Takes `token` if it comes next.
-    fn take(&mut self, token: &str) -> bool {
-        self.skip_space();
-        let rest = &self.text[self.at..];
-        let found = token.chars().enumerate().all(|(i, c)| rest.get(i) == Some(&c));
-        if found {
-            self.at += token.chars().count();
-        }
-        found
-    }
-
-    fn expect(&mut self, token: &str) -> Result<(), ExpressionError> {
-        if self.take(token) { Ok(()) } else { Err(self.error(self.at, format!("`{token}` expected"))) }
-    }
-
     /// `condition ? a : b`, or what stands above it in precedence.
     fn choice(&mut self) -> Result<Typed, ExpressionError> {
         self.depth += 1;
@@ -152,13 +129,6 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the text between two places is an integer literal.
-    fn is_integer(&self, from: usize, to: usize) -> bool {
-        let text: String = self.text[from..to].iter().collect();
-        let text = text.trim().trim_matches(|c| c == '(' || c == ')');
-        !text.is_empty() && text.chars().all(|c| c.is_ascii_digit())
-    }
-
     fn join(
         &self,
         at: usize,
@@ -213,15 +183,6 @@ impl Parser<'_> {
         Ok((Node::Swizzle(Box::new(node), places, name.len()), kind))
     }
 
-    fn identifier(&mut self) -> Result<String, ExpressionError> {
-        let start = self.at;
-        while self.text.get(self.at).is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_') {
-            self.at += 1;
-        }
-        let name: String = self.text[start..self.at].iter().collect();
-        if is_identifier(&name) { Ok(name) } else { Err(self.error(start, "a name, a number or `(` expected")) }
-    }
-
     fn primary(&mut self) -> Result<Typed, ExpressionError> {
         self.skip_space();
         let start = self.at;
@@ -242,22 +203,6 @@ impl Parser<'_> {
         let (_, kind) = self.scope.get(slot).unwrap_or(("", Type::Float));
         self.slots.push(slot);
         Ok((Node::Variable(slot), kind))
-    }
-
-    fn number(&mut self) -> Result<Typed, ExpressionError> {
-        let start = self.at;
-        while let Some(c) = self.text.get(self.at) {
-            let exponent_sign =
-                matches!(c, '+' | '-') && matches!(self.text.get(self.at.wrapping_sub(1)), Some('e' | 'E'));
-            if !(c.is_ascii_alphanumeric() || *c == '.' || exponent_sign) {
-                break;
-            }
-            self.at += 1;
-        }
-        let text: String = self.text[start..self.at].iter().collect();
-        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
-        let number = number.ok_or_else(|| self.error(start, format!("`{text}` is not a number")))?;
-        Ok((Node::Literal(number), Type::Float))
     }
 
     fn arguments(&mut self) -> Result<Vec<Typed>, ExpressionError> {

@@ -1,0 +1,141 @@
+//! A teacher's way through the service.
+
+use crate::chromium::server::{Server, TOKEN};
+use crate::chromium::{Browser, sample};
+use crate::{BROKEN, RIGHT, WRONG};
+
+/// A download of Moodle's with three students.
+fn moodle_archive(path: &std::path::Path) {
+    let members = [
+        ("山田 太郎_1001_assignsubmission_file/ggsample06.vert", RIGHT),
+        ("Smith Ann_1002_assignsubmission_file/ggsample06.vert", WRONG),
+        ("佐藤 花_1003_assignsubmission_file/ggsample06.vert", BROKEN),
+    ];
+    let mut zip = zip::ZipWriter::new(std::fs::File::create(path).expect("a file"));
+    for (name, file) in members {
+        zip.start_file(name, zip::write::SimpleFileOptions::default()).expect("a member");
+        std::io::Write::write_all(&mut zip, &std::fs::read(sample(file)).expect("a sample")).expect("its bytes");
+    }
+    zip.finish().expect("an archive");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_teacher_walks_through_the_class() {
+    let (server, browser) = (Server::start(), Browser::start().await);
+    browser.size(1280, 900).await;
+    browser.languages("en").await;
+    let class = [
+        ("S1001", "wrong/unchanged--as-handed-out.vert"),
+        ("S1001", WRONG),
+        ("S1001", RIGHT),
+        ("S1002", "wrong/ambient-added--plus.vert"),
+        ("S1003", BROKEN),
+        ("S1004", "wrong/specular-missing--ambient-and-diffuse.vert"),
+        ("S1004", "wrong/diffuse-unclamped--no-max.vert"),
+        ("S1005", RIGHT),
+    ];
+    for (student, file) in class {
+        server.hand_in(student, file).await;
+    }
+    browser.open(&server.at("/teacher")).await;
+    assert!(browser.address().await.ends_with("/teacher/login"));
+    browser.check("teacher-login").await;
+    browser.keys("#password", "not the password").await;
+    browser.click("main .primary").await;
+    browser.until("document.querySelector('[role=alert]')").await;
+    // A refused form is answered with 403, which the browser notes.
+    browser.complaints().await;
+    browser.keys("#password", TOKEN).await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname === '/teacher'").await;
+    assert_eq!(browser.js("return document.querySelectorAll('.people tbody tr').length").await, 5);
+
+    browser.click(".top nav a[href='/teacher/settings']").await;
+    browser.until("location.pathname === '/teacher/settings'").await;
+    let folder = tempfile::tempdir().expect("a folder");
+    let roster = folder.path().join("roster.csv");
+    std::fs::write(&roster, "number,name\nS1001,和田 花子\nS1002,<b>Bold</b>\nS1006,Late Comer\n").expect("a file");
+    browser.keys("#roster-file", &roster.to_string_lossy()).await;
+    browser.click("form[action='/teacher/roster'] button").await;
+    browser.until("document.querySelector('[role=status]')").await;
+    browser.check("teacher-settings").await;
+
+    browser.open(&server.at("/teacher")).await;
+    browser.until("document.querySelectorAll('.people tbody tr').length === 6").await;
+    assert!(browser.text(".people").await.contains("<b>Bold</b>"), "a name stays text");
+    browser.js("document.querySelectorAll('img[loading]').forEach(i => i.loading = 'eager')").await;
+    browser.until("[...document.images].every(i => i.complete && i.naturalWidth > 0)").await;
+    browser.check("teacher-class").await;
+    browser.open(&server.at("/teacher?verdict=wrong")).await;
+    assert_eq!(browser.js("return document.querySelectorAll('.people tbody tr').length").await, 2);
+    browser.click(".trends a").await;
+    browser.until("location.search.includes('mistake=')").await;
+    assert_eq!(browser.js("return document.querySelectorAll('.people tbody tr').length").await, 1);
+    browser.open(&server.at("/teacher?anonymous=on")).await;
+    assert!(!browser.text("main").await.contains("S1001"), "no number is shown");
+    browser.open(&server.at("/teacher?q=s1001")).await;
+    browser.click(".people tbody a").await;
+    browser.until("document.querySelectorAll('.attempts li').length === 3").await;
+    browser.check("teacher-person").await;
+
+    // A class comes as an archive of Moodle's; it is graded in the background.
+    browser.open(&server.at("/teacher/batches")).await;
+    browser.check("teacher-archives").await;
+    let archive = folder.path().join("CG-第6回.zip");
+    moodle_archive(&archive);
+    browser.keys("#archive", &archive.to_string_lossy()).await;
+    browser.click("form[action='/teacher/batches'] .primary").await;
+    browser.until("location.pathname.startsWith('/teacher/batches/') && document.querySelector('.downloads')").await;
+    browser.until("[...document.images].every(i => (i.loading = 'eager', i.complete && i.naturalWidth > 0))").await;
+    assert_eq!(browser.js("return document.querySelectorAll('.people tbody tr').length").await, 3);
+    assert!(browser.text("main").await.contains("山田 太郎"));
+    browser.check("teacher-batch").await;
+    let csv = browser.js("return document.querySelector('.downloads a[href$=\"/csv\"]').getAttribute('href')").await;
+    let csv = browser.fetch(csv.as_str().expect("an address")).await;
+    assert!(csv.contains("山田 太郎") && csv.contains("100"), "{csv}");
+
+    // Everything is graded again, with other probes; the results agree, and are adopted.
+    browser.open(&server.at("/teacher/batches")).await;
+    browser.click("[name=new_seed]").await;
+    browser.click("form[action='/teacher/regradings'] button").await;
+    browser.until("location.pathname.startsWith('/teacher/regradings/') && document.querySelector('.adopt')").await;
+    assert!(browser.text(".lead").await.contains("0 lose points"));
+    browser.check("teacher-regrading").await;
+    browser.js("window.confirm = () => true").await;
+    browser.click(".adopt button").await;
+    browser.until("document.querySelector('.notice.good') && !document.querySelector('.adopt')").await;
+
+    // Handing in ends; a student is told so.
+    browser.open(&server.at("/teacher/settings")).await;
+    browser.js("document.querySelector('#closes').value = '2020-01-01T00:00'").await;
+    browser.click("form[action='/teacher/settings'] .primary").await;
+    browser.until("location.search === '?done=saved'").await;
+    browser.open(&server.at("/")).await;
+    assert!(!browser.has("form.work .primary").await);
+    assert!(browser.text(".terms-of-hand-in").await.contains("Closed since"));
+    browser.check("student-closed").await;
+
+    browser.size(320, 640).await;
+    browser.open(&server.at("/teacher?lang=ja")).await;
+    browser.check("phone-teacher-ja").await;
+    browser.open(&server.at("/teacher/settings")).await;
+    browser.check("phone-settings-ja").await;
+
+    // A student opens the course link, gives a number in full-width letters, and is known by it; a slip is told.
+    let link = browser.js("return document.querySelector('.link a').href").await;
+    browser.devtools("Network.clearBrowserCookies", serde_json::json!({})).await;
+    browser.size(1280, 900).await;
+    browser.open(link.as_str().expect("a link")).await;
+    browser.check("join").await;
+    browser.keys("#number", "山田").await;
+    browser.click("main .primary").await;
+    browser.until("document.querySelector('[role=alert]')").await;
+    // A refused form is answered with 422, which the browser notes.
+    browser.complaints().await;
+    browser.js("document.querySelector('#number').value = ''").await;
+    browser.keys("#number", "ｓ１００６").await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname.startsWith('/a/')").await;
+    assert!(browser.text(".who").await.contains("S1006"));
+    browser.end().await;
+}
