@@ -6,6 +6,7 @@ use ggrade::homework;
 use ggrade::render::{Batch, Scene};
 use ggrade::source;
 use ggrade::translate::{self, UniformBlock};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::borrow::Cow;
 use wgpu::util::DeviceExt;
 
@@ -34,14 +35,18 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// None where it has uniforms beside the homework's.
+    /// None where it has uniforms beside the homework's, or needs what devices lack.
     pub fn of(submission: &Submission) -> Option<Self> {
         let interface = homework::interface(homework::assignment("ggsample06").ok()?).ok()?;
         let source = source::read(&submission.name, submission.text.as_bytes()).ok()?;
         let shader = translate::translate(&source, &interface).ok()?.shader;
         let [uniforms] = shader.uniforms.as_slice() else { return None };
         let known = uniforms.size <= STRIDE && uniforms.is_default;
-        known.then(|| Some(Self { module: shader.plain(&interface).ok()?, uniforms: uniforms.clone() }))?
+        let module = known.then(|| shader.plain(&interface).ok())??;
+        // A module that needs more than usual is left out of the comparison.
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::FLOAT64);
+        validator.validate(&module).ok()?;
+        Some(Self { module, uniforms: uniforms.clone() })
     }
 
     /// The matrices of all frames, as the stage reads them.
@@ -69,8 +74,10 @@ impl Bare {
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
         let software = adapters.into_iter().find(|adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu);
         let adapter = software.expect("a software driver");
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default())).expect("a device");
+        // What a shader may use and a device has only where it is asked for.
+        let required_features = adapter.features() & wgpu::Features::SHADER_F64;
+        let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
         let assignment = homework::assignment("ggsample06").expect("the assignment");
         let scene = homework::scene(assignment, &assignment.probes(1));
         let interface = homework::interface(assignment).expect("the assignment is whole");
