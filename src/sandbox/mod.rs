@@ -71,7 +71,7 @@ impl Settings {
             deadline: Duration::from_secs(2),
             cpu_seconds: None,
             memory: 768 << 20,
-            gradings_per_worker: 1000,
+            gradings_per_worker: 500,
             spares: 1,
             warm_up: true,
             policy: Policy::Required,
