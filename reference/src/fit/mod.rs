@@ -5,6 +5,7 @@
 
 mod alone;
 mod columns;
+mod digits;
 mod search;
 mod terms;
 

@@ -1,6 +1,7 @@
 //! Trying combinations of mistakes, the fewest first.
 
 use super::columns::{Columns, Resolved, Rule, Set};
+use super::digits::simpler;
 use super::{MOST_MISTAKES, agrees};
 use crate::Assignment;
 use crate::mistake::{Form, Found, FreeParameter, Mistake, Override};
@@ -11,12 +12,14 @@ use std::rc::Rc;
 /// Halvings of the free parameter's range: 60 leave nothing of an f64's precision.
 const HALVINGS: usize = 60;
 
-/// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
-/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need a half.
-const MOST_COLOURS: u64 = 800_000;
+/// So many samples are looked at for the one that determines a free parameter best; more where none of them depends on it
+/// by so many times the tolerance.
+const ENOUGH: usize = 32;
+const CLEAR: f64 = 20.0;
 
-/// Significant digits to which a free parameter is rounded if that still explains every sample: what a person would write.
-const DIGITS: [i32; 3] = [1, 2, 3];
+/// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
+/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need less than half.
+const MOST_COLOURS: u64 = 800_000;
 
 /// One form of one mistake.
 struct Candidate<'a> {
@@ -230,15 +233,15 @@ impl<'a> Search<'a> {
         if !self.explains(base, replaced, exact) {
             return None;
         }
-        let rounded = DIGITS.map(|digits| significant(exact, digits));
-        let simplest = rounded.into_iter().find(|x| self.explains(base, replaced, *x));
+        let simplest = simpler(exact).into_iter().find(|x| self.explains(base, replaced, *x));
         Some(simplest.unwrap_or(exact))
     }
 
     /// The probe and channel that determine a free parameter best.
     ///
     /// The colour is monotonic in the parameter, so every sample lies between the colours for its least and greatest value
-    /// (else there is no solution), and the sample that is furthest from both depends on it most.
+    /// (else there is no solution), and the sample that is furthest from both depends on it most. Not all of them are looked
+    /// at: that would be nearly all that a search does.
     fn pivot(
         &mut self,
         base: &Resolved,
@@ -271,6 +274,10 @@ impl<'a> Search<'a> {
                     best = Some((probe, channel));
                 }
             }
+            // A sample on which it depends clearly determines it well enough; whether all agree is asked next.
+            if probe >= ENOUGH && reach > CLEAR * self.tolerance {
+                break;
+            }
         }
         best
     }
@@ -282,16 +289,4 @@ fn fits(chosen: &[Rc<Candidate<'_>>], new: &Candidate<'_>) -> bool {
     let clash = |c: &Rc<Candidate>| c.mistake == new.mistake || c.touches & new.touches != 0;
     let shared = chosen.iter().fold(new.lines, |lines, c| lines & c.lines);
     !chosen.iter().any(clash) && (chosen.len() + 1 < MOST_MISTAKES || shared == 0)
-}
-
-/// `x` rounded to so many significant digits.
-fn significant(x: f64, digits: i32) -> f64 {
-    let step = 10f64.powi(x.abs().log10().floor() as i32 + 1 - digits);
-    if step < 1.0 {
-        // Dividing by a power of ten keeps 0.3 exact where multiplying by 0.1 does not.
-        let steps = (1.0 / step).round();
-        (x * steps).round() / steps
-    } else {
-        (x / step).round() * step
-    }
 }
