@@ -147,14 +147,14 @@ impl Grader {
 
     /// Whether a colour depends on what GLSL leaves undefined.
     fn shows_undefined(
-        &mut self,
+        &self,
         source: &Source,
         shader: &Shader,
         scene: &Scene,
         rendering: &Rendering,
     ) -> Result<bool, Fault> {
         let poisoned = match shader.poisoned(source, &self.interface) {
-            Ok(poisoned) => self.renderer.render(&poisoned, scene)?,
+            Ok(poisoned) => self.renderer.compute(&poisoned, scene)?,
             Err(Refusal::Fault(fault)) => return Err(fault),
             // The gate bounds what it is given; what is a little larger is still only a doubt.
             Err(_) => return Ok(false),

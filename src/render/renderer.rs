@@ -34,13 +34,11 @@ impl Renderer {
 
     /// Draws the scene with the shader. An error is ours: the shader was found valid before.
     pub fn render(&mut self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
-        let device = &self.device;
-        let capture = checked(&device.device, || Capture::new(&device.device, &self.stage, shader, scene))?;
-        capture.submit(device, &self.stage, scene);
-        let rendering = split(map(device, &capture.readback)?.bytes(), scene);
+        let (capture, rendering) = self.run(shader, scene)?;
         if rendering.ran_out.is_some() {
             return Ok(rendering);
         }
+        let device = &self.device;
         let areas: Vec<Area> =
             rendering.frame_samples.iter().map(|vertices| Area::painted(vertices, scene.width, scene.height)).collect();
         let tiles = Tiles::place(&areas)?;
@@ -48,6 +46,19 @@ impl Renderer {
         let bytes = Arc::new(map(device, &painted.readback)?);
         painted.reader = Arc::downgrade(&bytes);
         Ok(Rendering { frames: Frames::new(scene, tiles, bytes), ..rendering })
+    }
+
+    /// What the shader computes for every vertex of the scene; no frame is drawn.
+    pub fn compute(&self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+        Ok(self.run(shader, scene)?.1)
+    }
+
+    fn run(&self, shader: &Shader, scene: &Scene) -> Result<(Capture, Rendering), Fault> {
+        let device = &self.device;
+        let capture = checked(&device.device, || Capture::new(&device.device, &self.stage, shader, scene))?;
+        capture.submit(device, &self.stage, scene);
+        let rendering = split(map(device, &capture.readback)?.bytes(), scene);
+        Ok((capture, rendering))
     }
 }
 
