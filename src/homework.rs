@@ -85,16 +85,23 @@ pub fn batch(assignment: &Assignment, matrices: &Matrices, vertices: &[Vertex]) 
     Batch { uniforms, attributes }
 }
 
+/// What is drawn once a process, by the id of the assignment.
+type Drawn<T> = Mutex<Vec<(String, Arc<[T]>)>>;
+
+fn once<T>(drawn: &Drawn<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
+    let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = drawn.iter().find(|(id, _)| *id == assignment.id) {
+        return Arc::clone(known);
+    }
+    let new = draw();
+    drawn.push((assignment.id.clone(), Arc::clone(&new)));
+    new
+}
+
 /// The reference's frames as pictures, drawn once a process.
 pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
-    static DRAWN: Mutex<Vec<(String, Arc<[Picture]>)>> = Mutex::new(Vec::new());
-    let mut drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, pictures)) = drawn.iter().find(|(id, _)| *id == assignment.id) {
-        return Arc::clone(pictures);
-    }
-    let pictures: Arc<[Picture]> = assignment.frames().into_iter().map(picture).collect();
-    drawn.push((assignment.id.clone(), Arc::clone(&pictures)));
-    pictures
+    static DRAWN: Drawn<Picture> = Mutex::new(Vec::new());
+    once(&DRAWN, assignment, || assignment.frames().into_iter().map(picture).collect())
 }
 
 fn picture(frame: Frame) -> Picture {
@@ -109,16 +116,9 @@ pub fn term_pictures(
     explanation: Option<&[Hypothesis]>,
     source: Option<&Source>,
 ) -> Arc<[TermPictures]> {
-    static RIGHT: Mutex<Vec<(String, Arc<[TermPictures]>)>> = Mutex::new(Vec::new());
+    static RIGHT: Drawn<TermPictures> = Mutex::new(Vec::new());
     let changed = source.map(|source| constants::changed(source, assignment)).unwrap_or_default();
     let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
-    let is_right = values.is_empty() && explanation.is_some_and(<[_]>::is_empty);
-    let lock = || RIGHT.lock().unwrap_or_else(PoisonError::into_inner);
-    let known =
-        lock().iter().find(|(id, _)| is_right && *id == assignment.id).map(|(_, pictures)| Arc::clone(pictures));
-    if let Some(known) = known {
-        return known;
-    }
     let theirs = explanation.and_then(|_| assignment.with_constants(&values).ok());
     let found: Vec<Found> = explanation
         .unwrap_or_default()
@@ -126,11 +126,9 @@ pub fn term_pictures(
         .map(|h| Found { id: h.id.clone(), form: h.form, parameter: h.parameter })
         .collect();
     let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
-    let pictures: Arc<[_]> = terms.filter_map(|line| one_term(assignment, theirs.as_ref(), &found, line)).collect();
-    if is_right {
-        lock().push((assignment.id.clone(), Arc::clone(&pictures)));
-    }
-    pictures
+    let draw = || terms.filter_map(|line| one_term(assignment, theirs.as_ref(), &found, line)).collect();
+    let is_right = values.is_empty() && explanation.is_some_and(<[_]>::is_empty);
+    if is_right { once(&RIGHT, assignment, draw) } else { draw() }
 }
 
 fn one_term(
