@@ -99,19 +99,17 @@ fn answer(
     meter.next(job.adapter)?;
     let graded = grader.grade(&request.name, &bytes, request.order);
     let spent = meter.size()? > start + job.limits.memory;
-    let (outcome, frames) = match graded {
-        Err(fault) => (Outcome::Failed(fault), None),
-        Ok(Graded { report, frames }) => {
-            let frames = frames.filter(|_| request.wants_frames);
-            let tiles = frames.as_ref().map(tiles).unwrap_or_default();
-            (Outcome::Graded { report: Box::new(report), frames: tiles.clone() }, frames.map(|frames| (frames, tiles)))
-        }
+    let reply = |outcome| Reply { id: request.id, spent, outcome };
+    let Graded { report, frames } = match graded {
+        Ok(graded) => graded,
+        Err(fault) => return send(output, &reply(Outcome::Failed(fault)), 0, |_| Ok(())).map(|()| true),
     };
-    let (frames, tiles) = frames.unwrap_or_default();
+    let frames = frames.filter(|_| request.wants_frames).unwrap_or_default();
+    let tiles = tiles(&frames);
     let length = tiles.iter().map(|tile| tile.width as usize * tile.height as usize * 4).sum();
-    let reply = Reply { id: request.id, spent, outcome };
+    let graded = Outcome::Graded { report: Box::new(report), frames: tiles.clone() };
     // Row by row from where the device left them: a copy of all would be as large as everything else.
-    send(output, &reply, length, |to| {
+    send(output, &reply(graded), length, |to| {
         for (index, tile) in (0..).zip(&tiles) {
             let left = tile.x.saturating_sub(frames.area(index).x) as usize * 4;
             for y in tile.y..tile.y + tile.height {
