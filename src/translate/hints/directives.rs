@@ -12,10 +12,9 @@ const NAMES: [&str; 12] =
 /// `text` with its `#line` directives blanked, so that the compiler counts as an editor does; `None` without any.
 /// Every byte of them becomes a space: offsets of everything else stay.
 pub fn without_line_directives(text: &str) -> Option<String> {
-    let is_line = |token: &&Token<'_>| token.kind == Kind::Directive && directive_name(token.text) == "line";
     let mut blanked = String::with_capacity(text.len());
     let mut kept = 0;
-    for directive in tokens(text).iter().filter(is_line) {
+    for directive in tokens(text).iter().filter(|token| is_line(token)) {
         blanked.push_str(&text[kept..directive.start]);
         let bytes = directive.text.bytes();
         blanked.extend(bytes.map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
@@ -36,13 +35,17 @@ pub fn refused_line_directive(text: &str) -> Diagnostic {
         "`#line` を削除してください。この課題では必要ありません。",
     );
     let all = tokens(text);
-    let first = all.iter().find(|token| token.kind == Kind::Directive && directive_name(token.text) == "line");
+    let first = all.iter().find(|token| is_line(token));
     let line = first.map(|token| text[..token.start].bytes().filter(|byte| *byte == b'\n').count() as u32 + 1);
     let diagnostic = Diagnostic::error(Stage::Compile, message).hint(hint);
     match line {
         Some(line) => diagnostic.at(line, None),
         None => diagnostic,
     }
+}
+
+fn is_line(token: &Token<'_>) -> bool {
+    token.kind == Kind::Directive && directive_name(token.text) == "line"
 }
 
 pub fn directive_name(directive: &str) -> &str {
