@@ -42,9 +42,8 @@ fn cpu(of: UsageWho) -> f64 {
     milliseconds(usage.user_time()) + milliseconds(usage.system_time())
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+fn median(values: Vec<f64>) -> f64 {
+    percentile(&values, 0.5)
 }
 
 /// CPU milliseconds of `work`.
