@@ -48,6 +48,7 @@ const editGlsl = (host, textarea) => {
 
   let marks = new Map();
   let painted = [];
+  let isFilling = false;
 
   // A line with its marked characters told apart; columns count characters, not UTF-16 units.
   const row = (pieces, mark) => {
@@ -156,12 +157,21 @@ const editGlsl = (host, textarea) => {
   draw();
 
   return {
+    get text() {
+      return textarea.value;
+    },
+    // Calls the listener when a person changes the text; not when the page fills it.
+    changed(listener) {
+      textarea.addEventListener("input", () => { if (!isFilling) listener(); });
+    },
     // Everything in it, in place of what is there; undo brings that back.
     fill(text) {
       const focused = document.activeElement;
       textarea.focus({ preventScroll: true });
       textarea.select();
+      isFilling = true;
       insert(text);
+      isFilling = false;
       textarea.setSelectionRange(0, 0);
       host.scrollTop = 0;
       if (focused && focused !== document.body) focused.focus({ preventScroll: true });

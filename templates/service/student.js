@@ -3,17 +3,15 @@
 {
   const form = document.querySelector("form.work");
   const textarea = form.elements.text;
-  const picker = form.elements.file;
   const result = document.querySelector("[data-result]");
   const state = document.getElementById("state");
-  const { draft, starter, key, grading, failed, draftword, large } = form.dataset;
+  const { draft, starter, grading, failed, draftword } = form.dataset;
   const editor = editGlsl(form.querySelector("[data-editor]"), textarea);
+  const drafts = keepDrafts(form, editor);
   const PAUSE = 350; // milliseconds without a key after which the text is graded
-  const LARGEST_SHOWN = 200_000; // bytes
   const brief = [...result.childNodes];
   document.documentElement.classList.add("scripted");
 
-  let file; // the file as it was chosen, until its text is changed
   let timer = 0;
   let current; // the request under way
   let player;
@@ -27,8 +25,7 @@
   const body = () => {
     const data = new FormData();
     data.set("csrf", form.elements.csrf.value);
-    if (file) data.set("file", file, file.name);
-    else data.set("text", textarea.value);
+    files.into(data);
     return data;
   };
 
@@ -90,68 +87,20 @@
     say(`${article.dataset.summary} · ${draftword}`, article.dataset.mark);
   };
 
-  const keep = () => {
-    try {
-      localStorage.setItem(key, textarea.value);
-    } catch { /* a browser that keeps nothing */ }
-  };
+  const files = pickFiles(form, editor, {
+    async taken() {
+      drafts.keep();
+      isLoaded = true;
+      await grade();
+      // On a small window the result is below: go there.
+      if (matchMedia("(max-width: 62rem)").matches) result.scrollIntoView();
+    },
+    refused: say,
+  });
 
-  textarea.addEventListener("input", () => {
-    file = undefined;
-    picker.value = "";
-    keep();
+  editor.changed(() => {
     clearTimeout(timer);
     timer = setTimeout(grade, PAUSE);
-  });
-
-  const take = async (chosen) => {
-    if (chosen.size <= LARGEST_SHOWN) {
-      editor.fill(decoded(await chosen.arrayBuffer()));
-    } else {
-      say(large);
-    }
-    clearTimeout(timer);
-    isLoaded = true;
-    file = chosen;
-    // What is handed in is the file itself, byte by byte.
-    const transfer = new DataTransfer();
-    transfer.items.add(chosen);
-    picker.files = transfer.files;
-    await grade();
-    // On a small window the result is below: go there.
-    if (matchMedia("(max-width: 62rem)").matches) result.scrollIntoView();
-  };
-
-  const decoded = (bytes) => {
-    const view = new Uint8Array(bytes);
-    const label = view[0] === 0xff && view[1] === 0xfe ? "utf-16le" : view[0] === 0xfe && view[1] === 0xff ? "utf-16be" : "utf-8";
-    try {
-      return new TextDecoder(label, { fatal: true }).decode(bytes).replace(/\r\n?/g, "\n");
-    } catch {
-      return new TextDecoder("shift_jis").decode(bytes).replace(/\r\n?/g, "\n");
-    }
-  };
-
-  picker.addEventListener("change", () => { if (picker.files[0]) take(picker.files[0]); });
-  textarea.addEventListener("paste", (event) => {
-    const [pasted] = event.clipboardData?.files ?? [];
-    if (!pasted) return;
-    event.preventDefault();
-    take(pasted);
-  });
-
-  let depth = 0;
-  const carries = (event) => [...(event.dataTransfer?.types ?? [])].includes("Files");
-  addEventListener("dragenter", (event) => { if (carries(event)) { depth += 1; form.classList.add("dropping"); } });
-  addEventListener("dragleave", (event) => { if (carries(event) && (depth -= 1) <= 0) { depth = 0; form.classList.remove("dropping"); } });
-  addEventListener("dragover", (event) => { if (carries(event)) event.preventDefault(); });
-  addEventListener("drop", (event) => {
-    if (!carries(event)) return;
-    event.preventDefault();
-    depth = 0;
-    form.classList.remove("dropping");
-    const [dropped] = event.dataTransfer.files;
-    if (dropped) take(dropped);
   });
 
   const reset = form.querySelector("[data-do=starter]");
@@ -160,13 +109,14 @@
     const answer = await fetch(starter);
     if (!answer.ok) return say(failed, "failed");
     editor.fill(await answer.text());
+    files.forget();
     current?.abort();
     clearTimeout(timer);
     result.replaceChildren(...brief);
     player = undefined;
     editor.mark([]);
     say("");
-    keep();
+    drafts.keep();
   });
 
   result.addEventListener("click", (event) => {
@@ -189,17 +139,12 @@
   });
 
   // A page that is shown with a text of its own, such as an earlier attempt, keeps it.
-  const handedOut = textarea.defaultValue;
-  let kept = null;
-  try {
-    kept = localStorage.getItem(key);
-  } catch { /* as above */ }
+  const kept = drafts.kept();
   if (form.dataset.own !== undefined) {
     isLoaded = true;
     grade();
-  } else if (kept && kept !== handedOut) {
+  } else if (kept !== undefined) {
     editor.fill(kept);
-    clearTimeout(timer);
     grade();
   }
 }

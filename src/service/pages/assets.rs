@@ -48,6 +48,8 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("pages.css", include_str!("../../../templates/service/pages.css")),
         Asset::text("teacher.css", include_str!("../../../templates/service/teacher.css")),
         Asset::text("editor.js", include_str!("../../../templates/service/editor.js")),
+        Asset::text("drafts.js", include_str!("../../../templates/service/drafts.js")),
+        Asset::text("picker.js", include_str!("../../../templates/service/picker.js")),
         Asset::text("student.js", include_str!("../../../templates/service/student.js")),
         Asset::text("live.js", include_str!("../../../templates/service/live.js")),
         Asset::text("icon.svg", include_str!("../../../templates/service/icon.svg")),
