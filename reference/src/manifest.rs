@@ -227,6 +227,8 @@ pub struct RubricLine {
 pub struct Mistake {
     /// Its id in reports.
     pub id: String,
+    /// The mistake in a few words.
+    pub title: Text,
     /// Fraction of the points that is kept, by rubric line.
     pub keeps: BTreeMap<String, f64>,
     /// The ways in which it is written: definition → expression.

@@ -8,6 +8,8 @@ use crate::expression::Expression;
 pub struct Mistake {
     /// Its name in reports; stable.
     pub id: String,
+    /// The mistake in a few words, as a teacher's lists show it.
+    pub title: Text,
     /// Fraction of a rubric line's points that is kept, for each line that the mistake touches.
     pub keeps: Vec<(String, f64)>,
     /// The ways in which it is written. Empty for a mistake that is not seen in the equation.

@@ -4,6 +4,15 @@ use super::Verdict;
 use crate::diagnostic::{Severity, Stage};
 use crate::language::Language;
 
+/// The title of a mistake, as lists name it; its id where the assignment does not know it, as in an old report.
+pub(crate) fn mistake_title<'a>(assignment: &str, id: &'a str, language: Language) -> &'a str {
+    let known = reference::assignment(assignment).and_then(|assignment| assignment.mistake(id));
+    known.map_or(id, |mistake| match language {
+        Language::En => &mistake.title.en,
+        Language::Ja => &mistake.title.ja,
+    })
+}
+
 /// The words of one language.
 #[derive(Debug)]
 pub(crate) struct Labels {

@@ -13,7 +13,7 @@
 
   const rows = [...body.rows].map((row, index) => ({
     row, index,
-    text: fold(`${row.querySelector(".who").textContent} ${row.querySelector(".found").textContent}`),
+    text: fold(`${row.querySelector(".who").textContent} ${row.querySelector(".found").textContent} ${row.dataset.mistake}`),
     name: row.querySelector(".who bdi").textContent,
     verdict: row.dataset.verdict,
     bin: row.dataset.bin,

@@ -14,7 +14,7 @@ fn a_class_gets_its_grades_in_every_format() {
         .assert()
         .code(1)
         .stderr("")
-        .stdout(predicate::str::contains("3 students").and(predicate::str::contains("specular-half-unnormalized")));
+        .stdout(predicate::str::contains("3 students").and(predicate::str::contains("Half vector not normalised")));
     let journal = place.journal("out");
     assert_eq!(journal.len(), 1 + 3);
     assert_eq!((&journal[0]["schema"], &journal[0]["assignment"]), (&"ggrade/batch/v1".into(), &"ggsample06".into()));

@@ -35,10 +35,15 @@ pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) ->
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let mut ids = HashSet::new();
+    let mut titles = HashSet::new();
     let mut mistakes = Vec::new();
     for entry in m.mistake {
         if !ids.insert(entry.id.clone()) {
             return Err(error(format!("mistake `{}`", entry.id), "stands twice"));
+        }
+        // Lists name a mistake by its title alone.
+        if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
+            return Err(error(format!("mistake `{}`", entry.id), "another mistake has the same title"));
         }
         mistakes.push(mistakes::mistake(entry, &equation, &lines)?);
     }

@@ -74,6 +74,15 @@ fn what_contradicts_itself_is_refused_with_its_place() {
         broken("keeps = { ambient = 0.5 }", "keeps = { ambient = 1.5 }"),
         "mistake `ambient-added`: keeps 1.5 of `ambient`: not a fraction"
     );
+    assert!(broken("title = { en = \"No ambient term\", ", "title = { ").contains("missing field `en`"));
+    assert_eq!(
+        broken("ja = \"環境光の項がない\"", "ja = \" \""),
+        "mistake `ambient-missing`: the title needs 1 to 60 characters in each language"
+    );
+    assert_eq!(
+        broken("en = \"No ambient term\"", "en = \"Handed in unchanged\""),
+        "mistake `ambient-missing`: another mistake has the same title"
+    );
     assert_eq!(broken("value = [80]", "value = [80, 1]"), "constant `kshi`: a float has 1 numbers");
     assert_eq!(broken("id = \"ambient-added\"", "id = \"ambient-missing\""), "mistake `ambient-missing`: stands twice");
     assert_eq!(

@@ -8,11 +8,13 @@ use crate::batch::class::{Class, Entry};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::report::Report;
+use crate::report::labels::mistake_title;
 use csv::{QuoteStyle, Terminator, WriterBuilder};
 
 const BOM: &[u8] = b"\xef\xbb\xbf";
 const BEFORE_RUBRIC: [&str; 6] = ["key", "name", "moodle_id", "verdict", "score", "max_score"];
-const AFTER_RUBRIC: [&str; 5] = ["mistakes", "feedback", "shares_with", "file", "sha256"];
+const AFTER_RUBRIC: [&str; 6] = ["mistakes", "feedback", "shares_with", "file", "sha256", "mistake_titles"];
 
 /// The table: a row a student, in the order of the class. The column names are the same in both languages.
 pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
@@ -59,8 +61,15 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
         cell(&entry.shares_with.join(" ")),
         cell(entry.path.as_deref().unwrap_or_default()),
         report.map(|report| cell(&report.source.sha256)).unwrap_or_default(),
+        report.map(|report| cell(&titles(report, class))).unwrap_or_default(),
     ]);
     row
+}
+
+/// The mistakes by their titles. A comma stands inside of some; a semicolon cuts a cell in some spreadsheets.
+fn titles(report: &Report, class: &Class) -> String {
+    let titles = report.mistakes.iter().map(|id| mistake_title(&class.assignment, id, class.language));
+    titles.collect::<Vec<_>>().join(" / ")
 }
 
 /// A number as every spreadsheet of an English or Japanese computer reads it; empty when there is none.

@@ -21,7 +21,7 @@ fn grades_open_in_a_spreadsheet_without_a_formula() {
         assert_eq!(
             table[0].join(","),
             "key,name,moodle_id,verdict,score,max_score,shape,ambient,diffuse,specular,mistakes,feedback,shares_with,\
-             file,sha256"
+             file,sha256,mistake_titles"
         );
         assert_eq!(table.len(), 1 + NASTY.len());
         for cell in table.iter().flatten() {
@@ -32,6 +32,8 @@ fn grades_open_in_a_spreadsheet_without_a_formula() {
         assert_eq!(table[2][..10], ["s1002", "O'Brien, \"Bob\"", "1002", "wrong", "80", "100", "10", "20", "30", "20"]);
         assert_eq!(table[2][10], "specular-half-unnormalized");
         assert_eq!(table[2][14], "3f".repeat(32));
+        let title = ["Half vector not normalised", "中間ベクトルが正規化されていない"];
+        assert_eq!(table[2][15], title[usize::from(language == Language::Ja)]);
         assert_eq!(table[5][3..6], ["not-graded", "", ""]);
         assert_eq!(table[6][3..6], ["fault", "", ""]);
         let place = if language == Language::En { "line 11, column 12: Max" } else { "11 行目 12 文字目: Max" };

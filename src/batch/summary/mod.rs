@@ -9,6 +9,7 @@ use super::class::{Class, Outcome};
 use super::standing::Standing;
 use super::statistics::{self, Averages, BINS};
 use crate::language::{Language, Text};
+use crate::report::labels::mistake_title;
 use crate::report::wrap::{columns, pad, plain, wrap};
 use anstyle::{AnsiColor, Style};
 
@@ -157,17 +158,18 @@ impl Writer {
     }
 
     fn mistakes(&mut self, class: &Class) {
-        let mistakes = statistics::mistakes(class);
+        let titled = |(id, count)| (plain(mistake_title(&class.assignment, id, self.language)), count);
+        let mistakes: Vec<_> = statistics::mistakes(class).into_iter().map(titled).collect();
         if mistakes.is_empty() {
             return;
         }
         self.heading(self.text("Most frequent mistakes", "多かった間違い"));
-        let column = mistakes.iter().take(LISTED).map(|(id, _)| columns(id)).max().unwrap_or(0);
+        let column = mistakes.iter().take(LISTED).map(|(title, _)| columns(title)).max().unwrap_or(0);
         let room = self.width.min(BARS).saturating_sub(column + 12);
         let most = mistakes[0].1;
-        for (id, count) in mistakes.iter().take(LISTED) {
+        for (title, count) in mistakes.iter().take(LISTED) {
             let bar = paint(BAD, &bar(*count, most, room));
-            self.line(&format!("  {count:>5}  {}  {bar}", pad(&plain(id), column)));
+            self.line(&format!("  {count:>5}  {}  {bar}", pad(title, column)));
         }
         self.more(mistakes.len());
     }

@@ -1,6 +1,7 @@
 //! The known mistakes of an assignment.
 
 use super::{Checked, declare, definition_uses, known_line, named};
+use crate::Text;
 use crate::assignment::error;
 use crate::equation::Equation;
 use crate::expression::{Expression, Scope, Type};
@@ -11,6 +12,7 @@ use std::collections::{BTreeMap, HashSet};
 /// A mistake whose forms fit the equation.
 pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &HashSet<String>) -> Checked<Mistake> {
     let place = format!("mistake `{}`", entry.id);
+    title(&entry.title, &place)?;
     for (line, fraction) in &entry.keeps {
         known_line(lines, line, &place)?;
         if !(0.0..=1.0).contains(fraction) {
@@ -39,6 +41,7 @@ pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &Has
     }
     Ok(Mistake {
         id: entry.id,
+        title: entry.title,
         keeps: entry.keeps.into_iter().collect(),
         forms,
         fit,
@@ -47,6 +50,20 @@ pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &Has
         equation: entry.equation,
         look: entry.look,
     })
+}
+
+/// Longest title in characters: a title shares its line in a table with a score.
+const LONGEST_TITLE: usize = 60;
+
+/// A title is one short line in each language.
+fn title(title: &Text, place: &str) -> Checked<()> {
+    for wording in [&title.en, &title.ja] {
+        let length = wording.chars().count();
+        if wording.trim().is_empty() || length > LONGEST_TITLE || wording.contains(['\n', '{', '⟨']) {
+            return Err(error(place, format!("the title needs 1 to {LONGEST_TITLE} characters in each language")));
+        }
+    }
+    Ok(())
 }
 
 fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, place: &str) -> Checked<Form> {

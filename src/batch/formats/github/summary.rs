@@ -7,6 +7,7 @@ use crate::batch::standing::Standing;
 use crate::diagnostic::Severity;
 use crate::language::{Language, Text};
 use crate::report::html::rich::{Piece, pieces};
+use crate::report::labels::mistake_title;
 use std::fmt::Write;
 
 /// The most bytes that GitHub takes of one step: 1 MiB. A longer summary is refused whole.
@@ -94,7 +95,10 @@ fn row(entry: &Entry, language: Language) -> String {
                 let place = wording::place(error, language);
                 format!("{}: {}", markdown(&place), rich(error.message.get(language)))
             }
-            None => report.mistakes.iter().map(|mistake| code(mistake)).collect::<Vec<_>>().join(" "),
+            None => {
+                let title = |id: &String| markdown(mistake_title(&report.assignment, id, language));
+                report.mistakes.iter().map(title).collect::<Vec<_>>().join(" · ")
+            }
         },
         None => {
             let fault = wording::fault(entry, language);
@@ -165,7 +169,7 @@ mod tests {
         let summary = summary(&nasty::class(), LIMIT);
         assert!(summary.contains("Correct 1 · Not right yet 1 · Not accepted 1 · Stopped 1 · Nothing to grade 1"));
         assert!(summary.contains("| Student 0 | Correct | 100 / 100 |  |  |\n"), "{summary}");
-        let mistake = "<code>specular&#45;half&#45;unnormalized</code>";
+        let mistake = "Half vector not normalised";
         assert!(summary.contains(&format!("| Student 1 | Not right yet | 80 / 100 | {mistake} |  |\n")), "{summary}");
         let error =
             "| Student 2 | Not accepted | 0 / 100 | error · line 11&#44; column 12: <code>Max</code> is not declared";

@@ -5,6 +5,7 @@ use crate::batch::class::{Class, Entry};
 use crate::batch::standing::Standing;
 use crate::batch::statistics::{self, BINS};
 use crate::language::Language;
+use crate::report::labels::mistake_title;
 use crate::report::text::number;
 use std::collections::HashMap;
 
@@ -78,6 +79,7 @@ pub(super) fn bins(class: &Class, max_score: f64, words: &Words) -> Vec<Bin> {
 /// Students with one mistake.
 pub(super) struct Mistake {
     pub id: String,
+    pub title: String,
     pub label: String,
     pub count: usize,
     pub percent: f64,
@@ -101,6 +103,7 @@ pub(super) fn mistakes(class: &Class, language: Language) -> Vec<Mistake> {
     let most = found.first().map_or(1, |(_, count)| *count) as f64;
     let of = |(id, count): (&str, usize)| Mistake {
         id: id.to_owned(),
+        title: mistake_title(&class.assignment, id, language).to_owned(),
         label: labels.get(id).filter(|labels| labels.len() <= MOST_LABELS).map_or(String::new(), |l| l.join(" · ")),
         count,
         percent: 100.0 * count as f64 / most,

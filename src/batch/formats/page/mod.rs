@@ -22,7 +22,7 @@ use crate::batch::standing::Standing;
 use crate::batch::statistics;
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::report::labels::Labels;
+use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
 use crate::report::{Environment, Verdict};
 use askama::Template;
@@ -71,7 +71,8 @@ struct Row {
     score: String,
     lines: Vec<Points>,
     mistakes: String,
-    mistake_ids: Vec<String>,
+    /// Title and id.
+    mistake_titles: Vec<(String, String)>,
     message: String,
     group: String,
     shared: String,
@@ -213,6 +214,7 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
         })
     };
     let mistake_ids = report.map(|report| report.mistakes.clone()).unwrap_or_default();
+    let titled = |id: String| (mistake_title(&class.assignment, &id, class.language).to_owned(), id);
     let is_said_already = status == Standing::Correct || !mistake_ids.is_empty();
     Row {
         key: entry.student.key.clone(),
@@ -227,7 +229,7 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
         score: report.map_or_else(|| "–".into(), |report| number(report.score)),
         lines: lines.iter().map(points).collect(),
         mistakes: mistake_ids.join(" "),
-        mistake_ids,
+        mistake_titles: mistake_ids.into_iter().map(titled).collect(),
         message: if is_said_already { String::new() } else { excerpt(&summary(entry, class.language)) },
         group: shares.map(|(id, _)| id.to_string()).unwrap_or_default(),
         shared: shares.map(|(_, others)| Words::of(class.language).shared_with(others)).unwrap_or_default(),

@@ -31,7 +31,11 @@ fn everyone_has_a_row_with_what_a_teacher_looks_for() {
         let rows = select(&page, "tbody tr");
         assert_eq!(rows.len(), class.entries.len());
         let second = rows[1].text().collect::<String>();
-        assert!(second.contains("O'Brien, \"Bob\"") && second.contains("specular-half-unnormalized"));
+        assert!(second.contains("O'Brien, \"Bob\""));
+        let (title, id) = (["Half vector not normalised", "中間ベクトルが正規化されていない"], "specular-half-unnormalized");
+        let found = select(&page, "tbody tr:nth-child(2) .found b")[0];
+        assert_eq!(text(found), title[usize::from(language == Language::Ja)]);
+        assert_eq!((found.value().attr("title"), rows[1].value().attr("data-mistake")), (Some(id), Some(id)));
         assert_eq!(rows[1].value().attr("data-score"), Some("80"));
         let points: Vec<String> = select(&page, "tbody tr:nth-child(2) td.line").into_iter().map(text).collect();
         assert_eq!(points, ["10", "20", "30", "20"]);
@@ -99,7 +103,7 @@ fn charts_count_everyone_who_was_graded() {
     assert_eq!(counts(".tallies b"), ["2"; 6]);
     // Two each of 100, 80, 0 (rejected) and 0 (stopped).
     assert_eq!(counts(".columns b"), ["4", "", "", "", "", "", "", "", "2", "", "2"]);
-    assert_eq!(counts(".rows code"), ["specular-half-unnormalized"]);
+    assert_eq!(counts(".rows button > span"), ["Half vector not normalised Specular"]);
     assert_eq!(counts(".rows small"), ["Specular"]);
     assert_eq!(counts(".rows b"), ["2"]);
     // (2 × 100 + 2 × 80 + 4 × 0) / 8, and between 0 and 80.
