@@ -32,7 +32,8 @@ fn everyone_has_a_row_with_what_a_teacher_looks_for() {
         assert_eq!(rows.len(), class.entries.len());
         let second = rows[1].text().collect::<String>();
         assert!(second.contains("O'Brien, \"Bob\""));
-        let (title, id) = (["Half vector not normalised", "中間ベクトルが正規化されていない"], "specular-half-unnormalized");
+        let (title, id) =
+            (["Half vector not normalised", "中間ベクトルが正規化されていない"], "specular-half-unnormalized");
         let found = select(&page, "tbody tr:nth-child(2) .found b")[0];
         assert_eq!(text(found), title[usize::from(language == Language::Ja)]);
         assert_eq!((found.value().attr("title"), rows[1].value().attr("data-mistake")), (Some(id), Some(id)));
