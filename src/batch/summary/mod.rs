@@ -20,6 +20,8 @@ const WIDEST: usize = 100;
 const LISTED: usize = 10;
 /// Widest line with a bar.
 const BARS: usize = 64;
+/// Width of the bar of a mistake, which stands before its title.
+const MISTAKE_BAR: usize = 12;
 
 const BOLD: Style = Style::new().bold();
 const DIM: Style = Style::new().dimmed();
@@ -164,12 +166,16 @@ impl Writer {
             return;
         }
         self.heading(self.text("Most frequent mistakes", "多かった間違い"));
-        let column = mistakes.iter().take(LISTED).map(|(title, _)| columns(title)).max().unwrap_or(0);
-        let room = self.width.min(BARS).saturating_sub(column + 12);
         let most = mistakes[0].1;
+        let indent = 2 + 5 + 2 + MISTAKE_BAR + 2;
         for (title, count) in mistakes.iter().take(LISTED) {
-            let bar = paint(BAD, &bar(*count, most, room));
-            self.line(&format!("  {count:>5}  {}  {bar}", pad(title, column)));
+            let bar = bar(*count, most, MISTAKE_BAR);
+            let rest = " ".repeat(MISTAKE_BAR - columns(&bar));
+            let mut start = format!("  {count:>5}  {}{rest}  ", paint(BAD, &bar));
+            for line in wrap(title, self.width - indent) {
+                self.line(&format!("{start}{line}"));
+                start = " ".repeat(indent);
+            }
         }
         self.more(mistakes.len());
     }

@@ -51,7 +51,7 @@ fn everything_that_happened_is_told() {
         "! Grading failed        1   17 %",
         // The samples have 100, 80, 0 and 0 points.
         "  mean 45.0 · median 40.0 · 4 graded",
-        "      1  Half vector not normalised  ━",
+        "      1  ━━━━━━━━━━━━  Half vector not normalised",
         "    No file was handed in.",
         "    no processor",
         "    leads out of the archive",

@@ -53,5 +53,5 @@ fn mistakes_scores_and_words_narrow_each_other_down() {
     assert_eq!(shown(&page), ["s-s1002"]);
     assert!(select(&page, ".sheet.cards").is_empty());
     let filters: Vec<String> = select(&page, ".active button").into_iter().map(|b| b.text().collect()).collect();
-    assert_eq!(filters, ["80 to below 90", "specular-half-unnormalized", "Clear all filters"]);
+    assert_eq!(filters, ["80 to below 90", "Half vector not normalised", "Clear all filters"]);
 }
