@@ -1,19 +1,19 @@
 //! A homework as the stages see it: names, draws and right pictures, made from the reference's data.
 
+mod terms;
+
+pub use terms::{Terms, term_pictures};
+
 use crate::compare::ExpectedFrame;
-use crate::diagnose::constants;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::render::{Batch, Scene};
-use crate::report::{Hypothesis, Picture, TermPictures};
-use crate::source::Source;
+use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
 use reference::Assignment;
-use reference::assignment::RubricLine;
-use reference::mistake::Found;
 use reference::probes::ProbeSet;
-use reference::rasteriser::{ClipVertex, Frame};
-use reference::scene::{Matrices, Pose, Vertex};
+use reference::rasteriser::{Coverage, Frame};
+use reference::scene::{Matrices, Vertex};
 use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -104,69 +104,55 @@ pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
     once(&DRAWN, assignment, || assignment.frames().into_iter().map(picture).collect())
 }
 
+/// A right picture; its alpha says where it may be drawn otherwise.
 fn picture(frame: Frame) -> Picture {
-    Picture { width: frame.width, height: frame.height, rgba: frame.pixels.concat() }
+    let pixels = frame.pixels.iter().zip(&frame.coverage);
+    let rgba = pixels.flat_map(|([r, g, b, _], coverage)| {
+        [*r, *g, *b, if *coverage == Coverage::Silhouette { SILHOUETTE } else { u8::MAX }]
+    });
+    Picture { width: frame.width, height: frame.height, rgba: rgba.collect() }
 }
 
-/// Each term of the equation on its own, right and as the explanation has it, at the pose where the two differ most.
-///
-/// `source` is where changed constants are read from. Those of right answers are drawn once a process.
-pub fn term_pictures(
-    assignment: &Assignment,
-    explanation: Option<&[Hypothesis]>,
-    source: Option<&Source>,
-) -> Arc<[TermPictures]> {
-    static RIGHT: Drawn<TermPictures> = Mutex::new(Vec::new());
-    let changed = source.map(|source| constants::changed(source, assignment)).unwrap_or_default();
-    let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
-    let theirs = explanation.and_then(|_| assignment.with_constants(&values).ok());
-    let found: Vec<Found> = explanation
-        .unwrap_or_default()
-        .iter()
-        .map(|h| Found { id: h.id.clone(), form: h.form, parameter: h.parameter })
-        .collect();
-    let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
-    let draw = || terms.filter_map(|line| one_term(assignment, theirs.as_ref(), &found, line)).collect();
-    let is_right = values.is_empty() && explanation.is_some_and(<[_]>::is_empty);
-    if is_right { once(&RIGHT, assignment, draw) } else { draw() }
-}
-
-fn one_term(
-    assignment: &Assignment,
-    theirs: Option<&Assignment>,
-    found: &[Found],
-    line: &RubricLine,
-) -> Option<TermPictures> {
-    let poses = assignment.scene.all_poses();
+/// The pose at which the picture says most: where the weakest term of the equation shows best. The brightness that each
+/// term alone brings into the picture is held against the most that it brings at any pose, and the least of these shares
+/// is what a pose is worth.
+pub fn telling_pose(assignment: &Assignment) -> usize {
     let right = assignment.equation.right();
-    let variant = theirs.and_then(|theirs| Some((theirs, theirs.variant(found)?)));
-    let corners = |pose: &Pose| {
-        let right = assignment.term_corners(pose, &right, &line.judges);
-        let theirs = variant.as_ref().and_then(|(theirs, variant)| theirs.term_corners(pose, variant, &line.judges));
-        right.zip(theirs)
-    };
-    let difference = |pose: &&Pose| corners(pose).map_or(0.0, |(right, theirs)| visible_difference(&right, &theirs));
-    // Of equals the first pose: the one that the course's window opens with.
-    let pose = poses.iter().rev().max_by(|a, b| difference(a).total_cmp(&difference(b)))?;
-    let expected = picture(assignment.term_frame(pose, &right, &line.judges)?);
-    let is_same = corners(pose).is_some_and(|(right, theirs)| right == theirs);
-    let yours = match &variant {
-        Some(_) if is_same => Some(expected.clone()),
-        Some((theirs, variant)) => theirs.term_frame(pose, variant, &line.judges).map(picture),
-        None => None,
-    };
-    Some(TermPictures { id: line.id.clone(), t: pose.t, yours, expected })
+    let poses = assignment.scene.all_poses();
+    let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
+    let mut worth = vec![1.0_f64; poses.len()];
+    for term in terms {
+        let brightness: Vec<f64> = poses
+            .iter()
+            .map(|pose| assignment.term_frame(pose, &right, &term.judges).map_or(0.0, |frame| brightness(&frame)))
+            .collect();
+        let most = brightness.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        for (worth, brightness) in worth.iter_mut().zip(brightness) {
+            *worth = worth.min(brightness / most);
+        }
+    }
+    // Of equals the first: the one that the course's window opens with.
+    worth.iter().enumerate().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(pose, _)| pose)
 }
 
-/// How much two colourings of one triangle differ in its picture: by its area there, and at its corners.
-fn visible_difference(right: &[ClipVertex; 3], theirs: &[ClipVertex; 3]) -> f64 {
-    let [a, b, c] = right.map(|corner| corner.position.truncate().truncate() / corner.position.w);
-    let area = (b - a).perp_dot(c - a).abs();
-    let shown = |colour: glam::DVec3| colour.clamp(glam::DVec3::ZERO, glam::DVec3::ONE);
-    let apart = |(right, theirs): (&ClipVertex, &ClipVertex)| {
-        let apart = (shown(right.colour) - shown(theirs.colour)).abs().element_sum();
-        // What is not a number is drawn as anything at all.
-        if apart.is_finite() { apart } else { 3.0 }
-    };
-    area * right.iter().zip(theirs).map(apart).sum::<f64>()
+/// The sum of red, green and blue over what is painted.
+fn brightness(frame: &Frame) -> f64 {
+    let painted = frame.pixels.iter().zip(&frame.coverage).filter(|(_, coverage)| **coverage == Coverage::Interior);
+    painted.map(|([red, green, blue, _], _)| f64::from(*red) + f64::from(*green) + f64::from(*blue)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pose_shows_every_term() {
+        // The highlight is seen near t = 0 only, and there it is faint: see the assignment's notes on the animation.
+        let assignment = reference::assignment("ggsample06").unwrap();
+        let pose = &assignment.scene.all_poses()[telling_pose(assignment)];
+        for term in assignment.rubric.iter().filter(|line| !line.alone_in.is_empty()) {
+            let frame = assignment.term_frame(pose, &assignment.equation.right(), &term.judges).unwrap();
+            assert!(brightness(&frame) > 0.0, "{} at t = {}", term.id, pose.t);
+        }
+    }
 }

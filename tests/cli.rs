@@ -219,3 +219,19 @@ fn a_missing_driver_is_our_fault_and_the_package_is_named() {
 fn the_doctor_finds_this_machine_well() {
     ggrade().arg("doctor").assert().code(0).stdout(predicate::str::contains("llvmpipe"));
 }
+
+#[test]
+fn a_frame_that_agrees_has_nothing_in_its_difference_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let half = sample_like("wrong", "specular-half-unnormalized--average");
+    for (file, differing) in [(sample_like("accepted/answers", ""), 0), (half, 1)] {
+        ggrade().arg("grade").arg(&file).arg("--frames").arg(folder.path()).assert().code(differing);
+        // What agrees is drawn in greys.
+        let is_coloured = |frame: &usize| {
+            let path = folder.path().join(format!("difference-{frame:02}.png"));
+            let picture = image::open(path).unwrap().to_rgb8();
+            picture.pixels().any(|pixel| pixel.0[0] != pixel.0[1] || pixel.0[1] != pixel.0[2])
+        };
+        assert_eq!((0..25).filter(is_coloured).count(), usize::from(differing == 1), "{}", file.display());
+    }
+}

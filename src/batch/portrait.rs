@@ -1,9 +1,9 @@
 //! The small picture of each student's shader: one pose for the whole class, so that pictures can be compared at a glance.
 
 use crate::fault::Fault;
+use crate::homework::telling_pose;
 use crate::report::{Picture, pictures};
 use reference::Assignment;
-use reference::rasteriser::{Coverage, Frame};
 
 /// Pixels of the frame that become one of the portrait, across and down.
 const REDUCTION: u32 = 4;
@@ -30,34 +30,6 @@ impl Portraits {
     pub fn of(&self, frames: &[Picture]) -> Result<Option<Vec<u8>>, Fault> {
         frames.get(self.pose).map(|frame| pictures::png(&reduced(frame))).transpose()
     }
-}
-
-/// The pose at which the picture says most: where the weakest term of the equation shows best. The brightness that each
-/// term alone brings into the picture is held against the most that it brings at any pose, and the least of these shares
-/// is what a pose is worth.
-fn telling_pose(assignment: &Assignment) -> usize {
-    let right = assignment.equation.right();
-    let poses = assignment.scene.all_poses();
-    let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
-    let mut worth = vec![1.0_f64; poses.len()];
-    for term in terms {
-        let brightness: Vec<f64> = poses
-            .iter()
-            .map(|pose| assignment.term_frame(pose, &right, &term.judges).map_or(0.0, |frame| brightness(&frame)))
-            .collect();
-        let most = brightness.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        for (worth, brightness) in worth.iter_mut().zip(brightness) {
-            *worth = worth.min(brightness / most);
-        }
-    }
-    // Of equals the first: the one that the course's window opens with.
-    worth.iter().enumerate().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(pose, _)| pose)
-}
-
-/// The sum of red, green and blue over what is painted.
-fn brightness(frame: &Frame) -> f64 {
-    let painted = frame.pixels.iter().zip(&frame.coverage).filter(|(_, coverage)| **coverage == Coverage::Interior);
-    painted.map(|([red, green, blue, _], _)| f64::from(*red) + f64::from(*green) + f64::from(*blue)).sum()
 }
 
 /// The picture at a fraction of its size; each pixel is the mean of those that it stands for.
@@ -114,16 +86,5 @@ mod tests {
         assert_eq!(size(&portraits.expected), (160, 120));
         assert_eq!(size(&portraits.of(&frames).unwrap().unwrap()), (160, 120));
         assert_eq!(portraits.of(&[]).unwrap(), None);
-    }
-
-    #[test]
-    fn the_pose_shows_every_term() {
-        // The highlight is seen near t = 0 only, and there it is faint: see the assignment's notes on the animation.
-        let assignment = reference::assignment("ggsample06").unwrap();
-        let pose = &assignment.scene.all_poses()[telling_pose(assignment)];
-        for term in assignment.rubric.iter().filter(|line| !line.alone_in.is_empty()) {
-            let frame = assignment.term_frame(pose, &assignment.equation.right(), &term.judges).unwrap();
-            assert!(brightness(&frame) > 0.0, "{} at t = {}", term.id, pose.t);
-        }
     }
 }

@@ -1,10 +1,11 @@
 //! The picture of a difference: one ramp of bands, shared by every view.
 //!
-//! A difference of 1/255 is as good as invisible on its own, and the bands double from there, so
-//! that the smallest mistake and the largest one both show. The lightness rises with the band: the
-//! ramp reads without colour.
+//! What is within the tolerance of the comparison is drawn as agreeing: a frame that agrees has nothing in its
+//! difference picture. The bands double from there, so that the smallest mistake and the largest one both show. The
+//! lightness rises with the band: the ramp reads without colour.
 
-use super::Picture;
+use super::{Picture, SILHOUETTE};
+use crate::compare::PIXEL_TOLERANCE;
 
 /// One step of the ramp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +16,7 @@ pub(super) struct Band {
     pub high: u8,
     /// Its colour in the difference picture.
     pub colour: [u8; 3],
-    /// Its character in a terminal; two neighbours share one.
+    /// Its character in a terminal; neighbours share one.
     pub shade: char,
 }
 
@@ -30,10 +31,9 @@ const fn band(low: u8, high: u8, colour: [u8; 3], shade: char) -> Band {
     Band { low, high, colour, shade }
 }
 
-/// The ramp, from the smallest difference up.
-pub(super) const BANDS: [Band; 8] = [
-    band(1, 1, [0x7b, 0x2c, 0xa8], '░'),
-    band(2, 3, [0xa0, 0x2c, 0x9a], '░'),
+/// The ramp, from the smallest difference that counts up.
+pub(super) const BANDS: [Band; 7] = [
+    band(PIXEL_TOLERANCE + 1, 3, [0xa0, 0x2c, 0x9a], '░'),
     band(4, 7, [0xc9, 0x3a, 0x7c], '▒'),
     band(8, 15, [0xe5, 0x53, 0x4f], '▒'),
     band(16, 31, [0xf3, 0x74, 0x2b], '▓'),
@@ -44,22 +44,25 @@ pub(super) const BANDS: [Band; 8] = [
 
 /// The shades of a terminal with the differences that each stands for.
 pub(super) fn shades() -> impl Iterator<Item = (char, String)> {
-    BANDS.chunks(2).map(|pair| (pair[0].shade, range(pair[0].low, pair[1].high)))
+    let same_shade = BANDS.chunk_by(|a, b| a.shade == b.shade);
+    same_shade.map(|bands| (bands[0].shade, range(bands[0].low, bands[bands.len() - 1].high)))
 }
 
-/// The band of a difference in 1/255; none for zero. What is not finite counts as the largest.
-pub(super) fn band_of(difference: f64) -> Option<Band> {
-    if difference <= 0.0 {
-        return None;
-    }
+/// The differences that are drawn as agreeing, such as `0–2`.
+pub(super) fn agreeing() -> String {
+    range(0, PIXEL_TOLERANCE)
+}
+
+/// The place in [`BANDS`] of a difference in 1/255; none within the tolerance. What is not finite counts as the largest.
+pub(super) fn band_of(difference: f64) -> Option<usize> {
     // f64::min returns the other operand for NaN, and so the largest difference.
     let level = difference.ceil().min(255.0) as u8;
-    Some(BANDS[level.ilog2() as usize])
+    BANDS.iter().position(|band| level <= band.high).filter(|_| level > PIXEL_TOLERANCE)
 }
 
 /// Where two pictures differ, by the largest of the three colour channels; alpha is not seen.
 ///
-/// Where they agree, the expected picture shows through as a faint negative in four steps, so that
+/// Where they agree within the tolerance, and on the silhouette, the expected picture shows through as a faint negative in four steps, so that
 /// a difference can be placed. Both pictures have one size.
 pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
     let ramp = Ramp::new();
@@ -67,7 +70,7 @@ pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
     pairs.map(|(yours, expected)| ramp.pixel(yours, expected)).collect()
 }
 
-/// The colour of every difference, and of every sum of channels where there is none.
+/// The colour of every difference, and of every sum of channels where it is within the tolerance.
 pub(super) struct Ramp {
     bands: [[u8; 3]; 256],
     ghosts: [[u8; 3]; 3 * 255 + 1],
@@ -75,15 +78,17 @@ pub(super) struct Ramp {
 
 impl Ramp {
     pub fn new() -> Self {
-        let band = |level| band_of(level as f64).map_or([0; 3], |band| band.colour);
+        let band = |level| band_of(level as f64).map_or([0; 3], |band| BANDS[band].colour);
         Self { bands: std::array::from_fn(band), ghosts: std::array::from_fn(ghost) }
     }
 
     /// The pixel of the difference picture.
-    pub fn pixel(&self, [r, g, b, _]: &[u8; 4], [er, eg, eb, _]: &[u8; 4]) -> [u8; 3] {
-        match r.abs_diff(*er).max(g.abs_diff(*eg)).max(b.abs_diff(*eb)) {
-            0 => self.ghosts[usize::from(*er) + usize::from(*eg) + usize::from(*eb)],
-            level => self.bands[usize::from(level)],
+    pub fn pixel(&self, [r, g, b, _]: &[u8; 4], [er, eg, eb, coverage]: &[u8; 4]) -> [u8; 3] {
+        let level = r.abs_diff(*er).max(g.abs_diff(*eg)).max(b.abs_diff(*eb));
+        if level <= PIXEL_TOLERANCE || *coverage == SILHOUETTE {
+            self.ghosts[usize::from(*er) + usize::from(*eg) + usize::from(*eb)]
+        } else {
+            self.bands[usize::from(level)]
         }
     }
 }
@@ -107,13 +112,13 @@ mod tests {
     }
 
     #[test]
-    fn bands_cover_every_difference_once() {
-        let mut next = 1;
-        for band in BANDS {
+    fn bands_cover_every_difference_beyond_the_tolerance_once() {
+        let mut next = u32::from(PIXEL_TOLERANCE) + 1;
+        for (index, band) in BANDS.iter().enumerate() {
             assert_eq!(u32::from(band.low), next);
             next = u32::from(band.high) + 1;
             for level in band.low..=band.high {
-                assert_eq!(band_of(f64::from(level)), Some(band));
+                assert_eq!(band_of(f64::from(level)), Some(index));
             }
         }
         assert_eq!(next, 256);
@@ -129,21 +134,26 @@ mod tests {
     }
 
     #[test]
-    fn zero_has_no_band_and_what_is_not_finite_has_the_last() {
+    fn what_is_tolerated_has_no_band_and_what_is_not_finite_has_the_last() {
         assert_eq!(band_of(0.0), None);
-        assert_eq!(band_of(f64::NAN), Some(BANDS[7]));
-        assert_eq!(band_of(f64::INFINITY), Some(BANDS[7]));
-        // A mean such as 0.3 is still a difference.
-        assert_eq!(band_of(0.3), Some(BANDS[0]));
+        assert_eq!(band_of(f64::from(PIXEL_TOLERANCE)), None);
+        // Beyond the tolerance by however little.
+        assert_eq!(band_of(f64::from(PIXEL_TOLERANCE) + 0.3), Some(0));
+        assert_eq!(band_of(f64::NAN), Some(BANDS.len() - 1));
+        assert_eq!(band_of(f64::INFINITY), Some(BANDS.len() - 1));
     }
 
     #[test]
-    fn one_step_in_any_colour_channel_shows_and_alpha_does_not() {
+    fn a_difference_shows_in_any_colour_channel_beyond_the_tolerance_and_alpha_does_not() {
         let expected = dot([30, 0, 0, 255]);
-        for rgba in [[31, 0, 0, 255], [30, 1, 0, 255], [30, 0, 1, 255]] {
+        let over = PIXEL_TOLERANCE + 1;
+        for rgba in [[30 + over, 0, 0, 255], [30, over, 0, 255], [30, 0, over, 255]] {
             assert_eq!(difference(&dot(rgba), &expected), [BANDS[0].colour]);
         }
-        let same = difference(&dot([30, 0, 0, 0]), &expected);
-        assert_eq!(same, [ghost(30)]);
+        for rgba in [[30 + PIXEL_TOLERANCE, 0, 0, 255], [30 - PIXEL_TOLERANCE, 2, 2, 255], [30, 0, 0, 0]] {
+            assert_eq!(difference(&dot(rgba), &expected), [ghost(30)], "{rgba:?}");
+        }
+        // On the silhouette either colour is right.
+        assert_eq!(difference(&dot([255; 4]), &dot([30, 0, 0, SILHOUETTE])), [ghost(30)]);
     }
 }

@@ -154,6 +154,10 @@ pub struct Report {
     pub elapsed_ms: f64,
 }
 
+/// Alpha of a pixel of a right picture at which a rasteriser's rounding may decide whether it is painted: it is not
+/// compared, and agrees. Alpha is not seen, so that no picture needs it for itself.
+pub const SILHOUETTE: u8 = 127;
+
 /// One 8-bit RGBA picture, top row first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {

@@ -1,6 +1,7 @@
 "use strict";
-// The style sheet moves the pictures by itself; this lets a reader stop and look. `before` is what an earlier player
-// of the same page answered: the new one goes on where that one is.
+// The style sheet moves the pictures by itself; this lets a reader stop and look. Where something differs, the pictures
+// stand still at the pose that differs most. `before` is what an earlier player of the same page answered: where its
+// reader has chosen a pose, the new one goes on there.
 const movePictures = (player, before) => {
   const sheets = [...player.querySelectorAll(".sheet")];
   const [button] = player.getElementsByTagName("button");
@@ -11,7 +12,7 @@ const movePictures = (player, before) => {
   const animations = sheets.flatMap((sheet) => sheet.getAnimations());
 
   if (animations.length === sheets.length) {
-    const cycle = animations[0].effect.getComputedTiming().duration;
+    const { duration: cycle, delay } = animations[0].effect.getComputedTiming();
     const playing = () => animations[0].playState === "running";
 
     const show = (pose) => {
@@ -23,7 +24,7 @@ const movePictures = (player, before) => {
     };
     const seek = (pose) => {
       // Half a pose in, so that no rounding shows a neighbour.
-      animations.forEach((animation) => { animation.currentTime = (pose + 0.5) * cycle / poses; });
+      animations.forEach((animation) => { animation.currentTime = delay + (pose + 0.5) * cycle / poses; });
       show(pose);
     };
     const set = (play) => {
@@ -34,21 +35,29 @@ const movePictures = (player, before) => {
     };
     const follow = () => {
       if (!playing()) return;
-      const time = animations[0].currentTime ?? 0;
+      const time = (animations[0].currentTime ?? 0) - delay;
       const pose = Math.floor((time % cycle) / cycle * poses);
       if (pose !== Number(slider.value)) show(pose);
       requestAnimationFrame(follow);
     };
 
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    const asked = /^#pose=(\d+)$/.exec(location.hash);
-    button.addEventListener("click", () => set(!playing()));
-    slider.addEventListener("input", () => { set(false); seek(Number(slider.value)); });
-    captions.forEach((cell, index) => cell.addEventListener("click", () => { set(false); seek(index); }));
+    let chosen = before?.chosen() ?? false;
+    const choose = (play, pose) => {
+      chosen = true;
+      set(play);
+      if (pose !== undefined) seek(pose);
+    };
+    button.addEventListener("click", () => choose(!playing()));
+    slider.addEventListener("input", () => choose(false, Number(slider.value)));
+    captions.forEach((cell, index) => cell.addEventListener("click", () => choose(false, index)));
     button.parentElement.hidden = slider.hidden = false;
-    seek(before ? Math.min(before.pose(), poses - 1) : asked ? Math.min(Number(asked[1]), poses - 1) : 0);
-    set(before ? before.playing() : !still && !asked);
-    return { pose: () => Number(slider.value), playing };
+
+    const asked = /^#pose=(\d+)$/.exec(location.hash)?.[1];
+    const start = chosen ? before.pose() : asked ?? player.dataset.start;
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    seek(Math.min(Number(start ?? 0), poses - 1));
+    set(chosen ? before.playing() : start === undefined && !still);
+    return { pose: () => Number(slider.value), playing, chosen: () => chosen };
   }
   return undefined;
 };

@@ -206,6 +206,7 @@ pub(super) struct Body<'a> {
     player: Option<Player<'a>>,
     frames: Vec<FrameView>,
     frames_agree: String,
+    agreeing: String,
     legend: Vec<Swatch>,
     probes_agree: String,
     equation: Option<EquationView>,
@@ -228,6 +229,7 @@ impl<'a> Body<'a> {
         let messages: Vec<Message> = messages.collect();
         let agree = report.frames.iter().filter(|frame| frame.agrees()).count();
         let probes = &report.probes;
+        let (agreeing, legend) = player::legend();
         let listing = match part.source {
             Lines::Here(source) => listing::listing(source, report, &messages, language),
             Lines::Elsewhere | Lines::Nowhere => Vec::new(),
@@ -245,11 +247,12 @@ impl<'a> Body<'a> {
             next: labels.next_step(report, language),
             bar: bar(report),
             equation: part.equation.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),
-            player: gallery.and_then(|gallery| Player::of(gallery, report.frames.len(), labels)),
+            player: gallery.and_then(|gallery| Player::of(gallery, &report.frames, labels)),
             terms: gallery.map(|gallery| player::terms(gallery, report, language)).unwrap_or_default(),
             frames: player::frames(report, labels),
             frames_agree: labels.frames_agree(agree, report.frames.len()),
-            legend: player::legend(),
+            agreeing,
+            legend,
             probes_agree: labels.probes_agree(probes.samples.saturating_sub(probes.mismatched), probes.samples),
             has_lines: !listing.is_empty() || part.source == Lines::Elsewhere,
             has_footer: part.has_footer,

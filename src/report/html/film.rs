@@ -135,29 +135,46 @@ pub struct Term {
     pub expected: String,
 }
 
+/// Seconds for which the goal picture stands at its opening pose: as long as a page may take to be looked at.
+const HELD: f64 = 3.0;
+
 /// How a sheet moves so that one pose after the other is seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
     grid: Grid,
     width: usize,
     height: usize,
+    opening: Option<usize>,
 }
 
 impl Motion {
     /// The motion of `poses` pictures, at least one, of a size.
     pub fn of(poses: usize, width: usize, height: usize) -> Self {
-        Self { grid: Grid::of(poses), width, height }
+        Self { grid: Grid::of(poses), width, height, opening: None }
+    }
+
+    /// The same for a page with a goal picture, which opens with this pose.
+    pub fn opening_with(self, pose: usize) -> Self {
+        Self { opening: Some(pose), ..self }
     }
 
     /// It as a style sheet.
     pub fn style(self) -> String {
+        let steps = self.grid.steps();
+        let start = |pose: usize| CYCLE_SECONDS * pose as f64 / self.grid.count as f64;
+        let opening = self.opening.and_then(|pose| {
+            let Step { x, y, .. } = *steps.get(pose)?;
+            Some(Opening { x, y, held: HELD, delay: HELD - start(pose) })
+        });
         let style = MotionStyle {
             columns: self.grid.columns,
             cycle: CYCLE_SECONDS,
             poses: self.grid.count,
             width: self.width,
             height: self.height,
-            steps: self.grid.steps(),
+            starts: (0..self.grid.count).map(start).collect(),
+            steps,
+            opening,
         };
         // Numbers into a string: there is nothing that could fail.
         style.render().unwrap_or_default()
@@ -173,4 +190,15 @@ struct MotionStyle {
     width: usize,
     height: usize,
     steps: Vec<Step>,
+    /// Seconds of the cycle that are over at each pose.
+    starts: Vec<f64>,
+    opening: Option<Opening>,
+}
+
+/// How the goal picture opens: with one pose, from which it goes on.
+struct Opening {
+    x: f64,
+    y: f64,
+    held: f64,
+    delay: f64,
 }

@@ -2,7 +2,7 @@
 
 use super::film::{Gallery, Term};
 use crate::language::Language;
-use crate::report::difference::{BANDS, band_of};
+use crate::report::difference::{BANDS, agreeing, band_of};
 use crate::report::labels::Labels;
 use crate::report::text::number;
 use crate::report::{FrameResult, Report};
@@ -10,6 +10,8 @@ use crate::report::{FrameResult, Report};
 /// What the page needs for its moving pictures.
 pub(super) struct Player<'a> {
     pub last: usize,
+    /// The pose that it starts at, where one differs.
+    pub start: Option<usize>,
     pub panels: [Panel<'a>; 3],
     pub is_reduced: bool,
 }
@@ -23,10 +25,11 @@ pub(super) struct Panel<'a> {
 
 impl<'a> Player<'a> {
     /// None when nothing was drawn.
-    pub fn of(gallery: &'a Gallery, poses: usize, labels: &'static Labels) -> Option<Self> {
+    pub fn of(gallery: &'a Gallery, frames: &[FrameResult], labels: &'static Labels) -> Option<Self> {
         let panel = |id, label, address| Panel { id, label, address };
         Some(Self {
-            last: poses.checked_sub(1)?,
+            last: frames.len().checked_sub(1)?,
+            start: differs_most(frames),
             panels: [
                 panel("yours", labels.yours, &gallery.yours),
                 panel("expected", labels.expected, &gallery.expected),
@@ -35,6 +38,20 @@ impl<'a> Player<'a> {
             is_reduced: gallery.is_reduced,
         })
     }
+}
+
+/// The frame that differs most, of equals the first; none where all agree. A shape that is elsewhere is as far off as a
+/// colour can be.
+fn differs_most(frames: &[FrameResult]) -> Option<usize> {
+    let off = |frame: &FrameResult| {
+        let largest = if frame.coverage_mismatches > 0 { 255.0 } else { frame.max_difference };
+        (largest, frame.coverage_mismatches + frame.mismatched_pixels)
+    };
+    let differing = frames.iter().enumerate().rev().filter(|(_, frame)| !frame.agrees());
+    let most = differing
+        .map(|(index, frame)| (index, off(frame)))
+        .max_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    most.map(|(index, _)| index)
 }
 
 /// One frame in the strip and in the table.
@@ -60,8 +77,7 @@ pub(super) fn frames(report: &Report, labels: &Labels) -> Vec<FrameView> {
 
 fn view(index: usize, frame: &FrameResult, count: usize, labels: &Labels) -> FrameView {
     let agrees = frame.agrees();
-    let band =
-        band_of(frame.max_difference).map_or(0, |band| BANDS.iter().position(|other| *other == band).unwrap_or(0));
+    let band = band_of(frame.max_difference).unwrap_or(0);
     let max_difference = number(frame.max_difference);
     let word = if agrees { labels.agrees } else { labels.differs };
     let mut caption = format!("t = {} · {}/{count} · {word}", number(frame.t), index + 1);
@@ -87,13 +103,13 @@ pub(super) struct Swatch {
     pub range: String,
 }
 
-/// The legend of the difference picture.
-pub(super) fn legend() -> Vec<Swatch> {
+/// The legend of the difference picture: what is drawn as agreeing, and the steps from there.
+pub(super) fn legend() -> (String, Vec<Swatch>) {
     let swatch = |band: &crate::report::difference::Band| {
         let [r, g, b] = band.colour;
         Swatch { colour: format!("#{r:02x}{g:02x}{b:02x}"), range: band.range() }
     };
-    BANDS.iter().map(swatch).collect()
+    (agreeing(), BANDS.iter().map(swatch).collect())
 }
 
 /// One term of the equation on its own.
@@ -116,4 +132,24 @@ pub(super) fn terms<'a>(gallery: &'a Gallery, report: &'a Report, language: Lang
         }
     };
     gallery.terms.iter().map(view).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(max_difference: f64, mismatched_pixels: u32, coverage_mismatches: u32) -> FrameResult {
+        FrameResult { t: 0.0, coverage_mismatches, max_difference, mean_difference: 0.0, mismatched_pixels }
+    }
+
+    #[test]
+    fn the_player_starts_at_the_frame_that_differs_most() {
+        let agreeing = frame(2.0, 0, 0);
+        assert_eq!(differs_most(&[agreeing.clone(), agreeing.clone()]), None);
+        assert_eq!(differs_most(&[agreeing.clone(), frame(9.0, 5, 0), frame(40.0, 1, 0), frame(40.0, 1, 0)]), Some(2));
+        // Of two that are as far off, the one that is so in more places.
+        assert_eq!(differs_most(&[frame(40.0, 1, 0), frame(40.0, 7, 0), agreeing.clone()]), Some(1));
+        // A shape in another place differs by more than any colour in the right one.
+        assert_eq!(differs_most(&[frame(200.0, 900, 0), frame(0.0, 0, 3), agreeing]), Some(1));
+    }
 }

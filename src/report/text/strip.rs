@@ -2,7 +2,7 @@
 
 use super::{BAD, BOLD, DIM, GOOD, Writer, number};
 use crate::report::FrameResult;
-use crate::report::difference::{band_of, shades};
+use crate::report::difference::{BANDS, agreeing, band_of, shades};
 use crate::report::wrap::{columns, pad, wrap};
 
 impl Writer {
@@ -23,7 +23,7 @@ impl Writer {
         }
         if agree < frames.len() {
             let ramp: Vec<String> = shades().map(|(shade, range)| format!("{shade} {range}")).collect();
-            let legend = format!("· {}  {}", labels.agrees, ramp.join("  "));
+            let legend = format!("· {} ({})  {}", labels.agrees, agreeing(), ramp.join("  "));
             self.legend(column + 2, &legend);
             self.legend(column + 2, labels.legend);
         }
@@ -45,7 +45,7 @@ impl Writer {
             return self.paint(GOOD, &pad("·", width));
         }
         // A frame that differs is never drawn as one that agrees, whatever its numbers are.
-        let shade = band_of(frame.max_difference).map_or('░', |band| band.shade);
+        let shade = BANDS[band_of(frame.max_difference).unwrap_or(0)].shade;
         self.paint(BAD, &shade.to_string().repeat(width))
     }
 }
