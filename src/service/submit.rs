@@ -140,7 +140,8 @@ async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upl
     if assignment.opens_at.is_some_and(|opens| now < opens) {
         return forbidden("not-open", "Handing in has not begun yet.", "提出の受付はまだ始まっていません。");
     }
-    if assignment.closes_at.is_some_and(|closes| closes <= now) {
+    let is_draft = upload.via == Via::Editor;
+    if assignment.is_closed(now) && !(is_draft && assignment.practice) {
         return forbidden("closed", "Handing in is over.", "提出の受付は終了しました。");
     }
     if assignment.audience == Audience::Number && upload.identity.student().is_none() {
@@ -150,14 +151,14 @@ async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upl
             "先に授業のリンクを開き、学籍番号を入力してください。",
         );
     }
-    let Some(limit) = assignment.attempts else { return Ok(()) };
-    if upload.via == Via::Editor {
+    if is_draft && !assignment.grades_drafts(now) {
         return forbidden(
             "no-drafts",
             "The number of attempts is limited, so nothing is graded while you type: hand the file in.",
             "提出回数に制限があるため、入力中の採点は行いません。ファイルを提出してください。",
         );
     }
+    let Some(limit) = assignment.attempts.filter(|_| !is_draft) else { return Ok(()) };
     let student = upload.identity.student().map(|student| student.id.as_str());
     let made = match (upload.identity.owner_id(), student) {
         (None, None) => {

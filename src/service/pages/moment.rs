@@ -2,9 +2,9 @@
 
 use crate::language::Language;
 use crate::service::clock::Millis;
-use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
+use jiff::{Timestamp, Zoned};
 
 /// A moment for a `time` element.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,14 +21,60 @@ impl Moment {
         Self::in_zone(at, language, TimeZone::system())
     }
 
+    /// The same with the name of the time zone, for what people must not be late for.
+    pub fn zoned(at: Millis, language: Language) -> Self {
+        Self::of(at, language).with_zone(at, &TimeZone::system())
+    }
+
+    /// The same to the second.
+    pub fn exact(at: Millis, language: Language) -> Self {
+        let zone = TimeZone::system();
+        let seconds = local(at, &zone).strftime(":%S").to_string();
+        let plain = Self::of(at, language);
+        Self { text: plain.text + &seconds, ..plain }.with_zone(at, &zone)
+    }
+
     fn in_zone(at: Millis, language: Language, zone: TimeZone) -> Self {
-        let timestamp = Timestamp::from_millisecond(at).unwrap_or_default();
         let format = match language {
             Language::En => "%-d %b %Y, %H:%M",
             Language::Ja => "%Y年%-m月%-d日 %H:%M",
         };
-        Self { iso: timestamp.to_string(), text: timestamp.to_zoned(zone).strftime(format).to_string() }
+        let local = local(at, &zone);
+        Self { iso: local.timestamp().to_string(), text: local.strftime(format).to_string() }
     }
+
+    fn with_zone(self, at: Millis, zone: &TimeZone) -> Self {
+        let name = local(at, zone).strftime("%Z").to_string();
+        // A zone without a name of its own is called by its offset.
+        let name = if name.starts_with(['+', '-']) { format!("UTC{name}") } else { name };
+        Self { text: format!("{} {name}", self.text), ..self }
+    }
+}
+
+fn local(at: Millis, zone: &TimeZone) -> Zoned {
+    Timestamp::from_millisecond(at).unwrap_or_default().to_zoned(zone.clone())
+}
+
+/// A span of time in its two largest units, such as `2 days 3 hours`; minutes are followed by nothing. The page's script
+/// writes it in the same way.
+pub(super) fn span(span: Millis, language: Language) -> String {
+    const UNITS: [(Millis, &str, &str); 4] =
+        [(86_400_000, "day", "日"), (3_600_000, "hour", "時間"), (60_000, "minute", "分"), (1000, "second", "秒")];
+    let first = UNITS.iter().position(|(length, ..)| span >= *length).unwrap_or(UNITS.len() - 1);
+    let units = if first < 2 { &UNITS[first..first + 2] } else { &UNITS[first..=first] };
+    let mut rest = span.max(0);
+    let mut said = Vec::new();
+    for (index, (length, en, ja)) in units.iter().enumerate() {
+        let count = rest / length;
+        rest %= length;
+        if count > 0 || index == 0 {
+            said.push(match language {
+                Language::En => format!("{count} {en}{}", if count == 1 { "" } else { "s" }),
+                Language::Ja => format!("{count} {ja}"),
+            });
+        }
+    }
+    said.join(" ")
 }
 
 /// The value of a `datetime-local` field.
@@ -64,6 +110,26 @@ mod tests {
         assert_eq!(Moment::in_zone(at, Language::En, zone()).text, "21 Nov 2026, 22:05");
         let ja = Moment::in_zone(at, Language::Ja, zone());
         assert_eq!((ja.text.as_str(), ja.iso.as_str()), ("2026年11月21日 22:05", "2026-11-21T13:05:00Z"));
+    }
+
+    #[test]
+    fn a_deadline_names_its_zone() {
+        let named = |zone: TimeZone| Moment::in_zone(0, Language::En, zone.clone()).with_zone(0, &zone).text;
+        assert_eq!(named(TimeZone::get("Asia/Tokyo").expect("a zone")), "1 Jan 1970, 09:00 JST");
+        assert_eq!(named(TimeZone::get("Asia/Dubai").expect("a zone")), "1 Jan 1970, 04:00 UTC+04");
+        assert_eq!(named(TimeZone::UTC), "1 Jan 1970, 00:00 UTC");
+    }
+
+    #[test]
+    fn a_span_is_said_in_its_two_largest_units() {
+        let (day, hour, minute) = (86_400_000, 3_600_000, 60_000);
+        let said = |at| [span(at, Language::En), span(at, Language::Ja)];
+        assert_eq!(said(2 * day + 3 * hour + 59 * minute), ["2 days 3 hours", "2 日 3 時間"]);
+        assert_eq!(said(day), ["1 day", "1 日"]);
+        assert_eq!(said(hour + minute), ["1 hour 1 minute", "1 時間 1 分"]);
+        assert_eq!(said(12 * minute + 59_999), ["12 minutes", "12 分"]);
+        assert_eq!(said(45_999), ["45 seconds", "45 秒"]);
+        assert_eq!(said(0), ["0 seconds", "0 秒"]);
     }
 
     #[test]

@@ -4,11 +4,13 @@ use super::assets;
 use super::frame::Frame;
 use super::moment::Moment;
 use super::part;
+use super::standing::{Fact, Standing};
 use crate::language::Language;
 use crate::report::html::Mark;
 use crate::report::{Equation, Verdict};
 use crate::service::clock::Millis;
-use crate::service::store::{Assignment, HistoryRow, State as Progress};
+use crate::service::identity::new_id;
+use crate::service::store::{HistoryRow, State as Progress};
 use askama::Template;
 
 /// Longest file that is shown in the editor, in bytes.
@@ -19,18 +21,13 @@ pub(super) struct Desk<'a> {
     pub frame: Frame,
     /// The homework.
     pub homework: &'static reference::Assignment,
-    /// What the teacher set for it.
-    pub settings: &'a Assignment,
-    pub now: Millis,
+    /// What may still be handed in.
+    pub standing: Standing<'a>,
     /// Student number.
     pub who: Option<String>,
-    /// Whether the course knows enough of who sits there.
-    pub may_hand_in: bool,
     pub csrf: String,
     /// What this browser has handed in, the newest first.
     pub history: &'a [HistoryRow],
-    /// Attempts that count.
-    pub used: u64,
     /// A text in place of the hand-out.
     pub text: Option<String>,
     /// What is to be said first.
@@ -44,6 +41,11 @@ struct View {
     title: String,
     file: String,
     facts: Vec<Fact>,
+    now: Millis,
+    hindrance: Option<&'static str>,
+    how: &'static str,
+    steps: Vec<&'static str>,
+    draft_word: &'static str,
     notice: Option<String>,
     who: Option<String>,
     action: String,
@@ -51,6 +53,8 @@ struct View {
     starter_address: String,
     key: String,
     csrf: String,
+    /// By which the service knows a form that is sent twice.
+    form_key: String,
     text: String,
     has_own_text: bool,
     can_hand_in: bool,
@@ -60,12 +64,6 @@ struct View {
     equation: Equation,
     equation_source: String,
     attempts: Vec<Attempt>,
-}
-
-/// Something to know before handing in.
-struct Fact {
-    kind: &'static str,
-    text: String,
 }
 
 /// One attempt.
@@ -89,13 +87,19 @@ impl Desk<'_> {
         let starter = file.map(|file| file.starter.clone()).unwrap_or_default();
         let output = self.homework.interface.outputs.first().map(|output| output.name.clone());
         let equation = Equation::illumination();
+        let standing = self.standing;
         let text = self.text.clone().filter(|text| text.len() <= LONGEST_SHOWN);
         View {
             title: title(self.homework, language),
             file: file.map(|file| file.name.clone()).unwrap_or_default(),
             facts: self.facts(),
-            can_hand_in: self.can_hand_in(),
-            grades_drafts: self.grades_drafts(),
+            now: standing.now,
+            hindrance: standing.hindrance(&self.frame),
+            how: standing.how(&self.frame),
+            steps: standing.steps(&self.frame),
+            draft_word: standing.draft_word(&self.frame),
+            can_hand_in: standing.can_hand_in(),
+            grades_drafts: standing.grades_drafts(),
             attempts: self.attempts(),
             notice: self.notice,
             who: self.who,
@@ -104,6 +108,7 @@ impl Desk<'_> {
             starter_address: format!("/a/{id}/starter"),
             key: format!("ggrade {id}"),
             csrf: self.csrf,
+            form_key: new_id(),
             has_own_text: text.is_some(),
             text: text.unwrap_or(starter),
             expected: assets::address(&assets::expected_name(id)),
@@ -115,51 +120,14 @@ impl Desk<'_> {
         .render()
     }
 
-    fn attempts_left(&self) -> Option<u64> {
-        self.settings.attempts.map(|most| most.saturating_sub(self.used))
-    }
-
-    fn can_hand_in(&self) -> bool {
-        self.may_hand_in && self.settings.is_open(self.now) && self.attempts_left() != Some(0)
-    }
-
-    /// Whether what is typed is graded: not where attempts are counted.
-    fn grades_drafts(&self) -> bool {
-        self.may_hand_in && self.settings.is_open(self.now) && self.settings.attempts.is_none()
-    }
-
     fn facts(&self) -> Vec<Fact> {
-        let language = self.frame.language;
-        let moment = |at| Moment::of(at, language).text;
-        let mut facts = Vec::new();
-        let mut fact = |kind, en: String, ja: String| {
-            facts.push(Fact { kind, text: if language == Language::En { en } else { ja } });
-        };
-        match (self.settings.opens_at, self.settings.closes_at) {
-            (Some(opens), _) if self.now < opens => {
-                let opens = moment(opens);
-                fact("urgent", format!("Opens {opens}"), format!("受付開始 {opens}"));
-            }
-            (_, Some(closes)) if self.now >= closes => {
-                let closes = moment(closes);
-                fact("urgent", format!("Closed since {closes}"), format!("受付終了 {closes}"));
-            }
-            (_, Some(closes)) => {
-                let kind = if closes - self.now < 24 * 3_600_000 { "urgent" } else { "" };
-                let closes = moment(closes);
-                fact(kind, format!("Due {closes}"), format!("締切 {closes}"));
-            }
-            _ => {}
-        }
-        if let (Some(most), Some(left)) = (self.settings.attempts, self.attempts_left()) {
-            let kind = if left <= 1 { "urgent" } else { "" };
-            fact(kind, format!("{left} of {most} attempts left"), format!("提出できる回数 残り {left} / {most}"));
-        }
+        let mut facts = self.standing.facts(&self.frame);
         if let Some(best) = self.best() {
             let best = self.history.iter().find(|row| row.submission.id == best);
             let (score, most) = best.map_or((None, None), |row| (row.score, row.max_score));
             let (score, most) = (part::points(score), part::points(most));
-            fact("", format!("Best so far {score} / {most}"), format!("これまでの最高 {score} / {most}"));
+            let said = self.frame.say("Best so far", "これまでの最高");
+            facts.push(Fact { kind: "", text: format!("{said} {score} / {most}"), until: None });
         }
         facts
     }

@@ -35,12 +35,14 @@ pub struct Assignment {
     pub attempts: Option<u64>,
     /// Who may hand in.
     pub audience: Audience,
+    /// Whether what is typed is still graded after the end.
+    pub practice: bool,
 }
 
-type Row = (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String);
+type Row = (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String, i64);
 
 impl Assignment {
-    fn of((id, seed, hints, opens_at, closes_at, attempts, audience): Row) -> Result<Self> {
+    fn of((id, seed, hints, opens_at, closes_at, attempts, audience, practice): Row) -> Result<Self> {
         Ok(Self {
             id,
             seed: seed.unsigned_abs(),
@@ -49,12 +51,23 @@ impl Assignment {
             closes_at,
             attempts: attempts.map(i64::unsigned_abs),
             audience: from_word(audience)?,
+            practice: practice != 0,
         })
     }
 
     /// Whether it takes files at `now`.
     pub fn is_open(&self, now: Millis) -> bool {
-        self.opens_at.is_none_or(|opens| opens <= now) && self.closes_at.is_none_or(|closes| now < closes)
+        self.opens_at.is_none_or(|opens| opens <= now) && !self.is_closed(now)
+    }
+
+    /// Whether handing in is over at `now`.
+    pub fn is_closed(&self, now: Millis) -> bool {
+        self.closes_at.is_some_and(|closes| closes <= now)
+    }
+
+    /// Whether what is typed is graded at `now`: where attempts are counted only after the end, as practice.
+    pub fn grades_drafts(&self, now: Millis) -> bool {
+        if self.is_closed(now) { self.practice } else { self.is_open(now) && self.attempts.is_none() }
     }
 }
 
@@ -62,7 +75,7 @@ impl Store {
     /// The settings of an assignment; the usual ones, with a seed that nobody knows, when it is met first.
     pub async fn assignment(&self, id: &str) -> Result<Assignment> {
         const SELECT: &str =
-            "SELECT id, seed, hints, opens_at, closes_at, attempts, audience FROM assignments WHERE id = $1";
+            "SELECT id, seed, hints, opens_at, closes_at, attempts, audience, practice FROM assignments WHERE id = $1";
         const INSERT: &str = "INSERT INTO assignments (id, seed, hints, audience) VALUES ($1, $2, $3, $4) \
                               ON CONFLICT (id) DO NOTHING";
         let found: Option<Row> = on!(&self.read, db => sqlx::query_as(SELECT).bind(id).fetch_optional(db).await?);
@@ -80,7 +93,7 @@ impl Store {
     /// Sets everything of an assignment.
     pub async fn set_assignment(&self, assignment: &Assignment) -> Result<()> {
         const SQL: &str = "UPDATE assignments SET seed = $2, hints = $3, opens_at = $4, closes_at = $5, \
-                           attempts = $6, audience = $7 WHERE id = $1";
+                           attempts = $6, audience = $7, practice = $8 WHERE id = $1";
         on!(&self.write, db => {
             sqlx::query(SQL)
                 .bind(&assignment.id)
@@ -90,6 +103,7 @@ impl Store {
                 .bind(assignment.closes_at)
                 .bind(assignment.attempts.map(signed))
                 .bind(word(&assignment.audience))
+                .bind(i64::from(assignment.practice))
                 .execute(db)
                 .await?;
         });

@@ -31,6 +31,7 @@ struct View {
     attempts: String,
     hints: &'static str,
     audience: &'static str,
+    practice: bool,
     link: String,
     students: usize,
 }
@@ -50,6 +51,9 @@ pub(in crate::service::pages) struct Given {
     hints: String,
     #[serde(default)]
     audience: String,
+    /// A box that is not ticked is not sent.
+    #[serde(default)]
+    practice: String,
 }
 
 /// What has just been done.
@@ -89,6 +93,7 @@ pub(in crate::service::pages) async fn page(
         attempts: settings.attempts.map(|attempts| attempts.to_string()).unwrap_or_default(),
         hints: hints_word(settings.hints).to_owned(),
         audience: audience_word(settings.audience).to_owned(),
+        practice: if settings.practice { "on".to_owned() } else { String::new() },
         csrf: teacher.csrf(&state),
     };
     let notice = match done.done.as_str() {
@@ -128,6 +133,7 @@ async fn view(
         attempts: given.attempts,
         hints: hints_word(read_hints(&given.hints)),
         audience: audience_word(read_audience(&given.audience)),
+        practice: !given.practice.is_empty(),
         link: format!("{}/join/{}", public.trim_end_matches('/'), identity::course_secret(state).await?),
         students: students.iter().filter(|student| student.on_roster != 0).count(),
     })
@@ -188,7 +194,8 @@ fn read(frame: &Frame, before: Assignment, given: &Given) -> Result<Assignment, 
         return Err(frame.say("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
     }
     let (hints, audience) = (read_hints(&given.hints), read_audience(&given.audience));
-    Ok(Assignment { opens_at, closes_at, attempts, hints, audience, ..before })
+    let practice = !given.practice.is_empty();
+    Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, ..before })
 }
 
 /// `POST /teacher/settings/link`: a new course link.

@@ -1,0 +1,167 @@
+//! What a student may still hand in, and until when.
+
+use super::frame::Frame;
+use super::moment::{self, Moment};
+use crate::language::Language;
+use crate::service::clock::Millis;
+use crate::service::store::Assignment;
+
+/// Milliseconds before the deadline from which it is urgent.
+const URGENT: Millis = 24 * 3_600_000;
+
+/// How a student stands towards the deadline and the number of attempts.
+#[derive(Clone, Copy)]
+pub(super) struct Standing<'a> {
+    /// What the teacher set.
+    pub settings: &'a Assignment,
+    pub now: Millis,
+    /// Whether the course knows enough of who sits there.
+    pub may_hand_in: bool,
+    /// Attempts that count.
+    pub used: u64,
+}
+
+/// Something to know before handing in.
+pub(super) struct Fact {
+    pub kind: &'static str,
+    pub text: String,
+    pub until: Option<Until>,
+}
+
+/// What is left until a moment, which the page keeps current.
+pub(super) struct Until {
+    pub at: Millis,
+    /// The sentence, with `%` for what is left.
+    pub template: &'static str,
+    pub text: String,
+    /// What is said when the moment has come.
+    pub over: &'static str,
+    /// Whether handing in ends then.
+    pub closes: bool,
+}
+
+impl Fact {
+    fn plain(kind: &'static str, text: String) -> Self {
+        Self { kind, text, until: None }
+    }
+}
+
+impl Standing<'_> {
+    pub fn attempts_left(&self) -> Option<u64> {
+        self.settings.attempts.map(|most| most.saturating_sub(self.used))
+    }
+
+    pub fn can_hand_in(&self) -> bool {
+        self.may_hand_in && self.settings.is_open(self.now) && self.attempts_left() != Some(0)
+    }
+
+    pub fn grades_drafts(&self) -> bool {
+        self.may_hand_in && self.settings.grades_drafts(self.now)
+    }
+
+    fn is_closed(&self) -> bool {
+        self.settings.is_closed(self.now)
+    }
+
+    /// Dates and attempts.
+    pub fn facts(&self, frame: &Frame) -> Vec<Fact> {
+        let is_english = frame.language == Language::En;
+        let say = |en: String, ja: String| if is_english { en } else { ja };
+        let moment = |at| Moment::zoned(at, frame.language).text;
+        let mut facts = Vec::new();
+        match (self.settings.opens_at, self.settings.closes_at) {
+            (Some(opens), _) if self.now < opens => {
+                let text = say(format!("Opens {}", moment(opens)), format!("受付開始 {}", moment(opens)));
+                let template = frame.say("in %", "あと %");
+                let over = frame.say("open now", "受付中");
+                facts.push(Fact { kind: "urgent", text, until: Some(self.until(frame, opens, template, over, false)) });
+            }
+            (_, Some(closes)) if self.is_closed() => {
+                let text = say(format!("Closed since {}", moment(closes)), format!("受付終了 {}", moment(closes)));
+                facts.push(Fact::plain("urgent", text));
+            }
+            (_, Some(closes)) => {
+                let kind = if closes - self.now < URGENT { "urgent" } else { "" };
+                let text = say(format!("Due {}", moment(closes)), format!("締切 {}", moment(closes)));
+                let template = frame.say("% left", "残り %");
+                let over = frame.say("the deadline has passed", "締切を過ぎました");
+                facts.push(Fact { kind, text, until: Some(self.until(frame, closes, template, over, true)) });
+            }
+            _ => {}
+        }
+        if let (Some(most), Some(left)) = (self.settings.attempts, self.attempts_left()) {
+            let kind = if left <= 1 { "urgent" } else { "" };
+            let text = say(format!("{left} of {most} attempts left"), format!("提出できる回数 残り {left} / {most}"));
+            facts.push(Fact::plain(kind, text));
+        }
+        facts
+    }
+
+    fn until(&self, frame: &Frame, at: Millis, template: &'static str, over: &'static str, closes: bool) -> Until {
+        let text = template.replace('%', &moment::span(at - self.now, frame.language));
+        Until { at, template, text, over, closes }
+    }
+
+    /// What stands in place of the button, where there is none.
+    pub fn hindrance(&self, frame: &Frame) -> Option<&'static str> {
+        match () {
+            () if !self.may_hand_in || self.can_hand_in() => None,
+            () if self.is_closed() && self.settings.practice => Some(frame.say(
+                "Handing in is over. What you type is still graded, as practice.",
+                "提出の受付は終了しました。入力した内容は、引き続き練習として採点します。",
+            )),
+            () if self.is_closed() => Some(frame.say("Handing in is over.", "提出の受付は終了しました。")),
+            () if self.attempts_left() == Some(0) => {
+                Some(frame.say("All attempts are used up.", "提出できる回数を使い切りました。"))
+            }
+            () => Some(frame.say("Handing in has not begun yet.", "提出の受付はまだ始まっていません。")),
+        }
+    }
+
+    /// What the page does with what is typed.
+    pub fn how(&self, frame: &Frame) -> &'static str {
+        match (self.grades_drafts(), self.can_hand_in()) {
+            (true, true) => frame.say(
+                "Drop a file here, paste, or type. What you type is graded as you go; that is a draft and not an attempt.",
+                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。\
+                 入力中の内容はそのつど採点されますが、下書きであり、提出にはなりません。",
+            ),
+            (true, false) => frame.say(
+                "Drop a file here, paste, or type. What you type is graded as you go, as practice.",
+                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。\
+                 入力中の内容は、練習としてそのつど採点されます。",
+            ),
+            (false, true) => frame.say(
+                "Drop a file here, paste, or type; it is graded when you hand it in.",
+                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。採点は提出したときに行います。",
+            ),
+            (false, false) => frame.say("Nothing is graded here at the moment.", "現在、採点は行っていません。"),
+        }
+    }
+
+    /// The steps of a student's work that follow upon the writing.
+    pub fn steps(&self, frame: &Frame) -> Vec<&'static str> {
+        let seen = frame.say(
+            "See at once which term is right and which is not.",
+            "どの項が正しく、どの項が違うかがすぐに分かります。",
+        );
+        match (self.grades_drafts(), self.can_hand_in()) {
+            (true, true) => vec![seen, frame.say("Hand in when you are content.", "納得できたら提出してください。")],
+            (true, false) => vec![seen],
+            (false, true) => vec![frame.say(
+                "Hand in, and see which term is right and which is not.",
+                "提出すると、どの項が正しく、どの項が違うかが分かります。",
+            )],
+            (false, false) => Vec::new(),
+        }
+    }
+
+    /// What a graded text is called that was not handed in.
+    pub fn draft_word(&self, frame: &Frame) -> &'static str {
+        if self.can_hand_in() {
+            frame.say("draft, not handed in", "下書き（未提出）")
+        } else {
+            frame.say("practice, not handed in", "練習（提出ではありません）")
+        }
+    }
+}
