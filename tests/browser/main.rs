@@ -5,6 +5,7 @@
 
 #[path = "../chromium/mod.rs"]
 mod chromium;
+mod staying;
 mod teacher;
 
 use chromium::server::Server;
@@ -35,6 +36,14 @@ async fn choose(browser: &Browser, file: &str, mark: &str) {
         .await;
 }
 
+/// Hands in, and goes from the receipt to the page of the report.
+async fn hand_in(browser: &Browser) {
+    browser.click("form.work .primary").await;
+    browser.until("document.querySelector('.receipt .permalink')").await;
+    let link = browser.js("return document.querySelector('.receipt .permalink').href").await;
+    browser.open(link.as_str().expect("a link")).await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     let (server, browser) = (Server::start(), Browser::start().await);
@@ -59,8 +68,7 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     browser.check("student-wrong-draft").await;
     assert!(!browser.has(".attempts").await, "a draft is no attempt");
 
-    browser.click("form.work .primary").await;
-    browser.until("location.pathname.startsWith('/r/')").await;
+    hand_in(&browser).await;
     assert_eq!(browser.text(".word").await, "Not right yet");
     browser.check("report-wrong").await;
     let link = browser.address().await;
@@ -78,8 +86,7 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     assert_eq!(browser.text(".result .word").await, "Stopped");
     assert!(browser.text(".result .file").await.contains("<img src=x onerror=alert(1)>"), "shown as it is");
     browser.check("student-hostile").await;
-    browser.click("form.work .primary").await;
-    browser.until("location.pathname.startsWith('/r/')").await;
+    hand_in(&browser).await;
     browser.check("report-hostile").await;
 
     browser.open(&server.at("/?lang=ja")).await;
@@ -87,8 +94,7 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     choose(&browser, &sample(RIGHT), "full").await;
     assert_eq!(browser.text(".result .word").await, "正解");
     browser.check("student-right-ja").await;
-    browser.click("form.work .primary").await;
-    browser.until("location.pathname.startsWith('/r/')").await;
+    hand_in(&browser).await;
     browser.check("report-right-ja").await;
     browser.open(&server.at("/")).await;
     assert_eq!(browser.js("return document.documentElement.lang").await, "ja", "the choice is remembered");
@@ -169,8 +175,7 @@ async fn a_phone_and_a_browser_without_scripts_do_everything() {
     choose(&browser, &sample(WRONG), "partial").await;
     browser.until("[...document.querySelectorAll('.report img')].every(i => i.complete && i.naturalWidth > 0)").await;
     browser.check("phone-draft").await;
-    browser.click("form.work .primary").await;
-    browser.until("location.pathname.startsWith('/r/')").await;
+    hand_in(&browser).await;
     browser.check("phone-report").await;
 
     browser.size(1280, 900).await;
@@ -189,6 +194,7 @@ async fn a_phone_and_a_browser_without_scripts_do_everything() {
     browser.click("form.work .primary").await;
     browser.until_there("article.report.report .head.full").await;
     assert_eq!(browser.text(".word").await, "Correct");
+    assert!(browser.text(".receipt").await.contains("100 / 100"));
     browser.shot("no-script-report").await;
     browser.end().await;
 }

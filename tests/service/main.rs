@@ -12,6 +12,7 @@ mod killed;
 mod limits;
 mod process;
 mod server;
+mod student_page;
 
 use ggrade::sandbox::{Pool, Settings};
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! What pages load besides themselves: styles, scripts, the right pictures of each assignment. All of it is part of the
 //! program; an address holds a hash of the content, so that a browser may keep it for ever.
 
-use crate::homework::expected_pictures;
+use crate::homework::{expected_pictures, telling_pose};
 use crate::report::html::{BASE_STYLE, Motion, REPORT_STYLE, SCRIPT, expected_sheet};
 use axum::extract::Path;
 use axum::http::{HeaderValue, StatusCode, header};
@@ -50,6 +50,11 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("editor.js", include_str!("../../../templates/service/editor.js")),
         Asset::text("drafts.js", include_str!("../../../templates/service/drafts.js")),
         Asset::text("picker.js", include_str!("../../../templates/service/picker.js")),
+        Asset::text("connection.js", include_str!("../../../templates/service/connection.js")),
+        Asset::text("grading.js", include_str!("../../../templates/service/grading.js")),
+        Asset::text("standing.js", include_str!("../../../templates/service/standing.js")),
+        Asset::text("permalink.js", include_str!("../../../templates/service/permalink.js")),
+        Asset::text("receipt.js", include_str!("../../../templates/service/receipt.js")),
         Asset::text("student.js", include_str!("../../../templates/service/student.js")),
         Asset::text("live.js", include_str!("../../../templates/service/live.js")),
         Asset::text("icon.svg", include_str!("../../../templates/service/icon.svg")),
@@ -63,8 +68,8 @@ fn of_assignment(assignment: &Assignment) -> Vec<Asset> {
     let expected = expected_pictures(assignment);
     let size = |side: u32| side as usize;
     let (width, height) = expected.first().map_or((4, 3), |first| (size(first.width), size(first.height)));
-    let motion = Motion::of(expected.len().max(1), width, height).style().into_bytes();
-    let mut assets = vec![Asset::new(motion_name(&assignment.id), motion)];
+    let motion = Motion::of(expected.len().max(1), width, height).opening_with(telling_pose(assignment));
+    let mut assets = vec![Asset::new(motion_name(&assignment.id), motion.style().into_bytes())];
     match expected_sheet(&expected, 1) {
         Ok(sheet) => assets.push(Asset::new(expected_name(&assignment.id), sheet)),
         Err(fault) => tracing::error!(assignment = %assignment.id, fault = %fault.message.en, "no expected pictures"),

@@ -1,6 +1,7 @@
 //! The student's page and its forms: looking, trying, handing in.
 
 use super::frame::Frame;
+use super::standing::Standing;
 use super::student::Desk;
 use super::{result, shown};
 use crate::service::State;
@@ -61,13 +62,10 @@ pub(super) async fn desk(
     let desk = Desk {
         frame: frame.of(&id),
         homework: state.assignment,
-        settings: &settings,
-        now: state.clock.now(),
+        standing: Standing { settings: &settings, now: state.clock.now(), may_hand_in: !needs_number, used },
         who: identity.student().map(|student| student.number.clone()),
-        may_hand_in: !needs_number,
         csrf: visitor.csrf(&state),
         history: &history,
-        used,
         text,
         notice: notice.map(str::to_owned),
     };
@@ -101,15 +99,20 @@ pub(super) async fn starter(Shared(state): Shared<State>, Path(id): Path<String>
     Ok((headers, file.starter.clone()).into_response())
 }
 
-/// `POST /a/{assignment}`: hands in, and goes to the report.
+/// `POST /a/{assignment}`: hands in, and goes to the report. A script gets the receipt as a part of its page.
 pub(super) async fn hand_in(
     Shared(state): Shared<State>,
     Path(id): Path<String>,
+    frame: Frame,
     client: Client,
     visitor: Visitor,
+    headers: HeaderMap,
     form: Multipart,
 ) -> Result<Response, Problem> {
     let receipt = take(&state, id, client, visitor, form, Via::Page).await?;
+    if headers.contains_key("x-part") {
+        return result::handed_in(&state, &frame, &receipt.submission, receipt.report().map(AsRef::as_ref)).await;
+    }
     Ok(Redirect::to(&format!("/r/{}", receipt.submission.id)).into_response())
 }
 
@@ -129,7 +132,7 @@ pub(super) async fn draft(
         return Ok(Redirect::to(&format!("/r/{id}")).into_response());
     }
     match (receipt.report(), receipt.fault()) {
-        (Some(report), _) => result::draft_part(&frame, id, report),
+        (Some(report), _) => result::draft_part(&state, &frame, &receipt.submission, report).await,
         (None, Some(fault)) => Err(Problem::internal(&fault.message.en)),
         (None, None) => Ok(result::come_back(id)),
     }

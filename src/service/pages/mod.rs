@@ -12,9 +12,12 @@ mod join;
 mod moment;
 mod part;
 mod problem;
+mod receipt;
 mod result;
+mod standing;
 mod student;
 mod teacher;
+mod terms;
 
 pub use assets::warm;
 pub use films::Films;
@@ -42,8 +45,10 @@ pub fn router(state: &State) -> Router<State> {
         .route("/a/{assignment}/starter", get(hand_in::starter))
         .route("/r/{id}", get(result::page))
         .route("/r/{id}/part", get(result::part_of))
+        .route("/r/{id}/receipt", get(result::receipt_of))
         .route("/r/{id}/source", get(result::source))
         .route("/r/{id}/{picture}", get(result::picture))
+        .route("/r/{id}/terms/{picture}", get(terms::picture))
         .route("/r/{id}/frames/{picture}", get(result::frame))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))

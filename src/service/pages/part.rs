@@ -2,21 +2,23 @@
 
 use super::assets;
 use super::frame::Frame;
+use super::terms;
 use crate::diagnostic::Severity;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::html::{Gallery, Lines, Mark, Part};
 use crate::report::text::number;
 use crate::report::{Equation, Report, Verdict};
+use crate::service::State;
 use askama::Template;
 use serde::Serialize;
-use std::sync::Arc;
 
 #[derive(Template)]
 #[template(path = "service/part.html")]
 struct View {
     label: &'static str,
     mark: Mark,
+    is_drawn: bool,
     summary: String,
     marks: String,
     body: String,
@@ -45,6 +47,7 @@ pub(super) fn part(
     let view = View {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),
+        is_drawn: matches!(report.verdict, Verdict::Correct | Verdict::Wrong),
         summary: summary(frame, report),
         marks: serde_json::to_string(&marks(report)).unwrap_or_default(),
         body: part.render()?,
@@ -98,8 +101,8 @@ fn marks(report: &Report) -> Vec<LineMark> {
     diagnostics.chain(rubric).collect()
 }
 
-/// Where the pictures of a submission are.
-pub(super) fn gallery(id: &str, report: &Report) -> Option<Gallery> {
+/// Where the pictures of a submission are; `bytes` is its file.
+pub(super) fn gallery(state: &State, id: &str, report: &Report, bytes: &[u8]) -> Option<Gallery> {
     if report.frames.is_empty() {
         return None;
     }
@@ -108,6 +111,6 @@ pub(super) fn gallery(id: &str, report: &Report) -> Option<Gallery> {
         expected: assets::address(&assets::expected_name(&report.assignment)).into(),
         difference: format!("/r/{id}/difference.png"),
         is_reduced: false,
-        terms: Arc::default(),
+        terms: terms::addresses(state, id, report, bytes),
     })
 }

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::hand_in::readable;
 use super::moment::Moment;
-use super::{films, internal, part, shown};
+use super::{films, internal, part, receipt, shown};
 use crate::report::Report;
 use crate::report::html::Lines;
 use crate::report::text::number;
@@ -28,6 +28,7 @@ struct View {
     again: Option<String>,
     address: String,
     source: String,
+    receipt: Option<String>,
     part: String,
 }
 
@@ -57,8 +58,12 @@ pub(super) async fn page(
     let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
     let text = readable(&submission.name, &bytes);
     let source = text.as_deref().map_or(Lines::Nowhere, Lines::Here);
-    let gallery = part::gallery(&id, &report);
+    let gallery = part::gallery(&state, &id, &report, &bytes);
     let part = part::part(&frame, &report, source, gallery.as_ref(), 1).map_err(internal)?;
+    let receipt = match submission.via {
+        Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
+        Via::Editor | Via::Batch => None,
+    };
     let assignment = &submission.assignment;
     shown(
         View {
@@ -69,6 +74,7 @@ pub(super) async fn page(
             again: text.map(|_| format!("/a/{assignment}?from={id}")),
             address: format!("/r/{id}"),
             source: format!("/r/{id}/source"),
+            receipt,
             part,
             frame,
         }
@@ -119,7 +125,7 @@ pub(super) async fn part_of(
     frame: Frame,
 ) -> Result<Response, Problem> {
     match stored(&state, &id).await? {
-        Stored { report: Some(report), .. } => draft_part(&frame, &id, &report),
+        Stored { submission, report: Some(report) } => draft_part(&state, &frame, &submission, &report).await,
         Stored { submission, .. } if submission.state == Progress::Failed => {
             Err(Problem::internal(&"grading a draft failed"))
         }
@@ -128,10 +134,63 @@ pub(super) async fn part_of(
 }
 
 /// A report as a part of the page with the editor, which shows the lines itself.
-pub(super) fn draft_part(frame: &Frame, id: &str, report: &Report) -> Result<Response, Problem> {
-    let gallery = part::gallery(id, report);
-    let part = part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), 2).map_err(internal)?;
+pub(super) async fn draft_part(
+    state: &State,
+    frame: &Frame,
+    submission: &Submission,
+    report: &Report,
+) -> Result<Response, Problem> {
+    let part = beside_editor(state, frame, submission, report).await?;
     Ok(([(header::CACHE_CONTROL, "no-store")], Html(part)).into_response())
+}
+
+async fn beside_editor(
+    state: &State,
+    frame: &Frame,
+    submission: &Submission,
+    report: &Report,
+) -> Result<String, Problem> {
+    let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
+    let gallery = part::gallery(state, &submission.id, report, &bytes);
+    part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), 2).map_err(internal)
+}
+
+/// A report with the bytes of its file.
+pub(super) async fn report_of(state: &State, id: &str) -> Result<(Report, Vec<u8>), Problem> {
+    let Stored { submission, report } = stored(state, id).await?;
+    let bytes = state.store.upload(&submission.sha256).await?;
+    report.zip(bytes).ok_or_else(Problem::not_found)
+}
+
+/// The receipt of what was handed in, with its report as soon as there is one, as parts of the page with the editor.
+pub(super) async fn handed_in(
+    state: &State,
+    frame: &Frame,
+    submission: &Submission,
+    report: Option<&Report>,
+) -> Result<Response, Problem> {
+    let id = &submission.id;
+    let receipt = receipt::receipt(state, frame, submission, report).await?;
+    if let Some(report) = report {
+        let part = beside_editor(state, frame, submission, report).await?;
+        return Ok(([(header::CACHE_CONTROL, "no-store")], Html(receipt + &part)).into_response());
+    }
+    let headers = [
+        (header::CACHE_CONTROL, "no-store".to_owned()),
+        (header::LOCATION, format!("/r/{id}/receipt")),
+        (header::RETRY_AFTER, if submission.state == Progress::Failed { "10" } else { "1" }.to_owned()),
+    ];
+    Ok((StatusCode::ACCEPTED, headers, Html(receipt)).into_response())
+}
+
+/// `GET /r/{id}/receipt`: the same later.
+pub(super) async fn receipt_of(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let Stored { submission, report } = stored(&state, &id).await?;
+    handed_in(&state, &frame, &submission, report.as_ref()).await
 }
 
 /// There is no report yet: where to ask for it, in a second.
@@ -166,7 +225,7 @@ pub(super) fn attachment(name: &str) -> HeaderValue {
     HeaderValue::from_str(&value).unwrap_or_else(|_| HeaderValue::from_static("attachment"))
 }
 
-fn png(bytes: Vec<u8>) -> Response {
+pub(super) fn png(bytes: Vec<u8>) -> Response {
     // The address holds the id of one grading, whose pictures never change.
     let headers = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, "private, max-age=86400, immutable")];
     (headers, bytes).into_response()

@@ -123,6 +123,24 @@ impl Store {
         Ok(count.unsigned_abs())
     }
 
+    /// Which attempt of its student, or of its browser, a submission is, from 1.
+    pub async fn attempt_number(&self, submission: &Submission) -> Result<u64> {
+        const SQL: &str = "SELECT count(*) FROM submissions WHERE assignment = $1 AND via NOT IN ('editor', 'batch') \
+                           AND (student_id = $2 OR ($2 = '' AND owner_id = $3) OR id = $5) \
+                           AND (received_at < $4 OR (received_at = $4 AND id <= $5))";
+        let count: i64 = on!(&self.read, db => {
+            sqlx::query_scalar(SQL)
+                .bind(&submission.assignment)
+                .bind(submission.student_id.as_deref().unwrap_or_default())
+                .bind(submission.owner_id.as_deref().unwrap_or_default())
+                .bind(submission.received_at)
+                .bind(&submission.id)
+                .fetch_one(db)
+                .await?
+        });
+        Ok(count.unsigned_abs())
+    }
+
     /// How many files wait to be graded, and how many failed.
     pub async fn waiting(&self) -> Result<(u64, u64)> {
         const SQL: &str = "SELECT count(*) FROM submissions WHERE state = $1";

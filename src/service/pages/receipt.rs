@@ -1,0 +1,62 @@
+//! The receipt of a file that was handed in: what came, when, and as which attempt.
+
+use super::frame::Frame;
+use super::moment::Moment;
+use super::part;
+use crate::report::Report;
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::store::{State as Progress, Submission};
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "service/receipt.html")]
+struct View<'a> {
+    frame: &'a Frame,
+    at: Moment,
+    name: &'a str,
+    attempt: String,
+    score: String,
+    sha256: &'a str,
+    address: String,
+}
+
+/// The receipt of a submission, without a page around it.
+pub(super) async fn receipt(
+    state: &State,
+    frame: &Frame,
+    submission: &Submission,
+    report: Option<&Report>,
+) -> Result<String, Problem> {
+    let settings = state.store.assignment(&submission.assignment).await?;
+    let number = state.store.attempt_number(submission).await?;
+    let attempt = match (settings.attempts, frame.tag()) {
+        (Some(most), "ja") => format!("{most} 回のうち {number} 回目"),
+        (Some(most), _) => format!("{number} of {most}"),
+        (None, "ja") => format!("{number} 回目"),
+        (None, _) => number.to_string(),
+    };
+    let score = match (report, submission.state) {
+        (Some(report), _) => {
+            let (score, most) = (part::points(Some(report.score)), part::points(Some(report.max_score)));
+            format!("{score} / {most} · {}", part::verdict(frame, report.verdict))
+        }
+        (None, Progress::Failed) => frame
+            .say(
+                "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.",
+                "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。",
+            )
+            .to_owned(),
+        (None, _) => frame.say("Being graded", "採点中").to_owned(),
+    };
+    let view = View {
+        frame,
+        at: Moment::exact(submission.received_at, frame.language),
+        name: &submission.name,
+        attempt,
+        score,
+        sha256: &submission.sha256,
+        address: format!("/r/{}", submission.id),
+    };
+    view.render().map_err(|error| Problem::internal(&error))
+}

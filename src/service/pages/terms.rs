@@ -1,0 +1,58 @@
+//! The pictures of single terms of the equation, which the service's pages show as the offline page does.
+
+use super::result::{png, report_of};
+use crate::fault::Fault;
+use crate::homework::Terms;
+use crate::report::html::Term;
+use crate::report::{Report, pictures};
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::gallery::blocking;
+use crate::source;
+use axum::extract::{Path, State as Shared};
+use axum::response::Response;
+use std::sync::Arc;
+
+/// The terms of a report with the addresses of their pictures.
+pub(super) fn addresses(state: &State, id: &str, report: &Report, bytes: &[u8]) -> Arc<[Term]> {
+    if report.frames.is_empty() {
+        return Arc::default();
+    }
+    let source = source::read(&report.source.name, bytes).ok();
+    let terms = Terms::of(state.assignment, report.explanation.as_deref(), source.as_ref());
+    let address = |term: &str, whose| format!("/r/{id}/terms/{term}-{whose}.png");
+    let scenes = terms.scenes();
+    let terms = scenes.iter().map(|scene| Term {
+        id: scene.id().to_owned(),
+        t: scene.t(),
+        yours: scene.is_explained().then(|| address(scene.id(), "yours")),
+        expected: address(scene.id(), "expected"),
+    });
+    terms.collect()
+}
+
+/// `GET /r/{id}/terms/{picture}`, such as `diffuse-yours.png`. What is drawn comes from the report, not from the shader:
+/// nothing is run again.
+pub(super) async fn picture(
+    Shared(state): Shared<State>,
+    Path((id, picture)): Path<(String, String)>,
+) -> Result<Response, Problem> {
+    let name = picture.strip_suffix(".png").and_then(|name| name.rsplit_once('-'));
+    let Some((term, whose @ ("yours" | "expected"))) = name else { return Err(Problem::not_found()) };
+    let (term, is_theirs) = (term.to_owned(), whose == "yours");
+    let (report, bytes) = report_of(&state, &id).await?;
+    let drawn = blocking(&state, move |state| draw(state, &report, &bytes, &term, is_theirs)).await?;
+    drawn.map(png).ok_or_else(Problem::not_found)
+}
+
+fn draw(state: &State, report: &Report, bytes: &[u8], term: &str, is_theirs: bool) -> Result<Option<Vec<u8>>, Fault> {
+    if report.frames.is_empty() {
+        return Ok(None);
+    }
+    let source = source::read(&report.source.name, bytes).ok();
+    let terms = Terms::of(state.assignment, report.explanation.as_deref(), source.as_ref());
+    let scenes = terms.scenes();
+    let Some(scene) = scenes.iter().find(|scene| scene.id() == term) else { return Ok(None) };
+    let picture = if is_theirs { terms.yours(scene) } else { terms.expected(scene) };
+    picture.as_ref().map(pictures::png).transpose()
+}
