@@ -44,7 +44,8 @@ pub enum Outcome {
 pub struct Entry {
     /// Who.
     pub student: Student,
-    /// Where the file was, as a teacher would look for it: archive, folders, file name joined by `/`; none without file.
+    /// Where the file was in the input, as a teacher would look for it: folders and file name joined by `/`; none without
+    /// file.
     pub path: Option<String>,
     /// The same as a file of this machine relative to the working folder, where it is one (not inside an archive).
     pub local: Option<PathBuf>,

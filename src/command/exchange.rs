@@ -7,6 +7,7 @@ use super::view::readable;
 use super::{Outcome, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome as Became, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
+use crate::batch::intake::in_working_folder;
 use crate::batch::portrait::Portraits;
 use crate::cli::Grade;
 use crate::fault::Fault;
@@ -36,10 +37,12 @@ pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, languag
 /// The file as a class of one.
 fn class(arguments: &Grade, format: Format, deadline: Duration, language: Language) -> Class {
     let name = grade::name(&arguments.file);
-    let local = (arguments.file != Path::new("-")).then(|| plain(&arguments.file));
+    let is_file = arguments.file != Path::new("-");
+    let local = is_file.then(|| in_working_folder(&arguments.file)).flatten();
+    let shown = local.as_ref().map(|path| path.to_string_lossy().into_owned());
     let mut entry = Entry {
         student: Student { key: "submission".into(), name: name.clone(), moodle: None },
-        path: local.as_ref().map(|path| path.to_string_lossy().into_owned()),
+        path: is_file.then(|| shown.unwrap_or_else(|| name.clone())),
         local,
         outcome: Became::NotGraded(Text::default()),
         source: None,
@@ -94,11 +97,6 @@ fn fill(
     entry.source = source.map(|source| source.text);
     entry.outcome = Became::Graded(Box::new(answer.report));
     Ok(())
-}
-
-/// The path without the `.` components, which CI does not find files by.
-fn plain(path: &Path) -> PathBuf {
-    path.components().filter(|component| !matches!(component, std::path::Component::CurDir)).collect()
 }
 
 /// Appends the job's summary to the file that GitHub Actions names, where it does.

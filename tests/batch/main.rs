@@ -6,4 +6,5 @@ mod class;
 mod grades;
 mod hostile;
 mod interrupted;
+mod places;
 mod regrade;

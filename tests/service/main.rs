@@ -10,6 +10,7 @@ mod hostile;
 mod identity;
 mod killed;
 mod limits;
+mod places;
 mod process;
 mod server;
 mod student_page;

@@ -28,7 +28,7 @@ pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
                 *count += 1;
                 if *count > reading.options.limits.part.entries {
                     if *count == reading.options.limits.part.entries + 1 {
-                        reading.refuse(super::shown(entry.path()), limits::too_many());
+                        reading.refuse(below(root, shown, entry.path()), limits::too_many());
                     }
                     if is_folder {
                         entries.skip_current_dir();
@@ -43,7 +43,7 @@ pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
                 }
             }
             Err(error) => {
-                let path = error.path().map_or_else(|| shown.into(), super::shown);
+                let path = error.path().map_or_else(|| shown.into(), |path| below(root, shown, path));
                 let reason = match error.into_io_error() {
                     Some(error) => limits::unreadable(&error),
                     None => limits::too_deep(&reading.options.limits),
@@ -53,6 +53,12 @@ pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
         }
     }
     folder
+}
+
+/// A path below `root`, which is shown as `shown`, as it is shown.
+fn below(root: &Path, shown: &str, path: &Path) -> String {
+    let below = path.strip_prefix(root).unwrap_or(Path::new(""));
+    std::iter::once(shown.to_owned()).chain(below.iter().map(tree::decoded)).collect::<Vec<_>>().join("/")
 }
 
 /// How the walk goes on.

@@ -10,6 +10,7 @@ mod folder;
 mod key;
 mod limits;
 mod moodle;
+mod place;
 mod students;
 #[cfg(test)]
 mod tests;
@@ -17,6 +18,7 @@ mod tree;
 mod wording;
 
 pub use limits::{Budget, Limits};
+pub use place::in_working_folder;
 
 use super::class::{Refused, Student};
 use crate::fault::Fault;
@@ -32,9 +34,11 @@ use tree::{File, Folder, Held};
 pub struct HandIn {
     /// Who.
     pub student: Student,
-    /// Where the file was, as a teacher would look for it: archive, folders, file name joined by `/`; none without file.
+    /// Where the file was, as a teacher would look for it: from the input on, folders and file name joined by `/`; where
+    /// there are several inputs, from the folder on that holds them all. None without file.
     pub path: Option<String>,
-    /// The same as a file of this machine, where it is one (not inside an archive).
+    /// The same as a file of this machine from the working folder on, where it is one (not inside an archive, and not
+    /// elsewhere).
     pub local: Option<PathBuf>,
     /// The file, or why there is nothing to grade.
     pub content: Content,
@@ -89,34 +93,55 @@ impl Options {
 ///
 /// What cannot be read, or must not be, is named in [`Intake::refused`]; the rest is there.
 pub fn read(inputs: &[PathBuf], options: &Options) -> Result<Intake, Fault> {
+    let names = place::names(inputs);
+    let named: Vec<_> = inputs.iter().map(PathBuf::as_path).zip(&names).collect();
+    Ok(Intake { title: place::title(inputs), ..read_named(&named, options) })
+}
+
+/// The same of one archive that somebody sent under the name `title`.
+pub fn read_archive(archive: &Path, title: &str, options: &Options) -> Intake {
+    let name = format!("{title}.zip");
+    Intake { title: title.into(), ..read_named(&[(archive, &name)], options) }
+}
+
+/// Reads inputs, each with what it is called.
+fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
     let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut groups = Vec::new();
     let mut loose = Vec::new();
-    for input in inputs {
-        let found = reading.input(input);
+    for &(path, name) in inputs {
+        let found = reading.input(path, name);
         let untold = std::mem::take(&mut reading.untold);
         if untold > 0 {
-            reading.refused.push(Refused { path: shown(input), reason: limits::more_refused(untold) });
+            reading.refused.push(Refused { path: name.clone(), reason: limits::more_refused(untold) });
         }
         match found {
             Some(Input::Folder(folder)) => {
-                let (found, refused) = students::in_folder(&shown(input), folder, options, inputs.len() > 1);
+                let (found, refused) = students::in_folder(name, folder, options, inputs.len() > 1);
                 groups.extend(found);
                 reading.refused.extend(refused);
             }
-            Some(Input::File(file)) => loose.push((shown(input), input.clone(), file)),
+            Some(Input::File(file)) => loose.push((name.clone(), path.to_owned(), file)),
             None => {}
         }
     }
     groups.extend(students::of_files(loose, options));
     let students = key::students(groups.iter().map(|group| &group.who));
-    let hand_ins = students.into_iter().zip(groups).map(|(student, group)| hand_in(student, group, options)).collect();
-    Ok(Intake { title: title(inputs), hand_ins, refused: reading.refused })
+    let mut hand_ins: Vec<HandIn> =
+        students.into_iter().zip(groups).map(|(student, group)| hand_in(student, group, options)).collect();
+    if let [(_, name)] = inputs {
+        let places = hand_ins.iter_mut().filter_map(|hand_in| hand_in.path.as_mut());
+        for path in places.chain(reading.refused.iter_mut().map(|refused| &mut refused.path)) {
+            *path = place::below(std::mem::take(path), name);
+        }
+    }
+    Intake { title: String::new(), hand_ins, refused: reading.refused }
 }
 
 fn hand_in(student: Student, group: Group, options: &Options) -> HandIn {
     let chosen = choose::choose(group, options);
-    HandIn { student, path: chosen.path, local: chosen.local, content: chosen.content }
+    let local = chosen.local.and_then(|local| in_working_folder(&local));
+    HandIn { student, path: chosen.path, local, content: chosen.content }
 }
 
 /// What one path of the command line is.
@@ -135,24 +160,23 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn input(&mut self, path: &Path) -> Option<Input> {
-        let name = shown(path);
+    fn input(&mut self, path: &Path, name: &str) -> Option<Input> {
         let metadata = match std::fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) => {
-                self.refuse(name, limits::unreadable(&error));
+                self.refuse(name.into(), limits::unreadable(&error));
                 return None;
             }
         };
         if metadata.is_dir() {
-            return Some(Input::Folder(folder::read(path, &name, self)));
+            return Some(Input::Folder(folder::read(path, name, self)));
         }
         // The person who started ggrade chose this path: a link in it is meant.
         let read = std::fs::File::open(path).map_err(|error| limits::unreadable(&error));
-        match read.and_then(|file| self.file(file, path, &name)) {
+        match read.and_then(|file| self.file(file, path, name)) {
             Ok(input) => Some(input),
             Err(reason) => {
-                self.refuse(name, reason);
+                self.refuse(name.into(), reason);
                 None
             }
         }
@@ -194,33 +218,5 @@ impl Reading<'_> {
             self.refused.push(Refused { path: shown.into(), reason: limits::more_refused(untold) });
         }
         result
-    }
-}
-
-/// The path of an input as it is shown: without `./` before it and `/` behind it.
-fn shown(path: &Path) -> String {
-    let text = tree::decoded(path.as_os_str());
-    let text = text.trim_end_matches('/');
-    let text = text.strip_prefix("./").unwrap_or(text);
-    if text.is_empty() { "/".into() } else { text.into() }
-}
-
-/// The name of the class: of the one input, or of the folder that holds them all.
-fn title(inputs: &[PathBuf]) -> String {
-    let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
-    let one = match inputs {
-        [] => return String::new(),
-        [input] => std::fs::canonicalize(input).unwrap_or_else(|_| absolute(input)),
-        [first, ..] => {
-            let holds_all = |folder: &&Path| inputs.iter().all(|input| absolute(input).starts_with(folder));
-            let first = absolute(first);
-            let common = first.ancestors().skip(1).find(holds_all);
-            common.unwrap_or(Path::new("/")).to_owned()
-        }
-    };
-    let name = one.file_name().map(tree::decoded).unwrap_or_default();
-    match name.len().checked_sub(4).and_then(|at| name.split_at_checked(at)) {
-        Some((stem, extension)) if extension.eq_ignore_ascii_case(".zip") && !stem.is_empty() => stem.into(),
-        _ => name,
     }
 }

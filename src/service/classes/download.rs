@@ -2,7 +2,7 @@
 
 use crate::batch::class::{Class, Outcome, Refused, Student};
 use crate::batch::folder::{Folder, NotOpened};
-use crate::batch::formats::{Format, KEY};
+use crate::batch::formats::{Format, KEY, worksheet};
 use crate::batch::intake::{Content, HandIn};
 use crate::batch::page::Pages;
 use crate::batch::{output, run};
@@ -70,19 +70,25 @@ pub async fn download(
     }
     let state = state.clone();
     let made = tokio::task::spawn_blocking(move || {
-        let temporary = tempfile::tempdir().map_err(|error| disk(&error))?;
-        let mut class = class(&state, title, refused, members, portraits, language)?;
+        let failed = |fault: Fault| Problem::of_fault(&fault);
+        let temporary = tempfile::tempdir().map_err(|error| failed(disk(&error)))?;
+        let mut class = class(&state, title, refused, members, portraits, language).map_err(failed)?;
         if wants.pages {
-            pages(&state, &mut class, temporary.path())?;
+            pages(&state, &mut class, temporary.path()).map_err(failed)?;
         }
-        written(&class, format, sheet.as_deref(), &temporary.path().join("out"))
+        match (format, sheet) {
+            (Format::MoodleWorksheet, Some(sheet)) => filled(&class, format, &sheet),
+            _ => written(&class, format, &temporary.path().join("out")).map_err(failed),
+        }
     });
-    let made = made.await.map_err(|panic| Problem::internal(&panic))?;
-    made.map_err(|fault| match format {
-        // What can be wrong here is the worksheet.
-        Format::MoodleWorksheet => Problem::unprocessable(fault.message.en, fault.message.ja),
-        _ => Problem::of_fault(&fault),
-    })
+    made.await.map_err(|panic| Problem::internal(&panic))?
+}
+
+/// Moodle's worksheet filled in; what is wrong with it the teacher can mend.
+fn filled(class: &Class, format: Format, sheet: &[u8]) -> Result<Download, Problem> {
+    let filled =
+        worksheet::fill(class, sheet).map_err(|fault| Problem::unprocessable(fault.message.en, fault.message.ja))?;
+    Ok(Download { name: format.files()[0].to_owned(), bytes: filled.bytes })
 }
 
 /// One student of a class, with what stands for them.
@@ -207,13 +213,13 @@ fn pages(state: &State, class: &mut Class, folder: &Path) -> Result<(), Fault> {
 }
 
 /// Writes a format into a folder, and takes its file from there, or all its files as a ZIP.
-fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> Result<Download, Fault> {
+fn written(class: &Class, format: Format, path: &Path) -> Result<Download, Fault> {
     let folder = match Folder::open(path) {
         Ok(folder) => folder,
         Err(NotOpened::Fault(fault)) => return Err(fault),
         Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
     };
-    if let (_, Some(fault)) = output::write(class, &[format], sheet, None, &folder) {
+    if let (_, Some(fault)) = output::write(class, &[format], None, None, &folder) {
         return Err(fault);
     }
     match format.files() {

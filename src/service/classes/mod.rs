@@ -10,24 +10,29 @@ use super::identity::new_id;
 use super::store::{Batch, BatchEntry, NewSubmission, Via};
 use super::submit::{file_name, sha256};
 use crate::batch::intake::{self, Content, Intake};
+use crate::fault::Fault;
 use crate::language::Text;
 use std::path::PathBuf;
 
 /// Behind every student who hands in.
 const PRIORITY: i64 = 10;
 
+/// The title of an archive that came without a name.
+const NAMELESS: &str = "archive";
+
 /// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with.
 pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, Problem> {
     let assignment = state.assignment;
+    let title = if title.is_empty() { NAMELESS } else { title }.to_owned();
     let read = tokio::task::spawn_blocking(move || {
         let options = intake::Options::new(assignment)?;
-        intake::read(&[path], &options)
+        Ok::<_, Fault>(intake::read_archive(&path, &title, &options))
     });
     let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::of_fault(&fault))?;
     if intake.hand_ins.is_empty() {
         return Err(nothing(&intake));
     }
-    store(state, intake, title).await
+    store(state, intake).await
 }
 
 /// The refusal of an archive with nothing in it: the first thing that was left out says why.
@@ -43,13 +48,13 @@ fn nothing(intake: &Intake) -> Problem {
     problem
 }
 
-async fn store(state: &State, intake: Intake, title: &str) -> Result<Batch, Problem> {
+async fn store(state: &State, intake: Intake) -> Result<Batch, Problem> {
     let settings = state.store.assignment(&state.assignment.id).await?;
     let now = state.clock.now();
     let batch = Batch {
         id: new_id(),
         assignment: settings.id.clone(),
-        title: if title.is_empty() { intake.title } else { title.to_owned() },
+        title: intake.title,
         refused: intake.refused,
         created_at: now,
     };

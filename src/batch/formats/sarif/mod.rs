@@ -142,18 +142,13 @@ fn artifact(file: &File, report: &Report) -> Value {
 }
 
 fn location(uri: &str, index: usize) -> Value {
-    let mut location = json!({ "uri": uri, "index": index });
-    if !uri.starts_with("file:") {
-        location["uriBaseId"] = json!("%SRCROOT%");
-    }
-    location
+    json!({ "uri": uri, "index": index, "uriBaseId": "%SRCROOT%" })
 }
 
-/// The file as a relative reference (RFC 3986), one outside the working folder as a `file:` URI.
+/// The file as a relative reference (RFC 3986): from the working folder on, or else from the input on.
 fn uri(entry: &Entry) -> Option<String> {
     let path = entry.local.as_ref().map(|local| local.to_string_lossy().into_owned()).or(entry.path.clone())?;
-    let encoded = utf8_percent_encode(path.strip_prefix("./").unwrap_or(&path), PATH).to_string();
-    Some(if encoded.starts_with('/') { format!("file://{encoded}") } else { encoded })
+    Some(utf8_percent_encode(&path, PATH).to_string())
 }
 
 fn lost<'a>(file: &File, line: &'a RubricLine, language: Language) -> Finding<'a> {

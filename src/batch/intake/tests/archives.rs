@@ -15,7 +15,7 @@ fn a_moodle_download_is_read() {
     assert_eq!(intake.title, "class");
     assert_eq!(intake.refused, []);
     let first = &intake.hand_ins[0];
-    assert!(first.path.as_ref().unwrap().ends_with("class.zip/山田 太郎_12_assignsubmission_file_/ggsample06.vert"));
+    assert_eq!(first.path.as_deref(), Some("山田 太郎_12_assignsubmission_file_/ggsample06.vert"));
     assert_eq!(first.local, None);
 }
 
@@ -64,7 +64,7 @@ fn archives_in_archives_are_opened() {
     let class = [Member::stored("alice.zip", alice), Member::deflated("bob.ZIP", &bob)];
     let intake = take_archive(&archive(&class));
     assert_eq!(everyone(&intake), [("alice", Ok("a")), ("bob", Ok("b"))]);
-    assert!(intake.hand_ins[0].path.as_ref().unwrap().ends_with("class.zip/alice.zip/ggsample06/ggsample06.vert"));
+    assert_eq!(intake.hand_ins[0].path.as_deref(), Some("alice.zip/ggsample06/ggsample06.vert"));
 
     let year = archive(&[
         Member::stored("A.zip", archive(&class)),
