@@ -13,7 +13,7 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`store`] keeps everything,
-//! [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`].
+//! [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`].
 //! The async runtime lives nowhere else in ggrade.
 
 pub mod api;
@@ -23,6 +23,7 @@ pub mod config;
 pub mod errors;
 pub mod gallery;
 pub mod grading;
+pub mod idempotency;
 pub mod identity;
 pub mod language;
 pub mod limits;

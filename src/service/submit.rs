@@ -4,8 +4,9 @@ use super::State;
 use super::clock::millis;
 use super::errors::Problem;
 use super::grading::{Job, Outcome};
+use super::idempotency::{self, Given};
 use super::identity::{Identity, new_id};
-use super::store::{Audience, NewSubmission, Submission, Via};
+use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
 use super::{Config, store};
 use crate::diagnose::Hints;
 use crate::fault::Fault;
@@ -14,6 +15,7 @@ use axum::http::StatusCode;
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 use std::time::Instant;
+use tokio::sync::broadcast;
 
 /// Longest file that is stored, in bytes. The source stage takes less, and says so in the words of a report.
 pub const MAX_UPLOAD: usize = 256 * 1024;
@@ -36,6 +38,8 @@ pub struct Upload {
     pub via: Via,
     /// How much the messages shall help; never more than the course allows.
     pub hints: Option<Hints>,
+    /// The key with which it may come again.
+    pub key: Option<Given>,
 }
 
 /// A file that is stored.
@@ -65,13 +69,62 @@ impl Receipt {
     }
 }
 
-/// Stores a file, has it graded, and waits a while for the report.
+/// Stores a file, has it graded, and waits a while for the report. What comes again with the same key is not stored
+/// again: the answer is about what was stored the first time.
 pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
+    let key = upload.key.as_ref().map(|given| key(given, &upload));
+    if let Some(receipt) = stored_earlier(state, key.as_ref()).await? {
+        return Ok(receipt);
+    }
+    let problem = match carry_out(state, upload, key.as_ref()).await {
+        Ok(Some(receipt)) => return Ok(receipt),
+        Ok(None) => None,
+        Err(problem) => Some(problem),
+    };
+    // The same request may have been stored meanwhile; what it used up is no reason to refuse this one.
+    match stored_earlier(state, key.as_ref()).await? {
+        Some(receipt) => Ok(receipt),
+        None => Err(problem.unwrap_or_else(|| Problem::internal(&"a key is taken by nothing"))),
+    }
+}
+
+/// The key of an upload: everything counts that makes another upload of it.
+fn key(given: &Given, upload: &Upload) -> Key {
+    let Upload { assignment, name, bytes, identity, via, hints, .. } = upload;
+    let parts = [assignment, name, &store::word(via), &store::word(hints), &sha256(bytes)];
+    given.of_student(identity, &parts.map(String::as_str))
+}
+
+/// What an earlier request with this key stored, with what has come of it or comes of it in time.
+async fn stored_earlier(state: &State, key: Option<&Key>) -> Result<Option<Receipt>, Problem> {
+    let earlier = idempotency::earlier(state, key).await?;
+    let Some(id) = earlier.and_then(|earlier| earlier.submission_id) else { return Ok(None) };
+    let mut listener = state.queue.listen(&id);
+    let Some(Stored { submission, report }) = state.store.stored(&id).await? else { return Ok(None) };
+    let outcome = match (report, &submission.fault) {
+        (Some(report), _) => Some(Outcome::Graded(Arc::new(report))),
+        (None, Some(fault)) => Some(Outcome::Failed(Arc::new(fault.clone()))),
+        (None, None) => in_time(state, &mut listener).await,
+    };
+    Ok(Some(Receipt { submission, outcome }))
+}
+
+/// What comes of a file, where it comes in time.
+async fn in_time(state: &State, listener: &mut broadcast::Receiver<Outcome>) -> Option<Outcome> {
+    tokio::select! {
+        outcome = listener.recv() => outcome.ok(),
+        () = tokio::time::sleep(Config::span(state.config.wait)) => None,
+        () = state.ended() => None,
+    }
+}
+
+/// Stores a file, and waits a while for its report; none where the key is taken.
+async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<Option<Receipt>, Problem> {
     let assignment = checked(state, &upload).await?;
     let new = new_submission(state, &assignment, &upload);
     let known = state.store.known_report(&new.assignment, &new.sha256, new.seed, new.hints).await?;
     if let Some(report) = known {
-        return keep_known(state, new, report).await;
+        return keep_known(state, new, key, report).await;
     }
     let place = state.queue.reserve().map_err(|full| {
         let mut problem = Problem::new(
@@ -87,20 +140,17 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
         problem
     })?;
     let mut listener = state.queue.listen(&new.id);
-    if let Err(error) = state.store.add_submission(&new).await {
+    let added = state.store.add_submission(&new, key).await;
+    if !matches!(added, Ok(true)) {
         drop(listener);
         state.queue.tidy();
-        return Err(error.into());
+        return added.map(|_| None).map_err(Problem::from);
     }
     metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     let submission = submission_of(&new, store::State::Queued);
     place.fill(Job { submission: submission.clone(), bytes: new.bytes, since: Instant::now() });
-    let outcome = tokio::select! {
-        outcome = listener.recv() => outcome.ok(),
-        () = tokio::time::sleep(Config::span(state.config.wait)) => None,
-        () = state.ended() => None,
-    };
-    Ok(Receipt { submission, outcome })
+    let outcome = in_time(state, &mut listener).await;
+    Ok(Some(Receipt { submission, outcome }))
 }
 
 /// Whether the file may be handed in at all.
@@ -224,13 +274,20 @@ pub(super) fn file_name(name: &str, assignment: &reference::Assignment) -> Strin
     if clean.trim().is_empty() { assignment.files[0].name.clone() } else { clean }
 }
 
-async fn keep_known(state: &State, new: NewSubmission, mut report: Report) -> Result<Receipt, Problem> {
+async fn keep_known(
+    state: &State,
+    new: NewSubmission,
+    key: Option<&Key>,
+    mut report: Report,
+) -> Result<Option<Receipt>, Problem> {
     report.source.name.clone_from(&new.name);
-    state.store.add_graded(&new, &report, state.clock.now()).await?;
+    if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
+        return Ok(None);
+    }
     metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     metrics::counter!("ggrade_reports_reused_total").increment(1);
     let submission = submission_of(&new, store::State::Graded);
-    Ok(Receipt { submission, outcome: Some(Outcome::Graded(Arc::new(report))) })
+    Ok(Some(Receipt { submission, outcome: Some(Outcome::Graded(Arc::new(report))) }))
 }
 
 fn submission_of(new: &NewSubmission, state: store::State) -> Submission {

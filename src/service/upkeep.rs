@@ -1,8 +1,8 @@
-//! What is done every now and then: old submissions go, and what nobody needs is forgotten.
+//! What is done every now and then: old submissions and keys of requests go, and what nobody needs is forgotten.
 
 use super::State;
 use super::clock::{Millis, millis};
-use super::metrics;
+use super::{idempotency, metrics};
 use std::time::Duration;
 
 const MINUTE: Duration = Duration::from_secs(60);
@@ -27,11 +27,14 @@ pub(super) async fn run(state: State) {
     }
 }
 
-/// Removes drafts of yesterday, and submissions that are older than the configuration keeps them.
+/// Removes drafts and keys of yesterday, and submissions that are older than the configuration keeps them.
 pub async fn remove(state: &State) {
     let now = state.clock.now();
     let before = |days: u32| -> Millis { now - millis(DAY) * Millis::from(days) };
     let days = state.config.retention_days;
+    if let Err(error) = state.store.forget_keys(now - millis(idempotency::KEPT)).await {
+        tracing::error!(%error, "old keys of requests could not be removed");
+    }
     match state.store.remove_old((days > 0).then(|| before(days)), before(1)).await {
         Ok(removed) if removed.submissions > 0 => {
             tracing::info!(submissions = removed.submissions, files = removed.uploads, "removed what is old");

@@ -153,7 +153,7 @@ async fn nothing_is_graded_twice_and_nothing_is_left(database: Database) {
             priority: 0,
             claim: Some(("gone".into(), 1)),
         };
-        store.add_submission(&new).await.expect("stored");
+        store.add_submission(&new, None).await.expect("stored");
     }
     store.close().await;
     drop(store);

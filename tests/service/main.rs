@@ -7,6 +7,7 @@ mod classes;
 mod cluster;
 mod handing_in;
 mod hostile;
+mod idempotency;
 mod identity;
 mod killed;
 mod limits;

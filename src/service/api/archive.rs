@@ -3,10 +3,15 @@
 use super::body::other;
 use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::idempotency::{self, Given};
+use crate::service::identity::hex;
+use crate::service::limits::Client;
+use crate::service::store::Key;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Multipart, Request};
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use futures_util::{Stream, StreamExt};
+use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use tempfile::TempPath;
 use tokio::io::AsyncWriteExt;
@@ -22,6 +27,8 @@ pub(in crate::service) struct Archive {
     pub path: TempPath,
     /// Name that it came with.
     pub name: String,
+    /// SHA-256 of its bytes in hexadecimal.
+    pub sha256: String,
     /// The other parts of the form.
     pub fields: HashMap<String, String>,
 }
@@ -35,8 +42,8 @@ impl Archive {
         match kind.split(';').next().unwrap_or_default().trim().to_ascii_lowercase().as_str() {
             "multipart/form-data" => Self::of_parts(request, state).await,
             "application/zip" | "application/octet-stream" | "application/x-zip-compressed" => {
-                let path = saved(request.into_body().into_data_stream(), broken_off, state).await?;
-                Ok(Self { path, name: String::new(), fields: HashMap::new() })
+                let (path, sha256) = saved(request.into_body().into_data_stream(), broken_off, state).await?;
+                Ok(Self { path, name: String::new(), sha256, fields: HashMap::new() })
             }
             _ => Err(Problem::new(
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -71,10 +78,17 @@ impl Archive {
             }
             fields.insert(name, String::from_utf8_lossy(&text).into_owned());
         }
-        let Some((path, name)) = archive else {
+        let Some(((path, sha256), name)) = archive else {
             return Err(Problem::unprocessable("The form has no part `file`.", "フォームに `file` がありません。"));
         };
-        Ok(Self { path, name, fields })
+        Ok(Self { path, name, sha256, fields })
+    }
+
+    /// The key with which it may come again.
+    pub fn key(&self, headers: &HeaderMap, client: &Client) -> Result<Option<Key>, Problem> {
+        let field = self.fields.get(idempotency::FIELD).map(String::as_str);
+        let given = Given::read(headers, field, client)?;
+        Ok(given.map(|given| given.of_teacher(&[&self.title(), &self.sha256])))
     }
 
     /// The name as a title: the last part, without its extension, of a bearable length.
@@ -85,24 +99,26 @@ impl Archive {
     }
 }
 
-/// Writes a stream to a temporary file, as long as it is no longer than an archive may be.
+/// Writes a stream to a temporary file, as long as it is no longer than an archive may be; where that is, and its hash.
 async fn saved<E>(
     mut stream: impl Stream<Item = Result<Bytes, E>> + Unpin,
     problem: impl Fn(E) -> Problem,
     state: &State,
-) -> Result<TempPath, Problem> {
+) -> Result<(TempPath, String), Problem> {
     let disk = |error: std::io::Error| Problem::internal(&error);
     let (file, path) = tempfile::Builder::new().suffix(".zip").tempfile().map_err(disk)?.into_parts();
     let mut file = tokio::fs::File::from_std(file);
+    let mut digest = Sha256::new();
     let mut room = state.config.archive_mib.saturating_mul(1 << 20);
     while let Some(chunk) = stream.next().await {
         let chunk = chunk.map_err(&problem)?;
         let Some(left) = room.checked_sub(chunk.len() as u64) else { return Err(too_large(state)) };
         room = left;
+        digest.update(&chunk);
         file.write_all(&chunk).await.map_err(disk)?;
     }
     file.flush().await.map_err(disk)?;
-    Ok(path)
+    Ok((path, hex(&digest.finalize())))
 }
 
 fn broken_off(_: axum::Error) -> Problem {

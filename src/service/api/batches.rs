@@ -10,6 +10,7 @@ use crate::service::classes::{self, Download, Pick, Whose};
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::language::Lang;
+use crate::service::limits::Client;
 use crate::service::store::Batch;
 use axum::Json;
 use axum::body::Bytes;
@@ -55,13 +56,15 @@ pub(super) async fn create(
     teacher: Teacher,
     Shared(state): Shared<State>,
     Lang(language): Lang,
+    client: Client,
     headers: HeaderMap,
     request: Request,
 ) -> Result<Response, Problem> {
     let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
     teacher.check_csrf(&state, csrf)?;
     let archive = Archive::read(request, &state).await?;
-    let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title()).await?;
+    let key = archive.key(&headers, &client)?;
+    let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title(), key).await?;
     let body = shown(&state, batch, language).await?;
     let location = body.links.itself.clone();
     let mut response = (StatusCode::ACCEPTED, Json(body)).into_response();

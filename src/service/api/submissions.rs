@@ -6,8 +6,10 @@ use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::idempotency::{self, Given};
 use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
 use crate::service::language::Lang;
+use crate::service::limits::Client;
 use crate::service::store::{Stored, Via};
 use crate::service::submit::{Receipt, Upload, submit};
 use axum::Json;
@@ -92,6 +94,7 @@ pub(super) struct FileText(String);
 pub(super) async fn create(
     Shared(state): Shared<State>,
     Lang(language): Lang,
+    client: Client,
     visitor: Visitor,
     teacher: Option<Teacher>,
     about: Result<Query<About>, QueryRejection>,
@@ -100,6 +103,7 @@ pub(super) async fn create(
     let Query(about) = about.map_err(super::body::other)?;
     let headers = request.headers().clone();
     let form = Form::read(request, &state).await?;
+    let key = Given::read(&headers, form.fields.get(idempotency::FIELD).map(String::as_str), &client)?;
     let about = about.with(&form)?;
     let identity = identity(&state, &about, visitor, teacher, &headers).await?;
     let receipt = submit(
@@ -111,6 +115,7 @@ pub(super) async fn create(
             identity,
             via: if about.draft == Some(true) { Via::Editor } else { Via::Api },
             hints: about.hints,
+            key,
         },
     )
     .await?;

@@ -6,8 +6,9 @@ pub use download::{Download, Pick, Whose, chosen, download};
 
 use super::State;
 use super::errors::Problem;
+use super::idempotency;
 use super::identity::new_id;
-use super::store::{Batch, BatchEntry, NewSubmission, Via};
+use super::store::{Batch, BatchEntry, Key, NewSubmission, Via};
 use super::submit::{file_name, sha256};
 use crate::batch::intake::{self, Content, Intake};
 use crate::fault::Fault;
@@ -20,9 +21,13 @@ const PRIORITY: i64 = 10;
 /// The title of an archive that came without a name.
 const NAMELESS: &str = "archive";
 
-/// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with.
-pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, Problem> {
+/// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with,
+/// `key` that with which it may come again.
+pub async fn submit(state: &State, path: PathBuf, title: &str, key: Option<Key>) -> Result<Batch, Problem> {
     let assignment = state.assignment;
+    if let Some(batch) = stored_earlier(state, key.as_ref()).await? {
+        return Ok(batch);
+    }
     let title = if title.is_empty() { NAMELESS } else { title }.to_owned();
     let read = tokio::task::spawn_blocking(move || {
         let options = intake::Options::new(assignment)?;
@@ -32,7 +37,13 @@ pub async fn submit(state: &State, path: PathBuf, title: &str) -> Result<Batch, 
     if intake.hand_ins.is_empty() {
         return Err(nothing(&intake));
     }
-    store(state, intake).await
+    match store(state, intake, key.as_ref()).await? {
+        Some(batch) => Ok(batch),
+        // The same request was stored meanwhile.
+        None => {
+            stored_earlier(state, key.as_ref()).await?.ok_or_else(|| Problem::internal(&"a key is taken by nothing"))
+        }
+    }
 }
 
 /// The refusal of an archive with nothing in it: the first thing that was left out says why.
@@ -48,7 +59,15 @@ fn nothing(intake: &Intake) -> Problem {
     problem
 }
 
-async fn store(state: &State, intake: Intake) -> Result<Batch, Problem> {
+/// What an earlier request with this key stored.
+async fn stored_earlier(state: &State, key: Option<&Key>) -> Result<Option<Batch>, Problem> {
+    let earlier = idempotency::earlier(state, key).await?;
+    let Some(id) = earlier.and_then(|earlier| earlier.batch_id) else { return Ok(None) };
+    Ok(state.store.batch(&id).await?)
+}
+
+/// Stores what was read; none where the request's key is taken.
+async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Option<Batch>, Problem> {
     let settings = state.store.assignment(&state.assignment.id).await?;
     let now = state.clock.now();
     let batch = Batch {
@@ -87,7 +106,9 @@ async fn store(state: &State, intake: Intake) -> Result<Batch, Problem> {
         }
         entries.push(entry);
     }
-    state.store.add_batch(&batch, &entries, &files).await?;
+    if !state.store.add_batch(&batch, &entries, &files, key).await? {
+        return Ok(None);
+    }
     state.queue.look();
-    Ok(batch)
+    Ok(Some(batch))
 }

@@ -6,6 +6,7 @@ use super::student::Desk;
 use super::{result, shown};
 use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::idempotency::{self, Given};
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
 use crate::service::store::{Audience, Submission, Via};
@@ -109,7 +110,7 @@ pub(super) async fn hand_in(
     headers: HeaderMap,
     form: Multipart,
 ) -> Result<Response, Problem> {
-    let receipt = take(&state, id, client, visitor, form, Via::Page).await?;
+    let receipt = take(&state, id, client, visitor, &headers, form, Via::Page).await?;
     if headers.contains_key("x-part") {
         return result::handed_in(&state, &frame, &receipt.submission, receipt.report().map(AsRef::as_ref)).await;
     }
@@ -126,7 +127,7 @@ pub(super) async fn draft(
     headers: HeaderMap,
     form: Multipart,
 ) -> Result<Response, Problem> {
-    let receipt = take(&state, id, client, visitor, form, Via::Editor).await?;
+    let receipt = take(&state, id, client, visitor, &headers, form, Via::Editor).await?;
     let Submission { id, .. } = &receipt.submission;
     if !headers.contains_key("x-part") {
         return Ok(Redirect::to(&format!("/r/{id}")).into_response());
@@ -143,23 +144,24 @@ async fn take(
     assignment: String,
     client: Client,
     visitor: Visitor,
+    headers: &HeaderMap,
     form: Multipart,
     via: Via,
 ) -> Result<Receipt, Problem> {
     served(state, &assignment)?;
-    // Counted before a byte of the body is read.
-    state.limits.address(&client)?;
     let form = Form::read(form).await?;
     visitor.check_csrf(state, &form.csrf)?;
+    let key = Given::read(headers, form.key.as_deref(), &client)?;
     let visitor = visitor.known(state).await?;
     let (name, bytes) = form.file(state)?;
-    submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None }).await
+    submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None, key }).await
 }
 
 /// The form as it came.
 #[derive(Default)]
 struct Form {
     csrf: String,
+    key: Option<String>,
     file: Option<(String, Vec<u8>)>,
     text: Option<String>,
 }
@@ -169,6 +171,7 @@ impl Form {
         let mut form = Self::default();
         while let Some(field) = parts.next_field().await.map_err(|error| unreadable(&error))? {
             match field.name().unwrap_or_default() {
+                idempotency::FIELD => form.key = Some(field.text().await.map_err(|error| unreadable(&error))?),
                 "csrf" => form.csrf = field.text().await.map_err(|error| unreadable(&error))?,
                 "text" => form.text = Some(field.text().await.map_err(|error| unreadable(&error))?),
                 "file" => {

@@ -1,7 +1,8 @@
 //! Whole classes that a teacher uploaded.
 
+use super::keys::keep_key;
 use super::submissions::{INSERT, INSERT_UPLOAD, bind_submission};
-use super::{NewSubmission, Result, Store, on, signed};
+use super::{Key, NewSubmission, Result, Store, on, signed};
 use crate::batch::class::{Refused, Student};
 use crate::language::Text;
 use crate::service::clock::Millis;
@@ -72,8 +73,14 @@ impl Batch {
 }
 
 impl Store {
-    /// Stores a batch with all its files, or nothing of it.
-    pub async fn add_batch(&self, batch: &Batch, entries: &[BatchEntry], files: &[NewSubmission]) -> Result<()> {
+    /// Stores a batch with all its files, or nothing of it. False, with nothing stored, where the request's key is taken.
+    pub async fn add_batch(
+        &self,
+        batch: &Batch,
+        entries: &[BatchEntry],
+        files: &[NewSubmission],
+        key: Option<&Key>,
+    ) -> Result<bool> {
         const BATCH: &str =
             "INSERT INTO batches (id, assignment, title, refused, created_at) VALUES ($1, $2, $3, $4, $5)";
         const ENTRY: &str = "INSERT INTO batch_entries (batch_id, position, student, path, submission_id, note) \
@@ -88,6 +95,7 @@ impl Store {
                 .bind(batch.created_at)
                 .execute(&mut *transaction)
                 .await?;
+            keep_key!(transaction, key, None, Some(&batch.id), batch.created_at);
             for new in files {
                 sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
                 bind_submission!(sqlx::query(INSERT), new, "queued").execute(&mut *transaction).await?;
@@ -105,7 +113,7 @@ impl Store {
             }
             transaction.commit().await?;
         });
-        Ok(())
+        Ok(true)
     }
 
     /// The batch with this id.

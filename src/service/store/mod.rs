@@ -6,6 +6,7 @@
 
 mod assignments;
 mod batches;
+mod keys;
 mod open;
 mod owners;
 mod queue;
@@ -19,6 +20,7 @@ mod submissions;
 
 pub use assignments::{Assignment, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
+pub use keys::{Key, KeyResult};
 pub use open::Location;
 pub use owners::Owner;
 pub use queue::Claimed;

@@ -1,7 +1,8 @@
 //! Files that were handed in.
 
+use super::keys::keep_key;
 use super::rows::{submission_columns, word};
-use super::{Result, Store, Submission, Via, on, signed};
+use super::{Key, Result, Store, Submission, Via, on, signed};
 use crate::diagnose::Hints;
 use crate::report::Report;
 use crate::service::clock::Millis;
@@ -73,19 +74,27 @@ macro_rules! bind_submission {
 pub(super) use bind_submission;
 
 impl Store {
-    /// Stores a file. When this is done, it is never lost.
-    pub async fn add_submission(&self, new: &NewSubmission) -> Result<()> {
+    /// Stores a file. When this is done, it is never lost. False, with nothing stored, where the request's key is taken.
+    pub async fn add_submission(&self, new: &NewSubmission, key: Option<&Key>) -> Result<bool> {
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
             bind_submission!(sqlx::query(INSERT), new, "queued").execute(&mut *transaction).await?;
+            keep_key!(transaction, key, Some(&new.id), None, new.received_at);
             transaction.commit().await?;
         });
-        Ok(())
+        Ok(true)
     }
 
-    /// Stores a file together with its report, which is known already.
-    pub async fn add_graded(&self, new: &NewSubmission, report: &Report, graded_at: Millis) -> Result<()> {
+    /// Stores a file together with its report, which is known already. False, with nothing stored, where the request's key
+    /// is taken.
+    pub async fn add_graded(
+        &self,
+        new: &NewSubmission,
+        key: Option<&Key>,
+        report: &Report,
+        graded_at: Millis,
+    ) -> Result<bool> {
         let row = super::reports::ReportRow::of(report)?;
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
@@ -94,9 +103,10 @@ impl Store {
             super::reports::bind_report!(sqlx::query(super::reports::INSERT), &new.id, graded_at, row, 1_i64)
                 .execute(&mut *transaction)
                 .await?;
+            keep_key!(transaction, key, Some(&new.id), None, new.received_at);
             transaction.commit().await?;
         });
-        Ok(())
+        Ok(true)
     }
 
     /// The submission with this id.

@@ -13,9 +13,11 @@ use crate::service::api::batches::saved;
 use crate::service::classes::{self, Whose};
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
+use crate::service::limits::Client;
 use crate::service::store::{Batch, Progress};
 use askama::Template;
 use axum::extract::{Multipart, Path, Request, State as Shared};
+use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Redirect, Response};
 use clap::ValueEnum;
 
@@ -103,11 +105,14 @@ pub(in crate::service::pages) async fn list(
 pub(in crate::service::pages) async fn upload(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
+    client: Client,
+    headers: HeaderMap,
     request: Request,
 ) -> Result<Response, Problem> {
     let archive = Archive::read(request, &state).await?;
     teacher.check_csrf(&state, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
-    let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title()).await?;
+    let key = archive.key(&headers, &client)?;
+    let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title(), key).await?;
     Ok(Redirect::to(&format!("/teacher/batches/{}", batch.id)).into_response())
 }
 
