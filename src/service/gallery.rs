@@ -1,7 +1,9 @@
 //! The pictures of a submission, drawn again when somebody looks at them.
 //!
 //! A grading keeps no pictures: drawing them again takes as long as a grading, keeping them would take a hundred times
-//! the room of everything else. What was drawn lately is kept in memory, whoever handed the file in.
+//! the room of everything else. [`Gallery::frames`] is the only place that runs a file for its pictures; all others are
+//! made of what it gives. What was made lately is kept in memory, whoever handed the file in, and many who ask at once
+//! wait for one drawing.
 
 use super::State;
 use super::errors::Problem;
@@ -9,21 +11,21 @@ use super::store::Submission;
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::homework::expected_pictures;
+use crate::report::html::Film;
 use crate::report::{Picture, Pictures, pictures};
 use crate::sandbox;
+use moka::future::Cache;
 use reference::Assignment;
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use tokio::sync::{OnceCell, Semaphore};
+use std::future::Future;
+use std::sync::{Arc, OnceLock};
+use tokio::sync::Semaphore;
 
 /// Bytes of pictures that are kept in memory.
-const ROOM: usize = 96 << 20;
-
-/// Files whose pictures are kept, however small they are.
-const MOST: usize = 512;
+const ROOM: u64 = 96 << 20;
 
 /// Which pictures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum View {
     /// What the student's shader draws.
@@ -37,59 +39,95 @@ pub enum View {
     All,
 }
 
-/// The pictures of one file, encoded.
-#[derive(Debug, Default)]
-pub struct Drawn {
-    /// What the student's shader draws, a PNG for each pose; empty where it draws nothing.
-    pub yours: Vec<Vec<u8>>,
-    /// Where that differs from the right pictures.
-    pub difference: Vec<Vec<u8>>,
-    animations: [OnceLock<Vec<u8>>; 4],
+/// Encoded pictures that belong together; none where nothing is drawn.
+pub type Pngs = Vec<Vec<u8>>;
+
+/// What is kept: pictures of one kind of one file.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Key {
+    /// SHA-256 of the file; empty for pictures of a right answer.
+    sha256: String,
+    kind: Kind,
 }
 
-/// The pictures of a file, or the place where those wait who asked for them.
-type Cell = Arc<OnceCell<Arc<Drawn>>>;
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Kind {
+    /// Each pose as the shader draws it.
+    Frames,
+    /// Where each pose differs.
+    Differences,
+    /// The two sheets of the moving pictures: yours, difference.
+    Film,
+    /// All poses as one animated PNG.
+    Animation(View),
+    /// What a report says of the file, in pictures: which, and the part of the report that they show.
+    Report(String),
+}
 
-/// The pictures drawn lately.
+/// The pictures made lately.
 #[derive(Debug)]
 pub struct Gallery {
     assignment: &'static Assignment,
-    expected: OnceLock<Expected>,
+    expected: OnceLock<Vec<Vec<u8>>>,
     portraits: OnceLock<Portraits>,
-    /// By SHA-256 of the file; those looked at last come last.
-    recent: Mutex<VecDeque<(String, Cell)>>,
-    /// One file is drawn at a time.
+    kept: Cache<Key, Arc<Pngs>>,
+    /// One file is run at a time: who looks does not take the processors from who hands in.
     turn: Semaphore,
-}
-
-#[derive(Debug)]
-struct Expected {
-    pictures: Arc<[Picture]>,
-    encoded: Vec<Vec<u8>>,
 }
 
 impl Gallery {
     /// An empty gallery.
     pub fn new(assignment: &'static Assignment) -> Self {
+        let weight =
+            |_: &Key, pngs: &Arc<Pngs>| u32::try_from(pngs.iter().map(Vec::len).sum::<usize>()).unwrap_or(u32::MAX);
         Self {
             assignment,
             expected: OnceLock::new(),
             portraits: OnceLock::new(),
-            recent: Mutex::default(),
+            kept: Cache::builder().max_capacity(ROOM).weigher(weight).build(),
             turn: Semaphore::new(1),
         }
     }
 
-    /// The pictures of a submission: from memory, or drawn anew. Many who ask at once wait for one drawing.
-    pub async fn drawn(&self, state: &State, submission: &Submission) -> Result<Arc<Drawn>, Problem> {
-        // What was refused or stopped once is not run again for who looks at it.
+    /// Each pose as the shader draws it. None where the file was refused or stopped: it is not run again for who looks.
+    async fn frames(&self, state: &State, submission: &Submission) -> Result<Arc<Pngs>, Problem> {
         if !state.store.is_drawn(&submission.id).await? {
             return Ok(Arc::default());
         }
-        let cell = self.cell(&submission.sha256);
-        let drawn = cell.get_or_try_init(|| self.draw(state, submission)).await.cloned();
-        self.make_room();
-        drawn
+        let run = async {
+            let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
+            let order = Order { seed: submission.seed, hints: submission.hints };
+            let _turn = self.turn.acquire().await;
+            blocking(state, move |state| {
+                let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };
+                let frames = state.pool.grade(submission)?.frames;
+                frames.iter().map(pictures::png).collect()
+            })
+            .await
+        };
+        self.once(Key { sha256: submission.sha256.clone(), kind: Kind::Frames }, run).await
+    }
+
+    /// What is kept under a key; made where nothing is, once for all who ask meanwhile.
+    async fn once(&self, key: Key, make: impl Future<Output = Result<Pngs, Problem>>) -> Result<Arc<Pngs>, Problem> {
+        let made = self.kept.try_get_with(key, async { make.await.map(Arc::new) });
+        made.await.map_err(|problem: Arc<Problem>| Problem::clone(&problem))
+    }
+
+    /// Pictures that are made of the frames; none where there are no frames.
+    async fn made_of_frames(
+        &self,
+        state: &State,
+        submission: &Submission,
+        kind: Kind,
+        make: impl FnOnce(Vec<Picture>, &Arc<[Picture]>) -> Result<Pngs, Fault> + Send + 'static,
+    ) -> Result<Arc<Pngs>, Problem> {
+        let frames = self.frames(state, submission).await?;
+        if frames.is_empty() {
+            return Ok(frames);
+        }
+        let make = blocking(state, move |state| make(decoded(&frames)?, &expected_pictures(state.gallery.assignment)));
+        self.once(Key { sha256: submission.sha256.clone(), kind }, make).await
     }
 
     /// One picture of a pose, from 0; none where there is no such pose, or nothing was drawn.
@@ -100,25 +138,26 @@ impl Gallery {
         view: View,
         index: usize,
     ) -> Result<Option<Vec<u8>>, Problem> {
-        if view == View::Expected {
-            return blocking(state, move |state| Ok(state.gallery.expected()?.encoded.get(index).cloned())).await;
-        }
-        let drawn = self.drawn(state, submission).await?;
-        if view == View::All {
-            return blocking(state, move |state| {
-                let Some(yours) = drawn.yours.get(index) else { return Ok(None) };
-                let expected = state.gallery.expected()?.pictures.get(index).cloned();
-                let pictures = Pictures {
-                    yours: vec![pictures::decode(yours)?],
-                    expected: expected.into_iter().collect(),
-                    terms: Arc::default(),
+        let all = match view {
+            View::Expected => return blocking(state, move |state| state.gallery.expected(index)).await,
+            View::Yours | View::All => self.frames(state, submission).await?,
+            View::Difference => {
+                let differences = |yours: Vec<Picture>, expected: &Arc<[Picture]>| {
+                    yours.iter().zip(expected.iter()).map(|(a, b)| pictures::difference_png(a, b)).collect()
                 };
-                pictures::animation(&pictures).map(Some)
-            })
-            .await;
+                self.made_of_frames(state, submission, Kind::Differences, differences).await?
+            }
+        };
+        if view != View::All {
+            return Ok(all.get(index).cloned());
         }
-        let all = if view == View::Yours { &drawn.yours } else { &drawn.difference };
-        Ok(all.get(index).cloned())
+        blocking(state, move |state| {
+            let Some(yours) = all.get(index) else { return Ok(None) };
+            let expected = expected_pictures(state.gallery.assignment).get(index).cloned();
+            let (yours, expected) = (vec![pictures::decode(yours)?], expected.into_iter().collect());
+            pictures::animation(&Pictures { yours, expected, terms: Arc::default() }).map(Some)
+        })
+        .await
     }
 
     /// All poses of a view as one animated PNG; none where nothing was drawn.
@@ -128,46 +167,66 @@ impl Gallery {
         submission: &Submission,
         view: View,
     ) -> Result<Option<Vec<u8>>, Problem> {
-        let drawn = self.drawn(state, submission).await?;
-        if drawn.yours.is_empty() && view != View::Expected {
-            return Ok(None);
-        }
-        blocking(state, move |state| state.gallery.animated(&drawn, view).map(Some)).await
+        let kind = Kind::Animation(view);
+        let drawn = if view == View::Expected {
+            let make =
+                blocking(state, |state| Ok(vec![pictures::animated(&expected_pictures(state.gallery.assignment))?]));
+            self.once(Key { sha256: String::new(), kind }, make).await?
+        } else {
+            let make = move |yours, expected: &Arc<[Picture]>| {
+                let pictures = Pictures { yours, expected: Arc::clone(expected), terms: Arc::default() };
+                Ok(vec![match view {
+                    View::Difference => pictures::animated(&differences(&pictures)?)?,
+                    View::All => pictures::animation(&pictures)?,
+                    View::Yours | View::Expected => pictures::animated(&pictures.yours)?,
+                }])
+            };
+            self.made_of_frames(state, submission, kind, make).await?
+        };
+        Ok(drawn.first().cloned())
     }
 
-    /// What was drawn and what is expected, as the report's own page takes it.
-    pub async fn pictures(&self, state: &State, submission: &Submission) -> Result<Option<Pictures>, Problem> {
-        let drawn = self.drawn(state, submission).await?;
-        if drawn.yours.is_empty() {
-            return Ok(None);
-        }
-        blocking(state, move |state| {
-            let yours = drawn.yours.iter().map(|png| pictures::decode(png)).collect::<Result<_, _>>()?;
-            let expected = state.gallery.expected()?.pictures.clone();
-            Ok(Some(Pictures { yours, expected, terms: Arc::default() }))
-        })
-        .await
+    /// The two sheets of the moving pictures, yours and difference; none where nothing was drawn.
+    pub async fn film(&self, state: &State, submission: &Submission) -> Result<Arc<Pngs>, Problem> {
+        let make = |yours: Vec<Picture>, expected: &Arc<[Picture]>| {
+            let film = Film::of(&yours, expected, 1)?;
+            Ok(film.map(|film| vec![film.yours, film.difference]).unwrap_or_default())
+        };
+        self.made_of_frames(state, submission, Kind::Film, make).await
+    }
+
+    /// What was drawn, as a report's own page takes it; empty where nothing was.
+    pub async fn decoded(&self, state: &State, submission: &Submission) -> Result<Vec<Picture>, Problem> {
+        let frames = self.frames(state, submission).await?;
+        blocking(state, move |_| decoded(&frames)).await
+    }
+
+    /// A picture of what a report says of a file; the file is not run for it. `shown` tells it from others.
+    pub async fn of_report(
+        &self,
+        state: &State,
+        sha256: &str,
+        shown: String,
+        draw: impl FnOnce(&State) -> Result<Option<Vec<u8>>, Fault> + Send + 'static,
+    ) -> Result<Arc<Pngs>, Problem> {
+        let make = blocking(state, move |state| Ok(draw(state)?.into_iter().collect()));
+        self.once(Key { sha256: sha256.to_owned(), kind: Kind::Report(shown) }, make).await
     }
 
     /// The small picture of a submission for class tables, a PNG: kept in the database, since a table shows hundreds. None
     /// where nothing is drawn.
     pub async fn portrait(&self, state: &State, submission: &Submission) -> Result<Option<Vec<u8>>, Problem> {
         let Submission { assignment, sha256, .. } = submission;
-        if !state.store.is_drawn(&submission.id).await? {
+        if let Some(kept) = state.store.portrait(assignment, sha256).await?.flatten()
+            && state.store.is_drawn(&submission.id).await?
+        {
+            return Ok(Some(kept));
+        }
+        let frames = self.frames(state, submission).await?;
+        if frames.is_empty() {
             return Ok(None);
         }
-        if let Some(kept) = state.store.portrait(assignment, sha256).await? {
-            return Ok(kept);
-        }
-        let bytes = state.store.upload(sha256).await?.ok_or_else(Problem::not_found)?;
-        let _turn = self.turn.acquire().await;
-        let order = Order { seed: submission.seed, hints: submission.hints };
-        let portrait = blocking(state, move |state| {
-            let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };
-            let frames = state.pool.grade(submission)?.frames;
-            state.gallery.portraits()?.of(&frames)
-        });
-        let portrait = portrait.await?;
+        let portrait = blocking(state, move |state| state.gallery.portraits()?.of(&decoded(&frames)?)).await?;
         state.store.set_portrait(assignment, sha256, portrait.as_deref()).await?;
         Ok(portrait)
     }
@@ -177,83 +236,26 @@ impl Gallery {
         if let Some(portraits) = self.portraits.get() {
             return Ok(portraits);
         }
-        let made = Portraits::new(self.assignment)?;
-        Ok(self.portraits.get_or_init(|| made))
+        let portraits = Portraits::new(self.assignment)?;
+        Ok(self.portraits.get_or_init(|| portraits))
     }
 
-    fn animated(&self, drawn: &Drawn, view: View) -> Result<Vec<u8>, Fault> {
-        let cell = &drawn.animations[view as usize];
-        if let Some(bytes) = cell.get() {
-            return Ok(bytes.clone());
-        }
-        let decoded = |all: &[Vec<u8>]| all.iter().map(|png| pictures::decode(png)).collect::<Result<Vec<_>, _>>();
-        let expected = &self.expected()?.pictures;
-        let bytes = match view {
-            View::Yours => pictures::animated(&decoded(&drawn.yours)?)?,
-            View::Expected => pictures::animated(expected)?,
-            View::Difference => pictures::animated(&decoded(&drawn.difference)?)?,
-            View::All => {
-                let yours = decoded(&drawn.yours)?;
-                pictures::animation(&Pictures { yours, expected: expected.clone(), terms: Arc::default() })?
-            }
-        };
-        Ok(cell.get_or_init(|| bytes).clone())
-    }
-
-    fn expected(&self) -> Result<&Expected, Fault> {
+    fn expected(&self, index: usize) -> Result<Option<Vec<u8>>, Fault> {
         if let Some(expected) = self.expected.get() {
-            return Ok(expected);
+            return Ok(expected.get(index).cloned());
         }
-        let all = crate::homework::expected_pictures(self.assignment);
-        let encoded = all.iter().map(pictures::png).collect::<Result<_, _>>()?;
-        Ok(self.expected.get_or_init(|| Expected { pictures: all, encoded }))
-    }
-
-    async fn draw(&self, state: &State, submission: &Submission) -> Result<Arc<Drawn>, Problem> {
-        let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
-        // Who looks does not take the processors from who hands in.
-        let _turn = self.turn.acquire().await;
-        let order = Order { seed: submission.seed, hints: submission.hints };
-        let drawn = blocking(state, move |state| {
-            let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };
-            let yours = state.pool.grade(submission)?.frames;
-            let expected = &state.gallery.expected()?.pictures;
-            let pairs = yours.iter().zip(expected.iter());
-            Ok(Drawn {
-                difference: pairs.map(|(a, b)| pictures::difference_png(a, b)).collect::<Result<_, _>>()?,
-                yours: yours.iter().map(pictures::png).collect::<Result<_, _>>()?,
-                animations: Default::default(),
-            })
-        });
-        drawn.await.map(Arc::new)
-    }
-
-    fn cell(&self, sha256: &str) -> Cell {
-        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = recent.iter().position(|(key, _)| key == sha256).and_then(|index| recent.remove(index));
-        let entry = known.unwrap_or_else(|| (sha256.to_owned(), Arc::default()));
-        recent.push_back(entry.clone());
-        entry.1
-    }
-
-    /// Forgets what was not looked at for longest, until the rest has room.
-    fn make_room(&self) {
-        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let size = |cell: &Cell| cell.get().map_or(0, |drawn| drawn.size());
-        let mut total: usize = recent.iter().map(|(_, cell)| size(cell)).sum();
-        while (total > ROOM || recent.len() > MOST) && recent.len() > 1 {
-            if let Some((_, cell)) = recent.pop_front() {
-                total -= size(&cell);
-            }
-        }
+        let all = expected_pictures(self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
+        Ok(self.expected.get_or_init(|| all).get(index).cloned())
     }
 }
 
-impl Drawn {
-    fn size(&self) -> usize {
-        let animations = self.animations.iter().filter_map(OnceLock::get);
-        self.yours.iter().chain(&self.difference).chain(animations).map(Vec::len).sum()
-    }
+fn decoded(pngs: &Pngs) -> Result<Vec<Picture>, Fault> {
+    pngs.iter().map(|png| pictures::decode(png)).collect()
+}
+
+fn differences(pictures: &Pictures) -> Result<Vec<Picture>, Fault> {
+    let pairs = pictures.yours.iter().zip(pictures.expected.iter());
+    pairs.map(|(a, b)| pictures::decode(&pictures::difference_png(a, b)?)).collect()
 }
 
 /// Does work that takes a processor for a while.

@@ -6,7 +6,6 @@ use super::gallery::Gallery;
 use super::grading::{Judge, Queue};
 use super::identity::{new_id, new_token};
 use super::limits::{Limits, Proxies};
-use super::pages::Films;
 use super::store::Store;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -41,8 +40,6 @@ pub struct Shared {
     pub queue: Queue,
     /// The pictures of submissions.
     pub gallery: Gallery,
-    /// The moving pictures of its pages.
-    pub films: Films,
     /// Rates.
     pub limits: Limits,
     /// The homework that is served.
@@ -72,7 +69,6 @@ impl State {
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
             gallery: Gallery::new(assignment),
-            films: Films::default(),
             teacher_token: config.teacher_token.clone(),
             key: key.into_bytes(),
             login_turn: Semaphore::new(1),

@@ -5,6 +5,7 @@ mod bench;
 
 mod classes;
 mod cluster;
+mod gallery;
 mod handing_in;
 mod hostile;
 mod idempotency;

@@ -7,13 +7,13 @@ use crate::batch::intake::{Content, HandIn};
 use crate::batch::page::Pages;
 use crate::batch::{output, run};
 use crate::fault::Fault;
-use crate::grade::Order;
 use crate::language::{Language, Text};
-use crate::sandbox;
+use crate::report::Report;
 use crate::service::State;
 use crate::service::errors::Problem;
-use crate::service::store::{Batch, ClassRow, Stored};
-use std::path::Path;
+use crate::service::gallery::blocking;
+use crate::service::store::{Batch, ClassRow, Stored, Submission};
+use std::path::{Path, PathBuf};
 
 /// What a download is made of.
 #[derive(Clone, Debug)]
@@ -60,6 +60,8 @@ pub async fn download(
         ));
     }
     let (title, refused, members) = members(state, whose).await?;
+    let submissions: Vec<_> =
+        members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
     let wants = output::wants(&[format]);
     let mut portraits = Vec::new();
     for member in &members {
@@ -68,18 +70,21 @@ pub async fn download(
             _ => None,
         });
     }
-    let state = state.clone();
-    let made = tokio::task::spawn_blocking(move || {
-        let failed = |fault: Fault| Problem::of_fault(&fault);
-        let temporary = tempfile::tempdir().map_err(|error| failed(disk(&error)))?;
-        let mut class = class(&state, title, refused, members, portraits, language).map_err(failed)?;
-        if wants.pages {
-            pages(&state, &mut class, temporary.path()).map_err(failed)?;
+    let mut class = blocking(state, move |state| class(state, title, refused, members, portraits, language)).await?;
+    let temporary = blocking(state, |_| tempfile::tempdir().map_err(|error| disk(&error))).await?;
+    // The class page alone is downloaded: it leads to no pages beside it.
+    if format == Format::MoodleFeedback {
+        for (number, (entry, submission)) in class.entries.iter_mut().zip(submissions).enumerate() {
+            if let (Outcome::Graded(report), Some(submission)) = (&entry.outcome, submission) {
+                let path = temporary.path().join(format!("{number}.html"));
+                let source = entry.source.clone().unwrap_or_default();
+                entry.page = Some(page(state, &submission, report, source, language, path).await?);
+            }
         }
-        match (format, sheet) {
-            (Format::MoodleWorksheet, Some(sheet)) => filled(&class, format, &sheet),
-            _ => written(&class, format, &temporary.path().join("out")).map_err(failed),
-        }
+    }
+    let made = tokio::task::spawn_blocking(move || match (format, sheet) {
+        (Format::MoodleWorksheet, Some(sheet)) => filled(&class, format, &sheet),
+        _ => written(&class, format, &temporary.path().join("out")).map_err(|fault| Problem::of_fault(&fault)),
     });
     made.await.map_err(|panic| Problem::internal(&panic))?
 }
@@ -189,27 +194,23 @@ fn outcome(stored: Stored) -> Outcome {
     }
 }
 
-/// Writes each student's report as a page with its pictures, drawn anew.
-fn pages(state: &State, class: &mut Class, folder: &Path) -> Result<(), Fault> {
-    let maker = Pages::new(state.assignment, class.language);
-    for (index, entry) in class.entries.iter_mut().enumerate() {
-        let Outcome::Graded(report) = &entry.outcome else { continue };
-        // The text is the file as far as a report shows it.
-        let bytes = entry.source.clone().unwrap_or_default().into_bytes();
-        let order = Order { seed: report.probes.seed, hints: Default::default() };
-        let submission = sandbox::Submission {
-            name: &report.source.name,
-            bytes: &bytes,
-            order,
-            wants_frames: !report.frames.is_empty(),
-        };
-        let mut frames = if report.frames.is_empty() { Vec::new() } else { state.pool.grade(submission)?.frames };
-        let page = maker.page(report, &bytes, &mut frames)?;
-        let path = folder.join(format!("{index}.html"));
+/// Writes a student's report as a page with its pictures; where that is. `source` is the file as far as a report shows it.
+async fn page(
+    state: &State,
+    submission: &Submission,
+    report: &Report,
+    source: String,
+    language: Language,
+    path: PathBuf,
+) -> Result<PathBuf, Problem> {
+    let mut frames = state.gallery.decoded(state, submission).await?;
+    let report = report.clone();
+    let write = move |state: &State| {
+        let page = Pages::new(state.assignment, language).page(&report, source.as_bytes(), &mut frames)?;
         std::fs::write(&path, page).map_err(|error| disk(&error))?;
-        entry.page = Some(path);
-    }
-    Ok(())
+        Ok(path)
+    };
+    blocking(state, write).await
 }
 
 /// Writes a format into a folder, and takes its file from there, or all its files as a ZIP.

@@ -5,7 +5,6 @@
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
-mod films;
 mod frame;
 mod hand_in;
 mod join;
@@ -20,7 +19,6 @@ mod teacher;
 mod terms;
 
 pub use assets::warm;
-pub use films::Films;
 pub use frame::Frame;
 pub use problem::problem;
 

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::hand_in::readable;
 use super::moment::Moment;
-use super::{films, internal, part, receipt, shown};
+use super::{internal, part, receipt, shown};
 use crate::report::Report;
 use crate::report::html::Lines;
 use crate::report::text::number;
@@ -246,8 +246,8 @@ pub(super) async fn picture(
 ) -> Result<Response, Problem> {
     let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
     let found = match picture.as_str() {
-        "yours.png" => films::film(&state, &submission).await?.map(|film| film.yours.clone()),
-        "difference.png" => films::film(&state, &submission).await?.map(|film| film.difference.clone()),
+        "yours.png" => state.gallery.film(&state, &submission).await?.first().cloned(),
+        "difference.png" => state.gallery.film(&state, &submission).await?.get(1).cloned(),
         "portrait.png" => state.gallery.portrait(&state, &submission).await?,
         "animation.png" => state.gallery.animation(&state, &submission, asked.view).await?,
         _ => None,

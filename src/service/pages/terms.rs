@@ -7,7 +7,6 @@ use crate::report::html::Term;
 use crate::report::{Report, pictures};
 use crate::service::State;
 use crate::service::errors::Problem;
-use crate::service::gallery::blocking;
 use crate::source;
 use axum::extract::{Path, State as Shared};
 use axum::response::Response;
@@ -41,8 +40,11 @@ pub(super) async fn picture(
     let Some((term, whose @ ("yours" | "expected"))) = name else { return Err(Problem::not_found()) };
     let (term, is_theirs) = (term.to_owned(), whose == "yours");
     let (report, bytes) = report_of(&state, &id).await?;
-    let drawn = blocking(&state, move |state| draw(state, &report, &bytes, &term, is_theirs)).await?;
-    drawn.map(png).ok_or_else(Problem::not_found)
+    let file = report.source.sha256.clone();
+    let shown = format!("{picture} {}", serde_json::to_string(&report.explanation).unwrap_or_default());
+    let draw = move |state: &State| draw(state, &report, &bytes, &term, is_theirs);
+    let drawn = state.gallery.of_report(&state, &file, shown, draw).await?;
+    drawn.first().cloned().map(png).ok_or_else(Problem::not_found)
 }
 
 fn draw(state: &State, report: &Report, bytes: &[u8], term: &str, is_theirs: bool) -> Result<Option<Vec<u8>>, Fault> {
