@@ -73,7 +73,7 @@ pub struct Serve {
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uploads_per_student: Option<u32>,
-    /// Uploads a minute from one address; a whole computer room may share one [default: 1200]
+    /// Uploads a minute from one address; a whole computer room may share one [default: 6000]
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uploads_per_address: Option<u32>,

@@ -1,8 +1,8 @@
 //! What time it is: the machine's, or one that a test sets.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::sync::{Arc, LazyLock};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Milliseconds since 1970 in UTC.
 pub type Millis = i64;
@@ -26,6 +26,15 @@ impl Clock {
     pub fn advance(&self, by: Duration) {
         if let Some(fixed) = &self.0 {
             fixed.fetch_add(millis(by), Ordering::SeqCst);
+        }
+    }
+
+    /// Time that has gone by, which nobody who sets the machine's clock changes.
+    pub fn elapsed(&self) -> Duration {
+        static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+        match &self.0 {
+            Some(fixed) => Duration::from_millis(fixed.load(Ordering::SeqCst).unsigned_abs()),
+            None => START.elapsed(),
         }
     }
 

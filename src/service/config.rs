@@ -75,7 +75,7 @@ impl Default for Config {
             wait: 5.0,
             queue: 64,
             uploads_per_student: 60,
-            uploads_per_address: 1200,
+            uploads_per_address: 6000,
             archive_mib: 64,
             retention_days: 0,
             teacher_token: None,

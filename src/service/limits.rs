@@ -1,20 +1,17 @@
-//! Who may do how much: rates by student and by address, and whose word on addresses is taken.
+//! Who may do how much ([`rates`]), and whose word on addresses is taken.
+
+mod rates;
+
+pub use rates::{Counted, Limits};
 
 use super::State;
-use super::errors::Problem;
 use crate::fault::Fault;
 use crate::language::Text;
 use axum::extract::{FromRequestParts, Request};
 use axum::http::request::Parts;
-use axum::http::{Extensions, HeaderMap, StatusCode};
-use governor::clock::{Clock as _, DefaultClock};
-use governor::{DefaultKeyedRateLimiter, Quota, RateLimiter};
+use axum::http::{Extensions, HeaderMap};
 use std::convert::Infallible;
 use std::net::{IpAddr, Ipv6Addr, SocketAddr};
-use std::num::NonZeroU32;
-
-/// Attempts to log in from one address: this many at once, then one every so often.
-const LOGINS_PER_MINUTE: u32 = 5;
 
 /// The address at the other end of a connection; the server puts it into each request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,64 +108,6 @@ fn prefix_of(address: IpAddr, prefix: u32) -> Option<IpAddr> {
         }
         IpAddr::V4(_) => None,
     }
-}
-
-/// The rates.
-#[derive(Debug)]
-pub struct Limits {
-    uploads: DefaultKeyedRateLimiter<String>,
-    addresses: DefaultKeyedRateLimiter<IpAddr>,
-    logins: DefaultKeyedRateLimiter<IpAddr>,
-}
-
-impl Limits {
-    /// The rates of a configuration.
-    pub fn new(config: &super::Config) -> Self {
-        let quota = |per_minute: u32| Quota::per_minute(NonZeroU32::new(per_minute).unwrap_or(NonZeroU32::MIN));
-        Self {
-            uploads: RateLimiter::keyed(quota(config.uploads_per_student)),
-            addresses: RateLimiter::keyed(quota(config.uploads_per_address)),
-            logins: RateLimiter::keyed(quota(LOGINS_PER_MINUTE)),
-        }
-    }
-
-    /// Counts an upload of a student or browser.
-    pub fn upload(&self, by: &str) -> Result<(), Problem> {
-        check(&self.uploads, &by.to_owned(), "rate-student")
-    }
-
-    /// Counts a request that changes something.
-    pub fn address(&self, client: &Client) -> Result<(), Problem> {
-        check(&self.addresses, &client.address, "rate-address")
-    }
-
-    /// Counts an attempt to log in.
-    pub fn login(&self, client: &Client) -> Result<(), Problem> {
-        check(&self.logins, &client.address, "rate-login")
-    }
-
-    /// Forgets who has been quiet for long.
-    pub fn tidy(&self) {
-        self.uploads.retain_recent();
-        self.addresses.retain_recent();
-        self.logins.retain_recent();
-    }
-}
-
-fn check<K>(limiter: &DefaultKeyedRateLimiter<K>, key: &K, kind: &'static str) -> Result<(), Problem>
-where
-    K: std::hash::Hash + Eq + Clone,
-{
-    limiter.check_key(key).map_err(|until| {
-        let wait = until.wait_time_from(DefaultClock::default().now());
-        Problem::new(
-            StatusCode::TOO_MANY_REQUESTS,
-            kind,
-            "Too many requests in a short time. Wait a little, and try again.",
-            "短時間にリクエストが集中しています。少し待ってから、もう一度試してください。",
-        )
-        .retry_after(wait.as_secs_f64().ceil() as u64)
-    })
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! What every request gets: a count by its address where it changes something, a time limit, a line in the log, a place in the figures.
 
 use super::errors::Problem;
+use super::identity::{is_teachers_program, visitor_cookie};
+use super::limits::Counted;
 use super::{Config, State, api, metrics, submit};
 use axum::extract::{MatchedPath, Request, State as Shared};
 use axum::http::{HeaderValue, Method, StatusCode, header};
@@ -25,8 +27,8 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
     let patience = if is_about_a_class(&route) { TEACHERS_PATIENCE } else { 1.0 };
     let seconds = state.config.limits.request_timeout * patience;
     // Counted before a byte of the body is read.
-    let counted = if method.is_safe() { Ok(()) } else { state.limits.address(&state.proxies.client_of(&request)) };
-    let mut response = match counted {
+    let (counted, is_within_rate) = counted(&state, &request, &route);
+    let mut response = match is_within_rate {
         Err(problem) => problem.into_response(),
         Ok(()) if !is_about_a_class(&route) && declared_length(&request) > api::MAX_BODY as u64 => {
             // Later than the time limit there is nobody left to tell.
@@ -38,6 +40,7 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
             answered.unwrap_or_else(|_| too_late())
         }
     };
+    counted.tell(response.headers_mut());
     let status = response.status().as_u16();
     let took = start.elapsed();
     // An id in the address opens a report, and a name in it was written by a student: the route says enough.
@@ -49,6 +52,20 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
     }
     response
 }
+
+/// What is left of a request's rates, and whether it may come in. What changes nothing is not counted, and neither is
+/// what the teacher's program sends.
+fn counted(state: &State, request: &Request, route: &str) -> (Counted, Result<(), Problem>) {
+    if request.method().is_safe() || is_teachers_program(state, request.headers()) {
+        return (Counted::default(), Ok(()));
+    }
+    let client = state.proxies.client_of(request);
+    let cookie = visitor_cookie(state, request.headers());
+    state.limits.count(&client, UPLOADS.contains(&route), cookie.as_deref())
+}
+
+/// Routes to which students send files.
+const UPLOADS: [&str; 3] = ["/api/v1/submissions", "/a/{assignment}", "/a/{assignment}/draft"];
 
 /// How long a body is by its head.
 fn declared_length(request: &Request) -> u64 {

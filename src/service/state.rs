@@ -65,7 +65,7 @@ impl State {
         let key = store.setting_or("csrf_key", &new_token()).await.map_err(failed)?;
         store.assignment(&assignment.id).await.map_err(failed)?;
         Ok(Self(Arc::new(Shared {
-            limits: Limits::new(&config),
+            limits: Limits::new(&config, &clock),
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
             gallery: Gallery::new(assignment),

@@ -10,9 +10,14 @@ use ggrade::service::clock::Clock;
 use ggrade::service::limits::Peer;
 use ggrade::service::{Config, layered};
 use std::sync::Arc;
+use std::time::Duration;
 
 async fn bench(config: Config) -> Bench {
-    Bench::with(Database::sqlite(), config, Arc::new(Fake(|| Ok(()))), Clock::system()).await
+    timed(config, Clock::fixed(1_700_000_000_000)).await
+}
+
+async fn timed(config: Config, clock: Clock) -> Bench {
+    Bench::with(Database::sqlite(), config, Arc::new(Fake(|| Ok(()))), clock).await
 }
 
 fn from(peer: &str, forwarded: &str) -> Request<Body> {
@@ -42,6 +47,83 @@ async fn an_address_has_its_rate_and_others_have_theirs() {
         bench.send(from("192.0.2.1:1000", "203.0.113.5, 198.51.100.1")).await.status,
         StatusCode::TOO_MANY_REQUESTS
     );
+    bench.finish().await;
+}
+
+/// A request with a file, out of a browser that is known by this cookie; from none where it is empty.
+fn by(peer: &str, cookie: &str) -> Request<Body> {
+    let request = Request::post("/api/v1/submissions")
+        .header(header::CONTENT_TYPE, "text/plain")
+        .extension(Peer(peer.parse().expect("an address")));
+    let request = if cookie.is_empty() { request } else { request.header(header::COOKIE, format!("ggrade={cookie}")) };
+    request.body(Body::from("file")).expect("a request")
+}
+
+#[tokio::test]
+async fn who_brings_no_cookie_is_limited_by_address_and_a_class_behind_one_is_not() {
+    let clock = Clock::fixed(1_700_000_000_000);
+    let bench = timed(Config { uploads_per_student: 3, uploads_per_address: 50, ..config() }, clock.clone()).await;
+    let cookie = |number: usize| format!("{number:096x}");
+    let (class, other) = ("198.51.100.1:1", "198.51.100.2:1");
+    for left in [2, 1, 0] {
+        let reply = bench.send(by(class, "")).await;
+        assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
+        assert_eq!(reply.header("ratelimit-policy"), "\"address\";q=50;w=60, \"visitor\";q=3;w=60");
+        assert!(reply.header("ratelimit").contains(&format!("\"visitor\";r={left};t=")), "{reply:?}");
+    }
+    let refused = bench.send(by(class, "")).await;
+    assert_eq!((refused.status, refused.problem().as_str()), (StatusCode::TOO_MANY_REQUESTS, "rate-student"));
+    assert!(refused.header("ratelimit").contains("\"visitor\";r=0;t="), "{refused:?}");
+    assert!(refused.header("retry-after").parse::<u64>().expect("seconds") >= 1);
+    // Ten browsers of the same address hand in three times each.
+    for number in 1..=10 {
+        for _ in 0..3 {
+            assert_eq!(bench.send(by(class, &cookie(number))).await.status, StatusCode::CREATED, "{number}");
+        }
+        assert_eq!(bench.send(by(class, &cookie(number))).await.problem(), "rate-student");
+    }
+    // Then the address has had its share, whatever cookie is made up; others have theirs.
+    // 4 without a cookie and 40 with one are counted, so that 6 are left.
+    for number in 11..=16 {
+        assert_eq!(bench.send(by(class, &cookie(number))).await.status, StatusCode::CREATED, "{number}");
+    }
+    assert_eq!(bench.send(by(class, &cookie(17))).await.problem(), "rate-address");
+    assert_eq!(bench.send(by(other, &cookie(99))).await.status, StatusCode::CREATED);
+    // One of 50 a minute comes back after 1.2 s, one of 3 after 20 s.
+    clock.advance(Duration::from_millis(1200));
+    assert_eq!(bench.send(by(class, &cookie(17))).await.status, StatusCode::CREATED);
+    clock.advance(Duration::from_secs(20));
+    assert_eq!(bench.send(by(class, "")).await.status, StatusCode::CREATED);
+    assert_eq!(bench.send(by(class, "")).await.problem(), "rate-student");
+    bench.finish().await;
+}
+
+#[tokio::test]
+async fn a_network_of_ipv6_is_one_visitor_and_the_teachers_program_none() {
+    let bench = bench(Config { uploads_per_student: 2, uploads_per_address: 4, ..config() }).await;
+    for (peer, status) in [
+        ("[2001:db8:1:2::1]:1", StatusCode::CREATED),
+        ("[2001:db8:1:2:ffff::2]:1", StatusCode::CREATED),
+        ("[2001:db8:1:2::3]:1", StatusCode::TOO_MANY_REQUESTS),
+        ("[2001:db8:1:3::1]:1", StatusCode::CREATED),
+    ] {
+        assert_eq!(bench.send(by(peer, "")).await.status, status, "{peer}");
+    }
+    let with = |token: &str| {
+        let mut request = by("192.0.2.1:1", "");
+        request.headers_mut().insert(header::AUTHORIZATION, format!("Bearer {token}").parse().expect("a header"));
+        bench.send(request)
+    };
+    for _ in 0..10 {
+        let reply = with(crate::bench::TEACHER).await;
+        assert_eq!((reply.status, reply.header("ratelimit")), (StatusCode::CREATED, ""), "{reply:?}");
+    }
+    // A token that is none opens nothing.
+    let mut statuses = Vec::new();
+    for _ in 0..3 {
+        statuses.push(with("guessed").await.status);
+    }
+    assert_eq!(statuses, [StatusCode::CREATED, StatusCode::CREATED, StatusCode::TOO_MANY_REQUESTS]);
     bench.finish().await;
 }
 

@@ -20,6 +20,11 @@ pub(super) fn read(state: &State, headers: &HeaderMap, base: &str) -> Option<Str
     named(headers, &name).filter(|value| is_token(value)).map(str::to_owned)
 }
 
+/// The secret by which a browser is known, where the request brings one.
+pub(in crate::service) fn of_visitor(state: &State, headers: &HeaderMap) -> Option<String> {
+    read(state, headers, STUDENT_COOKIE)
+}
+
 /// Whether this can be a secret of ours.
 fn is_token(value: &str) -> bool {
     value.len() == TOKEN_LENGTH && value.bytes().all(|byte| byte.is_ascii_hexdigit())

@@ -13,15 +13,15 @@ mod secrets;
 mod teacher;
 mod visitor;
 
-pub(super) use cookies::named as cookie;
 pub use cookies::{STUDENT_COOKIE, TEACHER_COOKIE};
+pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
 pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret};
 pub(super) use login::PASSWORD_SETTING;
 pub use login::{LoginForm, login, logout};
 pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use secrets::{hex, same};
-pub(super) use teacher::bearer;
 pub use teacher::{Teacher, TeacherPage};
+pub(super) use teacher::{bearer, is_teachers_program};
 pub use visitor::{Visitor, visit};
 
 use super::store::{Owner, Student};
@@ -54,10 +54,5 @@ impl Identity {
             Self::Student(_, student) | Self::OnBehalf(student) => Some(student),
             Self::Nobody | Self::Browser(_) => None,
         }
-    }
-
-    /// What uploads are counted by, where anything is known.
-    pub fn counted_by(&self) -> Option<String> {
-        self.student().map(|student| student.id.clone()).or_else(|| self.owner_id().map(str::to_owned))
     }
 }

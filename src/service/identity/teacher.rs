@@ -20,8 +20,7 @@ pub struct Teacher {
 impl Teacher {
     async fn of(state: &State, headers: &HeaderMap) -> Result<Option<Self>, Problem> {
         if let Some(token) = bearer(headers) {
-            let is_theirs = state.teacher_token.as_ref().is_some_and(|secret| same(secret, token));
-            return Ok(is_theirs.then_some(Self { session: None }));
+            return Ok(is_theirs(state, token).then_some(Self { session: None }));
         }
         let Some(session) = read(state, headers, TEACHER_COOKIE) else { return Ok(None) };
         let is_open = state.store.session_is_open(&token_hash(&session), state.clock.now()).await?;
@@ -41,6 +40,15 @@ impl Teacher {
     pub(super) fn session(&self) -> Option<&str> {
         self.session.as_deref()
     }
+}
+
+fn is_theirs(state: &State, token: &str) -> bool {
+    state.teacher_token.as_ref().is_some_and(|secret| same(secret, token))
+}
+
+/// Whether a request brings the teacher's token, as a program of theirs does.
+pub(in crate::service) fn is_teachers_program(state: &State, headers: &HeaderMap) -> bool {
+    bearer(headers).is_some_and(|token| is_theirs(state, token))
 }
 
 /// The secret of an `Authorization: Bearer`.

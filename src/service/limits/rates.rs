@@ -1,0 +1,154 @@
+//! Rates: by visitor and by address.
+//!
+//! An address may be that of a whole class behind one router, so it may do much; each browser in it is told from the
+//! others by its cookie, and may do as much as one person does. Whoever comes without a cookie is one visitor with all
+//! others of the address who do. What is left is told in every answer that is counted, by the fields of
+//! draft-ietf-httpapi-ratelimit-headers: `RateLimit-Policy` and `RateLimit`.
+
+use super::Client;
+use crate::service::Config;
+use crate::service::clock::Clock;
+use crate::service::errors::Problem;
+use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode};
+use governor::middleware::StateInformationMiddleware;
+use governor::state::keyed::DefaultKeyedStateStore;
+use governor::{Quota, RateLimiter};
+use std::hash::Hash;
+use std::net::IpAddr;
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+/// Attempts to log in from one address: this many at once, then one every so often.
+const LOGINS_PER_MINUTE: u32 = 5;
+
+/// Seconds in which a rate's quota comes back.
+const WINDOW: u32 = 60;
+
+const POLICY: HeaderName = HeaderName::from_static("ratelimit-policy");
+const STANDING: HeaderName = HeaderName::from_static("ratelimit");
+
+/// The rates.
+#[derive(Debug)]
+pub struct Limits {
+    visitors: Rate<String>,
+    addresses: Rate<IpAddr>,
+    logins: Rate<IpAddr>,
+}
+
+/// How many requests whoever is told apart by a `K` may send: as many at once as in a minute, and then as they come back.
+#[derive(Debug)]
+struct Rate<K: Hash + Eq + Clone> {
+    name: &'static str,
+    /// The kind of the problem.
+    kind: &'static str,
+    quota: u32,
+    limiter: RateLimiter<K, DefaultKeyedStateStore<K>, Clock, StateInformationMiddleware>,
+}
+
+impl governor::clock::Clock for Clock {
+    type Instant = Duration;
+
+    fn now(&self) -> Duration {
+        self.elapsed()
+    }
+}
+
+/// What a request left of the quotas that it was counted by.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counted(Vec<Left>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Left {
+    name: &'static str,
+    quota: u32,
+    left: u32,
+    /// Seconds until the quota is whole again, or where nothing is left until the next request may come.
+    seconds: u64,
+}
+
+impl Limits {
+    /// The rates of a configuration.
+    pub fn new(config: &Config, clock: &Clock) -> Self {
+        Self {
+            visitors: Rate::new("visitor", "rate-student", config.uploads_per_student, clock),
+            addresses: Rate::new("address", "rate-address", config.uploads_per_address, clock),
+            logins: Rate::new("login", "rate-login", LOGINS_PER_MINUTE, clock),
+        }
+    }
+
+    /// Counts a request that changes something; of one that brings a file also its visitor, who is known by `cookie` or
+    /// else by the address alone.
+    pub fn count(&self, client: &Client, is_upload: bool, cookie: Option<&str>) -> (Counted, Result<(), Problem>) {
+        let mut counted = Counted::default();
+        let mut result = self.addresses.count(&client.address, &mut counted);
+        if result.is_ok() && is_upload {
+            let visitor = cookie.map_or_else(|| client.address.to_string(), str::to_owned);
+            result = self.visitors.count(&visitor, &mut counted);
+        }
+        (counted, result)
+    }
+
+    /// Counts an attempt to log in.
+    pub fn login(&self, client: &Client) -> Result<(), Problem> {
+        self.logins.count(&client.address, &mut Counted::default())
+    }
+
+    /// Forgets who has been quiet for long.
+    pub fn tidy(&self) {
+        self.visitors.limiter.retain_recent();
+        self.addresses.limiter.retain_recent();
+        self.logins.limiter.retain_recent();
+    }
+}
+
+impl<K: Hash + Eq + Clone> Rate<K> {
+    fn new(name: &'static str, kind: &'static str, per_minute: u32, clock: &Clock) -> Self {
+        let quota = NonZeroU32::new(per_minute).unwrap_or(NonZeroU32::MIN);
+        let states = DefaultKeyedStateStore::default();
+        let limiter = RateLimiter::new(Quota::per_minute(quota), states, clock.clone());
+        Self { name, kind, quota: quota.get(), limiter }
+    }
+
+    fn count(&self, key: &K, counted: &mut Counted) -> Result<(), Problem> {
+        let (name, quota) = (self.name, self.quota);
+        match self.limiter.check_key(key) {
+            Ok(standing) => {
+                let left = standing.remaining_burst_capacity();
+                let used = u64::from(quota.saturating_sub(left));
+                let seconds = (used * u64::from(WINDOW)).div_ceil(u64::from(quota));
+                counted.0.push(Left { name, quota, left, seconds });
+                Ok(())
+            }
+            Err(until) => {
+                let wait = until.wait_time_from(self.limiter.clock().elapsed());
+                let seconds = (wait.as_secs_f64().ceil() as u64).max(1);
+                counted.0.push(Left { name, quota, left: 0, seconds });
+                Err(too_many(self.kind).retry_after(seconds))
+            }
+        }
+    }
+}
+
+fn too_many(kind: &'static str) -> Problem {
+    Problem::new(
+        StatusCode::TOO_MANY_REQUESTS,
+        kind,
+        "Too many requests in a short time. Wait a little, and try again.",
+        "短時間にリクエストが集中しています。少し待ってから、もう一度試してください。",
+    )
+}
+
+impl Counted {
+    /// Tells what is left in the head of an answer.
+    pub fn tell(&self, headers: &mut HeaderMap) {
+        let policy = |left: &Left| format!("\"{}\";q={};w={WINDOW}", left.name, left.quota);
+        let standing = |left: &Left| format!("\"{}\";r={};t={}", left.name, left.left, left.seconds);
+        let lists: [(_, Vec<String>); 2] =
+            [(POLICY, self.0.iter().map(policy).collect()), (STANDING, self.0.iter().map(standing).collect())];
+        for (name, items) in lists {
+            if let (false, Ok(value)) = (items.is_empty(), HeaderValue::from_str(&items.join(", "))) {
+                headers.insert(name, value);
+            }
+        }
+    }
+}
