@@ -15,6 +15,7 @@ mod limits;
 mod places;
 mod process;
 mod server;
+mod static_files;
 mod student_page;
 
 use ggrade::sandbox::{Pool, Settings};

@@ -14,6 +14,7 @@ use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::routing::get;
 use schema::{FormatName, Security};
+use tower_http::compression::CompressionLayer;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
@@ -65,5 +66,8 @@ pub fn router(_state: &State) -> Router<State> {
     let router = router.merge(archives.layer(DefaultBodyLimit::disable()));
     let document = document.merge_from(with_archives);
     let document = std::sync::Arc::new(document);
-    router.route("/api/v1/openapi.json", get(move || docs::document(document.clone()))).merge(docs::router())
+    let description = get(move || docs::document(document.clone()));
+    let static_files = docs::router().route("/api/v1/openapi.json", description);
+    // Pages are not compressed: they hold tokens beside text that others choose, which the length would give away.
+    router.merge(static_files.layer(CompressionLayer::new()))
 }

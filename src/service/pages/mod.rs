@@ -33,6 +33,7 @@ use axum::http::{HeaderValue, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
+use tower_http::compression::CompressionLayer;
 
 /// The routes of all pages.
 pub fn router(state: &State) -> Router<State> {
@@ -53,7 +54,7 @@ pub fn router(state: &State) -> Router<State> {
         .merge(teacher::router())
         .layer(from_fn(keep_language))
         .layer(from_fn_with_state(state.clone(), visit))
-        .route("/assets/{name}", get(assets::serve))
+        .merge(Router::new().route("/assets/{name}", get(assets::serve)).layer(CompressionLayer::new()))
 }
 
 /// A year, in seconds.
