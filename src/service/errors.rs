@@ -171,6 +171,7 @@ const LONGEST_SAID: usize = 400;
 /// The outermost layer: gives every error its form.
 pub async fn render(request: Request, next: Next) -> Response {
     let language = of_request(request.headers(), request.uri());
+    let has_token = super::identity::bearer(request.headers()).is_some();
     let wants_page = !request.uri().path().starts_with("/api/") && accepts_html(request.headers());
     let response = next.run(request).await;
     let status = response.status();
@@ -189,6 +190,9 @@ pub async fn render(request: Request, next: Next) -> Response {
     if let Some(seconds) = problem.retry_after {
         parts.headers.insert(header::RETRY_AFTER, HeaderValue::from(seconds));
     }
+    if problem.status == StatusCode::UNAUTHORIZED {
+        parts.headers.insert(header::WWW_AUTHENTICATE, HeaderValue::from_static(challenge(has_token)));
+    }
     parts.headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
     parts.status = problem.status;
     if wants_page {
@@ -198,6 +202,11 @@ pub async fn render(request: Request, next: Next) -> Response {
     parts.headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));
     let json = serde_json::to_vec(&problem.json(language)).unwrap_or_default();
     Response::from_parts(parts, Body::from(json))
+}
+
+/// What a client is asked for that is not let in (RFC 6750); `has_token` says that it sent a token, which is wrong.
+fn challenge(has_token: bool) -> &'static str {
+    if has_token { "Bearer realm=\"ggrade\", error=\"invalid_token\"" } else { "Bearer realm=\"ggrade\"" }
 }
 
 /// Whether a handler has given the error a page of its own.

@@ -1,7 +1,7 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
 use super::archive::Archive;
-use super::schema::{BatchJson, Errors, FormatName, NotFound, Refusals};
+use super::schema::{BatchJson, Errors, FormatName, IdempotencyKey, NotFound, Refusals};
 use super::submissions::attachment;
 use crate::batch::formats::Format;
 use crate::language::Language;
@@ -39,13 +39,17 @@ pub(super) struct ArchiveForm {
     /// A ZIP: Moodle's download, or a folder for each student.
     #[schema(content_media_type = "application/zip", min_length = 1)]
     file: String,
+    /// In place of the header `Idempotency-Key`.
+    #[schema(nullable = false, pattern = "^[!-~]([ -~]{0,253}[!-~])?$")]
+    idempotency_key: Option<String>,
 }
 
 /// Hand in a whole class
 ///
-/// The archive is stored; its files are graded in the background, behind every student who hands in.
+/// The archive is stored; its files are graded in the background, behind every student who hands in. Where no answer
+/// comes, send it again with the same `Idempotency-Key`: it is stored once.
 #[utoipa::path(
-    post, path = "/api/v1/batches", tag = "batches", security(("teacher" = [])),
+    post, operation_id = "create_batch", path = "/api/v1/batches", tag = "batches", params(IdempotencyKey), security(("teacher" = [])),
     request_body(content((ArchiveForm = "multipart/form-data"), (Vec<u8> = "application/zip"))),
     responses(
         (status = 202, description = "Stored", body = BatchJson, headers(("Location" = String, description = "The batch"))),
@@ -86,7 +90,7 @@ async fn find(state: &State, id: &str) -> Result<Batch, Problem> {
 
 /// A batch and how far it is
 #[utoipa::path(
-    get, path = "/api/v1/batches/{id}", tag = "batches", security(("teacher" = [])),
+    get, operation_id = "read_batch", path = "/api/v1/batches/{id}", tag = "batches", security(("teacher" = [])),
     params(("id" = String, Path, description = "Id of the batch")),
     responses((status = 200, description = "How far it is", body = BatchJson), NotFound, Refusals, Errors)
 )]
@@ -104,7 +108,7 @@ pub(super) async fn read(
 ///
 /// Server-sent events `progress`, whose data is the object of that name; the last one is `done`.
 #[utoipa::path(
-    get, path = "/api/v1/batches/{id}/events", tag = "batches", security(("teacher" = [])),
+    get, operation_id = "watch_batch", path = "/api/v1/batches/{id}/events", tag = "batches", security(("teacher" = [])),
     params(("id" = String, Path, description = "Id of the batch")),
     responses(
         (status = 200, description = "Events", body = String, content_type = "text/event-stream"), NotFound, Refusals, Errors
@@ -159,7 +163,7 @@ pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item =
 ///
 /// Formats of several files come as a ZIP. `moodle-worksheet` needs the worksheet: POST it here.
 #[utoipa::path(
-    get, path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
+    get, operation_id = "read_batch_file", path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
     params(("id" = String, Path, description = "Id of the batch"), ("format" = FormatName, Path, description = "Name of the format")),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]
@@ -175,7 +179,7 @@ pub(super) async fn file(
 
 /// A batch in Moodle's worksheet
 #[utoipa::path(
-    post, path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
+    post, operation_id = "fill_batch_file", path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
     params(("id" = String, Path, description = "Id of the batch"), ("format" = FormatName, Path, description = "`moodle-worksheet`; others take no file")),
     request_body(content = String, content_type = "text/csv", description = "The worksheet that Moodle gives"),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
@@ -207,7 +211,7 @@ pub(super) struct PickQuery {
 
 /// What students handed in themselves, in a format of `ggrade batch`
 #[utoipa::path(
-    get, path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
+    get, operation_id = "read_class_file", path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
     params(("format" = FormatName, Path, description = "Name of the format"), PickQuery),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]

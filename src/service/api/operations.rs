@@ -11,14 +11,14 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 /// Whether the process is alive
-#[utoipa::path(get, path = "/healthz", tag = "operations",
+#[utoipa::path(get, operation_id = "read_health", path = "/healthz", tag = "operations",
     responses((status = 200, description = "It is", body = String, content_type = "text/plain"), Errors))]
 pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
 /// Whether uploads are taken
-#[utoipa::path(get, path = "/readyz", tag = "operations",
+#[utoipa::path(get, operation_id = "read_readiness", path = "/readyz", tag = "operations",
     responses((status = 200, description = "They are", body = String, content_type = "text/plain"), Errors))]
 pub(super) async fn readyz(Shared(state): Shared<State>) -> Result<&'static str, Problem> {
     state.store.ping().await?;
@@ -37,7 +37,7 @@ pub(super) async fn readyz(Shared(state): Shared<State>) -> Result<&'static str,
 /// Figures for Prometheus
 ///
 /// For this machine, or with `Authorization: Bearer` and the token of the configuration.
-#[utoipa::path(get, path = "/metrics", tag = "operations",
+#[utoipa::path(get, operation_id = "read_metrics", path = "/metrics", tag = "operations",
     responses(
         (status = 200, description = "The figures", body = String, content_type = "text/plain"),
         (status = 403, description = "Not from this machine, and without the token", body = ProblemJson,

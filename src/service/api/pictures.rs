@@ -24,7 +24,7 @@ pub(in crate::service) struct ViewQuery {
 
 /// The pictures of a submission
 #[utoipa::path(
-    get, path = "/api/v1/submissions/{id}/frames", tag = "submissions",
+    get, operation_id = "list_frames", path = "/api/v1/submissions/{id}/frames", tag = "submissions",
     params(("id" = String, Path, description = "Id of the submission")),
     responses((status = 200, description = "Their addresses", body = FramesJson), NotFound, Errors)
 )]
@@ -46,7 +46,7 @@ pub(super) async fn list(Shared(state): Shared<State>, Path(id): Path<String>) -
 
 /// One picture
 #[utoipa::path(
-    get, path = "/api/v1/submissions/{id}/frames/{frame}", tag = "submissions",
+    get, operation_id = "read_frame", path = "/api/v1/submissions/{id}/frames/{frame}", tag = "submissions",
     params(
         ("id" = String, Path, description = "Id of the submission"),
         ("frame" = String, Path, description = "Number of the pose from 0, and `.png`", pattern = r"^[0-9]+\.png$"),
@@ -67,7 +67,7 @@ pub(super) async fn frame(
 
 /// The pictures as one animated PNG
 #[utoipa::path(
-    get, path = "/api/v1/submissions/{id}/animation.png", tag = "submissions",
+    get, operation_id = "read_animation", path = "/api/v1/submissions/{id}/animation.png", tag = "submissions",
     params(("id" = String, Path, description = "Id of the submission"), ViewQuery),
     responses(
         (status = 200, description = "The animation", body = Vec<u8>, content_type = "image/png"), NotFound, Errors

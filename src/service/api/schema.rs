@@ -262,7 +262,8 @@ pub(super) enum NotFound {
 #[allow(dead_code, reason = "only its description is used")]
 pub(super) enum Refusals {
     /// A secret is wrong, or nobody may do this.
-    #[response(status = 401, content_type = "application/problem+json")]
+    #[response(status = 401, content_type = "application/problem+json",
+        headers(("WWW-Authenticate" = String, description = "`Bearer`")))]
     Unauthorized(ProblemJson),
     /// Handing in is over or has not begun, all attempts are used up, or a student number is needed.
     #[response(status = 403, content_type = "application/problem+json")]
@@ -273,13 +274,26 @@ pub(super) enum Refusals {
     /// Neither a form nor a plain file.
     #[response(status = 415, content_type = "application/problem+json")]
     UnsupportedMediaType(ProblemJson),
-    /// There is no file, or a field makes no sense.
+    /// There is no file, a field makes no sense, or the `Idempotency-Key` was sent before with another request.
     #[response(status = 422, content_type = "application/problem+json")]
     Unprocessable(ProblemJson),
     /// The queue is full (with the position that the file would have had), or there were too many requests; with
     /// Retry-After.
-    #[response(status = 429, content_type = "application/problem+json")]
+    #[response(status = 429, content_type = "application/problem+json",
+        headers(("Retry-After" = u64, description = "Seconds after which to try again")))]
     TooMany(ProblemJson),
+}
+
+/// The key of a request that may be sent again.
+#[derive(serde::Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Header)]
+#[allow(dead_code, reason = "only its description is used")]
+pub(super) struct IdempotencyKey {
+    /// Made up anew for each file, such as a UUID, and sent again with the same file where no answer came: the same
+    /// answer comes, and nothing is stored twice. Known for a day.
+    #[serde(rename = "Idempotency-Key")]
+    #[param(pattern = "^[!-~]([ -~]{0,253}[!-~])?$", example = "\"8e03978e-40d5-43e8-bc93-6894a57f9324\"")]
+    idempotency_key: Option<String>,
 }
 
 /// The teacher's token.

@@ -1,7 +1,7 @@
 //! `/api/v1/submissions`.
 
 use super::body::Form;
-use super::schema::{Errors, NotFound, Refusals, SubmissionJson};
+use super::schema::{Errors, IdempotencyKey, NotFound, Refusals, SubmissionJson};
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::service::State;
@@ -64,6 +64,9 @@ pub(super) struct FileForm {
     /// Secret of the course link.
     #[schema(nullable = false)]
     course: Option<String>,
+    /// In place of the header `Idempotency-Key`.
+    #[schema(nullable = false, pattern = "^[!-~]([ -~]{0,253}[!-~])?$")]
+    idempotency_key: Option<String>,
 }
 
 /// The file itself.
@@ -75,16 +78,19 @@ pub(super) struct FileText(String);
 /// Hand in a file
 ///
 /// The file is stored before anything else. 201: here is its report. 202: it is stored and will be graded; ask again at
-/// the Location.
+/// the Location. Where no answer comes, send it again with the same `Idempotency-Key`: it is stored once.
 #[utoipa::path(
-    post, path = "/api/v1/submissions", tag = "submissions", params(About), security((), ("teacher" = [])),
+    post, operation_id = "create_submission", path = "/api/v1/submissions", tag = "submissions", params(About, IdempotencyKey), security((), ("teacher" = [])),
     request_body(content(
         (FileForm = "multipart/form-data"),
         (FileText = "text/plain"),
         (FileText = "application/octet-stream"),
     )),
     responses(
-        (status = 201, description = "Graded", body = SubmissionJson, headers(("Location" = String, description = "The submission"))),
+        (status = 201, description = "Graded", body = SubmissionJson, headers(
+            ("Location" = String, description = "The submission"),
+            ("RateLimit-Policy" = String, description = "How much may be sent"),
+            ("RateLimit" = String, description = "What is left of it"))),
         (status = 202, description = "Stored, not graded yet", body = SubmissionJson, headers(
             ("Location" = String, description = "The submission"),
             ("Retry-After" = u64, description = "Seconds after which to ask again"))),
@@ -208,7 +214,7 @@ pub(super) struct LangQuery {
 
 /// A submission and its report
 #[utoipa::path(
-    get, path = "/api/v1/submissions/{id}", tag = "submissions",
+    get, operation_id = "read_submission", path = "/api/v1/submissions/{id}", tag = "submissions",
     params(("id" = String, Path, description = "Id of the submission"), LangQuery),
     responses((status = 200, description = "How far it is", body = SubmissionJson), NotFound, Errors)
 )]
@@ -232,7 +238,7 @@ pub(super) async fn find(state: &State, id: &str) -> Result<Stored, Problem> {
 
 /// The file as handed in
 #[utoipa::path(
-    get, path = "/api/v1/submissions/{id}/source", tag = "submissions",
+    get, operation_id = "read_source", path = "/api/v1/submissions/{id}/source", tag = "submissions",
     params(("id" = String, Path, description = "Id of the submission")),
     responses(
         (status = 200, description = "The bytes", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Errors
