@@ -103,3 +103,34 @@ async fn nothing_acknowledged_is_lost_and_nothing_is_doubled(database: Database)
     assert!(class.iter().all(|row| row.row.verdict.is_some()), "some were never graded");
     store.close().await;
 }
+
+/// What docs/service.md says of two processes: the second one takes over what the first one left, and nothing is doubled.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn what_a_process_leaves_is_graded_by_another_one_on_the_same_database() {
+    let database = Database::postgres().await;
+    let [first, second] = [0; 2].map(|_| Server::of(command(&database).env("GGRADE_WAIT", "0.1")));
+    let client = reqwest::Client::new();
+    let mut ids = Vec::new();
+    for number in 0..8 {
+        let bytes = [crate::right(), format!("\n// {number}\n").into_bytes()].concat();
+        let (status, json) = hand_in(&client, &first.address, bytes).await.expect("an answer");
+        assert!(matches!(status, 201 | 202), "{status}: {json}");
+        ids.push(json["id"].as_str().expect("an id").to_owned());
+    }
+    first.kill();
+    for id in &ids {
+        let mut json = look_up(&client, &second.address, id).await;
+        for _ in 0..600 {
+            if json["state"] == "graded" {
+                break;
+            }
+            tokio::time::sleep(Duration::from_millis(100)).await;
+            json = look_up(&client, &second.address, id).await;
+        }
+        assert_eq!(json["report"]["verdict"], "correct", "{id}: {json}");
+    }
+    assert!(second.terminate().success());
+    let store = Store::open(&database.location.parse().expect("a location")).await.expect("a database");
+    assert_eq!(store.class("ggsample06", None).await.expect("a class").len(), ids.len());
+    store.close().await;
+}
