@@ -7,6 +7,7 @@ use axum::http::{HeaderMap, Request, StatusCode, header};
 use ggrade::fault::Fault;
 use ggrade::sandbox::{Answer, Submission};
 use ggrade::service::clock::Clock;
+use ggrade::service::config::Timeouts;
 use ggrade::service::grading::{Graders, Judge};
 use ggrade::service::store::Store;
 use ggrade::service::{Config, State, app};
@@ -41,6 +42,8 @@ pub fn config() -> Config {
         uploads_per_student: 100_000,
         uploads_per_address: 100_000,
         teacher_token: Some(TEACHER.into()),
+        // A busy machine must not change an answer.
+        limits: Timeouts { request_timeout: 300.0, ..Timeouts::default() },
         ..Config::default()
     }
 }
