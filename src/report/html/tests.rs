@@ -127,6 +127,15 @@ fn the_moving_pictures_have_a_step_for_every_pose() {
 }
 
 #[test]
+fn the_player_starts_at_the_frame_that_differs_most() {
+    // The samples cycle through differences of 0, 1, 5, 20, 90 and 255; each of 25 poses takes 0.2 seconds.
+    let wrong = page(&samples::wrong(), Language::En);
+    assert!(wrong.contains("from-5\" id=\"player\" data-start=\"5\""), "{wrong}");
+    assert!(wrong.contains(".from-5 .sheet { animation-delay: -1s; }"));
+    assert!(!page(&samples::correct(), Language::En).contains("data-start"));
+}
+
+#[test]
 fn terms_are_shown_when_there_are_pictures_of_them() {
     let html = page(&samples::wrong(), Language::En);
     assert!(html.contains("alt=\"Yours: Specular\"") && html.contains("alt=\"Expected: Specular\""));

@@ -89,7 +89,7 @@ impl Standing<'_> {
             }
             _ => {}
         }
-        if let (Some(most), Some(left)) = (self.settings.attempts, self.attempts_left()) {
+        if let (Some(most), Some(left), false) = (self.settings.attempts, self.attempts_left(), self.is_closed()) {
             let kind = if left <= 1 { "urgent" } else { "" };
             let text = say(format!("{left} of {most} attempts left"), format!("提出できる回数 残り {left} / {most}"));
             facts.push(Fact::plain(kind, text));
