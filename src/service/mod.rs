@@ -5,7 +5,7 @@
 //! | `/`, `/a/{assignment}` | the student's page; POST: a file, then to `/r/{id}` |
 //! | `/r/{id}` | the permanent page of a report; who has the address may see it |
 //! | `/r/{id}/frames/{n}.png`, `animation.png` | its pictures; `?view=yours`, `expected`, `difference`, `all` |
-//! | `/r/{id}/terms/{term}.png` | one term of the equation on its own; `?view=yours`, `expected` |
+//! | `/r/{id}/terms/{term}-yours.png`, `…-expected.png` | one term of the equation on its own |
 //! | `/r/{id}/source` | the file as handed in, to be saved |
 //! | `/join/{secret}` | the course link |
 //! | `/teacher/…` | the teacher's pages; `/teacher/login`, `/teacher/logout` |

@@ -10,7 +10,7 @@ use crate::service::idempotency::{self, Given};
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
 use crate::service::store::{Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, submit};
+use crate::service::submit::{Receipt, Upload, sha256, submit};
 use crate::source;
 use axum::extract::{Multipart, Path, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -149,11 +149,14 @@ async fn take(
     via: Via,
 ) -> Result<Receipt, Problem> {
     served(state, &assignment)?;
-    let form = Form::read(form).await?;
+    let mut form = Form::read(form).await?;
     visitor.check_csrf(state, &form.csrf)?;
-    let key = Given::read(headers, form.key.as_deref(), &client)?;
+    let field = form.key.take();
     let visitor = visitor.known(state).await?;
     let (name, bytes) = form.file(state)?;
+    // A page that stays open may be sent again with another text, which is another request.
+    let field = field.map(|field| format!("{field} {}", sha256(&bytes)));
+    let key = Given::read(headers, field.as_deref(), &client)?;
     submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None, key }).await
 }
 

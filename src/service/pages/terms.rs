@@ -19,7 +19,9 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, bytes: &[u8]) 
     }
     let source = source::read(&report.source.name, bytes).ok();
     let terms = Terms::of(state.assignment, report.explanation.as_deref(), source.as_ref());
-    let address = |term: &str, whose| format!("/r/{id}/terms/{term}-{whose}.png");
+    // Another seed may explain the file in another way: a browser does not keep these pictures for those.
+    let seed = report.probes.seed;
+    let address = |term: &str, whose| format!("/r/{id}/terms/{term}-{whose}.png?seed={seed}");
     let scenes = terms.scenes();
     let terms = scenes.iter().map(|scene| Term {
         id: scene.id().to_owned(),
