@@ -9,6 +9,10 @@ use serde_json::json;
 const COUNT: &str = "window.sent = []; const send = window.fetch; \
                      window.fetch = (...asked) => { window.sent.push(String(asked[0])); return send(...asked); };";
 
+/// Puts the cursor into the editor.
+const FOCUS: &str = "(document.querySelector('[data-editor] [contenteditable=true]') ?? document.querySelector('#code')) \
+                     .focus({ preventScroll: true })";
+
 async fn number(browser: &Browser, script: &str) -> f64 {
     browser.js(script).await.as_f64().unwrap_or_else(|| panic!("{script}: no number"))
 }
@@ -35,7 +39,7 @@ async fn a_slip_while_typing_leaves_the_report_where_it_is() {
     let before = number(&browser, "return document.documentElement.scrollHeight").await;
     let top = number(&browser, "return document.querySelector('.player').getBoundingClientRect().top").await;
 
-    browser.js("document.querySelector('[data-editor] [contenteditable], #code').focus({ preventScroll: true })").await;
+    browser.js(FOCUS).await;
     type_text(&browser, "x").await;
     browser.until("document.querySelector('.interruption a[href^=\"#L\"]')").await;
     assert_eq!(number(&browser, "return document.documentElement.scrollHeight").await, before);
@@ -48,7 +52,7 @@ async fn a_slip_while_typing_leaves_the_report_where_it_is() {
     browser.until("document.querySelector('.interruption .messages .message').checkVisibility()").await;
     browser.check("typing-slip-open").await;
 
-    browser.js("document.querySelector('[data-editor] [contenteditable], #code').focus({ preventScroll: true })").await;
+    browser.js(FOCUS).await;
     type_text(&browser, "\u{8}").await;
     browser.until("!document.querySelector('.stale') && !document.querySelector('.interruption > *')").await;
     browser.end().await;
@@ -71,7 +75,7 @@ async fn what_is_being_composed_is_not_graded() {
     let (server, browser) = (Server::start(), Browser::start().await);
     browser.open(&server.at("/")).await;
     browser.js(COUNT).await;
-    browser.js("document.querySelector('[data-editor] [contenteditable], #code').focus()").await;
+    browser.js(FOCUS).await;
     for text in ["え", "えい", "えいご"] {
         let composition = json!({ "text": text, "selectionStart": 0, "selectionEnd": 0 });
         browser.devtools("Input.imeSetComposition", composition).await;
@@ -114,7 +118,7 @@ async fn handing_in_gives_a_receipt_even_where_the_connection_was_gone() {
     browser.check("receipt").await;
     // What is typed without a connection is graded when it is back.
     offline(&browser, true).await;
-    browser.js("document.querySelector('[data-editor] [contenteditable], #code').focus()").await;
+    browser.js(FOCUS).await;
     type_text(&browser, "// new\n").await;
     browser.until("document.querySelector('#state').dataset.kind === 'waiting'").await;
     offline(&browser, false).await;
@@ -141,7 +145,7 @@ async fn a_page_that_is_open_says_when_handing_in_ends() {
     assert!(!browser.has("form.work .primary").await);
     assert!(browser.text(".terms-of-hand-in").await.contains("Closed since"));
     assert!(!browser.text(".brief").await.contains("content"));
-    browser.js("document.querySelector('[data-editor] [contenteditable], #code').focus()").await;
+    browser.js(FOCUS).await;
     type_text(&browser, "// practice\n").await;
     browser.until("document.querySelector('#state').textContent.includes('practice, not handed in')").await;
     browser.check("student-practice").await;
