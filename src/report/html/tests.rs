@@ -128,10 +128,11 @@ fn the_moving_pictures_have_a_step_for_every_pose() {
 
 #[test]
 fn the_player_starts_at_the_frame_that_differs_most() {
-    // The samples cycle through differences of 0, 1, 5, 20, 90 and 255; each of 25 poses takes 0.2 seconds.
+    // The samples cycle through differences of 0, 1, 5, 20, 90 and 255, in more pixels with each pose: of poses 5, 11, 17
+    // and 23, the last. Each of 25 poses takes 0.2 seconds.
     let wrong = page(&samples::wrong(), Language::En);
-    assert!(wrong.contains("from-5\" id=\"player\" data-start=\"5\""), "{wrong}");
-    assert!(wrong.contains(".from-5 .sheet { animation-delay: -1s; }"));
+    assert!(wrong.contains("from-23\" id=\"player\" data-start=\"23\""), "{wrong}");
+    assert!(wrong.contains(".from-23 .sheet { animation-delay: -4.6s; }"));
     assert!(!page(&samples::correct(), Language::En).contains("data-start"));
 }
 
