@@ -22,6 +22,7 @@ use crate::batch::standing::Standing;
 use crate::batch::statistics;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::report::html::BASE_STYLE;
 use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
 use crate::report::{Environment, Verdict};
@@ -30,7 +31,6 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
 
-const BASE_STYLE: &str = include_str!("../../../../templates/class/base.css");
 const STYLE: &str = include_str!("../../../../templates/class/class.css");
 const SCRIPT: &str = include_str!("../../../../templates/class/class.js");
 
@@ -159,7 +159,7 @@ impl Page {
             tallies: charts::tallies(class, language),
             bins: charts::bins(class, max_score, words),
             mistakes: charts::mistakes(class, language),
-            rows: class.entries.iter().enumerate().map(row).collect(),
+            rows: trouble_first(class).map(row).collect(),
             lines,
             sharing: groups.iter().map(Vec::len).sum(),
             groups: groups.iter().enumerate().map(|(at, group)| group_view(at + 1, group, class)).collect(),
@@ -172,6 +172,13 @@ impl Page {
             environment: reports().find(|r| !r.environment.renderer.is_empty()).map(|r| r.environment.clone()),
         }
     }
+}
+
+/// Everyone with their place in the class: what could not be graded first, then the order of the input.
+fn trouble_first(class: &Class) -> impl Iterator<Item = (usize, &Entry)> {
+    let is_trouble = |entry: &Entry| entry.report().is_none();
+    let all = || class.entries.iter().enumerate();
+    all().filter(move |(_, entry)| is_trouble(entry)).chain(all().filter(move |(_, entry)| !is_trouble(entry)))
 }
 
 /// What the page may do: show its own style and pictures, run its own script, and nothing else.
