@@ -173,6 +173,7 @@ pub async fn render(request: Request, next: Next) -> Response {
     let language = of_request(request.headers(), request.uri());
     let has_token = super::identity::bearer(request.headers()).is_some();
     let wants_page = !request.uri().path().starts_with("/api/") && accepts_html(request.headers());
+    let path = request.uri().path().to_owned();
     let response = next.run(request).await;
     let status = response.status();
     if !(status.is_client_error() || status.is_server_error()) {
@@ -196,7 +197,7 @@ pub async fn render(request: Request, next: Next) -> Response {
     parts.headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
     parts.status = problem.status;
     if wants_page {
-        let page = super::pages::problem(&problem, language);
+        let page = super::pages::problem(&problem, language, &path);
         return (parts.status, parts.headers, page).into_response();
     }
     parts.headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));

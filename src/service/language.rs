@@ -23,11 +23,15 @@ impl<S: Sync> FromRequestParts<S> for Lang {
 
 /// The language of a request.
 pub fn of_request(headers: &HeaderMap, uri: &Uri) -> Language {
-    let asked = uri.query().into_iter().flat_map(|query| query.split('&')).find_map(|pair| pair.strip_prefix("lang="));
-    asked
-        .and_then(named)
+    asked(uri)
         .or_else(|| super::identity::cookie(headers, COOKIE).and_then(named))
         .unwrap_or_else(|| accepted(headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok())))
+}
+
+/// The language that an address asks for.
+pub fn asked(uri: &Uri) -> Option<Language> {
+    let mut pairs = uri.query().into_iter().flat_map(|query| query.split('&'));
+    pairs.find_map(|pair| pair.strip_prefix("lang=")).and_then(named)
 }
 
 /// The language of a name such as `ja` or `en-GB`.

@@ -195,6 +195,21 @@ impl Format {
         self.row().files
     }
 
+    /// Whether what it says is read by students: then it is in the language of the course, whoever fetches it.
+    pub fn is_for_students(self) -> bool {
+        match self {
+            Self::MoodleWorksheet
+            | Self::MoodleFeedback
+            | Self::Gradescope
+            | Self::Github
+            | Self::Classroom
+            | Self::ClassroomLegacy
+            | Self::Vpl
+            | Self::Coderunner => true,
+            Self::Html | Self::Csv | Self::Nbgrader | Self::Junit | Self::Sarif => false,
+        }
+    }
+
     /// What it is, in a line.
     pub fn description(self) -> Text {
         Text::new(self.row().en, self.row().ja)

@@ -1,12 +1,16 @@
-//! What every page has around its content: language, address, assets.
+//! What every page has around its content: language, time zone, address, assets.
 
 use super::assets;
+use super::moment::Moment;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
+use crate::service::State;
+use crate::service::clock::Millis;
+use crate::service::course::Course;
+use crate::service::errors::Problem;
 use axum::extract::{FromRequestParts, OriginalUri};
 use axum::http::Uri;
 use axum::http::request::Parts;
-use std::convert::Infallible;
 
 use crate::service::language::of_request;
 
@@ -15,6 +19,8 @@ use crate::service::language::of_request;
 pub struct Frame {
     /// Language of every word.
     pub language: Language,
+    /// The course, with the time zone of every date.
+    pub course: Course,
     uri: Uri,
     assignment: String,
 }
@@ -29,8 +35,13 @@ pub(super) struct Tongue {
 
 impl Frame {
     /// The frame of a page at an address.
-    pub fn new(language: Language, uri: Uri) -> Self {
-        Self { language, uri, assignment: reference::assignments().first().map(|a| a.id.clone()).unwrap_or_default() }
+    pub fn new(language: Language, course: Course, uri: Uri) -> Self {
+        Self {
+            language,
+            course,
+            uri,
+            assignment: reference::assignments().first().map(|a| a.id.clone()).unwrap_or_default(),
+        }
     }
 
     /// The same for a page of this assignment.
@@ -44,6 +55,21 @@ impl Frame {
             Language::En => en,
             Language::Ja => ja,
         }
+    }
+
+    /// A moment as this page's reader takes it, in the course's time zone. Every date of a page comes from here.
+    pub(super) fn moment(&self, at: Millis) -> Moment {
+        Moment::of(at, self.language, self.course.zone())
+    }
+
+    /// The same with the name of the time zone, for what people must not be late for.
+    pub(super) fn deadline(&self, at: Millis) -> Moment {
+        Moment::zoned(at, self.language, self.course.zone())
+    }
+
+    /// The same to the second, for a receipt.
+    pub(super) fn exact_moment(&self, at: Millis) -> Moment {
+        Moment::exact(at, self.language, self.course.zone())
     }
 
     /// The language as a BCP 47 tag.
@@ -98,13 +124,13 @@ fn tag(language: Language) -> &'static str {
     }
 }
 
-impl<S: Sync> FromRequestParts<S> for Frame {
-    type Rejection = Infallible;
+impl FromRequestParts<State> for Frame {
+    type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, Infallible> {
+    async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Problem> {
         let uri =
             parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
-        Ok(Self::new(of_request(&parts.headers, &uri), uri))
+        Ok(Self::new(of_request(&parts.headers, &uri), state.store.course().await?, uri))
     }
 }
 
@@ -114,11 +140,12 @@ mod tests {
 
     #[test]
     fn a_switch_of_language_stays_on_the_page() {
-        let frame = Frame::new(Language::En, Uri::from_static("/teacher/x?verdict=wrong&lang=en&q=a%22b"));
+        let frame =
+            Frame::new(Language::En, Course::default(), Uri::from_static("/teacher/x?verdict=wrong&lang=en&q=a%22b"));
         let [ja, en] = frame.tongues();
         assert_eq!(ja.href, "/teacher/x?verdict=wrong&q=a%22b&lang=ja");
         assert!(!ja.is_current && en.is_current);
-        let [ja, _] = Frame::new(Language::Ja, Uri::from_static("/")).tongues();
+        let [ja, _] = Frame::new(Language::Ja, Course::default(), Uri::from_static("/")).tongues();
         assert_eq!(ja.href, "/?lang=ja");
     }
 }

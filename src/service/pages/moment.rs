@@ -1,4 +1,4 @@
-//! Moments as people read them, in the time zone of the machine.
+//! Moments as people read them, in the time zone of the course.
 
 use crate::language::Language;
 use crate::service::clock::Millis;
@@ -16,31 +16,26 @@ pub(super) struct Moment {
 }
 
 impl Moment {
-    /// The moment in the machine's time zone.
-    pub fn of(at: Millis, language: Language) -> Self {
-        Self::in_zone(at, language, TimeZone::system())
-    }
-
-    /// The same with the name of the time zone, for what people must not be late for.
-    pub fn zoned(at: Millis, language: Language) -> Self {
-        Self::of(at, language).with_zone(at, &TimeZone::system())
-    }
-
-    /// The same to the second.
-    pub fn exact(at: Millis, language: Language) -> Self {
-        let zone = TimeZone::system();
-        let seconds = local(at, &zone).strftime(":%S").to_string();
-        let plain = Self::of(at, language);
-        Self { text: plain.text + &seconds, ..plain }.with_zone(at, &zone)
-    }
-
-    fn in_zone(at: Millis, language: Language, zone: TimeZone) -> Self {
+    /// The moment in a time zone. Pages ask [`Frame::moment`](super::Frame::moment), which knows the course's.
+    pub fn of(at: Millis, language: Language, zone: &TimeZone) -> Self {
         let format = match language {
             Language::En => "%-d %b %Y, %H:%M",
             Language::Ja => "%Y年%-m月%-d日 %H:%M",
         };
-        let local = local(at, &zone);
+        let local = local(at, zone);
         Self { iso: local.timestamp().to_string(), text: local.strftime(format).to_string() }
+    }
+
+    /// The same with the name of the time zone, for what people must not be late for.
+    pub fn zoned(at: Millis, language: Language, zone: &TimeZone) -> Self {
+        Self::of(at, language, zone).with_zone(at, zone)
+    }
+
+    /// The same to the second.
+    pub fn exact(at: Millis, language: Language, zone: &TimeZone) -> Self {
+        let seconds = local(at, zone).strftime(":%S").to_string();
+        let plain = Self::of(at, language, zone);
+        Self { text: plain.text + &seconds, ..plain }.with_zone(at, zone)
     }
 
     fn with_zone(self, at: Millis, zone: &TimeZone) -> Self {
@@ -78,43 +73,43 @@ pub(super) fn span(span: Millis, language: Language) -> String {
 }
 
 /// The value of a `datetime-local` field.
-pub(super) fn field(at: Millis) -> String {
+pub(super) fn field(at: Millis, zone: &TimeZone) -> String {
     let timestamp = Timestamp::from_millisecond(at).unwrap_or_default();
-    timestamp.to_zoned(TimeZone::system()).strftime("%Y-%m-%dT%H:%M").to_string()
+    timestamp.to_zoned(zone.clone()).strftime("%Y-%m-%dT%H:%M").to_string()
 }
 
 /// What a `datetime-local` field holds: none where it is empty, an error where it is no date.
-pub(super) fn parse(field: &str) -> Result<Option<Millis>, jiff::Error> {
+pub(super) fn parse(field: &str, zone: &TimeZone) -> Result<Option<Millis>, jiff::Error> {
     if field.trim().is_empty() {
         return Ok(None);
     }
     let local: DateTime = field.trim().parse()?;
-    Ok(Some(local.to_zoned(TimeZone::system())?.timestamp().as_millisecond()))
-}
-
-/// The machine's time zone, such as `Asia/Tokyo`.
-pub(super) fn zone() -> String {
-    let zone = TimeZone::system();
-    zone.iana_name().map_or_else(|| "UTC".to_owned(), str::to_owned)
+    Ok(Some(local.to_zoned(zone.clone())?.timestamp().as_millisecond()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::service::course::Course;
+
+    /// 2026-11-21T13:05:00Z; Tokyo is nine hours ahead, New York five behind.
+    const AT: Millis = 1_795_266_300_000;
+
+    fn zone(name: &str) -> TimeZone {
+        Course::new(name, Language::En).expect("a zone").zone().clone()
+    }
 
     #[test]
-    fn a_moment_is_said_in_both_languages() {
-        // 2026-11-21T13:05:00Z; Tokyo is nine hours ahead.
-        let at = 1_795_266_300_000;
-        let zone = || TimeZone::fixed(jiff::tz::offset(9));
-        assert_eq!(Moment::in_zone(at, Language::En, zone()).text, "21 Nov 2026, 22:05");
-        let ja = Moment::in_zone(at, Language::Ja, zone());
+    fn a_moment_is_said_in_both_languages_and_in_any_zone() {
+        assert_eq!(Moment::of(AT, Language::En, &zone("Asia/Tokyo")).text, "21 Nov 2026, 22:05");
+        assert_eq!(Moment::of(AT, Language::En, &zone("America/New_York")).text, "21 Nov 2026, 08:05");
+        let ja = Moment::of(AT, Language::Ja, &zone("Asia/Tokyo"));
         assert_eq!((ja.text.as_str(), ja.iso.as_str()), ("2026年11月21日 22:05", "2026-11-21T13:05:00Z"));
     }
 
     #[test]
     fn a_deadline_names_its_zone() {
-        let named = |zone: TimeZone| Moment::in_zone(0, Language::En, zone.clone()).with_zone(0, &zone).text;
+        let named = |zone: TimeZone| Moment::zoned(0, Language::En, &zone).text;
         assert_eq!(named(TimeZone::get("Asia/Tokyo").expect("a zone")), "1 Jan 1970, 09:00 JST");
         assert_eq!(named(TimeZone::get("Asia/Dubai").expect("a zone")), "1 Jan 1970, 04:00 UTC+04");
         assert_eq!(named(TimeZone::UTC), "1 Jan 1970, 00:00 UTC");
@@ -134,9 +129,11 @@ mod tests {
 
     #[test]
     fn a_field_comes_back_as_it_was() {
-        let at = 1_795_266_300_000;
-        assert_eq!(parse(&field(at)).expect("a date"), Some(at));
-        assert_eq!(parse(" ").expect("nothing"), None);
-        assert!(parse("tomorrow").is_err());
+        for zone in [zone("Asia/Tokyo"), zone("America/New_York")] {
+            assert_eq!(parse(&field(AT, &zone), &zone).expect("a date"), Some(AT));
+            assert_eq!(parse(" ", &zone).expect("nothing"), None);
+            assert!(parse("tomorrow", &zone).is_err());
+        }
+        assert_eq!(field(AT, &zone("Asia/Tokyo")), "2026-11-21T22:05");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::frame::Frame;
 use crate::language::Language;
+use crate::service::course::Course;
 use crate::service::errors::Problem;
 use askama::Template;
 use axum::http::Uri;
@@ -14,11 +15,13 @@ struct View {
     status: u16,
     heading: &'static str,
     detail: String,
+    is_teachers: bool,
 }
 
-/// A problem as a page.
-pub fn problem(problem: &Problem, language: Language) -> Html<String> {
-    let frame = Frame::new(language, Uri::from_static("/"));
+/// A problem as a page; its button leads to the pages among which `path` is, the teacher's or the student's.
+pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String> {
+    let is_teachers = path == "/teacher" || path.starts_with("/teacher/");
+    let frame = Frame::new(language, Course::default(), Uri::from_static("/"));
     let heading = match problem.status.as_u16() {
         401 | 403 => frame.say("Not possible here", "この操作はできません"),
         404 => frame.say("Nothing here", "ページが見つかりません"),
@@ -30,5 +33,5 @@ pub fn problem(problem: &Problem, language: Language) -> Html<String> {
     let detail = problem.detail.get(language).to_owned();
     let status = problem.status.as_u16();
     // A string of a template of ours: there is nothing that could fail.
-    Html(View { frame, status, heading, detail }.render().unwrap_or_default())
+    Html(View { frame, status, heading, detail, is_teachers }.render().unwrap_or_default())
 }

@@ -2,7 +2,6 @@
 
 use super::frame::Frame;
 use super::hand_in::readable;
-use super::moment::Moment;
 use super::{internal, part, receipt, shown};
 use crate::report::Report;
 use crate::report::html::Lines;
@@ -83,7 +82,7 @@ pub(super) async fn page(
 }
 
 fn about(frame: &Frame, submission: &Submission) -> String {
-    let at = Moment::of(submission.received_at, frame.language).text;
+    let at = frame.moment(submission.received_at).text;
     let what = match submission.via {
         Via::Editor => frame.say("A draft, not handed in", "下書き（未提出）"),
         Via::Page | Via::Api | Via::Batch => frame.say("Handed in", "提出"),

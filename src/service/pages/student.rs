@@ -160,7 +160,7 @@ impl Desk<'_> {
             verdict,
             is_best: best == Some(submission.id.as_str()),
             portrait: draws(row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
-            at: Moment::of(submission.received_at, self.frame.language),
+            at: self.frame.moment(submission.received_at),
         }
     }
 }
