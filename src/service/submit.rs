@@ -6,6 +6,7 @@ use super::errors::Problem;
 use super::grading::{Job, Outcome};
 use super::idempotency::{self, Given};
 use super::identity::{Identity, new_id};
+use super::roster::not_on_roster;
 use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
 use super::{Config, store};
 use crate::diagnose::Hints;
@@ -198,6 +199,13 @@ async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upl
             "先に授業のリンクを開き、学籍番号を入力してください。",
         );
     }
+    // A number from before the roster counts for nobody; whoever hands in under it must learn that now.
+    if !is_draft
+        && let Some(student) = upload.identity.student()
+        && is_stranger(state, student).await?
+    {
+        return Err(not_on_roster(&student.number));
+    }
     if is_draft && !assignment.grades_drafts(now) {
         return forbidden(
             "no-drafts",
@@ -226,6 +234,11 @@ async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upl
         ));
     }
     Ok(())
+}
+
+/// Whether there is a roster, and this student is not on it.
+pub(super) async fn is_stranger(state: &State, student: &store::Student) -> Result<bool, Problem> {
+    Ok(!student.is_on_roster() && state.store.has_roster().await?)
 }
 
 /// The answer to a file that is larger.

@@ -9,6 +9,7 @@ use clap::ValueEnum;
 use ggrade::batch::formats::Format;
 use ggrade::report::Verdict;
 use ggrade::service::regrade;
+use ggrade::service::store::RosterLine;
 use std::io::{Cursor, Read, Write};
 use std::time::Duration;
 
@@ -127,7 +128,8 @@ async fn hand_in(bench: &Bench, student: &str, bytes: Vec<u8>) -> Reply {
 
 async fn students_own_files_come_in_every_format(database: Database) {
     let bench = Bench::new(database).await;
-    let roster = [("S1".to_owned(), "山田 <太郎>".to_owned()), ("S2".to_owned(), "=cmd()".to_owned())];
+    let line = |number: &str, name: &str| RosterLine { number: number.into(), name: name.into(), moodle: None };
+    let roster = [line("S1", "山田 <太郎>"), line("S2", "=cmd()")];
     bench.state.store.set_roster(&roster, 0).await.expect("a roster");
     assert_eq!(hand_in(&bench, "s1", right()).await.json()["report"]["score"], 100);
     assert_eq!(hand_in(&bench, "s1", sample("rejected/brace-missing-at-end.vert")).await.json()["report"]["score"], 0);

@@ -18,6 +18,7 @@ mod tree;
 mod wording;
 
 pub use limits::{Budget, Limits};
+pub(crate) use moodle::is_blind;
 pub use place::in_working_folder;
 
 use super::class::{Refused, Student};

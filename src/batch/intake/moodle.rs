@@ -68,7 +68,8 @@ fn participant(text: &str) -> Option<Participant> {
     Some(Participant { name: name.into(), number })
 }
 
-fn is_blind(name: &str) -> bool {
+/// Whether a name is the word for a participant, and nobody's own.
+pub(crate) fn is_blind(name: &str) -> bool {
     BLIND.contains(&name)
 }
 

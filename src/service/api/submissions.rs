@@ -10,6 +10,7 @@ use crate::service::idempotency::{self, Given};
 use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
 use crate::service::language::Lang;
 use crate::service::limits::Client;
+use crate::service::roster::not_on_roster;
 use crate::service::store::{Stored, Via};
 use crate::service::submit::{Receipt, Upload, submit};
 use axum::Json;
@@ -35,7 +36,7 @@ pub(super) struct About {
     #[param(inline)]
     hints: Option<Hints>,
     /// Number of the student for whom it is handed in.
-    /// Needs `course`, or the teacher's token.
+    /// Needs `course`, or the teacher's token. Where the class has a roster, the number must be on it.
     #[param(pattern = "^[A-Za-z0-9._-]{1,32}$")]
     student: Option<String>,
     /// Secret of the course link.
@@ -171,7 +172,8 @@ async fn identity(
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable("student is no student number.", "student が学籍番号の形式ではありません。")
     })?;
-    Ok(Identity::OnBehalf(state.store.student(&number, state.clock.now()).await?))
+    let student = state.store.student(&number, state.clock.now()).await?;
+    Ok(Identity::OnBehalf(student.ok_or_else(|| not_on_roster(&number))?))
 }
 
 /// The browser, where the request comes from a page of ours: nobody else's page hands in under its cookie.

@@ -1,13 +1,21 @@
-//! Whole classes: a teacher's archive in, a graded class out in any format ([`download`]).
+//! Whole classes: who is in the class ([`people`]), a teacher's archive in, a graded class out in any format
+//! ([`download`]).
 
 mod download;
+mod jobs;
+mod people;
 
-pub use download::{Download, Pick, Whose, chosen, download};
+pub use download::{Download, Pick, Steps, Wanted, Whose, download, is_slow, language};
+pub use jobs::{Job, Jobs};
+#[cfg(test)]
+pub(in crate::service) use people::samples;
+pub use people::{People, Person, Standing, of_batch, people};
 
 use super::State;
 use super::errors::Problem;
 use super::idempotency;
 use super::identity::new_id;
+use super::roster::Matcher;
 use super::store::{Batch, BatchEntry, Key, NewSubmission, Via};
 use super::submit::{file_name, sha256};
 use crate::batch::intake::{self, Content, Intake};
@@ -79,8 +87,11 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
     };
     let mut entries = Vec::new();
     let mut files = Vec::new();
-    for hand_in in intake.hand_ins {
-        let mut entry = BatchEntry { student: hand_in.student, path: hand_in.path, submission_id: None, note: None };
+    let matcher = Matcher::new(&state.store.roster().await?);
+    let matches = matcher.of_batch(intake.hand_ins.iter().map(|hand_in| (&hand_in.student, hand_in.path.as_deref())));
+    for ((hand_in, student_id), position) in intake.hand_ins.into_iter().zip(matches).zip(0..) {
+        let (student, path) = (hand_in.student, hand_in.path);
+        let mut entry = BatchEntry { position, student, path, submission_id: None, note: None, student_id };
         match hand_in.content {
             Content::Nothing(why) => entry.note = Some(why),
             Content::File { name, bytes } => {
@@ -93,7 +104,7 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
                     bytes,
                     name: file_name(&name, state.assignment),
                     owner_id: None,
-                    student_id: None,
+                    student_id: entry.student_id.clone(),
                     batch_id: Some(batch.id.clone()),
                     via: Via::Batch,
                     seed: settings.seed,

@@ -4,6 +4,7 @@ use super::secrets::same;
 use super::{Identity, Visitor, new_token};
 use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::roster::not_on_roster;
 
 /// Name of the setting that holds the secret of the course link.
 const SETTING: &str = "course_secret";
@@ -39,6 +40,7 @@ pub async fn join(state: &State, visitor: Visitor, secret: &str, number: &str) -
         )
     })?;
     let student = state.store.student(&number, state.clock.now()).await?;
+    let student = student.ok_or_else(|| not_on_roster(&number))?;
     // What another student handed in at this machine is nobody else's to see.
     let visitor = match &visitor.identity {
         Identity::Student(_, before) if before.id != student.id => Visitor::replaced(),

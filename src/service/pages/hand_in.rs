@@ -9,8 +9,9 @@ use crate::service::errors::Problem;
 use crate::service::idempotency::{self, Given};
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
+use crate::service::roster::not_on_roster;
 use crate::service::store::{Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, sha256, submit};
+use crate::service::submit::{Receipt, Upload, is_stranger, sha256, submit};
 use crate::source;
 use axum::extract::{Multipart, Path, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -50,12 +51,19 @@ pub(super) async fn desk(
         used = state.store.attempts(&id, owner, identity.student().map(|student| student.id.as_str())).await?;
     }
     let needs_number = settings.audience == Audience::Number && identity.student().is_none();
-    let notice = needs_number.then(|| {
-        frame.say(
-            "To hand in, open the link that your teacher gave you and enter your student number.",
-            "提出するには、教員から伝えられたリンクを開き、学籍番号を入力してください。",
-        )
-    });
+    let stranger = match identity.student() {
+        Some(student) if is_stranger(&state, student).await? => Some(not_on_roster(&student.number).detail),
+        _ => None,
+    };
+    let notice = match &stranger {
+        Some(detail) => Some(detail.get(frame.language)),
+        None => needs_number.then(|| {
+            frame.say(
+                "To hand in, open the link that your teacher gave you and enter your student number.",
+                "提出するには、教員から伝えられたリンクを開き、学籍番号を入力してください。",
+            )
+        }),
+    };
     let text = match &wish.from {
         Some(submission) => text_of(&state, submission).await?,
         None => None,
@@ -63,7 +71,12 @@ pub(super) async fn desk(
     let desk = Desk {
         frame: frame.of(&id),
         homework: state.assignment,
-        standing: Standing { settings: &settings, now: state.clock.now(), may_hand_in: !needs_number, used },
+        standing: Standing {
+            settings: &settings,
+            now: state.clock.now(),
+            may_hand_in: !needs_number && stranger.is_none(),
+            used,
+        },
         who: identity.student().map(|student| student.number.clone()),
         csrf: visitor.csrf(&state),
         history: &history,

@@ -2,7 +2,7 @@
 
 use super::keys::keep_key;
 use super::submissions::{INSERT, INSERT_UPLOAD, bind_submission};
-use super::{Key, NewSubmission, Result, Store, on, signed};
+use super::{Key, NewSubmission, Result, Store, on};
 use crate::batch::class::{Refused, Student};
 use crate::language::Text;
 use crate::service::clock::Millis;
@@ -25,7 +25,9 @@ pub struct Batch {
 /// One student of a batch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BatchEntry {
-    /// Who.
+    /// Place in the order of the input.
+    pub position: i64,
+    /// Who, as the archive names them.
     pub student: Student,
     /// Where the file was in the archive.
     pub path: Option<String>,
@@ -33,6 +35,8 @@ pub struct BatchEntry {
     pub submission_id: Option<String>,
     /// Why there was nothing to grade, where there was not.
     pub note: Option<Text>,
+    /// Who of the roster that is, where it is one of them.
+    pub student_id: Option<String>,
 }
 
 /// How far a batch is.
@@ -83,8 +87,8 @@ impl Store {
     ) -> Result<bool> {
         const BATCH: &str =
             "INSERT INTO batches (id, assignment, title, refused, created_at) VALUES ($1, $2, $3, $4, $5)";
-        const ENTRY: &str = "INSERT INTO batch_entries (batch_id, position, student, path, submission_id, note) \
-                             VALUES ($1, $2, $3, $4, $5, $6)";
+        const ENTRY: &str = "INSERT INTO batch_entries (batch_id, position, student, path, submission_id, note, \
+                             student_id) VALUES ($1, $2, $3, $4, $5, $6, $7)";
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(BATCH)
@@ -100,14 +104,15 @@ impl Store {
                 sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
                 bind_submission!(sqlx::query(INSERT), new, "queued").execute(&mut *transaction).await?;
             }
-            for (position, entry) in entries.iter().enumerate() {
+            for entry in entries {
                 sqlx::query(ENTRY)
                     .bind(&batch.id)
-                    .bind(signed(position as u64))
+                    .bind(entry.position)
                     .bind(serde_json::to_string(&entry.student)?)
                     .bind(&entry.path)
                     .bind(&entry.submission_id)
                     .bind(entry.note.as_ref().map(serde_json::to_string).transpose()?)
+                    .bind(&entry.student_id)
                     .execute(&mut *transaction)
                     .await?;
             }
@@ -133,16 +138,18 @@ impl Store {
 
     /// Everyone of a batch, in the order of the input.
     pub async fn batch_entries(&self, id: &str) -> Result<Vec<BatchEntry>> {
-        const SQL: &str =
-            "SELECT student, path, submission_id, note FROM batch_entries WHERE batch_id = $1 ORDER BY position";
-        type Row = (String, Option<String>, Option<String>, Option<String>);
+        const SQL: &str = "SELECT position, student, path, submission_id, note, student_id FROM batch_entries \
+                           WHERE batch_id = $1 ORDER BY position";
+        type Row = (i64, String, Option<String>, Option<String>, Option<String>, Option<String>);
         let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
-        let entry = |(student, path, submission_id, note): Row| {
+        let entry = |(position, student, path, submission_id, note, student_id): Row| {
             Ok(BatchEntry {
+                position,
                 student: serde_json::from_str(&student)?,
                 path,
                 submission_id,
                 note: note.map(|json| serde_json::from_str(&json)).transpose()?,
+                student_id,
             })
         };
         rows.into_iter().map(entry).collect()

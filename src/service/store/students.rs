@@ -1,6 +1,6 @@
 //! Students: the roster, and those who said who they are.
 
-use super::{Result, Store, on};
+use super::{Result, Store, on, signed};
 use crate::service::clock::Millis;
 
 /// A student.
@@ -14,47 +14,126 @@ pub struct Student {
     pub name: String,
     /// 1 where the roster has them.
     pub on_roster: i64,
+    /// The number by which Moodle's files name them, where the roster has it.
+    pub moodle: Option<i64>,
+}
+
+impl Student {
+    /// Whether the roster has them.
+    pub fn is_on_roster(&self) -> bool {
+        self.on_roster != 0
+    }
+}
+
+/// A student as a roster names them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RosterLine {
+    /// Student number.
+    pub number: String,
+    /// Name; empty where the roster has none.
+    pub name: String,
+    /// The number by which Moodle's files name them.
+    pub moodle: Option<u64>,
+}
+
+/// An entry of an archive, and who of the roster it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EntryMatch {
+    /// Id of the batch.
+    pub batch_id: String,
+    /// Position in it.
+    pub position: i64,
+    /// Id of the student; none where it is nobody of the roster.
+    pub student_id: Option<String>,
 }
 
 impl Store {
-    /// The student with this number, who is made when met first.
-    pub async fn student(&self, number: &str, now: Millis) -> Result<Student> {
+    /// The student with this number. Where there is a roster, only who is on it; otherwise they are made when met first.
+    pub async fn student(&self, number: &str, now: Millis) -> Result<Option<Student>> {
         const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
-                              VALUES ($1, $2, '', 0, $3) ON CONFLICT (number) DO NOTHING";
-        const SELECT: &str = "SELECT id, number, name, on_roster FROM students WHERE number = $1";
+                              SELECT $1, $2, '', 0, $3 WHERE NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1) \
+                              ON CONFLICT (number) DO NOTHING";
+        const SELECT: &str = "SELECT id, number, name, on_roster, moodle FROM students WHERE number = $1 \
+                              AND (on_roster = 1 OR NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1))";
         let found = on!(&self.read, db => sqlx::query_as(SELECT).bind(number).fetch_optional(db).await?);
-        if let Some(student) = found {
-            return Ok(student);
+        if found.is_some() {
+            return Ok(found);
         }
         let id = super::super::identity::new_id();
         on!(&self.write, db => { sqlx::query(INSERT).bind(&id).bind(number).bind(now).execute(db).await?; });
-        Ok(on!(&self.write, db => sqlx::query_as(SELECT).bind(number).fetch_one(db).await?))
+        Ok(on!(&self.write, db => sqlx::query_as(SELECT).bind(number).fetch_optional(db).await?))
     }
 
     /// The student with this id.
     pub async fn student_by_id(&self, id: &str) -> Result<Option<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster FROM students WHERE id = $1";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle FROM students WHERE id = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?))
+    }
+
+    /// The student with this number, whether the roster has them or not.
+    pub async fn student_by_number(&self, number: &str) -> Result<Option<Student>> {
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle FROM students WHERE number = $1";
+        Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(number).fetch_optional(db).await?))
     }
 
     /// Everyone, by number.
     pub async fn students(&self) -> Result<Vec<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster FROM students ORDER BY number";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle FROM students ORDER BY number";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))
     }
 
-    /// Takes a roster of (number, name) pairs in place of the last one; who is not on it any more keeps their files.
-    pub async fn set_roster(&self, roster: &[(String, String)], now: Millis) -> Result<()> {
+    /// The roster, by number; empty where there is none.
+    pub async fn roster(&self) -> Result<Vec<Student>> {
+        Ok(self.students().await?.into_iter().filter(Student::is_on_roster).collect())
+    }
+
+    /// Whether there is a roster: then it is the class.
+    pub async fn has_roster(&self) -> Result<bool> {
+        const SQL: &str = "SELECT count(*) FROM (SELECT 1 FROM students WHERE on_roster = 1 LIMIT 1) AS one";
+        let count: i64 = on!(&self.read, db => sqlx::query_scalar(SQL).fetch_one(db).await?);
+        Ok(count > 0)
+    }
+
+    /// Takes a roster in place of the last one; who is not on it any more keeps their files.
+    pub async fn set_roster(&self, roster: &[RosterLine], now: Millis) -> Result<()> {
         const CLEAR: &str = "UPDATE students SET on_roster = 0";
-        const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
-                              VALUES ($1, $2, $3, 1, $4) \
-                              ON CONFLICT (number) DO UPDATE SET name = excluded.name, on_roster = 1";
+        const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at, moodle) \
+                              VALUES ($1, $2, $3, 1, $4, $5) ON CONFLICT (number) \
+                              DO UPDATE SET name = excluded.name, on_roster = 1, moodle = excluded.moodle";
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(CLEAR).execute(&mut *transaction).await?;
-            for (number, name) in roster {
-                let id = super::super::identity::new_id();
-                sqlx::query(INSERT).bind(&id).bind(number).bind(name).bind(now).execute(&mut *transaction).await?;
+            for line in roster {
+                sqlx::query(INSERT)
+                    .bind(super::super::identity::new_id())
+                    .bind(&line.number)
+                    .bind(&line.name)
+                    .bind(now)
+                    .bind(line.moodle.map(signed))
+                    .execute(&mut *transaction)
+                    .await?;
+            }
+            transaction.commit().await?;
+        });
+        Ok(())
+    }
+
+    /// Says of entries of archives, and of their files, who of the roster they are.
+    pub async fn set_matches(&self, matches: &[EntryMatch]) -> Result<()> {
+        const ENTRY: &str = "UPDATE batch_entries SET student_id = $3 WHERE batch_id = $1 AND position = $2";
+        const FILE: &str = "UPDATE submissions SET student_id = $3 WHERE id = \
+                            (SELECT submission_id FROM batch_entries WHERE batch_id = $1 AND position = $2)";
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            for found in matches {
+                for sql in [ENTRY, FILE] {
+                    sqlx::query(sql)
+                        .bind(&found.batch_id)
+                        .bind(found.position)
+                        .bind(&found.student_id)
+                        .execute(&mut *transaction)
+                        .await?;
+                }
             }
             transaction.commit().await?;
         });

@@ -1,0 +1,51 @@
+//! The roster: the list of students that is the class.
+//!
+//! [`read`] reads the file that a teacher imports, [`matching`] says who of the roster an entry of an archive is.
+
+mod matching;
+mod read;
+
+pub use matching::Matcher;
+pub use read::read;
+
+use super::State;
+use super::errors::Problem;
+use super::store::{BatchEntry, EntryMatch, RosterLine};
+
+/// Takes a roster in place of the last one, and matches every archive to it.
+pub async fn import(state: &State, roster: &[RosterLine]) -> Result<(), Problem> {
+    state.store.set_roster(roster, state.clock.now()).await?;
+    let matcher = Matcher::new(&state.store.roster().await?);
+    let mut changed = Vec::new();
+    for batch in state.store.batches(&state.assignment.id).await? {
+        let entries = state.store.batch_entries(&batch.id).await?;
+        let found = matcher.of_batch(entries.iter().map(who));
+        let differs = entries.iter().zip(found).filter(|(entry, found)| entry.student_id != *found);
+        changed.extend(differs.map(|(entry, student_id)| EntryMatch {
+            batch_id: batch.id.clone(),
+            position: entry.position,
+            student_id,
+        }));
+    }
+    state.store.set_matches(&changed).await?;
+    Ok(())
+}
+
+/// What an entry says of whose it is.
+fn who(entry: &BatchEntry) -> (&crate::batch::class::Student, Option<&str>) {
+    (&entry.student, entry.path.as_deref())
+}
+
+/// The refusal of a number that is not on the roster.
+pub fn not_on_roster(number: &str) -> Problem {
+    Problem::new(
+        axum::http::StatusCode::UNPROCESSABLE_ENTITY,
+        "not-on-roster",
+        format!(
+            "The student number {number} is not on the class's roster. Check it for typing errors; if it is right, ask your teacher to add it."
+        ),
+        format!(
+            "学籍番号 {number} はこのクラスの名簿にありません。入力の誤りがないか確認し、正しい場合は担当教員に登録を依頼してください。"
+        ),
+    )
+}

@@ -1,0 +1,226 @@
+//! Reading a roster: what a spreadsheet or Moodle saves.
+
+use crate::service::errors::Problem;
+use crate::service::identity::normal_number;
+use crate::service::store::RosterLine;
+use std::collections::HashMap;
+use unicode_normalization::UnicodeNormalization;
+
+/// What columns are called, in the languages of the course and by Moodle; spaces and case aside.
+const NUMBER: [&str; 10] = [
+    "学籍番号",
+    "学生番号",
+    "studentnumber",
+    "studentid",
+    "idnumber",
+    "idナンバー",
+    "ユーザ名",
+    "ユーザー名",
+    "username",
+    "number",
+];
+const NAME: [&str; 7] = ["氏名", "名前", "姓名", "フルネーム", "fullname", "name", "studentname"];
+const FAMILY: [&str; 5] = ["姓", "surname", "lastname", "familyname", "last"];
+const GIVEN: [&str; 5] = ["名", "firstname", "givenname", "forename", "first"];
+const MOODLE: [&str; 2] = ["識別子", "identifier"];
+
+/// Mistakes that one message lists.
+const LISTED: usize = 5;
+
+/// The columns that a heading names.
+#[derive(Debug, Default)]
+struct Heading {
+    number: Option<usize>,
+    name: Option<usize>,
+    family: Option<usize>,
+    given: Option<usize>,
+    moodle: Option<usize>,
+}
+
+impl Heading {
+    /// A heading names the column of the numbers; a line without that is none.
+    fn of(cells: &[&str]) -> Option<Self> {
+        let folded: Vec<String> = cells
+            .iter()
+            .map(|cell| cell.nfkc().filter(|c| !c.is_whitespace() && *c != '_').collect::<String>().to_lowercase())
+            .collect();
+        // The first name of the list counts: Moodle has both an ID number and a username.
+        let find = |names: &[&str]| names.iter().find_map(|name| folded.iter().position(|cell| cell == name));
+        let number = find(&NUMBER)?;
+        Some(Self {
+            number: Some(number),
+            name: find(&NAME),
+            family: find(&FAMILY),
+            given: find(&GIVEN),
+            moodle: find(&MOODLE),
+        })
+    }
+}
+
+/// The students of a roster: a CSV file with commas, semicolons or tabs, UTF-8 or Shift_JIS.
+///
+/// A heading says which column is which. Without one, the first cell of a line that is a student number is the number, and
+/// the first other cell the name. A line without a number is a heading where it is the first, and a mistake elsewhere.
+pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
+    if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0") {
+        return Err(Problem::unprocessable(
+            "This is an Excel workbook or an archive, not a CSV file. In Excel choose \"Save as\" and \"CSV UTF-8\". The roster was not changed.",
+            "これは Excel ブックまたは ZIP で、CSV ファイルではありません。Excel で「名前を付けて保存」から「CSV UTF-8」を選んで保存してください。名簿は変更していません。",
+        ));
+    }
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text.trim_start_matches('\u{feff}').to_owned(),
+        Err(_) => encoding_rs::SHIFT_JIS.decode(bytes).0.into_owned(),
+    };
+    let first = text.lines().next().unwrap_or_default();
+    let delimiter = ['\t', ',', ';'].into_iter().find(|c| first.contains(*c)).unwrap_or(',') as u8;
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).delimiter(delimiter).from_reader(text.as_bytes());
+    let mut roster: Vec<RosterLine> = Vec::new();
+    let mut lines: HashMap<String, (usize, u64)> = HashMap::new();
+    let mut heading = None;
+    let (mut without, mut twice) = (Vec::new(), Vec::new());
+    for (index, record) in reader.records().enumerate() {
+        let Ok(record) = record else {
+            without.push(index as u64 + 1);
+            continue;
+        };
+        let line = record.position().map_or(index as u64 + 1, csv::Position::line);
+        let cells: Vec<&str> = record.iter().map(str::trim).collect();
+        if cells.iter().all(|cell| cell.is_empty()) {
+            continue;
+        }
+        if index == 0 {
+            heading = Heading::of(&cells);
+            if heading.is_some() {
+                continue;
+            }
+        }
+        match heading.as_ref().map_or_else(|| by_shape(&cells), |heading| by_heading(heading, &cells)) {
+            None if index == 0 => {}
+            None => without.push(line),
+            Some(found) => match lines.get(&found.number) {
+                Some((at, _)) if roster[*at].name == found.name => {}
+                Some((_, before)) => twice.push((found.number, *before, line)),
+                None => {
+                    lines.insert(found.number.clone(), (roster.len(), line));
+                    roster.push(found);
+                }
+            },
+        }
+    }
+    if let Some(problem) = no_number(&without).or_else(|| two_names(&twice)) {
+        return Err(problem);
+    }
+    if roster.is_empty() {
+        return Err(Problem::unprocessable(
+            "The file has no line with a student number. Each line looks like `s1234567,Family Given`. The roster was not changed.",
+            "学籍番号のある行がありません。各行は「s1234567,氏名」の形にしてください。名簿は変更していません。",
+        ));
+    }
+    Ok(roster)
+}
+
+fn by_heading(heading: &Heading, cells: &[&str]) -> Option<RosterLine> {
+    let cell = |column: Option<usize>| column.and_then(|column| cells.get(column)).copied().unwrap_or_default();
+    let name = match cell(heading.name) {
+        "" => format!("{} {}", cell(heading.family), cell(heading.given)).trim().to_owned(),
+        name => name.to_owned(),
+    };
+    Some(RosterLine { number: normal_number(cell(heading.number))?, name, moodle: participant(cell(heading.moodle)) })
+}
+
+fn by_shape(cells: &[&str]) -> Option<RosterLine> {
+    let number = |cell: &str| normal_number(cell).filter(|number| number.chars().any(|c| c.is_ascii_digit()));
+    let place = cells.iter().position(|cell| number(cell).is_some())?;
+    let moodle = cells.iter().find_map(|cell| participant(cell));
+    let others = cells.iter().enumerate().filter(|(index, cell)| *index != place && !cell.is_empty());
+    let name = others.map(|(_, cell)| *cell).find(|cell| participant(cell).is_none()).unwrap_or_default();
+    Some(RosterLine { number: number(cells[place])?, name: name.to_owned(), moodle })
+}
+
+/// The number in `Participant 1234`, as Moodle's worksheet writes it.
+fn participant(cell: &str) -> Option<u64> {
+    let rest = ["Participant", "参加者"].iter().find_map(|word| cell.strip_prefix(word))?;
+    rest.trim().parse().ok()
+}
+
+/// The refusal of lines without a student number.
+fn no_number(lines: &[u64]) -> Option<Problem> {
+    let first = lines.first()?;
+    let all: Vec<String> = lines.iter().take(LISTED).map(u64::to_string).collect();
+    let more = if lines.len() > LISTED { ", …" } else { "" };
+    let (en, verb) = match lines {
+        [_] => (format!("Line {first}"), "has"),
+        _ => (format!("Lines {}{more}", all.join(", ")), "have"),
+    };
+    Some(Problem::unprocessable(
+        format!(
+            "{en} of the file {verb} no student number. A line looks like `s1234567,Family Given`; take out lines that are no students. The roster was not changed."
+        ),
+        format!(
+            "ファイルの {}{more} 行目に学籍番号がありません。各行は「s1234567,氏名」の形にし、学生ではない行は削除してください。名簿は変更していません。",
+            all.join(", ")
+        ),
+    ))
+}
+
+/// The refusal of one number with two names.
+fn two_names(twice: &[(String, u64, u64)]) -> Option<Problem> {
+    let (number, one, other) = twice.first()?;
+    Some(Problem::unprocessable(
+        format!(
+            "Lines {one} and {other} of the file have the same student number {number} and different names. Correct one of them. The roster was not changed."
+        ),
+        format!(
+            "ファイルの {one} 行目と {other} 行目は学籍番号 {number} が同じで、氏名が異なります。どちらかを修正してください。名簿は変更していません。"
+        ),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> Vec<RosterLine> {
+        read(text.as_bytes()).expect("a roster")
+    }
+
+    fn line(number: &str, name: &str) -> RosterLine {
+        RosterLine { number: number.to_owned(), name: name.to_owned(), moodle: None }
+    }
+
+    #[test]
+    fn a_roster_is_read_in_the_forms_that_spreadsheets_write() {
+        let expected = [line("S1234567", "和田 花子"), line("S1234568", "Smith, J.")];
+        assert_eq!(of("\u{feff}学籍番号,氏名\r\ns1234567,和田 花子\r\n\r\nｓ1234568,\"Smith, J.\"\r\n"), expected);
+        assert_eq!(of("和田 花子\ts1234567\nSmith, J.\ts1234568"), expected);
+        assert_eq!(of("No;Name\ns1234567;和田 花子\ns1234568;Smith, J.\ns1234568;Smith, J.\n"), expected);
+        let (sjis, _, _) = encoding_rs::SHIFT_JIS.encode("s1234567,和田 花子\n");
+        assert_eq!(read(&sjis).expect("a roster"), [line("S1234567", "和田 花子")]);
+    }
+
+    #[test]
+    fn moodles_own_lists_are_read_by_their_headings() {
+        let of_moodle = |moodle| RosterLine { moodle, ..line("S1", "和田 花子") };
+        assert_eq!(of("姓,名,IDナンバー,メールアドレス\n和田,花子,s1,hanako@example.ac.jp\n"), [of_moodle(None)]);
+        assert_eq!(
+            of("Identifier,Full name,ID number,Email address,Status\nParticipant 4711,和田 花子,s1,h@example.org,x\n"),
+            [of_moodle(Some(4711))]
+        );
+        assert_eq!(of("識別子,フルネーム,ユーザ名\n参加者 4711,和田 花子,s1\n"), [of_moodle(Some(4711))]);
+        // Whoever calls the number by its letters alone says so in a heading.
+        assert_eq!(of("username,name\nhanako,和田 花子\n"), [line("HANAKO", "和田 花子")]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        let wrong = |text: &str| read(text.as_bytes()).expect_err("a problem").detail;
+        let said = wrong("s1234567,A\nB only\n");
+        assert!(said.en.starts_with("Line 2 ") && said.ja.contains("2 行目"), "{said:?}");
+        assert!(wrong("number,name\n\ns1,A\n,B\n,C\n").en.starts_with("Lines 4, 5 "));
+        assert!(wrong("s1,A\ns2,B\nｓ１,C\n").en.starts_with("Lines 1 and 3 "));
+        assert!(wrong("PK\u{3}\u{4}xl/workbook.xml").en.contains("CSV UTF-8"));
+        assert!(read(b"").is_err() && read(b"number,name\n").is_err());
+    }
+}
