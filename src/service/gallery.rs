@@ -231,6 +231,14 @@ impl Gallery {
         Ok(portrait)
     }
 
+    /// Forgets every picture of a file.
+    pub async fn forget(&self, sha256: &str) {
+        let keys: Vec<Arc<Key>> = self.kept.iter().map(|(key, _)| key).filter(|key| key.sha256 == sha256).collect();
+        for key in keys {
+            self.kept.invalidate(&*key).await;
+        }
+    }
+
     /// How portraits are made, and the right one.
     pub fn portraits(&self) -> Result<&Portraits, Fault> {
         if let Some(portraits) = self.portraits.get() {

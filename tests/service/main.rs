@@ -5,6 +5,7 @@ mod bench;
 
 mod classes;
 mod cluster;
+mod deletions;
 mod gallery;
 mod handing_in;
 mod hostile;
@@ -14,6 +15,7 @@ mod killed;
 mod limits;
 mod places;
 mod process;
+mod roster;
 mod server;
 mod static_files;
 mod student_page;

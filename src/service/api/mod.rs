@@ -3,6 +3,7 @@
 pub(super) mod archive;
 pub(super) mod batches;
 pub(super) mod body;
+mod deletions;
 mod docs;
 mod operations;
 pub(super) mod pictures;
@@ -53,6 +54,9 @@ fn described() -> OpenApiRouter<State> {
         .routes(routes!(batches::events))
         .routes(routes!(batches::file, batches::filled))
         .routes(routes!(batches::class_file))
+        .routes(routes!(deletions::delete_submission))
+        .routes(routes!(deletions::delete_batch))
+        .routes(routes!(deletions::delete_student))
         .routes(routes!(operations::healthz))
         .routes(routes!(operations::readyz))
         .routes(routes!(operations::metrics))

@@ -6,6 +6,7 @@
 
 mod assignments;
 mod batches;
+mod deletions;
 mod keys;
 mod open;
 mod owners;
@@ -20,6 +21,7 @@ mod submissions;
 
 pub use assignments::{Assignment, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
+pub use deletions::{Counts, Deletion, Target};
 pub use keys::{Key, KeyResult};
 pub use open::Location;
 pub use owners::Owner;
@@ -29,7 +31,7 @@ pub use reports::{ClassRow, HistoryRow, Stored};
 pub use retention::Removed;
 pub(crate) use rows::word;
 pub use rows::{State, Submission, Via};
-pub use students::Student;
+pub use students::{EntryMatch, RosterLine, Student};
 pub use submissions::NewSubmission;
 
 use sqlx::{PgPool, SqlitePool};

@@ -168,18 +168,23 @@ impl Store {
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).bind(batch).fetch_all(db).await?))
     }
 
-    /// Keeps a report, and says whether it is the first one of its submission.
+    /// Keeps a report, and says whether it is the first one of its submission. Nothing is kept of a submission that was
+    /// deleted while it was graded.
     pub async fn finish(&self, submission_id: &str, report: &Report, graded_at: Millis) -> Result<bool> {
         const STATE: &str = "UPDATE submissions SET state = 'graded', fault = NULL, claimed_by = NULL WHERE id = $1";
         let row = ReportRow::of(report)?;
         let is_first = on!(&self.write, db => {
             let mut transaction = db.begin().await?;
-            let done = bind_report!(sqlx::query(INSERT), submission_id, graded_at, row, 0_i64)
-                .execute(&mut *transaction)
-                .await?;
-            sqlx::query(STATE).bind(submission_id).execute(&mut *transaction).await?;
+            let found = sqlx::query(STATE).bind(submission_id).execute(&mut *transaction).await?;
+            let mut is_first = false;
+            if found.rows_affected() > 0 {
+                let done = bind_report!(sqlx::query(INSERT), submission_id, graded_at, row, 0_i64)
+                    .execute(&mut *transaction)
+                    .await?;
+                is_first = done.rows_affected() > 0;
+            }
             transaction.commit().await?;
-            done.rows_affected() > 0
+            is_first
         });
         Ok(is_first)
     }
@@ -192,9 +197,19 @@ impl Store {
         }))
     }
 
+    /// Says that a class has changed: how many files of each state there are, and when the last one came.
+    pub async fn class_version(&self, assignment: &str, batch: Option<&str>) -> Result<Vec<(String, i64, i64)>> {
+        const SQL: &str = "SELECT state, count(*), max(received_at) FROM submissions WHERE assignment = $1 \
+                           AND via <> 'editor' AND ($2 = '' OR batch_id = $2) GROUP BY state ORDER BY state";
+        let batch = batch.unwrap_or_default();
+        Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).bind(batch).fetch_all(db).await?))
+    }
+
     /// Keeps a portrait.
     pub async fn set_portrait(&self, assignment: &str, sha256: &str, png: Option<&[u8]>) -> Result<()> {
-        const SQL: &str = "INSERT INTO portraits (assignment, sha256, png) VALUES ($1, $2, $3) ON CONFLICT DO NOTHING";
+        // Not for a file that was deleted while its portrait was drawn.
+        const SQL: &str = "INSERT INTO portraits (assignment, sha256, png) SELECT $1, $2, $3 \
+                           WHERE EXISTS (SELECT 1 FROM uploads WHERE sha256 = $2) ON CONFLICT DO NOTHING";
         on!(&self.write, db => { sqlx::query(SQL).bind(assignment).bind(sha256).bind(png).execute(db).await?; });
         Ok(())
     }

@@ -14,6 +14,12 @@ pub struct Removed {
     pub owners: u64,
 }
 
+/// Files that no submission has any more, and their portraits.
+pub(super) const UPLOADS: &str = "DELETE FROM uploads WHERE NOT EXISTS \
+                                  (SELECT 1 FROM submissions s WHERE s.sha256 = uploads.sha256)";
+pub(super) const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
+                                    (SELECT 1 FROM submissions s WHERE s.sha256 = portraits.sha256)";
+
 impl Store {
     /// Removes submissions that came before `before`, drafts that came before `drafts_before`, and what only they had.
     pub async fn remove_old(&self, before: Option<Millis>, drafts_before: Millis) -> Result<Removed> {
@@ -21,10 +27,6 @@ impl Store {
         const SUBMISSIONS: &str = "DELETE FROM submissions WHERE received_at < $1";
         const BATCHES: &str = "DELETE FROM batches WHERE created_at < $1";
         const REGRADINGS: &str = "DELETE FROM regradings WHERE created_at < $1";
-        const UPLOADS: &str = "DELETE FROM uploads WHERE NOT EXISTS \
-                               (SELECT 1 FROM submissions s WHERE s.sha256 = uploads.sha256)";
-        const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
-                                 (SELECT 1 FROM submissions s WHERE s.sha256 = portraits.sha256)";
         const OWNERS: &str = "DELETE FROM owners WHERE created_at < $1 AND NOT EXISTS \
                               (SELECT 1 FROM submissions s WHERE s.owner_id = owners.id)";
         let mut removed = Removed::default();

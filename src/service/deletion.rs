@@ -1,0 +1,36 @@
+//! Deleting a submission, an archive, or a student with everything of theirs.
+
+use super::State;
+use super::errors::Problem;
+use super::roster::Matcher;
+use super::store::{Counts, Target};
+
+/// Deletes it for good: rows, files, reports, and the pictures that are kept of them. The log has how much it was, and
+/// nothing of whose.
+pub async fn delete(state: &State, target: &Target) -> Result<Counts, Problem> {
+    let refused = match target {
+        Target::Student(id) => refused_without(state, id).await?,
+        _ => Vec::new(),
+    };
+    let (counts, files) = state.store.delete(target, &refused, state.clock.now()).await?;
+    for sha256 in &files {
+        state.gallery.forget(sha256).await;
+    }
+    let Counts { submissions, drafts, entries, browsers } = counts;
+    tracing::info!(what = target.word(), submissions, drafts, entries, browsers, "a teacher deleted");
+    Ok(counts)
+}
+
+/// The lists of members that archives left out, without those whose path names this student: of each batch that changes.
+async fn refused_without(state: &State, id: &str) -> Result<Vec<(String, String)>, Problem> {
+    let Some(student) = state.store.student_by_id(id).await? else { return Ok(Vec::new()) };
+    let matcher = Matcher::new(std::slice::from_ref(&student));
+    let mut changed = Vec::new();
+    for batch in state.store.batches(&state.assignment.id).await? {
+        let kept: Vec<_> = batch.refused.iter().filter(|refused| !matcher.path_names(&refused.path, id)).collect();
+        if kept.len() < batch.refused.len() {
+            changed.push((batch.id, serde_json::to_string(&kept).map_err(|error| Problem::internal(&error))?));
+        }
+    }
+    Ok(changed)
+}

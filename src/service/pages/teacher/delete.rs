@@ -1,0 +1,127 @@
+//! Deleting, after a page that says what goes.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::Place;
+use crate::service::State;
+use crate::service::classes::{Person, people};
+use crate::service::deletion;
+use crate::service::errors::Problem;
+use crate::service::identity::TeacherPage;
+use crate::service::store::Target;
+use askama::Template;
+use axum::Form;
+use axum::extract::{Query, State as Shared};
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/delete.html")]
+struct View {
+    frame: Frame,
+    place: Place,
+    csrf: String,
+    chosen: Chosen,
+    heading: &'static str,
+    /// What it is, as the teacher knows it.
+    name: String,
+    counts: Vec<String>,
+    back: String,
+}
+
+/// What is to be deleted: one of the three.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Chosen {
+    csrf: String,
+    submission: String,
+    batch: String,
+    /// Key of somebody of the class table.
+    person: String,
+}
+
+/// What was chosen, found.
+struct Found {
+    target: Target,
+    heading: &'static str,
+    name: String,
+    /// The page that it is on.
+    back: String,
+    is_on_roster: bool,
+}
+
+async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, Problem> {
+    if !chosen.submission.is_empty() {
+        let submission = state.store.submission(&chosen.submission).await?.ok_or_else(Problem::not_found)?;
+        return Ok(Found {
+            heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
+            name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
+            back: format!("/r/{}", submission.id),
+            target: Target::Submission(submission.id),
+            is_on_roster: false,
+        });
+    }
+    if !chosen.batch.is_empty() {
+        let batch = state.store.batch(&chosen.batch).await?.ok_or_else(Problem::not_found)?;
+        return Ok(Found {
+            heading: frame
+                .say("Delete this archive with everything in it?", "このアーカイブと中の提出をすべて削除しますか?"),
+            name: format!("{} · {}", batch.title, frame.moment(batch.created_at).text),
+            back: format!("/teacher/batches/{}", batch.id),
+            target: Target::Batch(batch.id),
+            is_on_roster: false,
+        });
+    }
+    let people = people(state).await?;
+    let person = people.all().find(|person| person.key == chosen.person).ok_or_else(Problem::not_found)?;
+    let student = state.store.student_by_id(&person.key).await?;
+    let key = percent_encoding::utf8_percent_encode(&person.key, percent_encoding::NON_ALPHANUMERIC);
+    Ok(Found {
+        heading: frame.say("Delete this student with everything of theirs?", "この学生のデータをすべて削除しますか?"),
+        name: format!("{} {}", person.number, person.name).trim().to_owned(),
+        back: format!("/teacher/person?key={key}"),
+        is_on_roster: student.as_ref().is_some_and(|student| student.is_on_roster()),
+        target: match (&student, person.key.split_once('/')) {
+            (Some(student), _) => Target::Student(student.id.clone()),
+            (None, Some((batch, position))) => {
+                Target::Entry(batch.to_owned(), position.parse().map_err(|_| Problem::not_found())?)
+            }
+            (None, None) => unnamed(person),
+        },
+    })
+}
+
+/// Somebody who is a browser, or one file and nothing more.
+fn unnamed(person: &Person) -> Target {
+    if person.is_anonymous { Target::Submission(person.key.clone()) } else { Target::Browser(person.key.clone()) }
+}
+
+/// `GET /teacher/delete?submission=`, `batch=` or `person=`: what would go.
+pub(in crate::service::pages) async fn page(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Query(chosen): Query<Chosen>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let found = found(&state, &frame, &chosen).await?;
+    let mut counts = state.store.count(&found.target).await?.said(frame.language);
+    if found.is_on_roster {
+        counts.push(frame.say("the line of the roster", "名簿の行").to_owned());
+    }
+    let csrf = teacher.csrf(&state);
+    let (heading, name, back) = (found.heading, found.name, found.back);
+    shown(View { frame, place: Place::Class, csrf, chosen, heading, name, counts, back }.render())
+}
+
+/// `POST /teacher/delete`.
+pub(in crate::service::pages) async fn delete(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    frame: Frame,
+    Form(chosen): Form<Chosen>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &chosen.csrf)?;
+    let found = found(&state, &frame, &chosen).await?;
+    deletion::delete(&state, &found.target).await?;
+    Ok(Redirect::to("/teacher?done=deleted").into_response())
+}
