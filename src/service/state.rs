@@ -1,6 +1,7 @@
 //! What every request shares.
 
 use super::Config;
+use super::classes::Jobs;
 use super::clock::Clock;
 use super::gallery::Gallery;
 use super::grading::{Judge, Queue};
@@ -40,6 +41,8 @@ pub struct Shared {
     pub queue: Queue,
     /// The pictures of submissions.
     pub gallery: Gallery,
+    /// The downloads that take a while to make.
+    pub downloads: Jobs,
     /// Rates.
     pub limits: Limits,
     /// The homework that is served.
@@ -69,6 +72,7 @@ impl State {
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
             gallery: Gallery::new(assignment),
+            downloads: Jobs::default(),
             teacher_token: config.teacher_token.clone(),
             key: key.into_bytes(),
             login_turn: Semaphore::new(1),

@@ -54,7 +54,16 @@ async fn a_teacher_walks_through_the_class() {
     browser.until("location.pathname === '/teacher/settings'").await;
     let folder = tempfile::tempdir().expect("a folder");
     let roster = folder.path().join("roster.csv");
-    std::fs::write(&roster, "number,name\nS1001,和田 花子\nS1002,<b>Bold</b>\nS1006,Late Comer\n").expect("a file");
+    // One that cannot be read leads back to its form, with what is wrong beside it.
+    std::fs::write(&roster, "number,name\nS1001,和田 花子\nnobody\n").expect("a file");
+    browser.keys("#roster-file", &roster.to_string_lossy()).await;
+    browser.click("form[action='/teacher/roster'] button").await;
+    browser.until("document.querySelector('#roster-wrong')?.textContent.startsWith('Line 3 ')").await;
+    // A refused form is answered with 422, which the browser notes.
+    browser.complaints().await;
+    browser.check("teacher-roster-wrong").await;
+    let students = "S1001,和田 花子\nS1002,<b>Bold</b>\nS1003,C\nS1004,D\nS1005,E\nS1006,Late Comer\n";
+    std::fs::write(&roster, format!("number,name\n{students}")).expect("a file");
     browser.keys("#roster-file", &roster.to_string_lossy()).await;
     browser.click("form[action='/teacher/roster'] button").await;
     browser.until("document.querySelector('[role=status]')").await;
@@ -66,6 +75,16 @@ async fn a_teacher_walks_through_the_class() {
     browser.js("document.querySelectorAll('img[loading]').forEach(i => i.loading = 'eager')").await;
     browser.until("[...document.images].every(i => i.complete && i.naturalWidth > 0)").await;
     browser.check("teacher-class").await;
+    // What arrives appears, and the page is still the same.
+    browser.js("window.stays = true; document.querySelector('#q').value = 'typed'").await;
+    server.hand_in("S1006", RIGHT).await;
+    browser.until("document.querySelector('.people tbody tr:last-child .sign.full')").await;
+    assert_eq!(browser.js("return window.stays && document.querySelector('#q').value").await, "typed");
+    browser.until("document.querySelector('.overview .lead').textContent.startsWith('6 of 6 ')").await;
+    // A heading sorts, and says so.
+    browser.click(".people thead th:nth-child(4) a").await;
+    browser.until("document.querySelector('th[aria-sort=ascending]')?.textContent === 'Score'").await;
+    assert_eq!(browser.text(".people tbody tr:first-child th a").await, "S1003");
     browser.open(&server.at("/teacher?verdict=wrong")).await;
     assert_eq!(browser.js("return document.querySelectorAll('.people tbody tr').length").await, 2);
     browser.click(".trends a").await;
@@ -77,6 +96,13 @@ async fn a_teacher_walks_through_the_class() {
     browser.click(".people tbody a").await;
     browser.until("document.querySelectorAll('.attempts li').length === 3").await;
     browser.check("teacher-person").await;
+    // One of three attempts goes, after a page that says what goes.
+    browser.click(".attempts li:last-child .gone").await;
+    browser.until("document.querySelector('.goes li')").await;
+    browser.check("teacher-delete").await;
+    browser.click("main .danger").await;
+    browser.until("location.search === '?done=deleted'").await;
+    assert_eq!(browser.text(".people tbody tr:first-child td:nth-child(6)").await, "2");
 
     // A class comes as an archive of Moodle's; it is graded in the background.
     browser.open(&server.at("/teacher/batches")).await;

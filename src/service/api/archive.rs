@@ -20,6 +20,9 @@ use tokio::io::AsyncWriteExt;
 const MOST_PARTS: usize = 16;
 const LONGEST_TEXT: usize = 4096;
 
+/// Bytes of an archive that is too large which are read all the same and dropped.
+const MOST_DROPPED: u64 = 512 << 20;
+
 /// An archive that somebody uploaded; it is removed from the disk with this.
 #[derive(Debug)]
 pub(in crate::service) struct Archive {
@@ -112,7 +115,16 @@ async fn saved<E>(
     let mut room = state.config.archive_mib.saturating_mul(1 << 20);
     while let Some(chunk) = stream.next().await {
         let chunk = chunk.map_err(&problem)?;
-        let Some(left) = room.checked_sub(chunk.len() as u64) else { return Err(too_large(state)) };
+        let Some(left) = room.checked_sub(chunk.len() as u64) else {
+            // A browser that still sends does not read the answer: the rest is taken, as far as that is bearable.
+            let mut bearable = MOST_DROPPED;
+            while let Some(Ok(chunk)) = stream.next().await
+                && let Some(left) = bearable.checked_sub(chunk.len() as u64)
+            {
+                bearable = left;
+            }
+            return Err(too_large(state));
+        };
         room = left;
         digest.update(&chunk);
         file.write_all(&chunk).await.map_err(disk)?;

@@ -6,23 +6,24 @@ use super::submissions::attachment;
 use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::service::State;
-use crate::service::classes::{self, Download, Pick, Whose};
+use crate::service::classes::{self, Download, Pick, Wanted, Whose};
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
-use crate::service::language::Lang;
+use crate::service::language::{Lang, asked};
 use crate::service::limits::Client;
 use crate::service::store::Batch;
 use axum::Json;
 use axum::body::Bytes;
 use axum::extract::rejection::{BytesRejection, QueryRejection};
 use axum::extract::{Path, Query, Request, State as Shared};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, Uri, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use clap::ValueEnum;
 use futures_util::Stream;
 use serde::Deserialize;
 use std::convert::Infallible;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// How often who watches a batch is told.
@@ -130,6 +131,8 @@ pub(in crate::service) enum Job {
     Batch(String),
     /// A regrading, by its id.
     Regrading(String),
+    /// A download that is being made.
+    Download(Arc<classes::Job>),
 }
 
 /// The events of a job until it is done, or the service ends.
@@ -145,6 +148,7 @@ pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item =
             let progress = match &job {
                 Job::Batch(id) => state.store.progress(id).await,
                 Job::Regrading(id) => state.store.regrading_progress(id).await,
+                Job::Download(job) => Ok(job.progress()),
             };
             // Who watches may come again; the log has what happened.
             let progress = progress.inspect_err(|error| tracing::error!(%error, "progress")).ok()?;
@@ -172,9 +176,24 @@ pub(super) async fn file(
     Shared(state): Shared<State>,
     Lang(language): Lang,
     Path((id, format)): Path<(String, String)>,
+    uri: Uri,
 ) -> Result<Response, Problem> {
-    let batch = find(&state, &id).await?;
-    saved(classes::download(&state, Whose::Batch(batch), named(&format)?, None, language).await?)
+    let whose = Whose::Batch(find(&state, &id).await?);
+    made(&state, whose, &format, None, (&uri, language)).await
+}
+
+/// A class in the format of this name, in the language that the address asks for, or else that of its readers.
+async fn made(
+    state: &State,
+    whose: Whose,
+    format: &str,
+    sheet: Option<Vec<u8>>,
+    (uri, reader): (&Uri, Language),
+) -> Result<Response, Problem> {
+    let format = named(format)?;
+    let language = classes::language(state, format, asked(uri), reader).await?;
+    let wanted = Wanted { format, sheet, language, with_pages: false };
+    saved(classes::download(state, whose, wanted, &Arc::default()).await?)
 }
 
 /// A batch in Moodle's worksheet
@@ -189,14 +208,14 @@ pub(super) async fn filled(
     Shared(state): Shared<State>,
     Lang(language): Lang,
     Path((id, format)): Path<(String, String)>,
-    headers: HeaderMap,
+    (headers, uri): (HeaderMap, Uri),
     sheet: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
     teacher.check_csrf(&state, csrf)?;
     let sheet = sheet.map_err(super::body::other)?;
-    let batch = find(&state, &id).await?;
-    saved(classes::download(&state, Whose::Batch(batch), named(&format)?, Some(sheet.into()), language).await?)
+    let whose = Whose::Batch(find(&state, &id).await?);
+    made(&state, whose, &format, Some(sheet.into()), (&uri, language)).await
 }
 
 /// Which submissions of students count.
@@ -209,7 +228,10 @@ pub(super) struct PickQuery {
     pick: Pick,
 }
 
-/// What students handed in themselves, in a format of `ggrade batch`
+/// The class in a format of `ggrade batch`
+///
+/// Everyone of the roster, also who handed in nothing; without a roster, whoever handed in as somebody. Formats that
+/// students read are in the course's language, unless `lang` asks for another.
 #[utoipa::path(
     get, operation_id = "read_class_file", path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
     params(("format" = FormatName, Path, description = "Name of the format"), PickQuery),
@@ -221,9 +243,10 @@ pub(super) async fn class_file(
     Lang(language): Lang,
     Path(format): Path<String>,
     pick: Result<Query<PickQuery>, QueryRejection>,
+    uri: Uri,
 ) -> Result<Response, Problem> {
     let Query(PickQuery { pick }) = pick.map_err(super::body::other)?;
-    saved(classes::download(&state, Whose::Students(pick), named(&format)?, None, language).await?)
+    made(&state, Whose::Students(pick), &format, None, (&uri, language)).await
 }
 
 /// The format of this name.

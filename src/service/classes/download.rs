@@ -1,6 +1,7 @@
 //! A class in a format of `ggrade batch`.
 
-use crate::batch::class::{Class, Outcome, Refused, Student};
+use super::people::{Person, people};
+use crate::batch::class::{Class, Entry, Outcome, Participant, Refused, Student};
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::{Format, KEY, worksheet};
 use crate::batch::intake::{Content, HandIn};
@@ -13,14 +14,17 @@ use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::gallery::blocking;
 use crate::service::store::{Batch, ClassRow, Stored, Submission};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What a download is made of.
 #[derive(Clone, Debug)]
 pub enum Whose {
     /// A batch.
     Batch(Batch),
-    /// Everyone of the roster and everyone who handed in under a number: the best of each, or the latest.
+    /// Everyone of the class: the best of each, or the latest.
     Students(Pick),
 }
 
@@ -44,15 +48,70 @@ pub struct Download {
     pub bytes: Vec<u8>,
 }
 
-/// A class in one of the formats; `sheet` is Moodle's worksheet, which one format fills in. Formats of several files
-/// come as a ZIP.
-pub async fn download(
+/// How far a download is: one step for each picture and each page that is drawn, and one for the rest.
+#[derive(Debug)]
+pub struct Steps {
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Default for Steps {
+    fn default() -> Self {
+        Self { done: AtomicUsize::new(0), total: AtomicUsize::new(1) }
+    }
+}
+
+impl Steps {
+    /// How many are done, and how many there are.
+    pub fn get(&self) -> (usize, usize) {
+        (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
+    }
+
+    fn expect(&self, more: usize) {
+        self.total.fetch_add(more, Ordering::Relaxed);
+    }
+
+    fn done(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// The language of a format: students are spoken to in that of the course, unless the request asks for one.
+pub async fn language(
     state: &State,
-    whose: Whose,
     format: Format,
-    sheet: Option<Vec<u8>>,
-    language: Language,
-) -> Result<Download, Problem> {
+    asked: Option<Language>,
+    reader: Language,
+) -> Result<Language, Problem> {
+    match asked {
+        Some(language) => Ok(language),
+        None if format.is_for_students() => Ok(state.store.course().await?.language),
+        None => Ok(reader),
+    }
+}
+
+/// Whether a format takes seconds for a class, because something is drawn for everyone.
+pub fn is_slow(format: Format) -> bool {
+    let wants = output::wants(&[format]);
+    wants.pages || wants.portraits
+}
+
+/// What a download shall be.
+#[derive(Debug)]
+pub struct Wanted {
+    /// The format.
+    pub format: Format,
+    /// Moodle's worksheet, which one format fills in.
+    pub sheet: Option<Vec<u8>>,
+    /// The language of its words.
+    pub language: Language,
+    /// Whether the class page comes with everyone's own page, as a ZIP; alone it links to none.
+    pub with_pages: bool,
+}
+
+/// A class in one of the formats. Formats of several files come as a ZIP.
+pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<Steps>) -> Result<Download, Problem> {
+    let Wanted { format, sheet, language, with_pages } = wanted;
     if format == Format::MoodleWorksheet && sheet.is_none() {
         return Err(Problem::unprocessable(
             "This format fills in the worksheet that Moodle gives: send that CSV file along.",
@@ -63,22 +122,27 @@ pub async fn download(
     let submissions: Vec<_> =
         members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
     let wants = output::wants(&[format]);
+    let has_pages = wants.pages && (with_pages || format != Format::Html);
+    let stored = members.iter().filter(|member| member.stored.is_some()).count();
+    steps.expect(stored * (usize::from(wants.portraits) + usize::from(has_pages)));
     let mut portraits = Vec::new();
     for member in &members {
-        portraits.push(match (&member.stored, wants.portraits) {
-            (Some(stored), true) => state.gallery.portrait(state, &stored.submission).await?,
-            _ => None,
-        });
+        let Some(stored) = member.stored.as_ref().filter(|_| wants.portraits) else {
+            portraits.push(None);
+            continue;
+        };
+        portraits.push(state.gallery.portrait(state, &stored.submission).await?);
+        steps.done();
     }
     let mut class = blocking(state, move |state| class(state, title, refused, members, portraits, language)).await?;
     let temporary = blocking(state, |_| tempfile::tempdir().map_err(|error| disk(&error))).await?;
-    // The class page alone is downloaded: it leads to no pages beside it.
-    if format == Format::MoodleFeedback {
+    if has_pages {
         for (number, (entry, submission)) in class.entries.iter_mut().zip(submissions).enumerate() {
             if let (Outcome::Graded(report), Some(submission)) = (&entry.outcome, submission) {
                 let path = temporary.path().join(format!("{number}.html"));
                 let source = entry.source.clone().unwrap_or_default();
                 entry.page = Some(page(state, &submission, report, source, language, path).await?);
+                steps.done();
             }
         }
     }
@@ -116,32 +180,46 @@ async fn members(state: &State, whose: Whose) -> Result<(String, Vec<Refused>, V
             Ok((batch.title, batch.refused, members))
         }
         Whose::Students(pick) => {
-            let rows = state.store.class(&state.assignment.id, None).await?;
-            let mut members = Vec::new();
-            for student in state.store.students().await? {
-                let theirs = rows.iter().filter(|row| row.number.as_deref() == Some(student.number.as_str()));
-                let chosen = chosen(theirs, pick);
-                if chosen.is_none() && student.on_roster == 0 {
-                    continue;
-                }
+            let mut members: Vec<Member> = Vec::new();
+            let mut keys = HashSet::new();
+            for person in people(state).await?.class {
+                let chosen = chosen(&person, pick).or(person.rows.first());
                 let (stored, bytes) = with_bytes(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
-                let name = if student.name.is_empty() { student.number.clone() } else { student.name };
                 let path = stored.as_ref().map(|stored| stored.submission.name.clone());
-                let student = Student { key: student.number, name, moodle: None };
-                members.push(Member { student, path, stored, bytes, note: None });
+                let student = student(person.number, person.name, person.moodle, &person.key, &mut keys);
+                members.push(Member { student, path, stored, bytes, note: person.note });
             }
+            members.sort_by(|a, b| a.student.key.cmp(&b.student.key));
             Ok((state.assignment.id.clone(), Vec::new(), members))
         }
     }
 }
 
-/// The submission that counts; `rows` has the newest first.
-pub fn chosen<'a>(rows: impl Iterator<Item = &'a ClassRow>, pick: Pick) -> Option<&'a ClassRow> {
-    let mut graded = rows.filter(|row| row.row.score.is_some());
+/// Somebody of the class as files name them; who has no number is told apart by a part of what is known of them.
+fn student(
+    number: String,
+    name: String,
+    moodle: Option<Participant>,
+    key: &str,
+    keys: &mut HashSet<String>,
+) -> Student {
+    let known = if number.is_empty() { format!("browser-{}", key.chars().take(8).collect::<String>()) } else { number };
+    let name = if name.is_empty() { known.clone() } else { name };
+    let mut key = known.clone();
+    for time in 2.. {
+        if keys.insert(key.to_ascii_lowercase()) {
+            break;
+        }
+        key = format!("{known}.{time}");
+    }
+    Student { key, name, moodle }
+}
+
+/// The submission that counts.
+fn chosen(person: &Person, pick: Pick) -> Option<&ClassRow> {
     match pick {
-        Pick::Latest => graded.next(),
-        // Of equals the last of them is taken here: the earliest that came.
-        Pick::Best => graded.max_by(|a, b| a.row.score.unwrap_or(0.0).total_cmp(&b.row.score.unwrap_or(0.0))),
+        Pick::Latest => person.rows.iter().find(|row| row.row.score.is_some()),
+        Pick::Best => person.best(),
     }
 }
 
@@ -222,6 +300,18 @@ fn written(class: &Class, format: Format, path: &Path) -> Result<Download, Fault
     };
     if let (_, Some(fault)) = output::write(class, &[format], None, None, &folder) {
         return Err(fault);
+    }
+    let pages: Vec<&Entry> = class.entries.iter().filter(|entry| entry.page.is_some()).collect();
+    if format == Format::Html && !pages.is_empty() {
+        // Where the class page links to.
+        let folder = path.join("students");
+        std::fs::create_dir_all(&folder).map_err(|error| disk(&error))?;
+        for entry in pages {
+            let to = folder.join(format!("{}.html", entry.student.key));
+            std::fs::copy(entry.page.as_deref().unwrap_or(path), to).map_err(|error| disk(&error))?;
+        }
+        let bytes = zipped(path).map_err(|error| disk(&error))?;
+        return Ok(Download { name: format!("{}.zip", format.id()), bytes });
     }
     match format.files() {
         [file] if !file.contains(KEY) => {

@@ -51,7 +51,7 @@ pub(super) async fn receipt(
     };
     let view = View {
         frame,
-        at: Moment::exact(submission.received_at, frame.language),
+        at: frame.exact_moment(submission.received_at),
         name: &submission.name,
         attempt,
         score,

@@ -1,7 +1,7 @@
 //! What a student may still hand in, and until when.
 
 use super::frame::Frame;
-use super::moment::{self, Moment};
+use super::moment;
 use crate::language::Language;
 use crate::service::clock::Millis;
 use crate::service::store::Assignment;
@@ -67,7 +67,7 @@ impl Standing<'_> {
     pub fn facts(&self, frame: &Frame) -> Vec<Fact> {
         let is_english = frame.language == Language::En;
         let say = |en: String, ja: String| if is_english { en } else { ja };
-        let moment = |at| Moment::zoned(at, frame.language).text;
+        let moment = |at| frame.deadline(at).text;
         let mut facts = Vec::new();
         match (self.settings.opens_at, self.settings.closes_at) {
             (Some(opens), _) if self.now < opens => {

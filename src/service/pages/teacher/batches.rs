@@ -1,25 +1,28 @@
-//! Whole classes: a Moodle archive is uploaded and graded in the background; downloads in every format.
+//! Whole classes as archives: one is uploaded and graded in the background, and comes back in every format.
 
 use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::shown;
-use super::Place;
-use super::class::{Filter, Row, row};
-use super::people::people;
+use super::downloads::{Offer, formats};
+use super::table::{Filter, Table};
+use super::{Place, refused};
 use crate::batch::formats::Format;
+use crate::language::Language;
 use crate::service::State;
 use crate::service::api::archive::Archive;
 use crate::service::api::batches::saved;
-use crate::service::classes::{self, Whose};
+use crate::service::api::body::other;
+use crate::service::classes::{self, Person, Wanted, Whose, of_batch};
 use crate::service::errors::Problem;
-use crate::service::identity::TeacherPage;
+use crate::service::identity::{Teacher, TeacherPage};
 use crate::service::limits::Client;
 use crate::service::store::{Batch, Progress};
 use askama::Template;
-use axum::extract::{Multipart, Path, Request, State as Shared};
+use axum::extract::multipart::MultipartRejection;
+use axum::extract::{Multipart, Path, Query, Request, State as Shared};
 use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Redirect, Response};
-use clap::ValueEnum;
+use std::sync::Arc;
 
 #[derive(Template)]
 #[template(path = "service/batches.html")]
@@ -27,24 +30,19 @@ struct List {
     frame: Frame,
     place: Place,
     csrf: String,
+    /// What is wrong with the archive that was sent.
+    problem: Option<String>,
     archive_mib: u64,
     batches: Vec<Line>,
     regradings: Vec<Line>,
-    formats: Vec<Offer>,
 }
 
 /// One archive, or one regrading, in its list.
 struct Line {
-    href: String,
+    id: String,
     title: String,
     at: Moment,
     progress: Progress,
-}
-
-/// A format to download.
-struct Offer {
-    id: &'static str,
-    what: String,
 }
 
 #[derive(Template)]
@@ -57,20 +55,15 @@ struct One {
     at: Moment,
     events: String,
     progress: Progress,
-    rows: Vec<Row>,
-    notes: Vec<(String, String)>,
+    table: Table,
     refused: Vec<(String, String)>,
     id: String,
     formats: Vec<Offer>,
-}
-
-/// The formats, but for the worksheet, which needs a file of Moodle's first.
-fn formats(frame: &Frame, is_batch: bool) -> Vec<Offer> {
-    let all = Format::value_variants().iter();
-    let here =
-        all.filter(|format| **format != Format::MoodleWorksheet && (is_batch || **format != Format::MoodleFeedback));
-    here.map(|format| Offer { id: format.id(), what: format.description().get(frame.language).replace('`', "") })
-        .collect()
+    /// Where the files of the formats are, and the batch that they are of.
+    files: String,
+    of_batch: String,
+    /// What is wrong with the worksheet that was sent.
+    problem: Option<String>,
 }
 
 /// `GET /teacher/batches`.
@@ -79,41 +72,64 @@ pub(in crate::service::pages) async fn list(
     TeacherPage(teacher): TeacherPage,
     frame: Frame,
 ) -> Result<Response, Problem> {
+    view_list(&state, &teacher, frame, None).await
+}
+
+async fn view_list(
+    state: &State,
+    teacher: &Teacher,
+    frame: Frame,
+    problem: Option<String>,
+) -> Result<Response, Problem> {
     let mut batches = Vec::new();
     for batch in state.store.batches(&state.assignment.id).await? {
         let progress = state.store.progress(&batch.id).await?;
-        let at = Moment::of(batch.created_at, frame.language);
-        batches.push(Line { href: format!("/teacher/batches/{}", batch.id), title: batch.title, at, progress });
+        let at = frame.moment(batch.created_at);
+        batches.push(Line { id: batch.id, title: batch.title, at, progress });
     }
     let mut regradings = Vec::new();
     for regrading in state.store.regradings(&state.assignment.id).await? {
         let progress = state.store.regrading_progress(&regrading.id).await?;
-        let at = Moment::of(regrading.created_at, frame.language);
+        let at = frame.moment(regrading.created_at);
         let title = match regrading.adopted_at {
             Some(_) => frame.say("adopted", "採用済み"),
             None => frame.say("not adopted", "未採用"),
         };
-        let href = format!("/teacher/regradings/{}", regrading.id);
-        regradings.push(Line { href, title: title.to_owned(), at, progress });
+        regradings.push(Line { id: regrading.id, title: title.to_owned(), at, progress });
     }
-    let (csrf, formats) = (teacher.csrf(&state), formats(&frame, false));
-    let archive_mib = state.config.archive_mib;
-    shown(List { frame, place: Place::Batches, csrf, archive_mib, batches, regradings, formats }.render())
+    let (csrf, archive_mib) = (teacher.csrf(state), state.config.archive_mib);
+    shown(List { frame, place: Place::Batches, csrf, problem, archive_mib, batches, regradings }.render())
 }
 
-/// `POST /teacher/batches`: stores an archive.
+/// `POST /teacher/batches`: stores an archive. One that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn upload(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     client: Client,
     headers: HeaderMap,
+    frame: Frame,
     request: Request,
 ) -> Result<Response, Problem> {
-    let archive = Archive::read(request, &state).await?;
-    teacher.check_csrf(&state, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
-    let key = archive.key(&headers, &client)?;
-    let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title(), key).await?;
-    Ok(Redirect::to(&format!("/teacher/batches/{}", batch.id)).into_response())
+    match stored(&state, &teacher, (&headers, &client), request).await {
+        Ok(batch) => Ok(Redirect::to(&format!("/teacher/batches/{}", batch.id)).into_response()),
+        Err(problem) if problem.status.is_client_error() => {
+            let detail = problem.detail.get(frame.language).to_owned();
+            Ok(refused(view_list(&state, &teacher, frame, Some(detail)).await?, problem.status))
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+async fn stored(
+    state: &State,
+    teacher: &Teacher,
+    (headers, client): (&HeaderMap, &Client),
+    request: Request,
+) -> Result<Batch, Problem> {
+    let archive = Archive::read(request, state).await?;
+    teacher.check_csrf(state, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
+    let key = archive.key(headers, client)?;
+    classes::submit(state, archive.path.to_path_buf(), &archive.title(), key).await
 }
 
 async fn found(state: &State, id: &str) -> Result<Batch, Problem> {
@@ -125,56 +141,81 @@ pub(in crate::service::pages) async fn one(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
+    Query(filter): Query<Filter>,
     frame: Frame,
 ) -> Result<Response, Problem> {
     let batch = found(&state, &id).await?;
-    let mut people = people(&state, Some(&id)).await?;
-    people.sort_by(|a, b| (&a.number, &a.name).cmp(&(&b.number, &b.name)));
-    let entries = state.store.batch_entries(&id).await?;
+    view_one(&state, &teacher, frame, batch, &filter, None).await
+}
+
+async fn view_one(
+    state: &State,
+    teacher: &Teacher,
+    frame: Frame,
+    batch: Batch,
+    filter: &Filter,
+    problem: Option<String>,
+) -> Result<Response, Problem> {
+    let people = of_batch(state, &batch.id).await?;
+    let everyone: Vec<&Person> = people.iter().collect();
     let said = |text: &crate::language::Text| text.get(frame.language).to_owned();
-    let notes = entries.iter().filter_map(|entry| Some((entry.student.name.clone(), said(entry.note.as_ref()?))));
-    let filter = Filter::default();
     shown(
         One {
             place: Place::Batches,
-            csrf: teacher.csrf(&state),
-            at: Moment::of(batch.created_at, frame.language),
-            events: format!("/api/v1/batches/{id}/events"),
-            progress: state.store.progress(&id).await?,
-            rows: people.iter().enumerate().map(|(index, person)| row(&frame, &filter, index, person)).collect(),
-            notes: notes.collect(),
+            csrf: teacher.csrf(state),
+            at: frame.moment(batch.created_at),
+            events: format!("/api/v1/batches/{}/events", batch.id),
+            progress: state.store.progress(&batch.id).await?,
+            table: Table::of(&frame, &state.assignment.id, &everyone, filter),
             refused: batch.refused.iter().map(|refused| (refused.path.clone(), said(&refused.reason))).collect(),
             formats: formats(&frame, true),
+            files: format!("/api/v1/batches/{}/files", batch.id),
+            of_batch: batch.id.clone(),
             title: batch.title,
-            id,
+            id: batch.id,
+            problem,
             frame: frame.of(&state.assignment.id),
         }
         .render(),
     )
 }
 
-fn broken() -> Problem {
-    Problem::bad_request("The upload broke off.", "アップロードが途中で切れました。")
-}
-
-/// `POST /teacher/batches/{id}/worksheet`: Moodle's worksheet, filled in.
+/// `POST /teacher/batches/{id}/worksheet`: Moodle's worksheet, filled in. One that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn worksheet(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
     frame: Frame,
-    mut form: Multipart,
+    form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     let batch = found(&state, &id).await?;
+    match filled(&state, &teacher, batch.clone(), frame.course.language, form).await {
+        Err(problem) if problem.status.is_client_error() => {
+            let detail = problem.detail.get(frame.language).to_owned();
+            let page = view_one(&state, &teacher, frame, batch, &Filter::default(), Some(detail)).await?;
+            Ok(refused(page, problem.status))
+        }
+        answer => answer,
+    }
+}
+
+async fn filled(
+    state: &State,
+    teacher: &Teacher,
+    batch: Batch,
+    language: Language,
+    form: Result<Multipart, MultipartRejection>,
+) -> Result<Response, Problem> {
+    let mut form = form.map_err(other)?;
     let (mut csrf, mut sheet) = (String::new(), Vec::new());
-    while let Some(field) = form.next_field().await.map_err(|_| broken())? {
+    while let Some(field) = form.next_field().await.map_err(other)? {
         match field.name().unwrap_or_default() {
-            "csrf" => csrf = field.text().await.map_err(|_| broken())?,
-            "sheet" => sheet = field.bytes().await.map_err(|_| broken())?.to_vec(),
+            "csrf" => csrf = field.text().await.map_err(other)?,
+            "sheet" => sheet = field.bytes().await.map_err(other)?.to_vec(),
             _ => {}
         }
     }
-    teacher.check_csrf(&state, &csrf)?;
-    let file = classes::download(&state, Whose::Batch(batch), Format::MoodleWorksheet, Some(sheet), frame.language);
-    saved(file.await?)
+    teacher.check_csrf(state, &csrf)?;
+    let wanted = Wanted { format: Format::MoodleWorksheet, sheet: Some(sheet), language, with_pages: false };
+    saved(classes::download(state, Whose::Batch(batch), wanted, &Arc::default()).await?)
 }

@@ -1,6 +1,8 @@
 //! Charts as numbers that a template draws: scores, and mistakes over time.
 
-use super::people::Person;
+use super::super::frame::Frame;
+use crate::report::labels::mistake_title;
+use crate::service::classes::Person;
 use crate::service::clock::Millis;
 use std::collections::HashMap;
 
@@ -127,6 +129,7 @@ pub(super) fn course(people: &[&Person]) -> Option<Course> {
 /// A mistake: how many people's best attempt has it, and how often it was handed in over time.
 pub(super) struct Trend {
     pub id: String,
+    pub title: String,
     pub people: usize,
     /// Of the most frequent one, in percent.
     pub percent: usize,
@@ -135,7 +138,7 @@ pub(super) struct Trend {
 }
 
 /// The mistakes, the most frequent first.
-pub(super) fn trends(people: &[&Person]) -> Vec<Trend> {
+pub(super) fn trends(frame: &Frame, assignment: &str, people: &[&Person]) -> Vec<Trend> {
     let mut standing: HashMap<&str, usize> = HashMap::new();
     for best in people.iter().filter_map(|person| person.best()) {
         for mistake in &best.mistakes {
@@ -156,7 +159,8 @@ pub(super) fn trends(people: &[&Person]) -> Vec<Trend> {
     let most = standing.values().copied().max().unwrap_or(0).max(1);
     let trend = |id: &str| {
         let people = standing.get(id).copied().unwrap_or(0);
-        Trend { id: id.to_owned(), people, percent: 100 * people / most, bars: spark(&handed_in[id], from, to) }
+        let title = mistake_title(assignment, id, frame.language).to_owned();
+        Trend { id: id.to_owned(), title, people, percent: 100 * people / most, bars: spark(&handed_in[id], from, to) }
     };
     ids.into_iter().take(DRAWN).map(trend).collect()
 }
@@ -191,7 +195,10 @@ fn spark(times: &[Millis], from: Millis, to: Millis) -> Vec<Bar> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::service::pages::teacher::people::samples::person;
+    use crate::language::Language;
+    use crate::service::classes::samples::person;
+    use crate::service::course::Course;
+    use axum::http::Uri;
 
     #[test]
     fn full_marks_have_a_bar_of_their_own() {
@@ -220,9 +227,10 @@ mod tests {
     fn a_mistake_counts_by_people_and_its_history_by_files() {
         let people =
             [person("a", &[(0, 10.0, "gamma"), (10, 20.0, "unchanged")]), person("b", &[(20, 20.0, "unchanged")])];
-        let trends = trends(&people.iter().collect::<Vec<_>>());
-        let found: Vec<_> = trends.iter().map(|trend| (trend.id.as_str(), trend.people, trend.bars.len())).collect();
-        assert_eq!(found, [("unchanged", 2, 2), ("gamma", 0, 1)]);
+        let frame = Frame::new(Language::En, Course::default(), Uri::from_static("/"));
+        let trends = trends(&frame, "ggsample06", &people.iter().collect::<Vec<_>>());
+        let found: Vec<_> = trends.iter().map(|trend| (trend.title.as_str(), trend.people, trend.bars.len())).collect();
+        assert_eq!(found, [("Handed in unchanged", 2, 2), ("Gamma or another curve on the colour", 0, 1)]);
         assert_eq!(trends[0].percent, 100);
     }
 }

@@ -1,22 +1,31 @@
 //! The teacher's pages, behind the login.
 //!
-//! [`class`] is the table of everyone with its filters and [`charts`], [`person`] what one student handed in, [`batches`]
-//! whole archives and downloads, [`regradings`] grading again with a comparison, [`settings`] dates, limits, hints and the
-//! course link, [`roster`] the list of students, [`login`] the way in.
+//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`batches`]
+//! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
+//! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
+//! the way in, [`live`] what arrives while somebody looks.
 
 mod batches;
 mod charts;
 mod class;
+mod delete;
+mod downloads;
+mod live;
 mod login;
-mod people;
 mod person;
 mod regradings;
 mod roster;
 mod settings;
+mod table;
 
+use super::frame::Frame;
+use super::part;
 use crate::service::State;
+use crate::service::classes::Standing;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
+use axum::http::StatusCode;
+use axum::response::Response;
 use axum::routing::{get, post};
 
 /// The routes.
@@ -25,8 +34,15 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher", get(class::page))
         .route("/teacher/login", get(login::page).post(login::login))
         .route("/teacher/logout", post(login::logout))
+        .route("/teacher/events", get(live::events))
         .route("/teacher/person", get(person::page))
+        .route("/teacher/delete", get(delete::page).post(delete::delete))
+        .route("/teacher/downloads", post(downloads::start))
+        .route("/teacher/downloads/{id}", get(downloads::page))
+        .route("/teacher/downloads/{id}/events", get(downloads::events))
+        .route("/teacher/downloads/{id}/file", get(downloads::file))
         .route("/teacher/settings", get(settings::page).post(settings::save))
+        .route("/teacher/course", post(settings::save_course))
         .route("/teacher/settings/link", post(settings::renew))
         .route("/teacher/roster", post(roster::take))
         .route("/teacher/batches", get(batches::list).post(batches::upload).layer(DefaultBodyLimit::disable()))
@@ -46,4 +62,21 @@ pub(super) enum Place {
     Batches,
     /// Settings.
     Settings,
+}
+
+/// How somebody stands, in words.
+fn word(frame: &Frame, standing: Standing) -> &'static str {
+    match standing {
+        Standing::Graded(verdict) => part::verdict(frame, verdict),
+        Standing::Queued => frame.say("Being graded", "採点中"),
+        Standing::Failed => frame.say("Our fault", "サーバ側の障害"),
+        Standing::Ungraded => frame.say("Nothing to grade", "採点対象なし"),
+        Standing::Nothing => frame.say("Nothing handed in", "未提出"),
+    }
+}
+
+/// A page that leads a form back to its sender, with the status of the refusal.
+fn refused(mut page: Response, status: StatusCode) -> Response {
+    *page.status_mut() = status;
+    page
 }

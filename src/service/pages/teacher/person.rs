@@ -4,8 +4,9 @@ use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::{part, shown, student};
 use super::Place;
-use super::people::people;
+use super::table::titled;
 use crate::service::State;
+use crate::service::classes::people;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use crate::service::store::ClassRow;
@@ -32,17 +33,20 @@ struct View {
     number: String,
     name: String,
     attempts: Vec<Attempt>,
+    note: Option<String>,
+    key: Option<String>,
 }
 
 struct Attempt {
-    href: String,
+    id: String,
     mark: Option<&'static str>,
     word: &'static str,
     score: String,
     max_score: String,
     is_best: bool,
     portrait: Option<String>,
-    mistakes: Vec<String>,
+    /// Title and id.
+    mistakes: Vec<(String, String)>,
     file: String,
     at: Moment,
 }
@@ -55,8 +59,8 @@ pub(in crate::service::pages) async fn page(
     frame: Frame,
 ) -> Result<Response, Problem> {
     let frame = frame.of(&state.assignment.id);
-    let all = people(&state, None).await?;
-    let person = all.into_iter().find(|person| person.key == whom.key).ok_or_else(Problem::not_found)?;
+    let people = people(&state).await?;
+    let person = people.all().find(|person| person.key == whom.key).cloned().ok_or_else(Problem::not_found)?;
     let best = person.best().map(|best| best.row.submission.id.clone());
     let hidden = whom.anonymous == "on";
     shown(
@@ -64,6 +68,9 @@ pub(in crate::service::pages) async fn page(
             place: Place::Class,
             csrf: teacher.csrf(&state),
             attempts: person.rows.iter().map(|row| attempt(&frame, row, best.as_deref(), hidden)).collect(),
+            note: person.note.as_ref().map(|note| note.get(frame.language).replace('`', "")),
+            // A deletion shows who it is.
+            key: (!hidden).then(|| person.key.clone()),
             number: if hidden { frame.say("A student", "学生").to_owned() } else { person.number },
             name: if hidden { String::new() } else { person.name },
             frame,
@@ -75,7 +82,7 @@ pub(in crate::service::pages) async fn page(
 fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> Attempt {
     let submission = &row.row.submission;
     Attempt {
-        href: format!("/r/{}", submission.id),
+        id: submission.id.clone(),
         mark: row.row.verdict.map(|verdict| student::mark(verdict, row.row.score).id()),
         word: row
             .row
@@ -85,8 +92,8 @@ fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> A
         max_score: part::points(row.row.max_score),
         is_best: best == Some(submission.id.as_str()),
         portrait: student::draws(row.row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
-        mistakes: row.mistakes.clone(),
+        mistakes: titled(frame, &submission.assignment, &row.mistakes),
         file: if hidden { String::new() } else { submission.name.clone() },
-        at: Moment::of(submission.received_at, frame.language),
+        at: frame.moment(submission.received_at),
     }
 }

@@ -5,6 +5,7 @@ use super::super::moment::Moment;
 use super::super::{part, shown, student};
 use super::Place;
 use super::login::Token;
+use super::table::{Pager, titled};
 use crate::report::Verdict;
 use crate::report::text::number;
 use crate::service::State;
@@ -15,7 +16,7 @@ use crate::service::regrade;
 use crate::service::store::{Compared, Progress};
 use askama::Template;
 use axum::Form;
-use axum::extract::{Path, State as Shared};
+use axum::extract::{Path, Query, State as Shared};
 use axum::response::sse::{KeepAlive, Sse};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
@@ -40,6 +41,7 @@ struct View {
     otherwise: usize,
     same: usize,
     rows: Vec<Row>,
+    pager: Pager,
 }
 
 /// One submission that changed.
@@ -57,7 +59,8 @@ struct Earned {
     mark: &'static str,
     word: &'static str,
     score: String,
-    mistakes: Vec<String>,
+    /// Title and id.
+    mistakes: Vec<(String, String)>,
 }
 
 /// The form of the button.
@@ -67,6 +70,13 @@ pub(in crate::service::pages) struct Wish {
     csrf: String,
     #[serde(default)]
     new_seed: String,
+}
+
+/// The page of the table.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Wished {
+    page: String,
 }
 
 /// `POST /teacher/regradings`: begins.
@@ -107,6 +117,7 @@ pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
+    Query(Wished { page }): Query<Wished>,
     frame: Frame,
 ) -> Result<Response, Problem> {
     let regrading = state.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
@@ -115,12 +126,14 @@ pub(in crate::service::pages) async fn page(
     let points = |row: &Compared| row.after.as_ref().map_or(0.0, |after| after.1 - row.before.1);
     let count = |test: fn(f64) -> bool| compared.iter().filter(|row| test(points(row))).count();
     let (gains, losses) = (count(|points| points > SAME_POINTS), count(|points| points < -SAME_POINTS));
-    let changes = compared.iter().filter(differs).count();
+    let changed: Vec<&Compared> = compared.iter().filter(differs).collect();
+    let changes = changed.len();
+    let pager = Pager::new(changes, &page, |page| format!("?page={page}"));
     shown(
         View {
             place: Place::Batches,
             csrf: teacher.csrf(&state),
-            at: Moment::of(regrading.created_at, frame.language),
+            at: frame.moment(regrading.created_at),
             seed: regrading.seed,
             events: format!("/teacher/regradings/{id}/events"),
             progress: state.store.regrading_progress(&id).await?,
@@ -129,7 +142,8 @@ pub(in crate::service::pages) async fn page(
             losses,
             otherwise: changes.saturating_sub(gains + losses),
             same: compared.iter().filter(|row| row.after.is_some()).count() - changes,
-            rows: compared.iter().filter(differs).map(|row| line(&frame, row)).collect(),
+            rows: pager.of(&changed).iter().map(|row| line(&frame, row)).collect(),
+            pager,
             id,
             frame,
         }
@@ -148,7 +162,7 @@ fn line(frame: &Frame, row: &Compared) -> Row {
         mark: student::mark(*verdict, Some(*score)).id(),
         word: part::verdict(frame, *verdict),
         score: number(*score),
-        mistakes: mistakes.clone(),
+        mistakes: titled(frame, &row.submission.assignment, mistakes),
     };
     Row {
         href: format!("/r/{}", row.submission.id),

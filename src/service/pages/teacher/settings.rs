@@ -1,19 +1,22 @@
-//! Dates, limits, hints, who may hand in; the course link.
+//! Dates, limits, hints, who may hand in; the course's zone and language; the course link; what was deleted.
 
 use super::super::frame::Frame;
-use super::super::moment;
+use super::super::moment::{self, Moment};
 use super::super::shown;
 use super::Place;
 use super::login::Token;
+use super::refused;
 use crate::diagnose::Hints;
+use crate::language::Language;
 use crate::service::State;
+use crate::service::course::{Course, zone_names};
 use crate::service::errors::Problem;
-use crate::service::identity::{self, TeacherPage};
+use crate::service::identity::{self, Teacher, TeacherPage};
 use crate::service::store::{Assignment, Audience};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
-use axum::http::{HeaderMap, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -23,44 +26,63 @@ struct View {
     frame: Frame,
     place: Place,
     csrf: String,
-    notice: Option<&'static str>,
-    problem: Option<String>,
-    opens: String,
-    closes: String,
-    zone: String,
-    attempts: String,
-    hints: &'static str,
-    audience: &'static str,
-    practice: bool,
+    said: Said,
+    rules: Rules,
+    course: CourseFields,
+    zones: Vec<String>,
     link: String,
     students: usize,
+    deletions: Vec<(Moment, String)>,
 }
 
-/// The form of the page.
+/// The form of the rules.
 #[derive(Debug, Default, Deserialize)]
-pub(in crate::service::pages) struct Given {
-    #[serde(default)]
+#[serde(default)]
+pub(in crate::service::pages) struct Rules {
     csrf: String,
-    #[serde(default)]
     opens: String,
-    #[serde(default)]
     closes: String,
-    #[serde(default)]
     attempts: String,
-    #[serde(default)]
     hints: String,
-    #[serde(default)]
     audience: String,
     /// A box that is not ticked is not sent.
-    #[serde(default)]
     practice: String,
+}
+
+/// The form of the course.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct CourseFields {
+    csrf: String,
+    zone: String,
+    language: String,
+}
+
+/// What the page says of a form that was sent.
+#[derive(Debug, Default)]
+pub(super) struct Said {
+    /// What was done.
+    pub notice: Option<String>,
+    /// What is wrong with the rules,
+    pub rules: Option<String>,
+    /// with the course,
+    pub course: Option<String>,
+    /// with the roster.
+    pub roster: Option<String>,
 }
 
 /// What has just been done.
 #[derive(Debug, Default, Deserialize)]
+#[serde(default)]
 pub(in crate::service::pages) struct Done {
-    #[serde(default)]
     done: String,
+}
+
+/// What was typed, where that could not be taken.
+#[derive(Debug, Default)]
+pub(super) struct Typed {
+    rules: Option<Rules>,
+    course: Option<CourseFields>,
 }
 
 fn hints_word(hints: Hints) -> &'static str {
@@ -82,61 +104,53 @@ fn audience_word(audience: Audience) -> &'static str {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    Query(done): Query<Done>,
+    Query(Done { done }): Query<Done>,
     headers: HeaderMap,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let settings = state.store.assignment(&state.assignment.id).await?;
-    let given = Given {
-        opens: settings.opens_at.map(moment::field).unwrap_or_default(),
-        closes: settings.closes_at.map(moment::field).unwrap_or_default(),
-        attempts: settings.attempts.map(|attempts| attempts.to_string()).unwrap_or_default(),
-        hints: hints_word(settings.hints).to_owned(),
-        audience: audience_word(settings.audience).to_owned(),
-        practice: if settings.practice { "on".to_owned() } else { String::new() },
-        csrf: teacher.csrf(&state),
-    };
-    let notice = match done.done.as_str() {
+    let notice = match done.as_str() {
         "saved" => Some(frame.say("Saved.", "保存しました。")),
         "link" => Some(frame.say("The old link opens nothing any more.", "以前のリンクは無効になりました。")),
-        "roster" => Some(frame.say("The roster is taken over.", "名簿を登録しました。")),
+        "roster" => Some(frame.say("The roster is imported.", "名簿を取り込みました。")),
         _ => None,
     };
-    shown(view(&state, frame, &host(&state, &headers), given, notice, None).await?.render())
+    let said = Said { notice: notice.map(str::to_owned), ..Said::default() };
+    view(&state, frame, &headers, &teacher, Typed::default(), said).await
+}
+
+/// The page, with what was typed and what is to be said of it.
+pub(super) async fn view(
+    state: &State,
+    frame: Frame,
+    headers: &HeaderMap,
+    teacher: &Teacher,
+    typed: Typed,
+    said: Said,
+) -> Result<Response, Problem> {
+    let public = state.config.public_url.clone().unwrap_or_else(|| format!("http://{}", host(state, headers)));
+    let settings = state.store.assignment(&state.assignment.id).await?;
+    let deletions = state.store.deletions().await?;
+    shown(
+        View {
+            place: Place::Settings,
+            csrf: teacher.csrf(state),
+            said,
+            rules: typed.rules.unwrap_or_else(|| Rules::of(&settings, &frame.course)),
+            course: typed.course.unwrap_or_else(|| CourseFields::of(&frame.course)),
+            zones: zone_names(),
+            link: format!("{}/join/{}", public.trim_end_matches('/'), identity::course_secret(state).await?),
+            students: state.store.students().await?.iter().filter(|student| student.on_roster != 0).count(),
+            deletions: deletions.into_iter().map(|gone| (frame.moment(gone.at), gone.said(frame.language))).collect(),
+            frame,
+        }
+        .render(),
+    )
 }
 
 /// The name by which the teacher's own browser knows the service.
 fn host(state: &State, headers: &HeaderMap) -> String {
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
     host.map_or_else(|| state.config.listen.to_string(), str::to_owned)
-}
-
-async fn view(
-    state: &State,
-    frame: Frame,
-    host: &str,
-    given: Given,
-    notice: Option<&'static str>,
-    problem: Option<String>,
-) -> Result<View, Problem> {
-    let public = state.config.public_url.clone().unwrap_or_else(|| format!("http://{host}"));
-    let students = state.store.students().await?;
-    Ok(View {
-        frame,
-        place: Place::Settings,
-        csrf: given.csrf,
-        notice,
-        problem,
-        opens: given.opens,
-        closes: given.closes,
-        zone: moment::zone(),
-        attempts: given.attempts,
-        hints: hints_word(read_hints(&given.hints)),
-        audience: audience_word(read_audience(&given.audience)),
-        practice: !given.practice.is_empty(),
-        link: format!("{}/join/{}", public.trim_end_matches('/'), identity::course_secret(state).await?),
-        students: students.iter().filter(|student| student.on_roster != 0).count(),
-    })
 }
 
 fn read_hints(word: &str) -> Hints {
@@ -151,51 +165,112 @@ fn read_audience(word: &str) -> Audience {
     if word == "number" { Audience::Number } else { Audience::Open }
 }
 
+impl Rules {
+    /// The form as it stands for these settings.
+    fn of(settings: &Assignment, course: &Course) -> Self {
+        let date = |at: Option<_>| at.map(|at| moment::field(at, course.zone())).unwrap_or_default();
+        Self {
+            csrf: String::new(),
+            opens: date(settings.opens_at),
+            closes: date(settings.closes_at),
+            attempts: settings.attempts.map(|attempts| attempts.to_string()).unwrap_or_default(),
+            hints: hints_word(settings.hints).to_owned(),
+            audience: audience_word(settings.audience).to_owned(),
+            practice: if settings.practice { "on".to_owned() } else { String::new() },
+        }
+    }
+
+    /// The settings that the form asks for.
+    fn read(&self, frame: &Frame, before: Assignment) -> Result<Assignment, &'static str> {
+        let date = |field: &str| {
+            moment::parse(field, frame.course.zone()).map_err(|_| {
+                frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+            })
+        };
+        let attempts = match self.attempts.trim() {
+            "" => None,
+            number => Some(number.parse().ok().filter(|number| *number > 0).ok_or(frame.say(
+                "Attempts: a whole number above 0, or nothing.",
+                "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+            ))?),
+        };
+        let (opens_at, closes_at) = (date(&self.opens)?, date(&self.closes)?);
+        if let (Some(opens), Some(closes)) = (opens_at, closes_at)
+            && closes <= opens
+        {
+            return Err(frame.say("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
+        }
+        let (hints, audience) = (read_hints(&self.hints), read_audience(&self.audience));
+        let practice = !self.practice.is_empty();
+        Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, ..before })
+    }
+}
+
+impl CourseFields {
+    fn of(course: &Course) -> Self {
+        let language = if course.language == Language::Ja { "ja" } else { "en" };
+        Self { csrf: String::new(), zone: course.zone_name().to_owned(), language: language.to_owned() }
+    }
+
+    fn read(&self, frame: &Frame) -> Result<Course, String> {
+        let language = if self.language == "en" { Language::En } else { Language::Ja };
+        Course::new(&self.zone, language).ok_or_else(|| {
+            let zone = self.zone.trim();
+            match frame.language {
+                Language::En => format!("There is no time zone `{zone}`. Choose one of the list, such as Asia/Tokyo."),
+                Language::Ja => format!(
+                    "「{zone}」というタイムゾーンはありません。Asia/Tokyo のように、一覧にある名前を選んでください。"
+                ),
+            }
+        })
+    }
+}
+
 /// `POST /teacher/settings`.
 pub(in crate::service::pages) async fn save(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     headers: HeaderMap,
     frame: Frame,
-    Form(mut given): Form<Given>,
+    Form(rules): Form<Rules>,
 ) -> Result<Response, Problem> {
-    teacher.check_csrf(&state, &given.csrf)?;
+    teacher.check_csrf(&state, &rules.csrf)?;
     let before = state.store.assignment(&state.assignment.id).await?;
-    match read(&frame, before, &given) {
+    match rules.read(&frame, before) {
         Ok(settings) => {
             state.store.set_assignment(&settings).await?;
             Ok(Redirect::to("/teacher/settings?done=saved").into_response())
         }
-        Err(problem) => {
-            given.csrf = teacher.csrf(&state);
-            let host = host(&state, &headers);
-            shown(view(&state, frame, &host, given, None, Some(problem.to_owned())).await?.render())
+        Err(wrong) => {
+            let said = Said { rules: Some(wrong.to_owned()), ..Said::default() };
+            let typed = Typed { rules: Some(rules), ..Typed::default() };
+            let page = view(&state, frame, &headers, &teacher, typed, said).await?;
+            Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }
 }
 
-fn read(frame: &Frame, before: Assignment, given: &Given) -> Result<Assignment, &'static str> {
-    let date = |field: &str| {
-        moment::parse(field).map_err(|_| {
-            frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
-        })
-    };
-    let attempts = match given.attempts.trim() {
-        "" => None,
-        number => Some(number.parse().ok().filter(|number| *number > 0).ok_or(frame.say(
-            "Attempts: a whole number above 0, or nothing.",
-            "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
-        ))?),
-    };
-    let (opens_at, closes_at) = (date(&given.opens)?, date(&given.closes)?);
-    if let (Some(opens), Some(closes)) = (opens_at, closes_at)
-        && closes <= opens
-    {
-        return Err(frame.say("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
+/// `POST /teacher/course`: time zone and language.
+pub(in crate::service::pages) async fn save_course(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    headers: HeaderMap,
+    frame: Frame,
+    Form(fields): Form<CourseFields>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &fields.csrf)?;
+    match fields.read(&frame) {
+        Ok(course) => {
+            state.store.set_course(&course).await?;
+            Ok(Redirect::to("/teacher/settings?done=saved").into_response())
+        }
+        Err(wrong) => {
+            let said = Said { course: Some(wrong), ..Said::default() };
+            let typed = Typed { course: Some(fields), ..Typed::default() };
+            let page = view(&state, frame, &headers, &teacher, typed, said).await?;
+            Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
+        }
     }
-    let (hints, audience) = (read_hints(&given.hints), read_audience(&given.audience));
-    let practice = !given.practice.is_empty();
-    Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, ..before })
 }
 
 /// `POST /teacher/settings/link`: a new course link.

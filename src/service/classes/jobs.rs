@@ -1,0 +1,101 @@
+//! Downloads that take seconds: made in the background, kept on the disk for a while.
+
+use super::download::{Steps, Wanted, Whose, download};
+use crate::batch::formats::Format;
+use crate::language::Language;
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::identity::new_id;
+use crate::service::store::Progress;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use tempfile::TempPath;
+
+/// Downloads that are kept; the next one takes the place of the oldest.
+const MOST: usize = 8;
+
+/// A download that is being made, or is there.
+#[derive(Debug)]
+pub struct Job {
+    /// Its id.
+    pub id: String,
+    /// The format.
+    pub format: Format,
+    /// The page of the class that it is of.
+    pub back: String,
+    steps: Arc<Steps>,
+    made: OnceLock<Result<Made, Problem>>,
+}
+
+/// A file to be saved, on the disk until it is forgotten.
+#[derive(Debug)]
+pub struct Made {
+    /// Its name.
+    pub name: String,
+    /// Where it is.
+    pub path: TempPath,
+    /// Its size in bytes.
+    pub bytes: usize,
+}
+
+impl Job {
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        let (done, files) = self.steps.get();
+        // The last step is the file itself.
+        let graded = if self.made.get().is_some() { files } else { done.min(files - 1) };
+        let count = |steps: usize| steps as u64;
+        Progress { entries: count(files), files: count(files), graded: count(graded), failed: 0 }
+    }
+
+    /// The file, or why there is none, where that is known.
+    pub fn made(&self) -> Option<&Result<Made, Problem>> {
+        self.made.get()
+    }
+}
+
+/// The downloads made lately.
+#[derive(Debug, Default)]
+pub struct Jobs(Mutex<VecDeque<Arc<Job>>>);
+
+impl Jobs {
+    /// The download with this id.
+    pub fn get(&self, id: &str) -> Option<Arc<Job>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().find(|job| job.id == id).cloned()
+    }
+
+    /// Begins to make one.
+    pub fn start(&self, state: &State, whose: Whose, format: Format, language: Language, back: String) -> Arc<Job> {
+        let (id, steps, made) = (new_id(), Arc::default(), OnceLock::new());
+        let job = Arc::new(Job { id, format, back, steps, made });
+        let mut jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        jobs.truncate(MOST - 1);
+        jobs.push_front(Arc::clone(&job));
+        drop(jobs);
+        let (state, begun) = (state.clone(), Arc::clone(&job));
+        tokio::spawn(async move {
+            let made = make(&state, whose, format, language, &begun.steps).await;
+            // Nobody else sets it.
+            let _ = begun.made.set(made);
+        });
+        job
+    }
+}
+
+async fn make(
+    state: &State,
+    whose: Whose,
+    format: Format,
+    language: Language,
+    steps: &Arc<Steps>,
+) -> Result<Made, Problem> {
+    let file = download(state, whose, Wanted { format, sheet: None, language, with_pages: true }, steps).await?;
+    let bytes = file.bytes.len();
+    let path = tokio::task::spawn_blocking(move || {
+        let path = tempfile::NamedTempFile::new()?.into_temp_path();
+        std::fs::write(&path, file.bytes)?;
+        std::io::Result::Ok(path)
+    });
+    let path = path.await.map_err(|panic| Problem::internal(&panic))?.map_err(|error| Problem::internal(&error))?;
+    Ok(Made { name: file.name, path, bytes })
+}

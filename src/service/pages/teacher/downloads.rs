@@ -1,0 +1,148 @@
+//! Downloads of a class: a link where the file is there at once, a page with progress where it takes seconds.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::Place;
+use crate::batch::formats::Format;
+use crate::service::State;
+use crate::service::api::batches::{Job as Watched, named, progress, saved};
+use crate::service::classes::{self, Download, Job, Pick, Whose, is_slow};
+use crate::service::errors::Problem;
+use crate::service::identity::TeacherPage;
+use crate::service::store::Progress;
+use askama::Template;
+use axum::Form;
+use axum::extract::{Path, State as Shared};
+use axum::response::sse::{KeepAlive, Sse};
+use axum::response::{IntoResponse, Redirect, Response};
+use clap::ValueEnum;
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// A format to download.
+pub(super) struct Offer {
+    pub id: &'static str,
+    pub what: String,
+    pub is_slow: bool,
+}
+
+/// The formats, but for the worksheet, which needs a file of Moodle's first.
+pub(super) fn formats(frame: &Frame, is_batch: bool) -> Vec<Offer> {
+    let all = Format::value_variants().iter();
+    let here =
+        all.filter(|format| **format != Format::MoodleWorksheet && (is_batch || **format != Format::MoodleFeedback));
+    let offer = |format: &Format| {
+        let what = format.description().get(frame.language).replace('`', "");
+        Offer { id: format.id(), what, is_slow: is_slow(*format) }
+    };
+    here.map(offer).collect()
+}
+
+#[derive(Template)]
+#[template(path = "service/download.html")]
+struct View {
+    frame: Frame,
+    place: Place,
+    csrf: String,
+    format: String,
+    back: String,
+    address: String,
+    progress: Progress,
+    /// Name and size of the file.
+    made: Option<(String, String)>,
+    problem: Option<String>,
+}
+
+/// The form of a download.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Wish {
+    csrf: String,
+    /// Id of a batch; the class where it is empty.
+    batch: String,
+    format: String,
+}
+
+/// `POST /teacher/downloads`: begins.
+pub(in crate::service::pages) async fn start(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    frame: Frame,
+    Form(wish): Form<Wish>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &wish.csrf)?;
+    let format = named(&wish.format)?;
+    let (whose, back) = match wish.batch.as_str() {
+        "" => (Whose::Students(Pick::Best), "/teacher".to_owned()),
+        id => {
+            let batch = state.store.batch(id).await?.ok_or_else(Problem::not_found)?;
+            (Whose::Batch(batch), format!("/teacher/batches/{id}"))
+        }
+    };
+    let language = classes::language(&state, format, None, frame.language).await?;
+    let job = state.downloads.start(&state, whose, format, language, back);
+    Ok(Redirect::to(&format!("/teacher/downloads/{}", job.id)).into_response())
+}
+
+fn found(state: &State, id: &str) -> Result<Arc<Job>, Problem> {
+    state.downloads.get(id).ok_or_else(Problem::not_found)
+}
+
+/// `GET /teacher/downloads/{id}`.
+pub(in crate::service::pages) async fn page(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Path(id): Path<String>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let job = found(&state, &id)?;
+    let (made, problem) = match job.made() {
+        None => (None, None),
+        Some(Ok(made)) => (Some((made.name.clone(), size(made.bytes))), None),
+        Some(Err(problem)) => (None, Some(problem.detail.get(frame.language).to_owned())),
+    };
+    shown(
+        View {
+            place: Place::Class,
+            csrf: teacher.csrf(&state),
+            format: job.format.description().get(frame.language).replace('`', ""),
+            back: job.back.clone(),
+            address: format!("/teacher/downloads/{id}"),
+            progress: job.progress(),
+            made,
+            problem,
+            frame: frame.of(&state.assignment.id),
+        }
+        .render(),
+    )
+}
+
+/// A size as people read it.
+fn size(bytes: usize) -> String {
+    match bytes {
+        0..1_000_000 => format!("{} kB", bytes.div_ceil(1000)),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}
+
+/// `GET /teacher/downloads/{id}/events`.
+pub(in crate::service::pages) async fn events(
+    Shared(state): Shared<State>,
+    _: TeacherPage,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    let job = found(&state, &id)?;
+    Ok(Sse::new(progress(state, Watched::Download(job))).keep_alive(KeepAlive::default()).into_response())
+}
+
+/// `GET /teacher/downloads/{id}/file`.
+pub(in crate::service::pages) async fn file(
+    Shared(state): Shared<State>,
+    _: TeacherPage,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    let job = found(&state, &id)?;
+    let Some(Ok(made)) = job.made() else { return Err(Problem::not_found()) };
+    let bytes = tokio::fs::read(&made.path).await.map_err(|error| Problem::internal(&error))?;
+    saved(Download { name: made.name.clone(), bytes })
+}

@@ -1,0 +1,347 @@
+//! The table of people: filtered, sorted by a column, in pages. All of it is in the address, so that it needs no script.
+
+use super::super::frame::Frame;
+use super::super::moment::Moment;
+use super::super::{part, student};
+use super::word;
+use crate::report::labels::mistake_title;
+use crate::service::classes::Person;
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
+use serde::Deserialize;
+use std::cmp::Reverse;
+
+/// Rows of a page.
+pub(super) const PAGE: usize = 200;
+
+/// What to show, as an address says it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Filter {
+    pub verdict: String,
+    pub mistake: String,
+    pub q: String,
+    /// Id of a column, with `-` before it from the last to the first.
+    pub sort: String,
+    pub page: String,
+    pub anonymous: String,
+    /// `on`: the files of nobody in the class.
+    pub apart: String,
+    /// What has just been done.
+    pub done: String,
+}
+
+impl Filter {
+    pub fn is_anonymous(&self) -> bool {
+        self.anonymous == "on"
+    }
+
+    pub fn is_apart(&self) -> bool {
+        self.apart == "on"
+    }
+
+    fn takes(&self, person: &Person) -> bool {
+        let best = person.best();
+        let q = self.q.trim().to_lowercase();
+        let has = |text: &str| text.to_lowercase().contains(&q);
+        (self.verdict.is_empty() || person.standing().id() == self.verdict)
+            && (self.mistake.is_empty() || best.is_some_and(|best| best.mistakes.contains(&self.mistake)))
+            && (q.is_empty() || (!self.is_anonymous() && (has(&person.number) || has(&person.name))))
+    }
+
+    /// This with one field changed, as the query of an address; everything else but the page stays.
+    pub fn with(&self, name: &str, value: &str) -> String {
+        let fields = [
+            ("verdict", &self.verdict),
+            ("mistake", &self.mistake),
+            ("q", &self.q),
+            ("sort", &self.sort),
+            ("anonymous", &self.anonymous),
+            ("apart", &self.apart),
+        ];
+        let kept = fields.into_iter().filter(|(field, kept)| *field != name && !kept.is_empty());
+        let pairs = kept.map(|(field, kept)| (field, kept.as_str())).chain([(name, value)]);
+        let pairs = pairs.filter(|(_, value)| !value.is_empty());
+        let pairs: Vec<String> =
+            pairs.map(|(field, value)| format!("{field}={}", utf8_percent_encode(value, NON_ALPHANUMERIC))).collect();
+        format!("?{}", pairs.join("&"))
+    }
+}
+
+/// The columns that the table can be sorted by, with what stands first when one is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Column {
+    Student,
+    Verdict,
+    Score,
+    Mistakes,
+    Attempts,
+    Last,
+}
+
+impl Column {
+    const ALL: [Self; 6] = [Self::Student, Self::Verdict, Self::Score, Self::Mistakes, Self::Attempts, Self::Last];
+
+    fn id(self) -> &'static str {
+        match self {
+            Self::Student => "student",
+            Self::Verdict => "verdict",
+            Self::Score => "score",
+            Self::Mistakes => "mistakes",
+            Self::Attempts => "attempts",
+            Self::Last => "last",
+        }
+    }
+
+    fn label(self, frame: &Frame) -> &'static str {
+        match self {
+            Self::Student => frame.say("Student", "学生"),
+            Self::Verdict => frame.say("Verdict", "判定"),
+            Self::Score => frame.say("Score", "得点"),
+            Self::Mistakes => frame.say("Mistakes", "間違い"),
+            Self::Attempts => frame.say("Attempts", "提出回数"),
+            Self::Last => frame.say("Last", "最終提出"),
+        }
+    }
+
+    /// Whether the greatest is looked for first.
+    fn falls_first(self) -> bool {
+        matches!(self, Self::Attempts | Self::Last)
+    }
+
+    fn is_number(self) -> bool {
+        matches!(self, Self::Score | Self::Attempts)
+    }
+
+    fn compare(self, a: &Person, b: &Person) -> std::cmp::Ordering {
+        let score = |person: &Person| person.best().and_then(|best| best.row.score).unwrap_or(-1.0);
+        // Who has none stands behind who has one.
+        let mistakes = |person: &Person| {
+            let found = person.best().map(|best| best.mistakes.join(" ")).unwrap_or_default();
+            (found.is_empty(), found)
+        };
+        match self {
+            Self::Student => by_number(a, b),
+            Self::Verdict => a.standing().rank().cmp(&b.standing().rank()),
+            Self::Score => score(a).total_cmp(&score(b)),
+            Self::Mistakes => mistakes(a).cmp(&mistakes(b)),
+            Self::Attempts => a.rows.len().cmp(&b.rows.len()),
+            Self::Last => a.latest().cmp(&b.latest()),
+        }
+    }
+}
+
+fn by_number(a: &Person, b: &Person) -> std::cmp::Ordering {
+    (&a.number, &a.name, &a.key).cmp(&(&b.number, &b.name, &b.key))
+}
+
+/// A column's heading, which leads to the table sorted by it.
+pub(super) struct Header {
+    pub label: &'static str,
+    pub href: String,
+    /// For `aria-sort`, where the table is sorted by it.
+    pub sorted: Option<&'static str>,
+    pub is_number: bool,
+}
+
+/// One page of rows among others.
+pub(super) struct Pager {
+    /// First and last row of the page, and how many there are.
+    pub from: usize,
+    pub to: usize,
+    pub total: usize,
+    /// The pages: number, address, whether it is this one.
+    pub pages: Vec<(usize, String, bool)>,
+}
+
+impl Pager {
+    /// The page that `wished` names, from 1; the nearest where there is none.
+    pub fn new(total: usize, wished: &str, query: impl Fn(&str) -> String) -> Self {
+        let count = total.div_ceil(PAGE).max(1);
+        let page = wished.parse().unwrap_or(1).clamp(1, count);
+        let pages = (1..=count).map(|number| (number, query(&number.to_string()), number == page)).collect();
+        Self { from: (page - 1) * PAGE, to: (page * PAGE).min(total), total, pages }
+    }
+
+    /// The rows of this page.
+    pub fn of<'a, T>(&self, rows: &'a [T]) -> &'a [T] {
+        &rows[self.from..self.to]
+    }
+
+    pub fn is_one(&self) -> bool {
+        self.pages.len() == 1
+    }
+}
+
+/// The table as a page shows it.
+pub(super) struct Table {
+    pub headers: Vec<Header>,
+    pub rows: Vec<Row>,
+    pub pager: Pager,
+}
+
+/// One line of the table.
+pub(super) struct Row {
+    pub href: String,
+    pub number: String,
+    pub name: String,
+    pub portrait: Option<String>,
+    pub mark: Option<&'static str>,
+    pub word: &'static str,
+    pub score: String,
+    pub max_score: String,
+    /// Title and id.
+    pub mistakes: Vec<(String, String)>,
+    pub note: String,
+    pub attempts: usize,
+    pub at: Option<Moment>,
+}
+
+impl Table {
+    /// The people that a filter takes, the one page of them that it asks for. `people` stand in an order that says nothing
+    /// of their names: pseudonyms are numbered by it.
+    pub fn of(frame: &Frame, assignment: &str, people: &[&Person], filter: &Filter) -> Self {
+        let mut chosen: Vec<(usize, &Person)> =
+            people.iter().copied().enumerate().filter(|(_, person)| filter.takes(person)).collect();
+        let (falls, id) = match filter.sort.strip_prefix('-') {
+            Some(id) => (true, id),
+            None => (false, filter.sort.as_str()),
+        };
+        let sorted = Column::ALL.into_iter().find(|column| column.id() == id);
+        if !filter.is_anonymous() {
+            chosen.sort_by(|(_, a), (_, b)| by_number(a, b));
+        }
+        match sorted {
+            // An order by names would undo the pseudonyms.
+            Some(Column::Student) if filter.is_anonymous() => {}
+            Some(column) if falls => chosen.sort_by(|(_, a), (_, b)| column.compare(b, a)),
+            Some(column) => chosen.sort_by(|(_, a), (_, b)| column.compare(a, b)),
+            // What a teacher must look at comes first.
+            None => chosen.sort_by_key(|(_, person)| Reverse(person.standing().is_trouble())),
+        }
+        let header = |column: Column| {
+            let is_sorted = sorted == Some(column);
+            let next = if is_sorted { !falls } else { column.falls_first() };
+            let order = if next { format!("-{}", column.id()) } else { column.id().to_owned() };
+            Header {
+                label: column.label(frame),
+                href: filter.with("sort", &order),
+                sorted: is_sorted.then_some(if falls { "descending" } else { "ascending" }),
+                is_number: column.is_number(),
+            }
+        };
+        let pager = Pager::new(chosen.len(), &filter.page, |page| filter.with("page", page));
+        let rows = pager.of(&chosen).iter().map(|(index, person)| row(frame, assignment, filter, *index, person));
+        Self { headers: Column::ALL.map(header).into(), rows: rows.collect(), pager }
+    }
+}
+
+/// Titles and ids of mistakes, in the reader's language.
+pub(super) fn titled(frame: &Frame, assignment: &str, ids: &[String]) -> Vec<(String, String)> {
+    ids.iter().map(|id| (mistake_title(assignment, id, frame.language).to_owned(), id.clone())).collect()
+}
+
+fn row(frame: &Frame, assignment: &str, filter: &Filter, index: usize, person: &Person) -> Row {
+    let best = person.best();
+    let shown = best.or(person.rows.first());
+    let anonymous = filter.is_anonymous();
+    let pseudonym = || match frame.tag() {
+        "ja" => format!("学生 {}", index + 1),
+        _ => format!("Student {}", index + 1),
+    };
+    let portrait = best.filter(|best| student::draws(best.row.verdict));
+    let key = utf8_percent_encode(&person.key, NON_ALPHANUMERIC);
+    let note = person.note.as_ref().filter(|_| shown.is_none());
+    Row {
+        href: format!("/teacher/person?key={key}{}", if anonymous { "&anonymous=on" } else { "" }),
+        number: if anonymous { pseudonym() } else { person.number.clone() },
+        name: if anonymous { String::new() } else { person.name.clone() },
+        portrait: portrait.map(|best| format!("/r/{}/portrait.png", best.row.submission.id)),
+        mark: best.and_then(|best| Some(student::mark(best.row.verdict?, best.row.score).id())),
+        word: word(frame, person.standing()),
+        score: part::points(best.and_then(|best| best.row.score)),
+        max_score: part::points(best.and_then(|best| best.row.max_score)),
+        mistakes: shown.map(|row| titled(frame, assignment, &row.mistakes)).unwrap_or_default(),
+        note: note.map(|note| note.get(frame.language).replace('`', "")).unwrap_or_default(),
+        attempts: person.rows.len(),
+        at: person.latest().map(|at| frame.moment(at)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::{Language, Text};
+    use crate::service::classes::samples::person;
+    use crate::service::course::Course;
+    use axum::http::Uri;
+
+    fn frame() -> Frame {
+        Frame::new(Language::Ja, Course::default(), Uri::from_static("/teacher"))
+    }
+
+    fn shown(people: &[Person], filter: &Filter) -> Vec<String> {
+        let people: Vec<&Person> = people.iter().collect();
+        Table::of(&frame(), "ggsample06", &people, filter).rows.into_iter().map(|row| row.number).collect()
+    }
+
+    fn sorted(sort: &str) -> Filter {
+        Filter { sort: sort.to_owned(), ..Filter::default() }
+    }
+
+    fn class() -> Vec<Person> {
+        let mut pdf = person("s3", &[]);
+        pdf.note = Some(Text::verbatim("a PDF"));
+        vec![
+            person("s2", &[(5, 100.0, "")]),
+            pdf,
+            person("s1", &[(9, 20.0, "gamma unchanged")]),
+            person("s4", &[(1, 50.0, ""), (7, 0.0, "")]),
+        ]
+    }
+
+    #[test]
+    fn what_could_not_be_graded_stands_first() {
+        assert_eq!(shown(&class(), &Filter::default()), ["s3", "s1", "s2", "s4"]);
+    }
+
+    #[test]
+    fn each_heading_sorts_and_sorts_back() {
+        for (sort, order) in [
+            ("student", ["s1", "s2", "s3", "s4"]),
+            ("-student", ["s4", "s3", "s2", "s1"]),
+            ("score", ["s3", "s1", "s4", "s2"]),
+            ("-score", ["s2", "s4", "s1", "s3"]),
+            ("-attempts", ["s4", "s1", "s2", "s3"]),
+            ("-last", ["s1", "s4", "s2", "s3"]),
+            ("verdict", ["s2", "s1", "s4", "s3"]),
+            ("mistakes", ["s1", "s2", "s3", "s4"]),
+        ] {
+            assert_eq!(shown(&class(), &sorted(sort)), order, "{sort}");
+        }
+        let people = class();
+        let people: Vec<&Person> = people.iter().collect();
+        let filter = Filter { q: "s&1".into(), ..sorted("score") };
+        let headers = Table::of(&frame(), "ggsample06", &people, &filter).headers;
+        let score = headers.iter().find(|header| header.sorted.is_some()).expect("the sorted column");
+        assert_eq!((score.sorted, score.href.as_str()), (Some("ascending"), "?q=s%261&sort=%2Dscore"));
+    }
+
+    #[test]
+    fn two_hundred_rows_are_a_page() {
+        let people: Vec<Person> = (0..450).map(|n| person(&format!("s{n:03}"), &[])).collect();
+        let page = |page: &str| shown(&people, &Filter { page: page.into(), ..Filter::default() });
+        assert_eq!((page("").len(), page("3").len()), (PAGE, 50));
+        assert_eq!((page("2")[0].as_str(), page("9")[0].as_str(), page("x")[0].as_str()), ("s200", "s400", "s000"));
+        let pager = Pager::new(450, "2", |page| format!("?page={page}"));
+        assert_eq!(pager.pages[1], (2, "?page=2".to_owned(), true));
+        assert!(Pager::new(PAGE, "", |_| String::new()).is_one() && Pager::new(0, "", |_| String::new()).is_one());
+    }
+
+    #[test]
+    fn pseudonyms_stay_and_no_order_gives_them_away() {
+        let anonymous = Filter { anonymous: "on".into(), ..sorted("student") };
+        assert_eq!(shown(&class(), &anonymous), ["学生 1", "学生 2", "学生 3", "学生 4"]);
+        let by_score = Filter { anonymous: "on".into(), ..sorted("-score") };
+        assert_eq!(shown(&class(), &by_score), ["学生 1", "学生 4", "学生 3", "学生 2"]);
+    }
+}
