@@ -22,7 +22,15 @@ enum Type {
     Vec3,
     Vec4,
     Mat3,
+    IVec3,
+    UVec2,
+    BVec3,
+    Mat2x3,
+    Double,
 }
+
+/// The variables that every function has beside those that are made of its parameters.
+const OTHERS: &str = "ivec3 j = ivec3(n * 3.0); uvec2 e = uvec2(k, 5u); bvec3 c = bvec3(b, true, false); mat2x3 w = mat2x3(n, n.zxy); double r = double(u);";
 
 struct Writer<'a> {
     bytes: std::slice::Iter<'a, u8>,
@@ -47,15 +55,18 @@ impl Writer<'_> {
             let number = self.functions;
             let _ = writeln!(
                 self.text,
-                "float f{number}(float x, inout vec3 y, out int z) {{\n  z = int(x);\n  float u = x; int i = 1; uint k = 2u; bool b = true; vec2 d = vec2(x); vec3 n = y; vec4 q = vec4(x); mat3 m = mat3(x);"
+                "float f{number}(float x, inout vec3 y, out int z) {{\n  z = int(x);\n  float u = x; int i = 1; uint k = 2u; bool b = true; vec2 d = vec2(x); vec3 n = y; vec4 q = vec4(x); mat3 m = mat3(x); {OTHERS}"
             );
             self.block(0, true);
             self.text += "  return u;\n}\n";
             self.functions += 1;
         }
-        self.text += "void main() {\n  float u = pv.x; int i = int(cv.y * 9.0); uint k = uint(i); bool b = u > 0.0; vec2 d = pv.xy; vec3 n = cv.xyz; vec4 q = mw * pv; mat3 m = mat3(mg);\n";
+        self.text += "void main() {\n  float u = pv.x; int i = int(cv.y * 9.0); uint k = uint(i); bool b = u > 0.0; vec2 d = pv.xy; vec3 n = cv.xyz; vec4 q = mw * pv; mat3 m = mat3(mg); ";
+        self.text += OTHERS;
+        self.text += "\n";
         self.block(0, false);
-        self.text += "  vc = q;\n  gl_Position = mc * pv;\n}\n";
+        self.text += "  vc = vec4(q.x + n.y, u + d.x + float(r), float((i ^ int(k ^ e.x)) & 1023), ";
+        self.text += "m[1].z + w[1].y + (b ^^ c.y ? 1.0 : float(j.y & 255)));\n  gl_Position = mc * pv;\n}\n";
     }
 
     fn block(&mut self, depth: usize, returns: bool) {
@@ -148,8 +159,15 @@ impl Writer<'_> {
             (Type::Vec2, "q.wx"),
             (Type::Vec3, "m[i]"),
             (Type::Int, "made.a[i]"),
-        ][self.byte() % 17];
-        let arithmetic = !matches!(kind, Type::Bool | Type::Mat3);
+            (Type::IVec3, "j"),
+            (Type::UVec2, "e"),
+            (Type::BVec3, "c"),
+            (Type::Mat2x3, "w"),
+            (Type::Double, "r"),
+            (Type::Vec3, "w[i & 1]"),
+            (Type::Int, "j[k & 1u]"),
+        ][self.byte() % 24];
+        let arithmetic = !matches!(kind, Type::Bool | Type::Mat3 | Type::BVec3 | Type::Mat2x3);
         let operator = if arithmetic { self.pick(&["=", "+=", "*=", "-="]) } else { "=" };
         let _ = write!(self.text, "{name} {operator} ");
         self.expression(kind, depth);
@@ -164,7 +182,7 @@ impl Writer<'_> {
         }
         let templates = templates(kind);
         let template = templates[self.byte() % templates.len()];
-        // B I U F ² ³ ⁴ M that stand alone are an expression of that type.
+        // B I U F ² ³ ⁴ M J E C W D that stand alone are an expression of that type.
         let mut before = ' ';
         for (at, part) in template.char_indices() {
             let after = template[at + part.len_utf8()..].chars().next().unwrap_or(' ');
@@ -180,6 +198,11 @@ impl Writer<'_> {
                 '³' => self.expression(Type::Vec3, depth + 1),
                 '⁴' => self.expression(Type::Vec4, depth + 1),
                 'M' => self.expression(Type::Mat3, depth + 1),
+                'J' => self.expression(Type::IVec3, depth + 1),
+                'E' => self.expression(Type::UVec2, depth + 1),
+                'C' => self.expression(Type::BVec3, depth + 1),
+                'W' => self.expression(Type::Mat2x3, depth + 1),
+                'D' => self.expression(Type::Double, depth + 1),
                 other => self.text.push(other),
             }
         }
@@ -196,6 +219,11 @@ fn leaf(kind: Type) -> &'static str {
         Type::Vec3 => "n",
         Type::Vec4 => "q",
         Type::Mat3 => "m",
+        Type::IVec3 => "j",
+        Type::UVec2 => "e",
+        Type::BVec3 => "c",
+        Type::Mat2x3 => "w",
+        Type::Double => "r",
     }
 }
 
@@ -212,6 +240,11 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "any(lessThan(³, ³))",
             "isnan(F)",
             "true",
+            "any(C)",
+            "all(C)",
+            "(³ == ³)",
+            "(D < D)",
+            "C.y",
         ],
         Type::Int => &[
             "i",
@@ -228,10 +261,34 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "abs(I)",
             "made.a[i - I]",
             "-2147483648",
+            "J.z",
+            "findMSB(I)",
+            "bitCount(U)",
+            "bitfieldExtract(I, 3, 7)",
+            "clamp(I, -5, 9)",
+            "int(U)",
+            "sign(I)",
+            "made.a.length()",
+            "(I ^ I)",
+            "max(I, I)",
         ],
-        Type::Uint => {
-            &["k", "9u", "(U * U)", "U / U", "U % U", "(U ^ U)", "uint(I)", "floatBitsToUint(F)", "bitfieldReverse(U)"]
-        }
+        Type::Uint => &[
+            "k",
+            "9u",
+            "(U * U)",
+            "U / U",
+            "U % U",
+            "(U ^ U)",
+            "uint(I)",
+            "floatBitsToUint(F)",
+            "bitfieldReverse(U)",
+            "E.y",
+            "bitfieldInsert(U, U, 4, 9)",
+            "(U >> 3u)",
+            "packUnorm4x8(⁴)",
+            "packHalf2x16(²)",
+            "(B ? U : U)",
+        ],
         Type::Float => &[
             "u",
             "0.5",
@@ -254,8 +311,38 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "(u += F)",
             "exp(F)",
             "fract(F)",
+            "smoothstep(0.0, 1.0, F)",
+            "clamp(F, -1.0, 1.0)",
+            "atan(F, F)",
+            "sign(F)",
+            "step(F, F)",
+            "inversesqrt(F)",
+            "float(U)",
+            "log2(F)",
+            "sin(F)",
+            "tanh(F)",
+            "float(D)",
+            "distance(³, ³)",
+            "fma(F, F, F)",
+            "ldexp(F, 3)",
+            "roundEven(F)",
+            "degrees(F)",
+            "float(B)",
+            "W[1].x",
         ],
-        Type::Vec2 => &["d", "vec2(F)", "vec2(F, F)", "³.zx", "(² * F)", "floor(²)", "min(², ²)", "modf(², d)"],
+        Type::Vec2 => &[
+            "d",
+            "vec2(F)",
+            "vec2(F, F)",
+            "³.zx",
+            "(² * F)",
+            "floor(²)",
+            "min(², ²)",
+            "modf(², d)",
+            "(³ * W)",
+            "unpackHalf2x16(U)",
+            "vec2(E)",
+        ],
         Type::Vec3 => &[
             "n",
             "vec3(F)",
@@ -271,6 +358,11 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "M[i + I]",
             "refract(³, ³, F)",
             "faceforward(³, ³, ³)",
+            "(W * ²)",
+            "vec3(J)",
+            "mix(³, ³, C)",
+            "exp2(³)",
+            "vec3(C)",
         ],
         Type::Vec4 => &[
             "q",
@@ -283,6 +375,17 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "step(⁴, ⁴)",
             "unpackUnorm4x8(U)",
         ],
+        Type::IVec3 => {
+            &["j", "ivec3(I)", "(J + J)", "ivec3(³)", "(J & J)", "max(J, J)", "J.zxy", "abs(J)", "ivec3(C)", "(J << 2)"]
+        }
+        Type::UVec2 => &["e", "uvec2(U, U)", "(E * E)", "floatBitsToUint(²)", "uvec2(J)", "(E | E)"],
+        Type::BVec3 => {
+            &["c", "lessThan(³, ³)", "greaterThanEqual(J, J)", "not(C)", "bvec3(J)", "equal(J, J)", "bvec3(B, B, B)"]
+        }
+        Type::Mat2x3 => {
+            &["w", "mat2x3(F)", "(M * W)", "mat2x3(³, ³)", "(W + W)", "matrixCompMult(W, W)", "outerProduct(³, ²)"]
+        }
+        Type::Double => &["r", "double(F)", "(D * D)", "sqrt(D)", "max(D, D)", "0.1lf", "(D - D)"],
         Type::Mat3 => &["m", "mat3(F)", "(M * M)", "transpose(M)", "inverse(M)", "outerProduct(³, ³)", "mat3(mg)"],
     }
 }

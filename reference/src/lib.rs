@@ -26,6 +26,7 @@ pub mod expression;
 pub mod fit;
 pub mod frames;
 pub mod glsl;
+pub mod interpreter;
 pub mod manifest;
 pub mod mistake;
 pub mod probes;

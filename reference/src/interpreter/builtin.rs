@@ -1,0 +1,62 @@
+//! What GLSL has by itself: functions, written as scalar instructions, and variables.
+
+mod arithmetic;
+mod bits;
+mod geometry;
+mod lookup;
+mod table;
+mod variable;
+
+pub use table::signatures;
+pub use variable::{constant, variable};
+
+use super::Stage;
+use super::code::{Class, Operation, Slot};
+use super::compile::{Builder, Value, class};
+use super::types::{Scalar, Type};
+
+/// A call of a built-in function.
+pub struct Call<'a> {
+    /// The function's name.
+    pub name: &'a str,
+    /// The values that it takes, of the types of the signature.
+    pub arguments: &'a [Value],
+    /// What it returns.
+    pub result: &'a Type,
+    /// Where it is called.
+    pub stage: Stage,
+}
+
+impl Call<'_> {
+    /// Writes the instructions; gives the scalars of the result, then those of each `out` parameter.
+    ///
+    /// # Errors
+    /// What is not supported.
+    pub fn write(&self, builder: &mut Builder) -> Result<Vec<Vec<Slot>>, String> {
+        let of: Vec<&[Slot]> = self.arguments.iter().map(|argument| argument.slots.as_slice()).collect();
+        if self.arguments.first().is_some_and(|argument| matches!(argument.kind, Type::Sampler(_))) {
+            return self.lookup(builder).map(|result| vec![result]);
+        }
+        let class = self.class();
+        if let ("mix", [a, b, share]) = (self.name, self.arguments)
+            && share.kind.scalar() == Some(Scalar::Bool)
+        {
+            return Ok(vec![builder.each3(Operation::Select, class, [&share.slots, &b.slots, &a.slots])]);
+        }
+        let written = arithmetic::write(builder, self.name, class, &of)
+            .or_else(|| geometry::write(builder, self.name, class, &of))
+            .or_else(|| self.matrix(builder, class))
+            .or_else(|| bits::write(builder, self.name, self.scalar(), &of))
+            .or_else(|| self.derivative(builder, &of));
+        written.ok_or_else(|| format!("the function {}", self.name))
+    }
+
+    /// What the first argument is made of.
+    fn scalar(&self) -> Scalar {
+        self.arguments.first().and_then(|argument| argument.kind.scalar()).unwrap_or(Scalar::Float)
+    }
+
+    fn class(&self) -> Class {
+        class(self.scalar())
+    }
+}

@@ -1,0 +1,240 @@
+//! Texture functions (GLSL 4.60, section 8.9): their names say what they take.
+
+use super::Call;
+use crate::interpreter::Stage;
+use crate::interpreter::code::{Class, Node, Operation, Slot};
+use crate::interpreter::compile::{Builder, Direction, Signature};
+use crate::interpreter::texture::{Mode, Query};
+use crate::interpreter::types::{Dimension, Sampler, Scalar, Type};
+use std::collections::HashMap;
+
+const NAMES: [&str; 18] = [
+    "texture",
+    "textureProj",
+    "textureLod",
+    "textureOffset",
+    "textureProjOffset",
+    "textureLodOffset",
+    "textureProjLod",
+    "textureProjLodOffset",
+    "textureGrad",
+    "textureGradOffset",
+    "textureProjGrad",
+    "textureProjGradOffset",
+    "texelFetch",
+    "texelFetchOffset",
+    "textureGather",
+    "textureGatherOffset",
+    "textureSize",
+    "textureQueryLevels",
+];
+
+/// What a function's name says.
+struct Form {
+    projected: bool,
+    level: bool,
+    gradient: bool,
+    offset: bool,
+    fetch: bool,
+    gather: bool,
+}
+
+impl Form {
+    fn of(name: &str) -> Self {
+        Self {
+            projected: name.contains("Proj"),
+            level: name.contains("Lod"),
+            gradient: name.contains("Grad"),
+            offset: name.contains("Offset"),
+            fetch: name.starts_with("texelFetch"),
+            gather: name.contains("Gather"),
+        }
+    }
+
+    fn has_bias(&self) -> bool {
+        !(self.level || self.gradient || self.fetch || self.gather)
+    }
+}
+
+fn samplers() -> Vec<Sampler> {
+    use Dimension::{Cube, One, Rectangle, Three, Two};
+    let shapes = [
+        (One, false),
+        (Two, false),
+        (Three, false),
+        (Cube, false),
+        (Rectangle, false),
+        (One, true),
+        (Two, true),
+        (Cube, true),
+    ];
+    let mut all = Vec::new();
+    for (dimension, array) in shapes {
+        let sampler = |texel, shadow| Sampler { dimension, array, shadow, texel };
+        all.extend([Scalar::Float, Scalar::Int, Scalar::Uint].map(|texel| sampler(texel, false)));
+        if dimension != Three {
+            all.push(sampler(Scalar::Float, true));
+        }
+    }
+    all
+}
+
+/// How many coordinates a lookup takes: with one that is compared, there are at least three.
+fn coordinates(sampler: Sampler) -> u8 {
+    let count = sampler.coordinates();
+    if sampler.shadow && count < 4 { count.max(2) + 1 } else { count }
+}
+
+pub fn signatures(table: &mut HashMap<&'static str, Vec<Signature>>) {
+    for name in NAMES {
+        let all = samplers().into_iter().flat_map(|sampler| of_sampler(name, sampler));
+        table.entry(name).or_default().extend(all);
+    }
+}
+
+/// The ways in which a function takes a sampler.
+fn of_sampler(name: &str, sampler: Sampler) -> Vec<Signature> {
+    let form = Form::of(name);
+    let (is_cube, is_rectangle) = (sampler.dimension == Dimension::Cube, sampler.dimension == Dimension::Rectangle);
+    let float = |count: u8| Type::Vector(Scalar::Float, count);
+    let int = |count: u8| Type::Vector(Scalar::Int, count);
+    let texel = if sampler.shadow && !form.gather { Type::FLOAT } else { Type::Vector(sampler.texel, 4) };
+    let signature = |result: Type, parameters: Vec<Type>| {
+        let parameters = std::iter::once(Type::Sampler(sampler)).chain(parameters);
+        Signature { result, parameters: parameters.map(|kind| (Direction::In, kind)).collect() }
+    };
+    match name {
+        "textureQueryLevels" => return vec![signature(Type::INT, Vec::new())],
+        "textureSize" => {
+            let size = sampler.dimension.count().min(if is_cube { 2 } else { 3 }) + u8::from(sampler.array);
+            let level = if is_rectangle { Vec::new() } else { vec![Type::INT] };
+            return vec![signature(int(size), level)];
+        }
+        _ => {}
+    }
+    let is_flat = matches!(sampler.dimension, Dimension::Two | Dimension::Rectangle);
+    let is_none = (form.gather && !is_flat && !is_cube)
+        || (form.offset && is_cube)
+        || (form.projected && (sampler.array || is_cube))
+        || (form.fetch && (sampler.shadow || is_cube))
+        || (form.level && is_rectangle);
+    if is_none {
+        return Vec::new();
+    }
+    let places = if form.fetch {
+        vec![int(sampler.coordinates())]
+    } else if form.gather {
+        vec![float(sampler.coordinates())]
+    } else if form.projected {
+        let least = if sampler.shadow { 4 } else { sampler.dimension.count() + 1 };
+        let mut places = vec![float(4)];
+        if least < 4 {
+            places.push(float(least));
+        }
+        places
+    } else {
+        vec![float(coordinates(sampler))]
+    };
+    let mut all = Vec::new();
+    for place in places {
+        let mut parameters = vec![place];
+        if sampler.shadow && (form.gather || coordinates(sampler) == sampler.coordinates()) {
+            parameters.push(Type::FLOAT);
+        }
+        if form.level || (form.fetch && !is_rectangle) {
+            parameters.push(if form.fetch { Type::INT } else { Type::FLOAT });
+        }
+        if form.gradient {
+            let along = sampler.dimension.count();
+            parameters.extend([float(along), float(along)]);
+        }
+        if form.offset {
+            parameters.push(int(sampler.dimension.count()));
+        }
+        all.push(signature(texel.clone(), parameters.clone()));
+        if form.has_bias() && !is_rectangle {
+            parameters.push(Type::FLOAT);
+            all.push(signature(texel.clone(), parameters));
+        } else if form.gather && !sampler.shadow {
+            parameters.push(Type::INT);
+            all.push(signature(texel.clone(), parameters));
+        }
+    }
+    all
+}
+
+impl Call<'_> {
+    /// Writes a texture function.
+    pub(super) fn lookup(&self, builder: &mut Builder) -> Result<Vec<Slot>, String> {
+        let form = Form::of(self.name);
+        let Type::Sampler(sampler) = self.arguments[0].kind else { return Err(format!("the function {}", self.name)) };
+        let to: Vec<Slot> = (0..self.result.slots().unwrap_or(0)).map(|_| builder.temporary()).collect();
+        let mut query = Query {
+            texture: self.arguments[0].slots[0],
+            sampler,
+            coordinates: Vec::new(),
+            reference: None,
+            offset: Vec::new(),
+            mode: Mode::Levels,
+            to: to.clone(),
+            line: builder.line,
+        };
+        let mut rest = self.arguments[1..].iter().map(|argument| argument.slots.clone());
+        let zero = builder.whole(0.0);
+        match self.name {
+            "textureQueryLevels" => {}
+            "textureSize" => query.mode = Mode::Size(rest.next().map_or(zero, |level| level[0])),
+            _ => {
+                let place = rest.next().unwrap_or_default();
+                place_of(builder, &mut query, place, &form);
+                if sampler.shadow && query.reference.is_none() {
+                    query.reference = rest.next().map(|reference| reference[0]);
+                }
+                self.mode(&mut query, &mut rest, &form, zero);
+            }
+        }
+        builder.push(Node::Texture(Box::new(query)));
+        Ok(to)
+    }
+
+    fn mode(&self, query: &mut Query, rest: &mut impl Iterator<Item = Vec<Slot>>, form: &Form, zero: Slot) {
+        let is_rectangle = query.sampler.dimension == Dimension::Rectangle;
+        query.mode = if form.fetch {
+            Mode::Fetch(if is_rectangle { zero } else { rest.next().map_or(zero, |level| level[0]) })
+        } else if form.level {
+            Mode::Level(rest.next().map_or(zero, |level| level[0]))
+        } else if form.gradient {
+            Mode::Gradient(rest.next().unwrap_or_default(), rest.next().unwrap_or_default())
+        } else {
+            Mode::Implicit(None)
+        };
+        if form.offset {
+            query.offset = rest.next().unwrap_or_default();
+        }
+        let last = rest.next().map(|last| last[0]);
+        if form.gather {
+            query.mode = Mode::Gather(last.unwrap_or(zero));
+        } else if let Mode::Implicit(bias) = &mut query.mode {
+            *bias = last;
+            // A vertex has no neighbours: its level is 0.
+            if self.stage == Stage::Vertex {
+                query.mode = Mode::Level(zero);
+            }
+        }
+    }
+}
+
+/// Coordinates and what is compared, divided by the last where they are projected.
+fn place_of(builder: &mut Builder, query: &mut Query, mut place: Vec<Slot>, form: &Form) {
+    let sampler = query.sampler;
+    if form.projected {
+        let last = place.pop().unwrap_or(query.texture);
+        place = builder.each2(Operation::Divide, Class::Float, &place, &[last]);
+    }
+    let count = usize::from(sampler.coordinates());
+    if sampler.shadow && !form.gather && place.len() > count {
+        query.reference = place.get(count.max(2)).copied();
+    }
+    place.truncate(count);
+    query.coordinates = place;
+}

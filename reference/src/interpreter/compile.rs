@@ -1,0 +1,202 @@
+//! Syntax → code: names are resolved, types are checked, and every expression becomes instructions on scalars.
+
+mod builder;
+mod call;
+mod constructor;
+mod control;
+mod conversion;
+mod declaration;
+mod expression;
+mod interface;
+mod operator;
+mod place;
+mod scope;
+
+pub use builder::{Builder, class};
+pub use conversion::{Direction, Signature};
+
+use super::code::{Code, Node, Slot, Variable};
+use super::syntax::{Function, Item, Name};
+use super::types::Type;
+use super::{Refusal, Stage};
+use scope::Scopes;
+use std::collections::HashMap;
+
+/// Deepest nesting of statements and calls together.
+const MAX_DEPTH: usize = 1_000;
+
+/// A value: its type and where its scalars are.
+#[derive(Clone, Debug)]
+pub struct Value {
+    /// Its type.
+    pub kind: Type,
+    /// Its scalars, in order.
+    pub slots: Vec<Slot>,
+}
+
+/// A function that is declared.
+struct Declared {
+    name: Name,
+    signature: Signature,
+    parameters: Vec<Slot>,
+    result: Slot,
+    body: Option<Vec<Node>>,
+    /// Functions that it calls.
+    calls: Vec<usize>,
+    /// How deep its own statements are nested.
+    depth: usize,
+}
+
+struct Compiler {
+    version: u32,
+    stage: Stage,
+    builder: Builder,
+    scopes: Scopes,
+    functions: Vec<Declared>,
+    by_name: HashMap<Name, Vec<usize>>,
+    /// The function whose body is compiled.
+    current: Option<usize>,
+    depth: usize,
+    structures: usize,
+    uniforms: Vec<Variable>,
+    inputs: Vec<Variable>,
+    outputs: Vec<Variable>,
+    locals: Vec<Variable>,
+    defaults: Vec<(Slot, f64)>,
+}
+
+/// Compiles a parsed file.
+///
+/// # Errors
+/// It is not valid, or something in it is not supported.
+pub fn compile(items: &[Item], version: u32, stage: Stage) -> Result<Code, Refusal> {
+    let mut compiler = Compiler {
+        version,
+        stage,
+        builder: Builder::default(),
+        scopes: Scopes::default(),
+        functions: Vec::new(),
+        by_name: HashMap::new(),
+        current: None,
+        depth: 0,
+        structures: 0,
+        uniforms: Vec::new(),
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+        locals: Vec::new(),
+        defaults: Vec::new(),
+    };
+    for item in items {
+        let mark = compiler.builder.mark();
+        match item {
+            Item::Function(function) => compiler.function(function)?,
+            Item::Declaration(declaration) => compiler.global(declaration)?,
+            Item::Block(block) => compiler.interface_block(block)?,
+            Item::Requalification => {}
+        }
+        compiler.end_statement(mark)?;
+    }
+    compiler.finish()
+}
+
+impl Compiler {
+    fn invalid(&self, what: impl Into<String>) -> Refusal {
+        Refusal::invalid(self.builder.line, what)
+    }
+
+    fn limit(&self, what: impl Into<String>) -> Refusal {
+        Refusal::limit(self.builder.line, what)
+    }
+
+    fn end_statement(&mut self, mark: usize) -> Result<(), Refusal> {
+        self.builder.release(mark);
+        if self.builder.is_full() { Err(self.limit("this program has too many instructions")) } else { Ok(()) }
+    }
+
+    /// Collects the nodes that `write` adds, apart from those that are there.
+    fn nodes<T>(&mut self, write: impl FnOnce(&mut Self) -> Result<T, Refusal>) -> Result<(Vec<Node>, T), Refusal> {
+        let outer = std::mem::take(&mut self.builder.nodes);
+        self.depth += 1;
+        let result = write(self);
+        if let Some(current) = self.current {
+            self.functions[current].depth = self.functions[current].depth.max(self.depth);
+        }
+        self.depth -= 1;
+        let nodes = std::mem::replace(&mut self.builder.nodes, outer);
+        Ok((nodes, result?))
+    }
+
+    fn function(&mut self, function: &Function) -> Result<(), Refusal> {
+        self.builder.line = function.line;
+        let index = self.declare_function(function)?;
+        let Some(body) = &function.body else { return Ok(()) };
+        if self.functions[index].body.is_some() {
+            return Err(self.invalid(format!("{} is defined twice", function.name)));
+        }
+        self.current = Some(index);
+        self.scopes.push();
+        let declared = &self.functions[index];
+        let parameters: Vec<_> =
+            declared.parameters.iter().copied().zip(declared.signature.parameters.clone()).collect();
+        for ((slot, (_, kind)), parameter) in parameters.into_iter().zip(&function.parameters) {
+            if !parameter.name.is_empty() {
+                self.scopes.declare(Name::clone(&parameter.name), scope::Symbol::variable(kind, slot));
+            }
+        }
+        // Temporaries of the globals' initialisers are not shared with functions.
+        self.builder.begin_function();
+        let (nodes, ()) = self.nodes(|compiler| compiler.body(index, body))?;
+        self.builder.begin_function();
+        self.scopes.pop();
+        self.current = None;
+        self.functions[index].body = Some(nodes);
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Code, Refusal> {
+        let main = self
+            .by_name
+            .get("main")
+            .and_then(|all| all.iter().copied().find(|&index| self.functions[index].signature.parameters.is_empty()));
+        let main = main.filter(|&main| self.functions[main].body.is_some());
+        let main = main.ok_or_else(|| Refusal::invalid(0, "there is no function main"))?;
+        let mut depths = vec![None; self.functions.len()];
+        self.check_calls(main, &mut depths, 0)?;
+        let start = std::mem::take(&mut self.builder.nodes);
+        Ok(Code {
+            constants: self.builder.constants,
+            defaults: self.defaults,
+            start,
+            functions: self.functions.into_iter().map(|declared| declared.body.unwrap_or_default()).collect(),
+            main,
+            uniforms: self.uniforms,
+            inputs: self.inputs,
+            outputs: self.outputs,
+            locals: self.locals,
+        })
+    }
+
+    /// How deep calls of a function go; it must not call itself, nor one without a body.
+    fn check_calls(&self, index: usize, depths: &mut [Option<usize>], above: usize) -> Result<usize, Refusal> {
+        let function = &self.functions[index];
+        if above > self.functions.len() {
+            return Err(Refusal::invalid(0, format!("{} calls itself", function.name)));
+        }
+        if function.body.is_none() {
+            return Err(Refusal::invalid(0, format!("{} is called and not defined", function.name)));
+        }
+        if let Some(depth) = depths[index] {
+            return Ok(depth);
+        }
+        let mut depth = 0;
+        for &called in &function.calls {
+            depth = depth.max(self.check_calls(called, depths, above + 1)?);
+        }
+        let depth = depth + function.depth + 1;
+        if depth > MAX_DEPTH {
+            return Err(Refusal::limit(0, "calls and statements nested too deeply"));
+        }
+        depths[index] = Some(depth);
+        Ok(depth)
+    }
+}

@@ -1,0 +1,273 @@
+//! Expressions.
+
+use super::place::components;
+use super::scope::UNSIZED;
+use super::{Compiler, Value};
+use crate::interpreter::Refusal;
+use crate::interpreter::code::{Class, Node, Operation};
+use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
+use crate::interpreter::types::{Scalar, Type};
+
+impl Compiler {
+    /// The value of an expression.
+    pub(super) fn value(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+        self.builder.line = expression.line;
+        match &expression.kind {
+            ExpressionKind::Integer(value, unsigned) => {
+                let kind = if *unsigned { Type::UINT } else { Type::INT };
+                Ok(Value { kind, slots: vec![self.builder.whole(*value)] })
+            }
+            ExpressionKind::Floating(value, true) => {
+                Ok(Value { kind: Type::DOUBLE, slots: vec![self.builder.whole(*value)] })
+            }
+            ExpressionKind::Floating(value, false) => {
+                Ok(Value { kind: Type::FLOAT, slots: vec![self.builder.float(*value)] })
+            }
+            ExpressionKind::Bool(value) => {
+                Ok(Value { kind: Type::BOOL, slots: vec![self.builder.whole(f64::from(u8::from(*value)))] })
+            }
+            ExpressionKind::Unary(operator, operand) => {
+                let operand = self.value(operand)?;
+                self.builder.line = expression.line;
+                self.unary(*operator, operand)
+            }
+            ExpressionKind::Step(adds, after, operand) => self.step(*adds, *after, operand),
+            ExpressionKind::Chain(first, others) => self.chain(first, others),
+            ExpressionKind::Assign(operator, to, from) => self.assign(*operator, to, from, expression.line),
+            ExpressionKind::Conditional(condition, yes, no) => self.conditional(condition, yes, no),
+            ExpressionKind::Comma(all) => {
+                let mut last = Value { kind: Type::Void, slots: Vec::new() };
+                for one in all {
+                    last = self.value(one)?;
+                }
+                Ok(last)
+            }
+            ExpressionKind::Call(name, arguments) => self.call(name, arguments, expression.line),
+            ExpressionKind::ArrayConstructor(kind, arguments) => {
+                let kind = self.type_of(kind)?;
+                let arguments = self.values(arguments)?;
+                self.builder.line = expression.line;
+                self.construct(&kind, arguments)
+            }
+            ExpressionKind::Length(of) => self.length(of),
+            ExpressionKind::List(_) => Err(self.invalid("a list in braces stands only behind `=`")),
+            ExpressionKind::Name(_) | ExpressionKind::Index(..) | ExpressionKind::Member(..) => {
+                match self.place(expression)? {
+                    Some(place) => self.read(&place),
+                    None => self.part(expression),
+                }
+            }
+        }
+    }
+
+    /// Values of expressions from left to right: a later one does not change an earlier one any more.
+    pub(super) fn values(&mut self, expressions: &[Expression]) -> Result<Vec<Value>, Refusal> {
+        let mut values = Vec::new();
+        for (index, expression) in expressions.iter().enumerate() {
+            let mut value = self.value(expression)?;
+            if expressions[index + 1..].iter().any(|later| later.changes) {
+                value.slots = self.builder.copies(&value.slots);
+            }
+            values.push(value);
+        }
+        Ok(values)
+    }
+
+    /// A part of a value that no variable holds.
+    fn part(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+        match &expression.kind {
+            ExpressionKind::Member(of, name) => {
+                let value = self.value(of)?;
+                self.builder.line = expression.line;
+                if let Type::Struct(structure) = &value.kind {
+                    let mut first = 0;
+                    for (member, kind) in &structure.members {
+                        let size = kind.slots().unwrap_or(0);
+                        if **member == **name {
+                            let slots = value.slots[first..first + size].to_vec();
+                            return Ok(Value { kind: kind.clone(), slots });
+                        }
+                        first += size;
+                    }
+                }
+                let Type::Vector(scalar, count) = value.kind else {
+                    return Err(self.invalid(format!("{} has no member {name}", value.kind)));
+                };
+                let chosen = components(name, count);
+                let chosen = chosen.ok_or_else(|| self.invalid(format!("there is no component {name}")))?;
+                let slots: Vec<_> = chosen.iter().map(|&index| value.slots[index as usize]).collect();
+                Ok(Value { kind: Type::Vector(scalar, slots.len() as u8), slots })
+            }
+            ExpressionKind::Index(of, index) => {
+                let mut value = self.value(of)?;
+                if index.changes {
+                    value.slots = self.builder.copies(&value.slots);
+                }
+                let index = self.value(index)?;
+                self.builder.line = expression.line;
+                let place = self.laid_out(value)?;
+                let place = self.element(place, &index)?;
+                self.read(&place)
+            }
+            _ => Err(self.invalid("this has no value")),
+        }
+    }
+
+    fn length(&mut self, of: &Expression) -> Result<Value, Refusal> {
+        let kind = match self.place(of)? {
+            Some(place) => place.kind,
+            None => self.value(of)?.kind,
+        };
+        let element = kind.element();
+        let (_, length) = element.ok_or_else(|| self.invalid(format!("{kind} has no length")))?;
+        let length = self.builder.whole(length.unwrap_or(UNSIZED) as f64);
+        Ok(Value { kind: Type::INT, slots: vec![length] })
+    }
+
+    fn unary(&mut self, operator: Unary, operand: Value) -> Result<Value, Refusal> {
+        let scalar = operand.kind.scalar().ok_or_else(|| self.invalid("this has no sign"))?;
+        let operation = match (operator, scalar) {
+            (Unary::Plus, _) => return Ok(operand),
+            (Unary::Minus, Scalar::Bool) | (Unary::Complement, Scalar::Bool | Scalar::Float | Scalar::Double) => {
+                return Err(self.invalid(format!("{} has no such operator", operand.kind)));
+            }
+            (Unary::Minus, _) => Operation::Negate,
+            (Unary::Not, _) => Operation::Not,
+            (Unary::Complement, _) => Operation::BitNot,
+        };
+        let slots = self.builder.each1(operation, super::class(scalar), &operand.slots);
+        Ok(Value { kind: operand.kind, slots })
+    }
+
+    fn step(&mut self, adds: bool, after: bool, operand: &Expression) -> Result<Value, Refusal> {
+        let place = self.place(operand)?.ok_or_else(|| self.invalid("this cannot be changed"))?;
+        let mut before = self.read(&place)?;
+        before.slots = self.builder.copies(&before.slots);
+        let scalar = before.kind.scalar().ok_or_else(|| self.invalid("this cannot be counted"))?;
+        let class = super::class(scalar);
+        let one = self.builder.number(class, 1.0);
+        let operation = if adds { Operation::Add } else { Operation::Subtract };
+        let slots = self.builder.each2(operation, class, &before.slots, &[one]);
+        let changed = Value { kind: before.kind.clone(), slots };
+        self.write(&place, &changed)?;
+        Ok(if after { before } else { changed })
+    }
+
+    fn chain(&mut self, first: &Expression, others: &[(Binary, u32, Expression)]) -> Result<Value, Refusal> {
+        let mut left = self.value(first)?;
+        for (operator, line, right) in others {
+            if right.changes && matches!(operator, Binary::And | Binary::Or) {
+                self.builder.line = *line;
+                left = self.short_circuit(*operator, left, right)?;
+                continue;
+            }
+            if right.changes {
+                left.slots = self.builder.copies(&left.slots);
+            }
+            let right = self.value(right)?;
+            self.builder.line = *line;
+            left = self.binary(*operator, left, right)?;
+        }
+        Ok(left)
+    }
+
+    /// `&&` and `||` whose right operand changes something.
+    fn short_circuit(&mut self, operator: Binary, left: Value, right: &Expression) -> Result<Value, Refusal> {
+        let result = self.builder.allocate(1)?;
+        self.store(result, &left.slots);
+        let line = self.builder.line;
+        let (nodes, ()) = self.nodes(|compiler| {
+            let right = compiler.value(right)?;
+            compiler.store(result, &right.slots);
+            Ok(())
+        })?;
+        let (yes, no) = if operator == Binary::And { (nodes, Vec::new()) } else { (Vec::new(), nodes) };
+        self.builder.push(Node::If { condition: result, yes, no, line });
+        let slots = self.builder.copies(&[result]);
+        Ok(Value { kind: Type::BOOL, slots })
+    }
+
+    fn assign(
+        &mut self,
+        operator: Option<Binary>,
+        to: &Expression,
+        from: &Expression,
+        line: u32,
+    ) -> Result<Value, Refusal> {
+        let place = self.place(to)?.ok_or_else(|| self.invalid("this cannot be assigned to"))?;
+        let value = match operator {
+            None => self.value(from)?,
+            Some(operator) => {
+                // The place is known first, and read last: `s += (s = x)` is `2 x`, as compilers have it.
+                let value = self.value(from)?;
+                self.builder.line = line;
+                let before = self.read(&place)?;
+                self.binary(operator, before, value)?
+            }
+        };
+        self.builder.line = line;
+        let value = self.implicit(value, &place.kind)?;
+        self.write(&place, &value)?;
+        Ok(value)
+    }
+
+    fn conditional(&mut self, condition: &Expression, yes: &Expression, no: &Expression) -> Result<Value, Refusal> {
+        let line = self.builder.line;
+        let mut condition = self.value(condition)?;
+        let condition_slot = *condition.slots.first().ok_or_else(|| self.invalid("a condition is expected"))?;
+        if !yes.changes && !no.changes {
+            let (yes, no) = (self.value(yes)?, self.value(no)?);
+            self.builder.line = line;
+            let (yes, no) = self.alike(yes, no)?;
+            // A known condition chooses without asking.
+            let slots = match self.builder.known(condition_slot) {
+                Some(known) => {
+                    if known != 0.0 {
+                        yes.slots
+                    } else {
+                        no.slots
+                    }
+                }
+                None => {
+                    let class = yes.kind.scalar().map_or(Class::Double, super::class);
+                    self.builder.each3(Operation::Select, class, [&[condition_slot], &yes.slots, &no.slots])
+                }
+            };
+            return Ok(Value { kind: yes.kind, slots });
+        }
+        condition.slots = self.builder.copies(&condition.slots);
+        let (mut on_yes, yes) = self.nodes(|compiler| compiler.value(yes))?;
+        let (mut on_no, no) = self.nodes(|compiler| compiler.value(no))?;
+        let scalar = match (yes.kind.scalar(), no.kind.scalar()) {
+            (Some(a), Some(b)) => Some(self.common_scalar(a, b)?),
+            _ => None,
+        };
+        let kind = scalar.map_or_else(|| yes.kind.clone(), |scalar| yes.kind.with_scalar(scalar));
+        let result = self.builder.allocate(yes.slots.len())?;
+        for (nodes, value) in [(&mut on_yes, yes), (&mut on_no, no)] {
+            let (mut more, ()) = self.nodes(|compiler| {
+                let value = compiler.implicit(value, &kind)?;
+                compiler.store(result, &value.slots);
+                Ok(())
+            })?;
+            nodes.append(&mut more);
+        }
+        let condition = condition.slots[0];
+        self.builder.push(Node::If { condition, yes: on_yes, no: on_no, line });
+        let slots: Vec<_> = (result..).take(kind.slots().unwrap_or(0)).collect();
+        Ok(Value { slots: self.builder.copies(&slots), kind })
+    }
+
+    /// Two values as one type, as `?:` needs them.
+    fn alike(&mut self, a: Value, b: Value) -> Result<(Value, Value), Refusal> {
+        if a.kind == b.kind {
+            return Ok((a, b));
+        }
+        let (Some(of_a), Some(of_b)) = (a.kind.scalar(), b.kind.scalar()) else {
+            return Err(self.invalid(format!("{} and {} are not of one type", a.kind, b.kind)));
+        };
+        let scalar = self.common_scalar(of_a, of_b)?;
+        let kind = a.kind.with_scalar(scalar);
+        Ok((self.implicit(a, &kind)?, self.implicit(b, &kind)?))
+    }
+}

@@ -1,0 +1,203 @@
+//! What a program exchanges with its host: uniforms, inputs, outputs, blocks, built-in variables.
+
+use super::scope::Symbol;
+use super::{Compiler, scope};
+use crate::interpreter::code::{Slot, Variable};
+use crate::interpreter::run::Undefined;
+use crate::interpreter::syntax::{Base, Declaration, InterfaceBlock, Name, Storage};
+use crate::interpreter::types::{Struct, Type};
+use crate::interpreter::{Refusal, Stage, builtin};
+use std::sync::Arc;
+
+/// What a shader without a host's number reads: as many as OpenGL has of anything.
+const MAX_LEAVES: usize = 1 << 16;
+
+impl Compiler {
+    /// A declaration outside of functions.
+    pub(super) fn global(&mut self, declaration: &Declaration) -> Result<(), Refusal> {
+        self.builder.line = declaration.line;
+        let storage = self.storage(declaration.qualifiers.storage);
+        match storage {
+            Storage::Plain | Storage::Constant => return self.plain_variables(declaration),
+            Storage::Shared => {
+                for variable in &declaration.variables {
+                    self.scopes.declare(Name::clone(&variable.name), Symbol::Unsupported("shared memory"));
+                }
+                return Ok(());
+            }
+            _ => {}
+        }
+        if storage == Storage::Uniform && is_opaque(declaration) {
+            for variable in &declaration.variables {
+                self.scopes.declare(Name::clone(&variable.name), Symbol::Unsupported("this kind of texture or image"));
+            }
+            return Ok(());
+        }
+        let base = self.type_of(&declaration.kind)?;
+        for variable in &declaration.variables {
+            self.builder.line = variable.line;
+            let kind = self.arrays_of(base.clone(), &variable.lengths)?;
+            if variable.name.starts_with("gl_") {
+                self.redeclare(&variable.name, kind)?;
+                continue;
+            }
+            let slot = self.allocate(&kind)?;
+            self.exchange(storage, &variable.name, &kind, slot)?;
+            if let Some(value) = &variable.value {
+                let value = self.initial_value(value, &kind)?;
+                for (slot, &from) in (slot..).zip(&value.slots) {
+                    let known = self.builder.known(from);
+                    let known = known.ok_or_else(|| self.invalid("a uniform's value must be constant"))?;
+                    self.defaults.push((slot, known));
+                }
+            }
+            self.scopes.declare(Name::clone(&variable.name), Symbol::variable(kind, slot));
+        }
+        Ok(())
+    }
+
+    fn storage(&self, storage: Storage) -> Storage {
+        match (storage, self.stage) {
+            (Storage::Varying, Stage::Vertex) => Storage::Output,
+            (Storage::Varying, Stage::Fragment) => Storage::Input,
+            (other, _) => other,
+        }
+    }
+
+    /// Tells the host of a variable.
+    fn exchange(&mut self, storage: Storage, name: &str, kind: &Type, slot: Slot) -> Result<(), Refusal> {
+        let variable = Variable { name: name.to_owned(), kind: kind.clone(), slot, line: self.builder.line };
+        match storage {
+            Storage::Input => self.inputs.push(variable),
+            Storage::Output => self.outputs.push(variable),
+            Storage::Uniform => self.leaves(name, kind, slot)?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The parts of a uniform that a host sets, each with its path.
+    fn leaves(&mut self, path: &str, kind: &Type, slot: Slot) -> Result<(), Refusal> {
+        if self.uniforms.len() > MAX_LEAVES {
+            return Err(self.limit("there are too many uniforms"));
+        }
+        match kind {
+            Type::Struct(structure) => {
+                let mut slot = slot;
+                for (name, kind) in &structure.members {
+                    self.leaves(&format!("{path}.{name}"), kind, slot)?;
+                    slot += kind.slots().unwrap_or(0) as Slot;
+                }
+            }
+            Type::Array(element, length) => {
+                let size = element.slots().unwrap_or(0) as Slot;
+                for index in 0..length.unwrap_or(scope::UNSIZED) {
+                    self.leaves(&format!("{path}[{index}]"), element, slot + index as Slot * size)?;
+                }
+            }
+            _ => {
+                let variable = Variable { name: path.to_owned(), kind: kind.clone(), slot, line: self.builder.line };
+                self.uniforms.push(variable);
+            }
+        }
+        Ok(())
+    }
+
+    /// An interface block, with or without a name for the program.
+    pub(super) fn interface_block(&mut self, block: &InterfaceBlock) -> Result<(), Refusal> {
+        self.builder.line = block.line;
+        let storage = self.storage(block.storage);
+        if storage == Storage::Shared {
+            return self.storage_buffer(block);
+        }
+        let members = self.member_types(&block.members)?;
+        self.builder.line = block.line;
+        if &*block.name == "gl_PerVertex" {
+            return members.into_iter().try_for_each(|(name, kind)| self.redeclare(&Name::from(name), kind));
+        }
+        let Some((instance, lengths)) = &block.instance else {
+            for (name, kind) in members {
+                let slot = self.allocate(&kind)?;
+                self.exchange(storage, &name, &kind, slot)?;
+                self.scopes.declare(Name::from(name), Symbol::variable(kind, slot));
+            }
+            return Ok(());
+        };
+        self.structures += 1;
+        let structure = Struct { name: block.name.to_string(), id: self.structures, members };
+        let one = Type::Struct(Arc::new(structure));
+        let kind = self.arrays_of(one.clone(), lengths)?;
+        let slot = self.allocate(&kind)?;
+        if storage == Storage::Uniform {
+            self.leaves(&block.name, &kind, slot)?;
+        } else if let Type::Struct(structure) = &kind {
+            let mut slot = slot;
+            for (name, kind) in &structure.members {
+                self.exchange(storage, &format!("{}.{name}", block.name), kind, slot)?;
+                slot += kind.slots().unwrap_or(0) as Slot;
+            }
+        } else {
+            return Err(self.limit("arrays of input and output blocks"));
+        }
+        self.scopes.declare(Name::clone(instance), Symbol::variable(kind, slot));
+        Ok(())
+    }
+
+    fn storage_buffer(&mut self, block: &InterfaceBlock) -> Result<(), Refusal> {
+        let unsupported = || Symbol::Unsupported("storage buffers");
+        if let Some((instance, _)) = &block.instance {
+            self.scopes.declare(Name::clone(instance), unsupported());
+            return Ok(());
+        }
+        for variable in block.members.iter().flat_map(|member| &member.variables) {
+            self.scopes.declare(Name::clone(&variable.name), unsupported());
+        }
+        Ok(())
+    }
+
+    /// A built-in variable that the program declares again, perhaps with a length.
+    fn redeclare(&mut self, name: &Name, kind: Type) -> Result<(), Refusal> {
+        let known = builtin::variable(name, self.stage);
+        let (storage, known) = known.ok_or_else(|| self.limit(format!("there is no {name} here")))?;
+        let kind = if kind.slots().is_some() { kind } else { known };
+        self.built_in(name, storage, kind)
+    }
+
+    /// Declares a built-in variable where the program uses it.
+    pub(super) fn declare_built_in(&mut self, name: &Name) -> Result<(), Refusal> {
+        if let Some(value) = builtin::constant(name, self.version) {
+            let value = crate::interpreter::code::Constant { value: f64::from(value), is_float: false };
+            let slot = self.builder.allocate_constants(&[value])?;
+            self.scopes.declare_globally(Name::clone(name), Symbol::variable(Type::INT, slot));
+            return Ok(());
+        }
+        let known = builtin::variable(name, self.stage);
+        let (storage, kind) = known.ok_or_else(|| self.limit(format!("there is no variable {name} here")))?;
+        self.built_in(name, storage, kind)
+    }
+
+    fn built_in(&mut self, name: &Name, storage: Storage, kind: Type) -> Result<(), Refusal> {
+        let slot = self.allocate(&kind)?;
+        self.exchange(storage, name, &kind, slot)?;
+        // As long as a host says nothing else, the depth range is that of OpenGL's initial state.
+        if &**name == "gl_DepthRange" {
+            self.defaults.extend([(slot + 1, 1.0), (slot + 2, 1.0)]);
+        }
+        self.scopes.declare_globally(Name::clone(name), Symbol::variable(kind, slot));
+        Ok(())
+    }
+
+    /// Leaves the results of a function without a value until they get one.
+    pub(super) fn undefine_result(&mut self, index: usize) {
+        let function = &self.functions[index];
+        let (slot, size) = (function.result, function.signature.result.slots().unwrap_or(0));
+        self.builder.undefine(slot, size, Undefined::NoResult);
+    }
+}
+
+/// Whether a uniform is of a kind that this interpreter does not know: it may be declared, and not used.
+fn is_opaque(declaration: &Declaration) -> bool {
+    let Base::Named(name) = &declaration.kind.base else { return false };
+    let is_named = ["sampler", "image", "atomic_uint", "texture"].iter().any(|word| name.contains(word));
+    is_named && Type::named(name).is_none()
+}

@@ -1,0 +1,173 @@
+//! Places: what can be written to, and read a part at a time.
+
+use super::scope::{Symbol, UNSIZED};
+use super::{Compiler, Value};
+use crate::interpreter::Refusal;
+use crate::interpreter::code::{Indexed, Node, Slot};
+use crate::interpreter::syntax::{Expression, ExpressionKind, Name};
+use crate::interpreter::types::Type;
+
+/// A variable, or a part of one.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// What lies there.
+    pub kind: Type,
+    /// The first slot, as far as it is known.
+    pub base: Slot,
+    /// How much further it lies, where an index is not known.
+    offset: Option<Slot>,
+    /// Which components of a vector, where they are named.
+    components: Option<Vec<Slot>>,
+}
+
+impl Compiler {
+    /// The place that an expression names; none where it is a value.
+    pub(super) fn place(&mut self, expression: &Expression) -> Result<Option<Place>, Refusal> {
+        self.builder.line = expression.line;
+        match &expression.kind {
+            ExpressionKind::Name(name) => self.variable(name).map(Some),
+            ExpressionKind::Index(of, index) => {
+                let Some(place) = self.place(of)? else { return Ok(None) };
+                if place.components.is_some() {
+                    return Ok(None);
+                }
+                let index = self.value(index)?;
+                self.builder.line = expression.line;
+                self.element(place, &index).map(Some)
+            }
+            ExpressionKind::Member(of, name) => {
+                let Some(place) = self.place(of)? else { return Ok(None) };
+                self.builder.line = expression.line;
+                self.member(place, name).map(Some)
+            }
+            ExpressionKind::Comma(one) if one.len() == 1 => self.place(&one[0]),
+            _ => Ok(None),
+        }
+    }
+
+    fn variable(&mut self, name: &Name) -> Result<Place, Refusal> {
+        if self.scopes.get(name).is_none() && name.starts_with("gl_") {
+            self.declare_built_in(name)?;
+        }
+        match self.scopes.get(name) {
+            Some(Symbol::Variable { kind, slot }) => {
+                Ok(Place { kind: kind.clone(), base: *slot, offset: None, components: None })
+            }
+            Some(Symbol::Unsupported(what)) => Err(self.limit(*what)),
+            Some(Symbol::Structure(_)) => Err(self.invalid(format!("{name} is a type"))),
+            None => Err(self.invalid(format!("there is no variable {name}"))),
+        }
+    }
+
+    /// Slots of a value in a row, so that they can be indexed.
+    pub(super) fn laid_out(&mut self, value: Value) -> Result<Place, Refusal> {
+        let base = self.builder.allocate(value.slots.len())?;
+        self.store(base, &value.slots);
+        Ok(Place { kind: value.kind, base, offset: None, components: None })
+    }
+
+    pub(super) fn element(&mut self, place: Place, index: &Value) -> Result<Place, Refusal> {
+        let element = place.kind.element();
+        let (kind, count) = element.ok_or_else(|| self.invalid(format!("{} has no elements", place.kind)))?;
+        let count = count.unwrap_or(UNSIZED);
+        let stride = kind.slots().ok_or_else(|| self.invalid("the length of this array is not known"))?;
+        let index = *index.slots.first().ok_or_else(|| self.invalid("an index is a whole number"))?;
+        if let Some(known) = self.builder.known(index).filter(|&known| known >= 0.0 && known < count as f64) {
+            let base = place.base + known as Slot * stride as Slot;
+            return Ok(Place { kind, base, ..place });
+        }
+        let (to, line) = (self.builder.temporary(), self.builder.line);
+        let (count, stride) = (count as u32, stride as u32);
+        self.builder.push(Node::Offset { to, before: place.offset, index, count, stride, line });
+        Ok(Place { kind, offset: Some(to), ..place })
+    }
+
+    fn member(&mut self, place: Place, name: &str) -> Result<Place, Refusal> {
+        match &place.kind {
+            Type::Struct(structure) => {
+                let mut base = place.base;
+                for (member, kind) in &structure.members {
+                    if member == name {
+                        return Ok(Place { kind: kind.clone(), base, ..place });
+                    }
+                    base += kind.slots().unwrap_or(0) as Slot;
+                }
+                Err(self.invalid(format!("{} has no member {name}", structure.name)))
+            }
+            Type::Vector(scalar, count) => {
+                let chosen = components(name, *count);
+                let chosen = chosen.ok_or_else(|| self.invalid(format!("{} has no component {name}", place.kind)))?;
+                let kind = Type::Vector(*scalar, chosen.len() as u8);
+                let chosen = match &place.components {
+                    Some(before) => chosen.into_iter().map(|index| before[index as usize]).collect(),
+                    None => chosen,
+                };
+                Ok(Place { kind, components: Some(chosen), ..place })
+            }
+            other => Err(self.invalid(format!("{other} has no member {name}"))),
+        }
+    }
+
+    /// The slots of a place, before an unknown index is added.
+    fn slots_of(&self, place: &Place) -> Result<Vec<Slot>, Refusal> {
+        match &place.components {
+            Some(components) => Ok(components.iter().map(|component| place.base + component).collect()),
+            None => {
+                let size = place.kind.slots().ok_or_else(|| self.invalid("the length of this array is not known"))?;
+                Ok((place.base..).take(size).collect())
+            }
+        }
+    }
+
+    /// The value at a place: a variable's own slots where that is possible.
+    pub(super) fn read(&mut self, place: &Place) -> Result<Value, Refusal> {
+        let mut slots = self.slots_of(place)?;
+        if let Some(offset) = place.offset {
+            for slot in &mut slots {
+                let (to, line) = (self.builder.temporary(), self.builder.line);
+                self.builder.push(Node::Gather { to, from: Indexed { base: *slot, offset }, line });
+                *slot = to;
+            }
+        }
+        Ok(Value { kind: place.kind.clone(), slots })
+    }
+
+    /// Writes a value, which has the place's type.
+    pub(super) fn write(&mut self, place: &Place, value: &Value) -> Result<(), Refusal> {
+        let slots = self.slots_of(place)?;
+        if slots.iter().any(|&slot| self.builder.known(slot).is_some()) {
+            return Err(self.invalid("a constant is written"));
+        }
+        // What is read must not be overwritten before: `v.xy = v.yx`.
+        let overlaps = |(index, slot): (usize, &Slot)| slots[..index.min(slots.len())].contains(slot);
+        let from = match place.offset.is_none() && value.slots.iter().enumerate().any(overlaps) {
+            true => self.builder.copies(&value.slots),
+            false => value.slots.clone(),
+        };
+        let line = self.builder.line;
+        for (&to, &from) in slots.iter().zip(&from) {
+            self.builder.push(match place.offset {
+                Some(offset) => Node::Scatter { to: Indexed { base: to, offset }, from, line },
+                None => Node::Store { to, from },
+            });
+        }
+        Ok(())
+    }
+
+    /// Stores scalars in a row of slots.
+    pub(super) fn store(&mut self, base: Slot, from: &[Slot]) {
+        for (to, &from) in (base..).zip(from) {
+            self.builder.push(Node::Store { to, from });
+        }
+    }
+}
+
+/// The components that a word names: all out of one of the three sets.
+pub(super) fn components(name: &str, count: u8) -> Option<Vec<Slot>> {
+    let in_set = |set: &str| -> Option<Vec<Slot>> {
+        let one = |letter| set.find(letter).filter(|&index| index < usize::from(count)).map(|index| index as Slot);
+        name.chars().map(one).collect()
+    };
+    let found = in_set("xyzw").or_else(|| in_set("rgba")).or_else(|| in_set("stpq"));
+    found.filter(|components| (1..=4).contains(&components.len()))
+}

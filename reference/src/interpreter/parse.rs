@@ -1,0 +1,112 @@
+//! Tokens → syntax, by recursive descent.
+
+mod declaration;
+mod expression;
+mod statement;
+
+use super::Refusal;
+use super::syntax::{Item, Name};
+use super::text::{Kind, Token};
+use std::collections::HashSet;
+
+/// Deepest nesting of expressions and statements; ggrade's gate refuses deeper files before.
+const MAX_NESTING: usize = 256;
+
+/// Parses a whole file.
+///
+/// # Errors
+/// It is not GLSL, or nested more deeply than this parser goes.
+pub fn parse(tokens: &[Token]) -> Result<Vec<Item>, Refusal> {
+    let mut parser = Parser { tokens, at: 0, depth: 0, functions: HashSet::new() };
+    let mut items = Vec::new();
+    while parser.at < tokens.len() {
+        if !parser.takes(";") {
+            items.push(parser.item()?);
+        }
+    }
+    Ok(items)
+}
+
+struct Parser<'a> {
+    tokens: &'a [Token],
+    at: usize,
+    depth: usize,
+    /// Names of the functions that are declared so far: calling them may change a variable.
+    functions: HashSet<Name>,
+}
+
+impl Parser<'_> {
+    fn peek(&self, ahead: usize) -> Option<&Token> {
+        self.tokens.get(self.at + ahead)
+    }
+
+    /// The text of a symbol or word that is ahead; empty at the end.
+    fn text(&self, ahead: usize) -> &str {
+        self.peek(ahead).map_or("", |token| &token.text)
+    }
+
+    fn is_name(&self, ahead: usize) -> bool {
+        self.peek(ahead).is_some_and(|token| token.kind == Kind::Name)
+    }
+
+    fn line(&self) -> u32 {
+        self.peek(0).or(self.tokens.last()).map_or(1, |token| token.line)
+    }
+
+    fn takes(&mut self, text: &str) -> bool {
+        let is_next = self.text(0) == text;
+        self.at += usize::from(is_next);
+        is_next
+    }
+
+    fn expect(&mut self, text: &str) -> Result<(), Refusal> {
+        if self.takes(text) { Ok(()) } else { Err(self.unexpected(&format!("`{text}`"))) }
+    }
+
+    fn unexpected(&self, wanted: &str) -> Refusal {
+        let found = self.peek(0).map_or_else(|| "the end of the file".to_owned(), |token| format!("`{}`", token.text));
+        Refusal::invalid(self.line(), format!("{wanted} is expected before {found}"))
+    }
+
+    fn name(&mut self) -> Result<Name, Refusal> {
+        match self.peek(0) {
+            Some(token) if token.kind == Kind::Name => {
+                self.at += 1;
+                Ok(Name::clone(&self.tokens[self.at - 1].text))
+            }
+            _ => Err(self.unexpected("a name")),
+        }
+    }
+
+    /// Goes one level deeper, as far as the stack is sure to bear it.
+    fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Refusal>) -> Result<T, Refusal> {
+        if self.depth >= MAX_NESTING {
+            return Err(Refusal::limit(self.line(), "this is nested too deeply"));
+        }
+        self.depth += 1;
+        let result = read(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// How many tokens from `ahead` on are `[…]` groups.
+    fn lengths_ahead(&self, mut ahead: usize) -> usize {
+        let start = ahead;
+        while self.text(ahead) == "[" {
+            let mut depth = 0_usize;
+            loop {
+                match self.text(ahead) {
+                    "[" => depth += 1,
+                    "]" => depth -= 1,
+                    "" | ";" => return ahead - start,
+                    _ => {}
+                }
+                ahead += 1;
+                if depth == 0 {
+                    break;
+                }
+            }
+        }
+        ahead - start
+    }
+}

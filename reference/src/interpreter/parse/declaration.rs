@@ -1,0 +1,197 @@
+//! Declarations: functions, variables, structures, blocks.
+
+use super::Parser;
+use crate::interpreter::Refusal;
+use crate::interpreter::syntax::{
+    Base, Declaration, Function, InterfaceBlock, Item, Name, Parameter, Qualifiers, Storage, TypeName, Variable,
+};
+
+/// Words before a type that do not change what it means here.
+const SILENT: [&str; 9] =
+    ["flat", "smooth", "noperspective", "centroid", "invariant", "highp", "mediump", "lowp", "precision"];
+/// The same, which are names where no name follows.
+const SOMETIMES_SILENT: [&str; 9] =
+    ["sample", "patch", "precise", "coherent", "volatile", "restrict", "readonly", "writeonly", "subroutine"];
+
+impl Parser<'_> {
+    pub(super) fn item(&mut self) -> Result<Item, Refusal> {
+        let line = self.line();
+        if self.text(0) == "precision" {
+            return self.requalification();
+        }
+        let qualifiers = self.qualifiers()?;
+        if self.text(0) == ";" || (self.is_name(0) && matches!(self.text(1), ";" | ",") && !self.is_type_ahead()) {
+            return self.requalification();
+        }
+        if self.is_name(0) && self.text(1) == "{" && self.text(0) != "struct" {
+            return Ok(Item::Block(self.block_of(qualifiers.storage, line)?));
+        }
+        let kind = self.declared_type()?;
+        if self.is_name(0) && self.text(1) == "(" {
+            return Ok(Item::Function(self.function(kind)?));
+        }
+        let variables = if self.takes(";") { Vec::new() } else { self.variables()? };
+        Ok(Item::Declaration(Declaration { line, qualifiers, kind, variables }))
+    }
+
+    fn is_type_ahead(&self) -> bool {
+        Self::is_type(self.text(0))
+    }
+
+    fn requalification(&mut self) -> Result<Item, Refusal> {
+        while !self.takes(";") {
+            if self.peek(0).is_none() {
+                return Err(self.unexpected("`;`"));
+            }
+            self.at += 1;
+        }
+        Ok(Item::Requalification)
+    }
+
+    /// The words before a type.
+    pub(super) fn qualifiers(&mut self) -> Result<Qualifiers, Refusal> {
+        let mut qualifiers = Qualifiers::default();
+        loop {
+            let word = self.text(0);
+            let storage = match word {
+                "const" if qualifiers.storage == Storage::Plain => Storage::Constant,
+                "in" | "attribute" => Storage::Input,
+                "out" => Storage::Output,
+                "inout" => Storage::InputOutput,
+                "uniform" => Storage::Uniform,
+                "varying" => Storage::Varying,
+                "shared" | "buffer" if self.is_name(1) => Storage::Shared,
+                "layout" if self.text(1) == "(" => {
+                    self.layout()?;
+                    continue;
+                }
+                "const" => qualifiers.storage,
+                _ if SILENT.contains(&word) => qualifiers.storage,
+                _ if SOMETIMES_SILENT.contains(&word)
+                    && (self.is_name(1) || self.text(1) == "(")
+                    && !self.is_call() =>
+                {
+                    qualifiers.storage
+                }
+                _ => return Ok(qualifiers),
+            };
+            self.at += 1;
+            // `const in` is `in`.
+            qualifiers.storage = storage;
+        }
+    }
+
+    /// Whether a word and a bracket are a call, as `sample(x)`.
+    fn is_call(&self) -> bool {
+        self.text(1) == "("
+    }
+
+    fn layout(&mut self) -> Result<(), Refusal> {
+        self.at += 1;
+        let mut depth = 0_usize;
+        loop {
+            match self.text(0) {
+                "(" => depth += 1,
+                ")" => depth -= 1,
+                "" => return Err(self.unexpected("`)`")),
+                _ => {}
+            }
+            self.at += 1;
+            if depth == 0 {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Whether a declaration of variables starts here, and not an expression.
+    pub(super) fn is_declaration(&self) -> bool {
+        let word = self.text(0);
+        match word {
+            "const" | "struct" | "highp" | "mediump" | "lowp" | "invariant" | "layout" | "precision" => true,
+            _ => self.is_name(0) && self.is_name(1 + self.lengths_ahead(1)),
+        }
+    }
+
+    /// A type that may be a structure declared here.
+    pub(super) fn declared_type(&mut self) -> Result<TypeName, Refusal> {
+        let line = self.line();
+        if !self.takes("struct") {
+            return self.type_name();
+        }
+        let name = if self.is_name(0) { self.name()? } else { Name::from("") };
+        let members = self.nested(Self::members)?;
+        Ok(TypeName { line, base: Base::Struct(name, members), lengths: self.lengths()? })
+    }
+
+    fn members(&mut self) -> Result<Vec<Declaration>, Refusal> {
+        self.expect("{")?;
+        let mut members = Vec::new();
+        while !self.takes("}") {
+            if !self.takes(";") {
+                members.push(self.declaration()?);
+            }
+        }
+        Ok(members)
+    }
+
+    /// Qualifiers, type, variables and `;`.
+    pub(super) fn declaration(&mut self) -> Result<Declaration, Refusal> {
+        let line = self.line();
+        let qualifiers = self.qualifiers()?;
+        let kind = self.declared_type()?;
+        let variables = if self.takes(";") { Vec::new() } else { self.variables()? };
+        Ok(Declaration { line, qualifiers, kind, variables })
+    }
+
+    fn variables(&mut self) -> Result<Vec<Variable>, Refusal> {
+        let mut variables = Vec::new();
+        loop {
+            variables.push(self.variable()?);
+            if self.takes(";") {
+                return Ok(variables);
+            }
+            if !self.takes(",") {
+                return Err(self.unexpected("`,` or `;`"));
+            }
+        }
+    }
+
+    /// Name, lengths and first value.
+    pub(super) fn variable(&mut self) -> Result<Variable, Refusal> {
+        let line = self.line();
+        let name = self.name()?;
+        let lengths = self.lengths()?;
+        let value = if self.takes("=") { Some(self.initialiser()?) } else { None };
+        Ok(Variable { line, name, lengths, value })
+    }
+
+    fn block_of(&mut self, storage: Storage, line: u32) -> Result<InterfaceBlock, Refusal> {
+        let name = self.name()?;
+        let members = self.members()?;
+        let instance = if self.is_name(0) { Some((self.name()?, self.lengths()?)) } else { None };
+        self.expect(";")?;
+        Ok(InterfaceBlock { line, storage, name, members, instance })
+    }
+
+    fn function(&mut self, result: TypeName) -> Result<Function, Refusal> {
+        let line = self.line();
+        let name = self.name()?;
+        self.at += 1;
+        let mut parameters = Vec::new();
+        if self.text(0) == "void" && self.text(1) == ")" {
+            self.at += 1;
+        }
+        while !self.takes(")") {
+            if !parameters.is_empty() {
+                self.expect(",")?;
+            }
+            let storage = self.qualifiers()?.storage;
+            let kind = self.declared_type()?;
+            let name = if self.is_name(0) { self.name()? } else { Name::from("") };
+            parameters.push(Parameter { storage, kind, name, lengths: self.lengths()? });
+        }
+        self.functions.insert(Name::clone(&name));
+        let body = if self.takes(";") { None } else { Some(self.block()?) };
+        Ok(Function { line, name, result, parameters, body })
+    }
+}

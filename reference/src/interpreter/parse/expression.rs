@@ -1,0 +1,334 @@
+//! Expressions.
+
+use super::Parser;
+use crate::interpreter::Refusal;
+use crate::interpreter::syntax::{Base, Binary, Expression, ExpressionKind, TypeName, Unary};
+use crate::interpreter::text::Kind;
+use crate::interpreter::types::Type;
+
+/// Built-in functions that write into an argument.
+const WRITING: [&str; 6] = ["modf", "frexp", "uaddCarry", "usubBorrow", "umulExtended", "imulExtended"];
+
+/// Whole floats from here on are not all floats of 32 bits.
+const FIRST_GAP: f64 = 16_777_216.0;
+
+impl Parser<'_> {
+    /// An expression with commas.
+    pub(super) fn expression(&mut self) -> Result<Expression, Refusal> {
+        let first = self.assignment()?;
+        if self.text(0) != "," {
+            return Ok(first);
+        }
+        let line = first.line;
+        let mut all = vec![first];
+        while self.takes(",") {
+            all.push(self.assignment()?);
+        }
+        Ok(Expression { line, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::Comma(all) })
+    }
+
+    /// An expression without commas, or `{ … }`.
+    pub(super) fn initialiser(&mut self) -> Result<Expression, Refusal> {
+        if self.text(0) != "{" {
+            return self.assignment();
+        }
+        let line = self.line();
+        self.at += 1;
+        let mut all = Vec::new();
+        while !self.takes("}") {
+            all.push(self.nested(Self::initialiser)?);
+            if !self.takes(",") && self.text(0) != "}" {
+                return Err(self.unexpected("`,` or `}`"));
+            }
+        }
+        Ok(Expression { line, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::List(all) })
+    }
+
+    /// An expression without commas.
+    pub(super) fn assignment(&mut self) -> Result<Expression, Refusal> {
+        let left = self.conditional()?;
+        let operator = match self.text(0) {
+            "=" => None,
+            "+=" => Some(Binary::Add),
+            "-=" => Some(Binary::Subtract),
+            "*=" => Some(Binary::Multiply),
+            "/=" => Some(Binary::Divide),
+            "%=" => Some(Binary::Remainder),
+            "<<=" => Some(Binary::ShiftLeft),
+            ">>=" => Some(Binary::ShiftRight),
+            "&=" => Some(Binary::BitAnd),
+            "^=" => Some(Binary::BitXor),
+            "|=" => Some(Binary::BitOr),
+            _ => return Ok(left),
+        };
+        let line = self.line();
+        self.at += 1;
+        let right = self.nested(Self::assignment)?;
+        let kind = ExpressionKind::Assign(operator, Box::new(left), Box::new(right));
+        Ok(Expression { line, changes: true, kind })
+    }
+
+    fn conditional(&mut self) -> Result<Expression, Refusal> {
+        let condition = self.binary(1)?;
+        let line = self.line();
+        if !self.takes("?") {
+            return Ok(condition);
+        }
+        let yes = self.nested(Self::expression)?;
+        self.expect(":")?;
+        let no = self.nested(Self::assignment)?;
+        let changes = condition.changes || yes.changes || no.changes;
+        let kind = ExpressionKind::Conditional(Box::new(condition), Box::new(yes), Box::new(no));
+        Ok(Expression { line, changes, kind })
+    }
+
+    /// Operators that bind at least as tightly as `level`.
+    fn binary(&mut self, level: u8) -> Result<Expression, Refusal> {
+        let mut left = self.unary()?;
+        let mut chained = 0;
+        while let Some((operator, of)) = binary(self.text(0)).filter(|&(_, of)| of >= level) {
+            let line = self.line();
+            self.at += 1;
+            let right = self.nested(|parser| parser.binary(of + 1))?;
+            left.changes |= right.changes;
+            match &mut left.kind {
+                ExpressionKind::Chain(_, others) if chained == of => others.push((operator, line, right)),
+                _ => {
+                    let changes = left.changes;
+                    let kind = ExpressionKind::Chain(Box::new(left), vec![(operator, line, right)]);
+                    left = Expression { line, changes, kind };
+                }
+            }
+            chained = of;
+        }
+        Ok(left)
+    }
+
+    fn unary(&mut self) -> Result<Expression, Refusal> {
+        let line = self.line();
+        let operator = match self.text(0) {
+            "+" => Unary::Plus,
+            "-" => Unary::Minus,
+            "!" => Unary::Not,
+            "~" => Unary::Complement,
+            step @ ("++" | "--") => {
+                let adds = step == "++";
+                self.at += 1;
+                let operand = self.nested(Self::unary)?;
+                return Ok(Expression {
+                    line,
+                    changes: true,
+                    kind: ExpressionKind::Step(adds, false, Box::new(operand)),
+                });
+            }
+            _ => return self.postfix(),
+        };
+        self.at += 1;
+        let operand = self.nested(Self::unary)?;
+        Ok(Expression { line, changes: operand.changes, kind: ExpressionKind::Unary(operator, Box::new(operand)) })
+    }
+
+    fn postfix(&mut self) -> Result<Expression, Refusal> {
+        let mut value = self.primary()?;
+        for _ in 0..super::MAX_NESTING {
+            let line = self.line();
+            let mut changes = value.changes;
+            let kind = match self.text(0) {
+                "[" => {
+                    self.at += 1;
+                    let index = self.nested(Self::expression)?;
+                    self.expect("]")?;
+                    changes |= index.changes;
+                    ExpressionKind::Index(Box::new(value), Box::new(index))
+                }
+                "." => {
+                    self.at += 1;
+                    let name = self.name()?;
+                    if &*name == "length" && self.text(0) == "(" {
+                        self.at += 1;
+                        self.expect(")")?;
+                        ExpressionKind::Length(Box::new(value))
+                    } else {
+                        ExpressionKind::Member(Box::new(value), name)
+                    }
+                }
+                step @ ("++" | "--") => {
+                    let adds = step == "++";
+                    self.at += 1;
+                    changes = true;
+                    ExpressionKind::Step(adds, true, Box::new(value))
+                }
+                _ => return Ok(value),
+            };
+            value = Expression { line, changes, kind };
+        }
+        Err(Refusal::limit(self.line(), "this is nested too deeply"))
+    }
+
+    fn primary(&mut self) -> Result<Expression, Refusal> {
+        let line = self.line();
+        let plain = |kind| Expression { line, changes: false, kind };
+        if self.text(0) == "(" {
+            return self.bracket();
+        }
+        match self.peek(0) {
+            Some(token) if token.kind == Kind::Number => {
+                let literal = literal(&token.text);
+                let literal = literal.ok_or_else(|| Refusal::invalid(line, format!("{} is no number", token.text)))?;
+                self.at += 1;
+                Ok(plain(literal))
+            }
+            Some(token) if token.kind == Kind::Name => match &*token.text {
+                word @ ("true" | "false") => {
+                    let value = word == "true";
+                    self.at += 1;
+                    Ok(plain(ExpressionKind::Bool(value)))
+                }
+                _ => self.name_or_call(),
+            },
+            _ => Err(self.unexpected("an expression")),
+        }
+    }
+
+    fn bracket(&mut self) -> Result<Expression, Refusal> {
+        self.at += 1;
+        let inner = self.nested(Self::expression)?;
+        self.expect(")")?;
+        // A chain in brackets is not gone on with outside of them.
+        Ok(match inner.kind {
+            ExpressionKind::Chain(..) => {
+                Expression { line: inner.line, changes: inner.changes, kind: ExpressionKind::Comma(vec![inner]) }
+            }
+            _ => inner,
+        })
+    }
+
+    fn name_or_call(&mut self) -> Result<Expression, Refusal> {
+        let line = self.line();
+        let lengths = self.lengths_ahead(1);
+        if lengths > 0 && self.text(1 + lengths) == "(" {
+            let kind = self.type_name()?;
+            self.at += 1;
+            let arguments = self.arguments()?;
+            let changes = arguments.iter().any(|argument| argument.changes);
+            return Ok(Expression { line, changes, kind: ExpressionKind::ArrayConstructor(Box::new(kind), arguments) });
+        }
+        let name = self.name()?;
+        if !self.takes("(") {
+            return Ok(Expression { line, changes: false, kind: ExpressionKind::Name(name) });
+        }
+        let arguments = self.arguments()?;
+        let changes = self.functions.contains(&name) || WRITING.contains(&&*name);
+        let changes = changes || arguments.iter().any(|argument| argument.changes);
+        Ok(Expression { line, changes, kind: ExpressionKind::Call(name, arguments) })
+    }
+
+    /// What stands in the brackets of a call, which are open.
+    fn arguments(&mut self) -> Result<Vec<Expression>, Refusal> {
+        if self.text(0) == "void" && self.text(1) == ")" {
+            self.at += 1;
+        }
+        let mut arguments = Vec::new();
+        while !self.takes(")") {
+            if !arguments.is_empty() {
+                self.expect(",")?;
+            }
+            arguments.push(self.nested(Self::assignment)?);
+        }
+        Ok(arguments)
+    }
+
+    /// A type's name and the lengths behind it.
+    pub(super) fn type_name(&mut self) -> Result<TypeName, Refusal> {
+        let line = self.line();
+        let base = Base::Named(self.name()?);
+        Ok(TypeName { line, base, lengths: self.lengths()? })
+    }
+
+    /// `[n][]`
+    pub(super) fn lengths(&mut self) -> Result<Vec<Option<Expression>>, Refusal> {
+        let mut lengths = Vec::new();
+        while self.takes("[") {
+            let length = if self.text(0) == "]" { None } else { Some(self.nested(Self::conditional)?) };
+            self.expect("]")?;
+            lengths.push(length);
+        }
+        Ok(lengths)
+    }
+
+    /// Whether a word names a built-in type.
+    pub(super) fn is_type(word: &str) -> bool {
+        Type::named(word).is_some()
+    }
+}
+
+fn binary(text: &str) -> Option<(Binary, u8)> {
+    Some(match text {
+        "||" => (Binary::Or, 1),
+        "^^" => (Binary::Xor, 2),
+        "&&" => (Binary::And, 3),
+        "|" => (Binary::BitOr, 4),
+        "^" => (Binary::BitXor, 5),
+        "&" => (Binary::BitAnd, 6),
+        "==" => (Binary::Equal, 7),
+        "!=" => (Binary::NotEqual, 7),
+        "<" => (Binary::Less, 8),
+        ">" => (Binary::Greater, 8),
+        "<=" => (Binary::LessEqual, 8),
+        ">=" => (Binary::GreaterEqual, 8),
+        "<<" => (Binary::ShiftLeft, 9),
+        ">>" => (Binary::ShiftRight, 9),
+        "+" => (Binary::Add, 10),
+        "-" => (Binary::Subtract, 10),
+        "*" => (Binary::Multiply, 11),
+        "/" => (Binary::Divide, 11),
+        "%" => (Binary::Remainder, 11),
+        _ => return None,
+    })
+}
+
+fn literal(text: &str) -> Option<ExpressionKind> {
+    let lower = text.to_ascii_lowercase();
+    let hexadecimal = lower.strip_prefix("0x");
+    if hexadecimal.is_none() && lower.contains(['.', 'e', 'f']) {
+        let (digits, double) = match lower.strip_suffix("lf") {
+            Some(digits) => (digits, true),
+            None => (lower.strip_suffix('f').unwrap_or(&lower), false),
+        };
+        let value: f64 = digits.parse().ok()?;
+        // A literal means the number that is written; only large whole ones are known by their neighbours.
+        let value = if !double && value.abs() >= FIRST_GAP { f64::from(value as f32) } else { value };
+        return Some(ExpressionKind::Floating(value, double));
+    }
+    let (digits, unsigned) = lower.strip_suffix('u').map_or((&*lower, false), |digits| (digits, true));
+    let bits = match (digits.strip_prefix("0x"), digits.strip_prefix('0')) {
+        (Some(digits), _) => u64::from_str_radix(digits, 16).ok()?,
+        (None, Some(digits)) if !digits.is_empty() => u64::from_str_radix(digits, 8).ok()?,
+        _ => digits.parse().ok()?,
+    } as u32;
+    let value = if unsigned { f64::from(bits) } else { f64::from(bits.cast_signed()) };
+    Some(ExpressionKind::Integer(value, unsigned))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn literals_have_their_types_and_values() {
+        let number = |text| match literal(text) {
+            Some(ExpressionKind::Integer(value, unsigned)) => (value, if unsigned { "uint" } else { "int" }),
+            Some(ExpressionKind::Floating(value, double)) => (value, if double { "double" } else { "float" }),
+            other => panic!("{text}: {other:?}"),
+        };
+        assert_eq!(number("010"), (8.0, "int"));
+        assert_eq!(number("0xFFFFFFFF"), (-1.0, "int"));
+        assert_eq!(number("4294967295u"), (4_294_967_295.0, "uint"));
+        assert_eq!(number("1e3"), (1000.0, "float"));
+        assert_eq!(number(".5F"), (0.5, "float"));
+        assert_eq!(number("0.1lf"), (0.1, "double"));
+        assert_eq!(number("16777217.0"), (16_777_216.0, "float"));
+        assert_eq!(number("1e40"), (f64::INFINITY, "float"));
+        assert!(literal("08").is_none() && literal("1x").is_none());
+    }
+}

@@ -1,0 +1,262 @@
+//! Runs a compiled program for many samples at once.
+
+mod bits;
+mod kernel;
+mod lookup;
+mod machine;
+mod mask;
+mod memory;
+mod undefined;
+
+pub use kernel::Precision;
+pub(super) use kernel::scalar;
+pub use memory::Cause;
+pub use undefined::Undefined;
+pub(super) use undefined::lanes as undefined_lanes;
+
+use super::code::{Code, Slot, Variable};
+use super::texture::Texture;
+use super::types::Type;
+use machine::Machine;
+use std::fmt;
+
+/// Lanes that run together: enough that an instruction costs little, few enough that columns stay in the cache.
+const BLOCK: usize = 256;
+/// Most bytes that the columns of a block take.
+const BLOCK_BYTES: usize = 64 << 20;
+/// Steps of lanes that a run may take: a few seconds.
+pub const FUEL: u64 = 2_000_000_000;
+
+/// The steps are used up; the line is one of those that used them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stopped {
+    /// A line of the endless loop, or 0.
+    pub line: u32,
+}
+
+/// What a host gives to a run does not fit the program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mismatch(String);
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// A program with its inputs.
+#[derive(Debug)]
+pub struct Run<'a> {
+    code: &'a Code,
+    samples: usize,
+    uniforms: Vec<(Slot, f64)>,
+    inputs: Vec<(Slot, &'a [f64])>,
+    textures: &'a [Texture],
+    precision: Precision,
+    fuel: u64,
+}
+
+/// One output, or variable of `main`, of all samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+    /// Its scalars, each for all samples.
+    pub values: Vec<Vec<f64>>,
+    /// For each scalar of each sample, why it is undefined, if it is; nothing for a scalar that always is defined.
+    undefined: Vec<Vec<Option<Cause>>>,
+}
+
+impl Column {
+    /// The scalars of one sample.
+    pub fn sample(&self, sample: usize) -> Vec<f64> {
+        self.values.iter().map(|values| values[sample]).collect()
+    }
+
+    /// Why a scalar of a sample is undefined, if it is.
+    pub fn undefined(&self, scalar: usize, sample: usize) -> Option<Cause> {
+        self.undefined[scalar].get(sample).copied().flatten()
+    }
+
+    /// Appends a block's values.
+    fn collect(&mut self, machine: &Machine<'_>, variable: &Variable) {
+        for ((slot, values), undefined) in slots(variable).zip(&mut self.values).zip(&mut self.undefined) {
+            let column = machine.memory.column(slot);
+            let before = values.len();
+            values.extend_from_slice(column);
+            for (lane, value) in column.iter().enumerate() {
+                let cause = match machine.strayed[lane] {
+                    0 => machine.memory.cause(slot, lane),
+                    strayed => strayed,
+                };
+                let cause = machine
+                    .memory
+                    .known(cause)
+                    .or_else(|| value.is_nan().then_some(Cause { what: Undefined::NotANumber, line: variable.line }));
+                if cause.is_some() {
+                    undefined.resize(before + lane, None);
+                    undefined.push(cause);
+                }
+            }
+        }
+    }
+}
+
+/// What a run computes.
+#[derive(Clone, Debug, Default)]
+pub struct Outputs {
+    /// All outputs of the stage.
+    pub outputs: Vec<Column>,
+    /// The variables of `main` that were asked for.
+    pub locals: Vec<Column>,
+    /// Whether a sample was thrown away by `discard`.
+    pub discarded: Vec<bool>,
+}
+
+impl Outputs {
+    /// The output with this name.
+    pub fn get(&self, name: &str) -> Option<&Column> {
+        self.outputs.iter().find(|output| output.name == name)
+    }
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(code: &'a Code, samples: usize) -> Self {
+        Self {
+            code,
+            samples,
+            uniforms: Vec::new(),
+            inputs: Vec::new(),
+            textures: &[],
+            precision: Precision::Exact,
+            fuel: FUEL,
+        }
+    }
+
+    /// Sets a uniform, or a part of one, by its path: `mw`, `lights[1].colour`, `Light.lamb`. Matrices are given by
+    /// columns, a sampler as the number of its texture.
+    ///
+    /// # Errors
+    /// There is no such uniform, or it has another number of scalars.
+    pub fn uniform(mut self, path: &str, values: &[f64]) -> Result<Self, Mismatch> {
+        let leaves: Vec<&Variable> = leaves(&self.code.uniforms, path).collect();
+        let slots: Vec<Slot> = leaves.iter().flat_map(|leaf| slots(leaf)).collect();
+        if slots.is_empty() {
+            return Err(Mismatch(format!("there is no uniform {path}")));
+        }
+        if slots.len() != values.len() {
+            return Err(Mismatch(format!("{path} has {} scalars, and {} are given", slots.len(), values.len())));
+        }
+        self.uniforms.extend(slots.into_iter().zip(values.iter().copied()));
+        Ok(self)
+    }
+
+    /// Sets an input: a column of all samples for each of its scalars.
+    ///
+    /// # Errors
+    /// There is no such input, or it has another number of scalars or samples.
+    pub fn input(mut self, name: &str, columns: &[&'a [f64]]) -> Result<Self, Mismatch> {
+        let input = self.code.inputs.iter().find(|input| input.name == name);
+        let input = input.ok_or_else(|| Mismatch(format!("there is no input {name}")))?;
+        self.columns(name, slots(input).collect(), columns)?;
+        Ok(self)
+    }
+
+    /// Sets a uniform, or a part of one, to another value for each sample: a column for each of its scalars.
+    ///
+    /// # Errors
+    /// As for [`Run::uniform`] and [`Run::input`].
+    pub fn uniform_of_each(mut self, path: &str, columns: &[&'a [f64]]) -> Result<Self, Mismatch> {
+        let slots: Vec<Slot> = leaves(&self.code.uniforms, path).flat_map(slots).collect();
+        self.columns(path, slots, columns)?;
+        Ok(self)
+    }
+
+    fn columns(&mut self, name: &str, slots: Vec<Slot>, columns: &[&'a [f64]]) -> Result<(), Mismatch> {
+        if slots.len() != columns.len() || columns.iter().any(|column| column.len() != self.samples) {
+            return Err(Mismatch(format!("{name} has {} scalars of {} samples", slots.len(), self.samples)));
+        }
+        self.inputs.extend(slots.into_iter().zip(columns.iter().copied()));
+        Ok(())
+    }
+
+    /// Sets the textures that samplers name by their number.
+    pub fn textures(self, textures: &'a [Texture]) -> Self {
+        Self { textures, ..self }
+    }
+
+    /// Rounds as a driver does, and not as little as possible.
+    pub fn precision(self, precision: Precision) -> Self {
+        Self { precision, ..self }
+    }
+
+    /// Bounds the steps; one is one scalar operation in one lane.
+    pub fn fuel(self, fuel: u64) -> Self {
+        Self { fuel, ..self }
+    }
+
+    /// Runs, and gives the outputs.
+    ///
+    /// # Errors
+    /// The steps are used up.
+    pub fn outputs(self) -> Result<Outputs, Stopped> {
+        self.outputs_and_locals(&[])
+    }
+
+    /// Runs, and gives the outputs and what variables of `main` hold at its end.
+    ///
+    /// # Errors
+    /// The steps are used up.
+    pub fn outputs_and_locals(self, locals: &[&str]) -> Result<Outputs, Stopped> {
+        let code = self.code;
+        let slots = code.constants.len().max(1);
+        // Whole quads, as derivatives need them.
+        let block = (BLOCK_BYTES / (8 * slots)).clamp(4, BLOCK) / 4 * 4;
+        let block = block.min(self.samples.max(1));
+        let mut machine = Machine::new(code, self.textures, block, self.precision, self.fuel);
+        for &(slot, value) in code.defaults.iter().chain(&self.uniforms) {
+            machine.memory.column_mut(slot).fill(value);
+        }
+        let column = |variable: &Variable| Column {
+            name: variable.name.clone(),
+            kind: variable.kind.clone(),
+            values: vec![Vec::with_capacity(self.samples); variable.kind.slots().unwrap_or(0)],
+            undefined: vec![Vec::new(); variable.kind.slots().unwrap_or(0)],
+        };
+        let outputs: Vec<&Variable> = code.outputs.iter().collect();
+        let locals: Vec<&Variable> =
+            locals.iter().filter_map(|name| code.locals.iter().rev().find(|local| local.name == **name)).collect();
+        let mut result = Outputs {
+            outputs: outputs.iter().map(|variable| column(variable)).collect(),
+            locals: locals.iter().map(|variable| column(variable)).collect(),
+            discarded: Vec::with_capacity(self.samples),
+        };
+        for first in (0..self.samples).step_by(block) {
+            let lanes = block.min(self.samples - first);
+            machine.begin(lanes);
+            for (slot, values) in &self.inputs {
+                machine.memory.column_mut(*slot).copy_from_slice(&values[first..first + lanes]);
+            }
+            machine.run()?;
+            outputs.iter().zip(&mut result.outputs).for_each(|(variable, column)| column.collect(&machine, variable));
+            locals.iter().zip(&mut result.locals).for_each(|(variable, column)| column.collect(&machine, variable));
+            result.discarded.extend((0..lanes).map(|lane| machine.discarded.has(lane)));
+        }
+        Ok(result)
+    }
+}
+
+fn slots(variable: &Variable) -> impl Iterator<Item = Slot> + use<> {
+    (variable.slot..).take(variable.kind.slots().unwrap_or(0))
+}
+
+/// The uniform with this path, or all that lie in the structure or array with this path.
+fn leaves<'a>(uniforms: &'a [Variable], path: &'a str) -> impl Iterator<Item = &'a Variable> {
+    let exact = uniforms.iter().any(|uniform| uniform.name == path);
+    uniforms.iter().filter(move |uniform| match uniform.name.strip_prefix(path) {
+        Some(rest) => rest.is_empty() || (!exact && rest.starts_with(['.', '['])),
+        None => false,
+    })
+}

@@ -1,0 +1,211 @@
+//! The scalar operations, over columns.
+
+use crate::interpreter::code::{Class, Operation};
+use crate::interpreter::run::bits;
+
+/// How values of type `float` are rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// In 64 bits, but no larger than a float can be.
+    Exact,
+    /// After each operation to 32 bits, as a driver does that follows IEEE 754.
+    Single,
+}
+
+/// Floats of this size and more round to infinity: the middle between the largest float and the next power of two.
+const OVERFLOW: f64 = 340_282_356_779_733_660_000_000_000_000_000_000_000.0;
+
+trait Rounding {
+    fn round(x: f64) -> f64;
+}
+
+struct Exact;
+struct Single;
+struct Double;
+
+impl Rounding for Exact {
+    #[inline(always)]
+    fn round(x: f64) -> f64 {
+        if x.abs() >= OVERFLOW { f64::INFINITY.copysign(x) } else { x }
+    }
+}
+
+impl Rounding for Single {
+    #[inline(always)]
+    fn round(x: f64) -> f64 {
+        f64::from(x as f32)
+    }
+}
+
+impl Rounding for Double {
+    #[inline(always)]
+    fn round(x: f64) -> f64 {
+        x
+    }
+}
+
+/// Does one operation for all lanes of the columns, which have one length.
+pub fn run(operation: Operation, class: Class, precision: Precision, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
+    match (class, precision) {
+        (Class::Int, _) => integer(operation, to, [a, b, c], |x| f64::from(x as i32)),
+        (Class::Uint, _) => integer(operation, to, [a, b, c], |x| f64::from(x as u32)),
+        (Class::Double, _) => floating::<Double>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Exact) => floating::<Exact>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Single) => floating::<Single>(operation, to, [a, b, c]),
+    }
+}
+
+/// One operation on three numbers.
+pub fn scalar(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
+    let mut to = [0.0];
+    run(operation, class, Precision::Exact, &mut to, [&[a], &[b], &[c]]);
+    to[0]
+}
+
+#[inline(always)]
+fn each1(to: &mut [f64], a: &[f64], f: impl Fn(f64) -> f64) {
+    for (to, &a) in to.iter_mut().zip(a) {
+        *to = f(a);
+    }
+}
+
+#[inline(always)]
+fn each2(to: &mut [f64], a: &[f64], b: &[f64], f: impl Fn(f64, f64) -> f64) {
+    for ((to, &a), &b) in to.iter_mut().zip(a).zip(b) {
+        *to = f(a, b);
+    }
+}
+
+#[inline(always)]
+fn each3(to: &mut [f64], [a, b, c]: [&[f64]; 3], f: impl Fn(f64, f64, f64) -> f64) {
+    for (((to, &a), &b), &c) in to.iter_mut().zip(a).zip(b).zip(c) {
+        *to = f(a, b, c);
+    }
+}
+
+#[inline(always)]
+fn truth(yes: bool) -> f64 {
+    if yes { 1.0 } else { 0.0 }
+}
+
+/// Operations that mean the same for all classes.
+fn common(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
+    match operation {
+        Operation::Less => each2(to, a, b, |a, b| truth(a < b)),
+        Operation::LessEqual => each2(to, a, b, |a, b| truth(a <= b)),
+        Operation::Equal => each2(to, a, b, |a, b| truth(a == b)),
+        Operation::NotEqual => each2(to, a, b, |a, b| truth(a != b)),
+        Operation::And => each2(to, a, b, |a, b| truth((a != 0.0) & (b != 0.0))),
+        Operation::Or => each2(to, a, b, |a, b| truth((a != 0.0) | (b != 0.0))),
+        Operation::Xor => each2(to, a, b, |a, b| truth((a != 0.0) != (b != 0.0))),
+        Operation::Not => each1(to, a, |a| truth(a == 0.0)),
+        Operation::Select => each3(to, [a, b, c], |a, b, c| if a != 0.0 { b } else { c }),
+        // As GLSL words them, which is what they do with a NaN.
+        Operation::Minimum => each2(to, a, b, |a, b| if b < a { b } else { a }),
+        Operation::Maximum => each2(to, a, b, |a, b| if a < b { b } else { a }),
+        Operation::IsNan => each1(to, a, |a| truth(a.is_nan())),
+        Operation::IsInf => each1(to, a, |a| truth(a.is_infinite())),
+        Operation::Copy | Operation::AtMost | Operation::Below => to.copy_from_slice(a),
+        // Every other operation belongs to integers or floats, and has no meaning here.
+        _ => to.fill(f64::NAN),
+    }
+}
+
+#[allow(clippy::too_many_lines, reason = "a table")]
+fn floating<R: Rounding>(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
+    let one = |to: &mut [f64], f: fn(f64) -> f64| each1(to, a, |x| R::round(f(x)));
+    match operation {
+        Operation::Add => each2(to, a, b, |a, b| R::round(a + b)),
+        Operation::Subtract => each2(to, a, b, |a, b| R::round(a - b)),
+        Operation::Multiply => each2(to, a, b, |a, b| R::round(a * b)),
+        Operation::Divide => each2(to, a, b, |a, b| R::round(a / b)),
+        Operation::Reciprocal => each1(to, a, |a| R::round(1.0 / a)),
+        Operation::MultiplyAdd => each3(to, [a, b, c], |a, b, c| R::round(R::round(a * b) + c)),
+        Operation::Fma => each3(to, [a, b, c], |a, b, c| R::round(a.mul_add(b, c))),
+        Operation::Negate => each1(to, a, |a| -a),
+        Operation::Abs => each1(to, a, f64::abs),
+        Operation::Sign => each1(to, a, |a| truth(a > 0.0) - truth(a < 0.0)),
+        Operation::Floor => each1(to, a, f64::floor),
+        Operation::Ceil => each1(to, a, f64::ceil),
+        Operation::Trunc => each1(to, a, f64::trunc),
+        // Of a half GLSL leaves the direction to the driver; all that are known go to the even one.
+        Operation::Round | Operation::RoundEven => each1(to, a, f64::round_ties_even),
+        Operation::Fract => each1(to, a, |a| R::round(a - a.floor())),
+        Operation::Mod => each2(to, a, b, |a, b| R::round(a - b * (R::round(a / b)).floor())),
+        Operation::SquareRoot => one(to, f64::sqrt),
+        Operation::InverseSquareRoot => one(to, |a| 1.0 / a.sqrt()),
+        Operation::Power => each2(to, a, b, |a, b| R::round(a.powf(b))),
+        Operation::Exp => one(to, f64::exp),
+        Operation::Log => one(to, f64::ln),
+        Operation::Exp2 => one(to, f64::exp2),
+        Operation::Log2 => one(to, f64::log2),
+        Operation::Sin => one(to, f64::sin),
+        Operation::Cos => one(to, f64::cos),
+        Operation::Tan => one(to, f64::tan),
+        Operation::Asin => one(to, f64::asin),
+        Operation::Acos => one(to, f64::acos),
+        Operation::Atan => one(to, f64::atan),
+        Operation::Atan2 => each2(to, a, b, |a, b| R::round(a.atan2(b))),
+        Operation::Sinh => one(to, f64::sinh),
+        Operation::Cosh => one(to, f64::cosh),
+        Operation::Tanh => one(to, f64::tanh),
+        Operation::Asinh => one(to, f64::asinh),
+        Operation::Acosh => one(to, f64::acosh),
+        Operation::Atanh => one(to, f64::atanh),
+        Operation::LoadExponent => each2(to, a, b, |a, b| R::round(bits::scaled(a, b))),
+        Operation::Significand => each1(to, a, |a| bits::split(a).0),
+        Operation::Exponent => each1(to, a, |a| bits::split(a).1),
+        Operation::Narrow => each1(to, a, |a| f64::from(a as f32)),
+        Operation::BitsFloat => each1(to, a, |a| f64::from(f32::from_bits(a as i64 as u32))),
+        Operation::BitsHalf => each1(to, a, |a| bits::of_half(a as i64 as u16)),
+        Operation::BitsDouble => {
+            each2(to, a, b, |low, high| f64::from_bits(u64::from(low as u32) | u64::from(high as u32) << 32));
+        }
+        other => common(other, to, [a, b, c]),
+    }
+}
+
+#[allow(clippy::too_many_lines, reason = "a table")]
+fn integer(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3], wrap: impl Fn(i64) -> f64 + Copy) {
+    let one = |to: &mut [f64], f: fn(u32) -> i64| each1(to, a, |x| wrap(f(x as i64 as u32)));
+    let two = |to: &mut [f64], f: fn(i64, i64) -> i64| each2(to, a, b, |x, y| wrap(f(x as i64, y as i64)));
+    match operation {
+        Operation::Add => two(to, i64::wrapping_add),
+        Operation::Subtract => two(to, i64::wrapping_sub),
+        Operation::Multiply => two(to, i64::wrapping_mul),
+        Operation::MultiplyHigh => two(to, |a, b| a.wrapping_mul(b) >> 32),
+        Operation::Divide => two(to, |a, b| if b == 0 { -1 } else { a / b }),
+        Operation::Remainder => two(to, |a, b| if b == 0 { a } else { a % b }),
+        Operation::Negate => each1(to, a, |a| wrap(-(a as i64))),
+        Operation::Abs => each1(to, a, |a| wrap((a as i64).abs())),
+        Operation::Sign => each1(to, a, |a| wrap((a as i64).signum())),
+        Operation::BitAnd => two(to, |a, b| a & b),
+        Operation::BitOr => two(to, |a, b| a | b),
+        Operation::BitXor => two(to, |a, b| a ^ b),
+        Operation::BitNot => each1(to, a, |a| wrap(!(a as i64))),
+        // Drivers take the lower five bits of a distance that GLSL leaves undefined.
+        Operation::ShiftLeft => two(to, |a, b| a << (b & 31)),
+        Operation::ShiftRight => two(to, |a, b| a >> (b & 31)),
+        Operation::BitfieldExtract => {
+            let signed = wrap(-1) < 0.0;
+            each3(to, [a, b, c], |a, b, c| wrap(bits::field(a, b, c, signed)));
+        }
+        Operation::BitfieldMask => two(to, |a, b| ((1_i64 << b.clamp(0, 32)) - 1) << a.clamp(0, 31)),
+        Operation::BitfieldReverse => one(to, |a| i64::from(a.reverse_bits())),
+        Operation::BitCount => one(to, |a| i64::from(a.count_ones())),
+        Operation::FindLowest => one(to, |a| if a == 0 { -1 } else { i64::from(a.trailing_zeros()) }),
+        // Of a negative number, the highest bit that is 0.
+        Operation::FindHighest => each1(to, a, |a| {
+            let pattern = if a < 0.0 { !(a as i64 as u32) } else { a as i64 as u32 };
+            wrap(31 - i64::from(pattern.leading_zeros()))
+        }),
+        // A value that the float of 32 bits would round to a whole number is that number.
+        Operation::Truncate => each1(to, a, |a| wrap(f64::from(a as f32).trunc() as i64)),
+        Operation::Reinterpret => each1(to, a, |a| wrap(a as i64)),
+        Operation::FloatBits => each1(to, a, |a| wrap(i64::from((a as f32).to_bits()))),
+        Operation::HalfBits => each1(to, a, |a| wrap(i64::from(bits::half(a as f32)))),
+        Operation::DoubleLow => each1(to, a, |a| wrap((a.to_bits() & 0xFFFF_FFFF).cast_signed())),
+        Operation::DoubleHigh => each1(to, a, |a| wrap((a.to_bits() >> 32).cast_signed())),
+        other => common(other, to, [a, b, c]),
+    }
+}

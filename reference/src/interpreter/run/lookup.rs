@@ -1,0 +1,161 @@
+//! What a lane computes together with others: derivatives and texture lookups.
+
+use super::machine::Machine;
+use super::memory::{Cause, CauseNumber};
+use super::undefined::Undefined;
+use crate::interpreter::code::{Direction, Slot};
+use crate::interpreter::texture::{Lookup, Mode, Query, Texture};
+
+/// What an incomplete texture reads as.
+const INCOMPLETE: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+impl Machine<'_> {
+    /// The lanes of a pixel and of its neighbour, in the 2 × 2 pixels that stand row by row, the lower one first.
+    fn neighbours(lane: usize, direction: Direction, coarse: bool) -> (usize, usize) {
+        let quad = lane / 4 * 4;
+        let own = if coarse { 0 } else { lane % 4 };
+        match direction {
+            Direction::X => (quad + (own & 2), quad + (own & 2) + 1),
+            Direction::Y => (quad + (own & 1), quad + (own & 1) + 2),
+        }
+    }
+
+    fn difference(&self, of: Slot, lane: usize, direction: Direction, coarse: bool) -> f64 {
+        let (low, high) = Self::neighbours(lane, direction, coarse);
+        let column = self.memory.column(of);
+        match (column.get(low), column.get(high)) {
+            (Some(low), Some(high)) => high - low,
+            _ => f64::NAN,
+        }
+    }
+
+    /// Whether all four pixels of the lane's quad run.
+    fn is_whole(&self, lane: usize) -> bool {
+        let quad = lane / 4 * 4;
+        quad + 4 <= self.lanes && (quad..quad + 4).all(|lane| self.active.has(lane))
+    }
+
+    pub(super) fn derivative(&mut self, to: Slot, of: Slot, direction: Direction, coarse: bool, line: u32) {
+        let values: Vec<f64> = (0..self.lanes).map(|lane| self.difference(of, lane, direction, coarse)).collect();
+        let inherited = |lane: usize| {
+            let (low, high) = Self::neighbours(lane, direction, coarse);
+            let of_low = if low < self.lanes { self.memory.cause(of, low) } else { 0 };
+            if of_low != 0 || high >= self.lanes { of_low } else { self.memory.cause(of, high) }
+        };
+        let causes: Vec<CauseNumber> = (0..self.lanes).map(inherited).collect();
+        let outside: Vec<bool> = (0..self.lanes).map(|lane| !self.is_whole(lane)).collect();
+        self.memory.column_mut(to).copy_from_slice(&values);
+        if causes.iter().any(|&cause| cause != 0) {
+            self.memory.causes_mut(to).copy_from_slice(&causes);
+        }
+        if outside.contains(&true) {
+            let cause = self.memory.number(Cause { what: Undefined::Derivative, line });
+            self.memory.mark(to, cause, |lane| outside[lane]);
+        }
+    }
+
+    pub(super) fn lookup(&mut self, query: &Query) {
+        let mut results = vec![[0.0; 4]; self.lanes];
+        let mut open: Vec<Option<Undefined>> = vec![None; self.lanes];
+        for (lane, found) in results.iter_mut().zip(&mut open).enumerate().filter(|(lane, _)| self.active.has(*lane)) {
+            (*found.0, *found.1) = self.look_up_one(query, lane);
+        }
+        let mut operands = query.coordinates.clone();
+        operands.push(query.texture);
+        operands.extend(query.reference);
+        operands.extend(&query.offset);
+        match &query.mode {
+            Mode::Implicit(bias) => operands.extend(bias),
+            Mode::Level(slot) | Mode::Fetch(slot) | Mode::Gather(slot) | Mode::Size(slot) => operands.push(*slot),
+            Mode::Gradient(x, y) => operands.extend(x.iter().chain(y)),
+            Mode::Levels => {}
+        }
+        let inherited = |lane: usize| {
+            operands.iter().map(|slot| self.memory.cause(*slot, lane)).find(|&cause| cause != 0).unwrap_or(0)
+        };
+        let causes: Vec<CauseNumber> = (0..self.lanes).map(inherited).collect();
+        for (component, &to) in query.to.iter().enumerate() {
+            let column = self.memory.column_mut(to);
+            column.iter_mut().zip(&results).for_each(|(value, result)| *value = result[component]);
+            if causes.iter().any(|&cause| cause != 0) {
+                self.memory.causes_mut(to).copy_from_slice(&causes);
+            }
+            for what in [Undefined::Texture, Undefined::Derivative] {
+                if open.contains(&Some(what)) {
+                    let cause = self.memory.number(Cause { what, line: query.line });
+                    self.memory.mark(to, cause, |lane| open[lane] == Some(what));
+                }
+            }
+        }
+    }
+
+    fn look_up_one(&self, query: &Query, lane: usize) -> ([f64; 4], Option<Undefined>) {
+        let value = |slot: Slot| self.memory.column(slot)[lane];
+        let number = value(query.texture);
+        let bound = self.textures.get(number as usize).filter(|_| number >= 0.0);
+        let Some(texture) = bound.filter(|texture| texture.fits(query.sampler)) else {
+            // A texture that is there and does not fit, or is compared with though there is none, is left open.
+            let open = bound.is_some() || query.reference.is_some();
+            return (INCOMPLETE, open.then_some(Undefined::Texture));
+        };
+        let mut lookup = Lookup {
+            coordinates: query.coordinates.iter().map(|&slot| value(slot)).collect(),
+            reference: query.reference.map(value),
+            ..Lookup::default()
+        };
+        for (offset, &slot) in lookup.offset.iter_mut().zip(&query.offset) {
+            *offset = value(slot);
+        }
+        let is_number = lookup.coordinates.iter().chain(&lookup.reference).all(|coordinate| coordinate.is_finite());
+        let mut open = (!is_number).then_some(Undefined::Texture);
+        let result = match &query.mode {
+            Mode::Implicit(bias) => {
+                if texture.levels.len() > 1 && texture.mipmap.is_some() || texture.magnify != texture.minify {
+                    if !self.is_whole(lane) {
+                        open = open.or(Some(Undefined::Derivative));
+                    }
+                    lookup.gradient = Some([Direction::X, Direction::Y].map(|direction| {
+                        std::array::from_fn(|axis| {
+                            let slot = query.coordinates.get(axis);
+                            slot.map_or(0.0, |&slot| self.difference(slot, lane, direction, false))
+                        })
+                    }));
+                }
+                lookup.level = bias.map_or(0.0, value);
+                texture.sample(&lookup)
+            }
+            Mode::Level(level) => {
+                lookup.level = value(*level);
+                texture.sample(&lookup)
+            }
+            Mode::Gradient(x, y) => {
+                let along =
+                    |slots: &[Slot]| std::array::from_fn(|axis| slots.get(axis).map_or(0.0, |&slot| value(slot)));
+                lookup.gradient = Some([along(x), along(y)]);
+                texture.sample(&lookup)
+            }
+            Mode::Fetch(level) => {
+                lookup.level = value(*level);
+                texture.fetch(&lookup).unwrap_or_else(|| {
+                    open = Some(Undefined::Texture);
+                    [0.0; 4]
+                })
+            }
+            Mode::Gather(component) => texture.gather(&lookup, (value(*component).clamp(0.0, 3.0)) as usize),
+            Mode::Size(level) => size(texture, value(*level)).unwrap_or_else(|| {
+                open = Some(Undefined::Texture);
+                [0.0; 4]
+            }),
+            Mode::Levels => [texture.levels.len() as f64; 4],
+        };
+        (result, open)
+    }
+}
+
+/// The size of a level as `textureSize` gives it; layers of a cube are counted in cubes.
+fn size(texture: &Texture, level: f64) -> Option<[f64; 4]> {
+    let size = texture.levels.get(level as usize).filter(|_| level >= 0.0)?.size;
+    let [width, height, depth] = size.map(|side| side as f64);
+    let is_cube = texture.dimension == crate::interpreter::types::Dimension::Cube;
+    Some([width, height, if is_cube { depth / 6.0 } else { depth }, 1.0])
+}

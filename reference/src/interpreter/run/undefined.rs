@@ -1,0 +1,128 @@
+//! Where GLSL leaves the result of an operation open.
+
+use crate::interpreter::code::{Class, Operation};
+use std::fmt;
+
+/// Why a value may be anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Undefined {
+    /// A variable is read before it has a value.
+    Uninitialised,
+    /// An output has no value at the end.
+    Unwritten,
+    /// A function ends without `return`.
+    NoResult,
+    /// An index is out of range.
+    Index,
+    /// `pow` of a negative base, or 0 to a power that is not positive.
+    Power,
+    /// A function outside of its domain, as the root of a negative number.
+    Domain,
+    /// An integer is divided by zero, or the least by −1.
+    Division,
+    /// `%` of a negative integer.
+    Remainder,
+    /// A shift by less than 0 or more than 31 bits.
+    Shift,
+    /// A field of bits that is not within 32.
+    Bitfield,
+    /// A number that the integer type cannot hold.
+    Conversion,
+    /// A value that is not a number, which drivers need not keep.
+    NotANumber,
+    /// `round` of a number in the middle between two whole ones.
+    Half,
+    /// `smoothstep` and `clamp` with bounds in the wrong order.
+    Bounds,
+    /// A derivative where not all four pixels run.
+    Derivative,
+    /// A texture that the host has not bound, or a lookup that it does not allow.
+    Texture,
+}
+
+impl fmt::Display for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Uninitialised => "a variable is read before it has a value",
+            Self::Unwritten => "an output is never written",
+            Self::NoResult => "a function ends without a result",
+            Self::Index => "an index is out of range",
+            Self::Power => "pow of a negative base, or of 0 and an exponent that is not positive",
+            Self::Domain => "a function is called outside of its domain",
+            Self::Division => "an integer is divided by zero",
+            Self::Remainder => "the remainder of a negative integer",
+            Self::Shift => "a shift by less than 0 or more than 31 bits",
+            Self::Bitfield => "a field of bits that is not within 32",
+            Self::Conversion => "a number is converted to an integer type that cannot hold it",
+            Self::NotANumber => "a value is not a number",
+            Self::Half => "round of a number between two whole ones",
+            Self::Bounds => "the bounds of smoothstep or clamp are in the wrong order",
+            Self::Derivative => "a derivative where not all four pixels run",
+            Self::Texture => "a texture lookup that OpenGL leaves open",
+        })
+    }
+}
+
+/// In which lanes the operation's result is undefined, and why; none where it is defined in all of them.
+pub fn lanes(operation: Operation, class: Class, [a, b, c]: [&[f64]; 3]) -> Option<(Undefined, Vec<bool>)> {
+    let floating = matches!(class, Class::Float | Class::Double);
+    match operation {
+        Operation::Less | Operation::LessEqual | Operation::Equal | Operation::NotEqual if floating => {
+            found(Undefined::NotANumber, [a, b, c], |a, b, _| a.is_nan() | b.is_nan())
+        }
+        Operation::Minimum | Operation::Maximum if floating => {
+            found(Undefined::NotANumber, [a, b, c], |a, b, _| a.is_nan() | b.is_nan())
+        }
+        Operation::Sign | Operation::IsNan if floating => found(Undefined::NotANumber, [a, b, c], |a, _, _| a.is_nan()),
+        Operation::AtMost => found(Undefined::Bounds, [a, b, c], |a, b, _| a > b),
+        Operation::Below => found(Undefined::Bounds, [a, b, c], |a, b, _| a >= b),
+        Operation::Reciprocal => found(Undefined::Domain, [a, b, c], |a, _, _| a == 0.0),
+        Operation::Power => found(Undefined::Power, [a, b, c], |a, b, _| {
+            (a < 0.0) | ((a == 0.0) & (b <= 0.0)) | a.is_nan() | b.is_nan()
+        }),
+        Operation::SquareRoot => found(Undefined::Domain, [a, b, c], |a, _, _| a < 0.0),
+        Operation::InverseSquareRoot | Operation::Log | Operation::Log2 => {
+            found(Undefined::Domain, [a, b, c], |a, _, _| a <= 0.0)
+        }
+        Operation::Asin | Operation::Acos => found(Undefined::Domain, [a, b, c], |a, _, _| a.abs() > 1.0),
+        Operation::Acosh => found(Undefined::Domain, [a, b, c], |a, _, _| a < 1.0),
+        Operation::Atanh => found(Undefined::Domain, [a, b, c], |a, _, _| a.abs() >= 1.0),
+        Operation::Atan2 => found(Undefined::Domain, [a, b, c], |a, b, _| (a == 0.0) & (b == 0.0)),
+        Operation::Round => found(Undefined::Half, [a, b, c], |a, _, _| (a - a.trunc()).abs() == 0.5),
+        Operation::LoadExponent => found(Undefined::Domain, [a, b, c], |_, b, _| b > 128.0),
+        Operation::Significand | Operation::Exponent => found(Undefined::Domain, [a, b, c], |a, _, _| !a.is_finite()),
+        Operation::Truncate if class == Class::Int => {
+            // 2^31 is the first that does not fit; anything above −2^31 − 1 is cut off to fit.
+            found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 2_147_483_648.0) & (a > -2_147_483_649.0)))
+        }
+        Operation::Truncate => found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 4_294_967_296.0) & (a > -1.0))),
+        Operation::FloatBits | Operation::HalfBits => found(Undefined::NotANumber, [a, b, c], |a, _, _| a.is_nan()),
+        Operation::BitsFloat | Operation::BitsHalf | Operation::BitsDouble => None,
+        _ if floating => None,
+        Operation::Divide => {
+            found(Undefined::Division, [a, b, c], |a, b, _| (b == 0.0) | ((a == -2_147_483_648.0) & (b == -1.0)))
+        }
+        Operation::Remainder => found(Undefined::Remainder, [a, b, c], |a, b, _| (b <= 0.0) | (a < 0.0)),
+        Operation::ShiftLeft | Operation::ShiftRight => {
+            found(Undefined::Shift, [a, b, c], |_, b, _| !(0.0..=31.0).contains(&b))
+        }
+        Operation::BitfieldExtract => {
+            found(Undefined::Bitfield, [a, b, c], |_, b, c| (b < 0.0) | (c < 0.0) | (b + c > 32.0))
+        }
+        Operation::BitfieldMask => {
+            found(Undefined::Bitfield, [a, b, c], |a, b, _| (a < 0.0) | (b < 0.0) | (a + b > 32.0))
+        }
+        _ => None,
+    }
+}
+
+/// Asks all lanes at once first: hardly ever is there one.
+#[inline(always)]
+fn found(
+    why: Undefined,
+    [a, b, c]: [&[f64]; 3],
+    is_undefined: impl Fn(f64, f64, f64) -> bool,
+) -> Option<(Undefined, Vec<bool>)> {
+    let each = || a.iter().zip(b).zip(c).map(|((&a, &b), &c)| is_undefined(a, b, c));
+    each().fold(false, |any, one| any | one).then(|| (why, each().collect()))
+}

@@ -1,0 +1,272 @@
+//! What a parsed program is made of. Names are not resolved, and nothing has a type yet.
+
+use std::rc::Rc;
+
+/// A name in the program.
+pub type Name = Rc<str>;
+
+/// What stands outside of functions.
+#[derive(Debug)]
+pub enum Item {
+    /// A function or its prototype.
+    Function(Function),
+    /// Variables, and a structure that may be declared with them.
+    Declaration(Declaration),
+    /// An interface block.
+    Block(InterfaceBlock),
+    /// `invariant name;` and other statements that say more about a variable.
+    Requalification,
+}
+
+/// A function.
+#[derive(Debug)]
+pub struct Function {
+    /// Where its name stands.
+    pub line: u32,
+    /// Its name.
+    pub name: Name,
+    /// What it returns.
+    pub result: TypeName,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+    /// What it does; none for a prototype.
+    pub body: Option<Vec<Statement>>,
+}
+
+/// A parameter.
+#[derive(Debug)]
+pub struct Parameter {
+    /// `in`, `out`, `inout`, `const`.
+    pub storage: Storage,
+    /// Its type.
+    pub kind: TypeName,
+    /// Its name, empty where it has none.
+    pub name: Name,
+    /// Lengths of the array that it is.
+    pub lengths: Vec<Option<Expression>>,
+}
+
+/// Where a variable lives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Storage {
+    /// In the program.
+    #[default]
+    Plain,
+    /// Never changes.
+    Constant,
+    /// Comes from outside for every sample.
+    Input,
+    /// Goes out.
+    Output,
+    /// Goes in and out.
+    InputOutput,
+    /// Comes from outside for all samples.
+    Uniform,
+    /// `varying`: input or output, by the stage.
+    Varying,
+    /// A storage buffer or memory shared by a group.
+    Shared,
+}
+
+/// The words before a type.
+#[derive(Clone, Debug, Default)]
+pub struct Qualifiers {
+    /// Where it lives.
+    pub storage: Storage,
+}
+
+/// A type as it is written.
+#[derive(Debug)]
+pub struct TypeName {
+    /// Where it stands.
+    pub line: u32,
+    /// Which type.
+    pub base: Base,
+    /// Lengths behind it.
+    pub lengths: Vec<Option<Expression>>,
+}
+
+/// A type without lengths.
+#[derive(Debug)]
+pub enum Base {
+    /// By its name.
+    Named(Name),
+    /// A structure that is declared here: its name and members.
+    Struct(Name, Vec<Declaration>),
+}
+
+/// Variables of one type.
+#[derive(Debug)]
+pub struct Declaration {
+    /// Where it starts.
+    pub line: u32,
+    /// What stands before the type.
+    pub qualifiers: Qualifiers,
+    /// The type.
+    pub kind: TypeName,
+    /// The variables.
+    pub variables: Vec<Variable>,
+}
+
+/// A variable as it is declared.
+#[derive(Debug)]
+pub struct Variable {
+    /// Where its name stands.
+    pub line: u32,
+    /// Its name.
+    pub name: Name,
+    /// Lengths behind the name.
+    pub lengths: Vec<Option<Expression>>,
+    /// Its first value.
+    pub value: Option<Expression>,
+}
+
+/// An interface block.
+#[derive(Debug)]
+pub struct InterfaceBlock {
+    /// Where it starts.
+    pub line: u32,
+    /// Where its members live.
+    pub storage: Storage,
+    /// The block's name, by which a host knows it.
+    pub name: Name,
+    /// Its members.
+    pub members: Vec<Declaration>,
+    /// The name by which the program knows it, and lengths.
+    pub instance: Option<(Name, Vec<Option<Expression>>)>,
+}
+
+/// A statement.
+#[derive(Debug)]
+pub struct Statement {
+    /// Where it starts.
+    pub line: u32,
+    /// What it is.
+    pub kind: StatementKind,
+}
+
+/// What a statement is.
+#[derive(Debug)]
+pub enum StatementKind {
+    /// `;`
+    Empty,
+    /// A value that is not used.
+    Expression(Expression),
+    /// Variables.
+    Declaration(Declaration),
+    /// `{ … }`
+    Block(Vec<Statement>),
+    /// `if`
+    If(Expression, Box<Statement>, Option<Box<Statement>>),
+    /// `for` and `while`: what is done first, the condition, what is done after each turn, and the body.
+    Loop(Option<Box<Statement>>, Option<Condition>, Option<Expression>, Box<Statement>),
+    /// `do … while`
+    DoWhile(Box<Statement>, Expression),
+    /// `switch`
+    Switch(Expression, Vec<Statement>),
+    /// `case`, or `default` without a value
+    Case(Option<Expression>),
+    /// `break`
+    Break,
+    /// `continue`
+    Continue,
+    /// `return`
+    Return(Option<Expression>),
+    /// `discard`
+    Discard,
+}
+
+/// What a loop asks.
+#[derive(Debug)]
+pub enum Condition {
+    /// A value.
+    Expression(Expression),
+    /// The value of a variable that is declared for each turn.
+    Declaration(Declaration),
+}
+
+/// An expression.
+#[derive(Debug)]
+pub struct Expression {
+    /// Where its operator or first token stands.
+    pub line: u32,
+    /// Whether evaluating it may change a variable.
+    pub changes: bool,
+    /// What it is.
+    pub kind: ExpressionKind,
+}
+
+/// What an expression is.
+#[derive(Debug)]
+pub enum ExpressionKind {
+    /// `7`, `7u`
+    Integer(f64, bool),
+    /// `7.0`, `7.0lf`
+    Floating(f64, bool),
+    /// `true`, `false`
+    Bool(bool),
+    /// A variable.
+    Name(Name),
+    /// `-x`
+    Unary(Unary, Box<Expression>),
+    /// `++x`, `x--`: whether 1 is added, and whether the value is that of before.
+    Step(bool, bool, Box<Expression>),
+    /// Operators of one level from left to right.
+    Chain(Box<Expression>, Vec<(Binary, u32, Expression)>),
+    /// `a = b`, `a += b`
+    Assign(Option<Binary>, Box<Expression>, Box<Expression>),
+    /// `a ? b : c`
+    Conditional(Box<Expression>, Box<Expression>, Box<Expression>),
+    /// `a, b`
+    Comma(Vec<Expression>),
+    /// A function or constructor by its name.
+    Call(Name, Vec<Expression>),
+    /// A constructor of an array.
+    ArrayConstructor(Box<TypeName>, Vec<Expression>),
+    /// `a[b]`
+    Index(Box<Expression>, Box<Expression>),
+    /// `a.b`
+    Member(Box<Expression>, Name),
+    /// `a.length()`
+    Length(Box<Expression>),
+    /// `{ a, b }`
+    List(Vec<Expression>),
+}
+
+/// Operators before one operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unary {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+    /// `!`
+    Not,
+    /// `~`
+    Complement,
+}
+
+/// Operators between two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "they are what they are called")]
+pub enum Binary {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    ShiftLeft,
+    ShiftRight,
+    BitAnd,
+    BitXor,
+    BitOr,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+    And,
+    Xor,
+    Or,
+}

@@ -1,0 +1,71 @@
+//! Characters → the tokens that are compiled: lines joined, comments and directives gone, macros expanded.
+
+mod condition;
+mod lexer;
+mod macros;
+mod preprocessor;
+
+pub use preprocessor::preprocess;
+
+use std::rc::Rc;
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Name or keyword.
+    Name,
+    /// Number.
+    Number,
+    /// Operator or bracket.
+    Symbol,
+    /// The end of a line; none of them leaves the preprocessor.
+    LineEnd,
+    /// A character that GLSL has no use for.
+    Stray,
+}
+
+/// One token.
+#[derive(Clone, Debug)]
+pub struct Token {
+    /// What it is.
+    pub kind: Kind,
+    /// Its text.
+    pub text: Rc<str>,
+    /// The line in the file, from 1, `#line` directives aside; of a macro's tokens, where the macro is used.
+    pub line: u32,
+    /// Whether it follows the token before without white space.
+    touches: bool,
+    /// The macros that it came out of, and which are not expanded in it again.
+    hidden: Option<Rc<Hidden>>,
+}
+
+#[derive(Debug)]
+struct Hidden {
+    name: Rc<str>,
+    others: Option<Rc<Hidden>>,
+}
+
+impl Drop for Hidden {
+    fn drop(&mut self) {
+        // One after the other: a chain as long as the file has macros must not be dropped by recursion.
+        let mut next = self.others.take();
+        while let Some(hidden) = next {
+            next = Rc::into_inner(hidden).and_then(|mut hidden| hidden.others.take());
+        }
+    }
+}
+
+impl Token {
+    fn new(kind: Kind, text: &str, line: u32) -> Self {
+        Self { kind, text: text.into(), line, touches: false, hidden: None }
+    }
+
+    fn is(&self, symbol: &str) -> bool {
+        self.kind == Kind::Symbol && &*self.text == symbol
+    }
+
+    fn hides(&self, name: &str) -> bool {
+        std::iter::successors(self.hidden.as_deref(), |hidden| hidden.others.as_deref())
+            .any(|hidden| &*hidden.name == name)
+    }
+}

@@ -1,0 +1,149 @@
+//! Characters → tokens, with the ends of lines still among them.
+
+use super::{Kind, Token};
+
+/// Operators of more than one character, longer ones first.
+const SYMBOLS: [&str; 24] = [
+    "<<=", ">>=", "++", "--", "<<", ">>", "<=", ">=", "==", "!=", "&&", "||", "^^", "+=", "-=", "*=", "/=", "%=", "&=",
+    "|=", "^=", "##", "//", "/*",
+];
+
+/// All tokens of a text; comments are white space, and a line that ends in `\` goes on in the next.
+pub fn tokens(text: &str) -> Vec<Token> {
+    let mut lexer = Lexer { characters: joined(text), at: 0, end: 0, tokens: Vec::new() };
+    while lexer.token() {}
+    lexer.tokens
+}
+
+/// The characters with their lines. Every kind of line end is `\n`; those behind a `\` are gone.
+fn joined(text: &str) -> Vec<(char, u32)> {
+    let mut characters = Vec::with_capacity(text.len() + 1);
+    let mut line = 1;
+    let mut rest = text.chars().peekable();
+    while let Some(character) = rest.next() {
+        if !matches!(character, '\n' | '\r') {
+            characters.push((character, line));
+            continue;
+        }
+        if character == '\r' {
+            rest.next_if_eq(&'\n');
+        }
+        match characters.last() {
+            Some(('\\', _)) => drop(characters.pop()),
+            _ => characters.push(('\n', line)),
+        }
+        line += 1;
+    }
+    characters.push(('\n', line));
+    characters
+}
+
+struct Lexer {
+    characters: Vec<(char, u32)>,
+    at: usize,
+    /// Where the last token ended.
+    end: usize,
+    tokens: Vec<Token>,
+}
+
+impl Lexer {
+    fn peek(&self, ahead: usize) -> char {
+        self.characters.get(self.at + ahead).map_or('\0', |&(character, _)| character)
+    }
+
+    /// Reads one token or stretch of white space; false at the end.
+    fn token(&mut self) -> bool {
+        let Some(&(first, line)) = self.characters.get(self.at) else { return false };
+        match first {
+            '\n' => self.push(Kind::LineEnd, 1),
+            _ if first.is_whitespace() => self.at += 1,
+            'a'..='z' | 'A'..='Z' | '_' => self.run(Kind::Name, |lexer, n| is_word(lexer.peek(n))),
+            '0'..='9' => self.number(),
+            '.' if self.peek(1).is_ascii_digit() => self.number(),
+            _ => self.symbol(first, line),
+        }
+        true
+    }
+
+    fn push(&mut self, kind: Kind, length: usize) {
+        let part = &self.characters[self.at..self.at + length];
+        let text: String = part.iter().map(|&(character, _)| character).collect();
+        self.tokens.push(Token { touches: self.end == self.at, ..Token::new(kind, &text, part[0].1) });
+        self.at += length;
+        self.end = self.at;
+    }
+
+    fn run(&mut self, kind: Kind, goes_on: impl Fn(&Self, usize) -> bool) {
+        let mut length = 1;
+        while goes_on(self, length) {
+            length += 1;
+        }
+        self.push(kind, length);
+    }
+
+    fn number(&mut self) {
+        let is_hexadecimal = self.peek(0) == '0' && matches!(self.peek(1), 'x' | 'X');
+        self.run(Kind::Number, |lexer, n| match lexer.peek(n) {
+            '+' | '-' => !is_hexadecimal && matches!(lexer.peek(n - 1), 'e' | 'E'),
+            other => other == '.' || is_word(other),
+        });
+    }
+
+    fn symbol(&mut self, first: char, line: u32) {
+        let starts = |symbol: &&&str| symbol.chars().enumerate().all(|(n, c)| self.peek(n) == c);
+        match SYMBOLS.iter().find(starts).copied() {
+            Some("//") => {
+                while !matches!(self.peek(0), '\n' | '\0') {
+                    self.at += 1;
+                }
+            }
+            Some("/*") => {
+                self.at += 2;
+                while self.at < self.characters.len() && !(self.peek(0) == '*' && self.peek(1) == '/') {
+                    self.at += 1;
+                }
+                self.at += 2;
+            }
+            Some(symbol) => self.push(Kind::Symbol, symbol.len()),
+            None if first.is_ascii_punctuation() && !matches!(first, '$' | '@' | '`' | '"' | '\'' | '\\') => {
+                self.push(Kind::Symbol, 1);
+            }
+            None => {
+                self.tokens.push(Token::new(Kind::Stray, &first.to_string(), line));
+                self.at += 1;
+            }
+        }
+    }
+}
+
+fn is_word(character: char) -> bool {
+    character.is_ascii_alphanumeric() || character == '_'
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(text: &str) -> Vec<String> {
+        tokens(text).iter().filter(|t| t.kind != Kind::LineEnd).map(|t| t.text.to_string()).collect()
+    }
+
+    #[test]
+    fn the_longest_operator_is_taken() {
+        assert_eq!(texts("a+++b<<=c"), ["a", "++", "+", "b", "<<=", "c"]);
+    }
+
+    #[test]
+    fn numbers_keep_their_signs_and_suffixes() {
+        assert_eq!(texts("1.5e-3f+.5 0xFEu-1 2.lf"), ["1.5e-3f", "+", ".5", "0xFEu", "-", "1", "2.lf"]);
+    }
+
+    #[test]
+    fn comments_and_joined_lines_keep_the_numbering() {
+        let tokens = tokens("a /* one\ntwo */ b\r\nc \\\n d // e\\\n f\rg");
+        let lines: Vec<_> =
+            tokens.iter().filter(|t| t.kind == Kind::Name).map(|t| (t.text.to_string(), t.line)).collect();
+        let expected = [("a", 1), ("b", 2), ("c", 3), ("d", 4), ("g", 6)].map(|(name, line)| (name.to_owned(), line));
+        assert_eq!(lines, expected);
+    }
+}

@@ -1,0 +1,309 @@
+//! The types of GLSL.
+
+use std::fmt;
+use std::sync::Arc;
+
+/// What one component is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scalar {
+    /// `bool`
+    Bool,
+    /// `int`
+    Int,
+    /// `uint`
+    Uint,
+    /// `float`
+    Float,
+    /// `double`
+    Double,
+}
+
+/// A type. A scalar is a vector of one component.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// No value.
+    Void,
+    /// Scalar or vector: 1 to 4 components.
+    Vector(Scalar, u8),
+    /// Matrix of columns × rows.
+    Matrix(Scalar, u8, u8),
+    /// Array; the length is none until a later declaration, an initialiser or an index gives it.
+    Array(Arc<Type>, Option<usize>),
+    /// Structure.
+    Struct(Arc<Struct>),
+    /// Sampler: the number of a texture.
+    Sampler(Sampler),
+}
+
+/// A structure.
+#[derive(Debug, PartialEq, Eq, Hash)]
+pub struct Struct {
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// Tells structures of one name apart, which may stand in different scopes.
+    pub id: usize,
+    /// Members by name, in order.
+    pub members: Vec<(String, Type)>,
+}
+
+/// What a sampler reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    /// Its coordinates.
+    pub dimension: Dimension,
+    /// Whether it has layers.
+    pub array: bool,
+    /// Whether it compares.
+    pub shadow: bool,
+    /// `Float`, `Int` or `Uint`.
+    pub texel: Scalar,
+}
+
+/// The coordinates of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// One coordinate.
+    One,
+    /// Two coordinates.
+    Two,
+    /// Three coordinates.
+    Three,
+    /// A direction.
+    Cube,
+    /// Two coordinates in texels.
+    Rectangle,
+}
+
+impl Scalar {
+    /// Whether it counts in whole numbers.
+    pub fn is_integer(self) -> bool {
+        matches!(self, Self::Int | Self::Uint)
+    }
+
+    /// Whether it is `float` or `double`.
+    pub fn is_floating(self) -> bool {
+        matches!(self, Self::Float | Self::Double)
+    }
+}
+
+impl Sampler {
+    /// How many coordinates, layer included, a lookup takes.
+    pub fn coordinates(self) -> u8 {
+        self.dimension.count() + u8::from(self.array)
+    }
+}
+
+impl Dimension {
+    /// How many coordinates.
+    pub fn count(self) -> u8 {
+        match self {
+            Self::One => 1,
+            Self::Two | Self::Rectangle => 2,
+            Self::Three | Self::Cube => 3,
+        }
+    }
+}
+
+impl Type {
+    /// `bool`
+    pub const BOOL: Self = Self::Vector(Scalar::Bool, 1);
+    /// `int`
+    pub const INT: Self = Self::Vector(Scalar::Int, 1);
+    /// `uint`
+    pub const UINT: Self = Self::Vector(Scalar::Uint, 1);
+    /// `float`
+    pub const FLOAT: Self = Self::Vector(Scalar::Float, 1);
+    /// `double`
+    pub const DOUBLE: Self = Self::Vector(Scalar::Double, 1);
+
+    /// The built-in type with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "void" => Self::Void,
+            "bool" => Self::BOOL,
+            "int" => Self::INT,
+            "uint" => Self::UINT,
+            "float" => Self::FLOAT,
+            "double" => Self::DOUBLE,
+            _ => return vector(name).or_else(|| matrix(name)).or_else(|| sampler(name).map(Self::Sampler)),
+        })
+    }
+
+    /// An array of it.
+    pub fn array(self, length: Option<usize>) -> Self {
+        Self::Array(Arc::new(self), length)
+    }
+
+    /// How many scalars a value has; none where a length is not known, or beyond all bounds.
+    pub fn slots(&self) -> Option<usize> {
+        match self {
+            Self::Void => Some(0),
+            Self::Vector(_, n) => Some(usize::from(*n)),
+            Self::Matrix(_, columns, rows) => Some(usize::from(*columns) * usize::from(*rows)),
+            Self::Array(element, length) => element.slots()?.checked_mul((*length)?),
+            Self::Struct(structure) => {
+                structure.members.iter().try_fold(0_usize, |sum, (_, kind)| sum.checked_add(kind.slots()?))
+            }
+            Self::Sampler(_) => Some(1),
+        }
+    }
+
+    /// What its components are, for scalars, vectors and matrices.
+    pub fn scalar(&self) -> Option<Scalar> {
+        match self {
+            Self::Vector(scalar, _) | Self::Matrix(scalar, _, _) => Some(*scalar),
+            _ => None,
+        }
+    }
+
+    /// The same shape of other components.
+    pub fn with_scalar(&self, scalar: Scalar) -> Self {
+        match self {
+            Self::Vector(_, n) => Self::Vector(scalar, *n),
+            Self::Matrix(_, columns, rows) => Self::Matrix(scalar, *columns, *rows),
+            other => other.clone(),
+        }
+    }
+
+    /// Whether it is a single number or truth value.
+    pub fn is_scalar(&self) -> bool {
+        matches!(self, Self::Vector(_, 1))
+    }
+
+    /// What an index selects, and how many there are of it.
+    pub fn element(&self) -> Option<(Self, Option<usize>)> {
+        match self {
+            Self::Vector(scalar, n) if *n > 1 => Some((Self::Vector(*scalar, 1), Some(usize::from(*n)))),
+            Self::Matrix(scalar, columns, rows) => Some((Self::Vector(*scalar, *rows), Some(usize::from(*columns)))),
+            Self::Array(element, length) => Some(((**element).clone(), *length)),
+            _ => None,
+        }
+    }
+
+    /// The scalar of each slot, in order.
+    pub fn flat(&self) -> Vec<Scalar> {
+        match self {
+            Self::Void => Vec::new(),
+            Self::Vector(scalar, _) | Self::Matrix(scalar, _, _) => vec![*scalar; self.slots().unwrap_or(0)],
+            Self::Array(element, length) => element.flat().repeat(length.unwrap_or(0)),
+            Self::Struct(structure) => structure.members.iter().flat_map(|(_, kind)| kind.flat()).collect(),
+            Self::Sampler(_) => vec![Scalar::Int],
+        }
+    }
+
+    /// Whether a value holds a sampler somewhere.
+    pub fn has_sampler(&self) -> bool {
+        match self {
+            Self::Sampler(_) => true,
+            Self::Array(element, _) => element.has_sampler(),
+            Self::Struct(structure) => structure.members.iter().any(|(_, kind)| kind.has_sampler()),
+            _ => false,
+        }
+    }
+}
+
+fn vector(name: &str) -> Option<Type> {
+    let (scalar, length) = name.split_once("vec")?;
+    let scalar = match scalar {
+        "" => Scalar::Float,
+        "b" => Scalar::Bool,
+        "i" => Scalar::Int,
+        "u" => Scalar::Uint,
+        "d" => Scalar::Double,
+        _ => return None,
+    };
+    Some(Type::Vector(scalar, side(length)?))
+}
+
+fn matrix(name: &str) -> Option<Type> {
+    let (scalar, sides) = name.split_once("mat")?;
+    let scalar = match scalar {
+        "" => Scalar::Float,
+        "d" => Scalar::Double,
+        _ => return None,
+    };
+    let (columns, rows) = sides.split_once('x').unwrap_or((sides, sides));
+    Some(Type::Matrix(scalar, side(columns)?, side(rows)?))
+}
+
+fn side(text: &str) -> Option<u8> {
+    match text {
+        "2" => Some(2),
+        "3" => Some(3),
+        "4" => Some(4),
+        _ => None,
+    }
+}
+
+fn sampler(name: &str) -> Option<Sampler> {
+    let (texel, rest) = name.split_once("sampler")?;
+    let texel = match texel {
+        "" => Scalar::Float,
+        "i" => Scalar::Int,
+        "u" => Scalar::Uint,
+        _ => return None,
+    };
+    let (rest, shadow) = rest.strip_suffix("Shadow").map_or((rest, false), |rest| (rest, true));
+    let (rest, array) = rest.strip_suffix("Array").map_or((rest, false), |rest| (rest, true));
+    let dimension = match rest {
+        "1D" => Dimension::One,
+        "2D" => Dimension::Two,
+        "3D" => Dimension::Three,
+        "Cube" => Dimension::Cube,
+        "2DRect" => Dimension::Rectangle,
+        _ => return None,
+    };
+    Some(Sampler { dimension, array, shadow, texel })
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let prefix = |scalar: Scalar| match scalar {
+            Scalar::Bool => "b",
+            Scalar::Int => "i",
+            Scalar::Uint => "u",
+            Scalar::Float => "",
+            Scalar::Double => "d",
+        };
+        match self {
+            Self::Void => f.write_str("void"),
+            Self::Vector(scalar, 1) => f.write_str(match scalar {
+                Scalar::Bool => "bool",
+                Scalar::Int => "int",
+                Scalar::Uint => "uint",
+                Scalar::Float => "float",
+                Scalar::Double => "double",
+            }),
+            Self::Vector(scalar, n) => write!(f, "{}vec{n}", prefix(*scalar)),
+            Self::Matrix(scalar, columns, rows) if columns == rows => write!(f, "{}mat{rows}", prefix(*scalar)),
+            Self::Matrix(scalar, columns, rows) => write!(f, "{}mat{columns}x{rows}", prefix(*scalar)),
+            Self::Array(element, Some(length)) => write!(f, "{element}[{length}]"),
+            Self::Array(element, None) => write!(f, "{element}[]"),
+            Self::Struct(structure) => f.write_str(&structure.name),
+            Self::Sampler(_) => f.write_str("sampler"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_types_belong_together() {
+        for name in "bool int uint float double vec2 bvec3 ivec4 uvec2 dvec3 mat2 mat3x4 mat4 dmat2x3".split(' ') {
+            assert_eq!(Type::named(name).expect(name).to_string(), name);
+        }
+        assert_eq!(Type::named("mat3x3"), Type::named("mat3"));
+        for name in ["vec5", "vec", "mat1", "imat3", "floats", "image2D"] {
+            assert_eq!(Type::named(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_is_its_columns() {
+        let kind = Type::named("mat2x3").expect("a type");
+        assert_eq!(kind.slots(), Some(6));
+        assert_eq!(kind.element(), Type::named("vec3").map(|column| (column, Some(2))));
+    }
+}
