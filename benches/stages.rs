@@ -2,12 +2,14 @@
 
 use divan::Bencher;
 use ggrade::compare;
+use ggrade::cross_check;
 use ggrade::grade::{Grader, Order};
 use ggrade::homework;
 use ggrade::render::{AdapterKind, Device, Renderer};
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, Interface, Shader};
 use reference::Assignment;
+use reference::interpreter::{Program, Stage};
 use std::cell::RefCell;
 
 fn main() {
@@ -100,6 +102,42 @@ fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
             .expect("a grade")
     });
 }
+
+/// A second opinion on what a grading draws, compiled and run with both precisions.
+#[divan::bench]
+fn interpret_frames_and_probes(bencher: Bencher<'_, '_>) {
+    let mut renderer = renderer();
+    let scene = homework::scene(assignment(), &assignment().probes(1));
+    let text = text();
+    let rendering = renderer.render(&shader(&read(&text), &interface()), &scene).expect("a rendering");
+    let batches: Vec<_> = scene.frames.iter().chain(&scene.probes).collect();
+    let samples: Vec<_> = rendering.frame_samples.iter().chain(&rendering.probe_samples).map(Vec::as_slice).collect();
+    bencher.bench_local(|| cross_check::check(&text, "vc", &batches, &samples));
+}
+
+/// One of the 25 frames of a solution that lights each pixel, all of them covered.
+#[divan::bench(sample_count = 10)]
+fn interpret_640_by_480_pixels(bencher: Bencher<'_, '_>) {
+    let program = Program::compile(PIXELS, Stage::Fragment).expect("a solution");
+    let columns: [Vec<f64>; 3] =
+        [3, 5, 7].map(|step| (0..640 * 480).map(|n| f64::from(n * step % 1000) / 500.0 - 1.0).collect());
+    let columns = columns.each_ref().map(Vec::as_slice);
+    bencher.bench_local(|| {
+        let run = program.run(640 * 480).uniform("light", &[1.0, 2.0, 3.0]).expect("a vec3");
+        let run = run.input("n", &columns).expect("a vec3").input("p", &columns).expect("a vec3");
+        run.outputs().expect("an end")
+    });
+}
+
+const PIXELS: &str = "#version 410
+in vec3 n, p; uniform vec3 light; out vec4 colour;
+void main() {
+    vec3 N = normalize(n), L = normalize(light - p), V = normalize(-p), H = normalize(L + V);
+    vec3 c = vec3(0.12, 0.02, 0.02) + max(dot(N, L), 0.0) * vec3(0.6, 0.2, 0.1);
+    c += pow(max(dot(N, H), 0.0), 80.0) * vec3(0.4);
+    if (dot(N, V) < 0.25) c *= 0.5;
+    colour = vec4(c, 1.0);
+}";
 
 #[divan::bench(sample_count = 5)]
 fn start_a_grader() -> Grader {

@@ -2,6 +2,7 @@
 //!
 //! An expectation without a sample, and a sample without one, are errors; so is a folder without any.
 
+use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Severity, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
@@ -77,12 +78,19 @@ pub struct Checked {
     pub expected: Option<Expectation>,
     /// What was found, or why nothing was.
     pub found: Result<Expectation, Fault>,
+    /// What the interpreter computes for it, where that was asked for and the sample was drawn.
+    pub cross_check: Option<CrossCheck>,
 }
 
 impl Checked {
     /// Whether all is as expected.
     pub fn agrees(&self) -> bool {
         matches!((&self.expected, &self.found), (Some(expected), Ok(found)) if expected == found)
+    }
+
+    /// Whether the interpreter computes other values than the driver.
+    pub fn is_disputed(&self) -> bool {
+        self.cross_check.as_ref().is_some_and(|checked| checked.opinion == Opinion::Differs)
     }
 
     /// Writes what was found as what is expected.
@@ -95,11 +103,12 @@ impl Checked {
     }
 }
 
-/// Grades every sample below `folder` on all cores, and holds each against its expectation.
-pub fn check(folder: &Path, pool: &Pool) -> Result<Vec<Checked>, Fault> {
+/// Grades every sample below `folder` on all cores, and holds each against its expectation and, where that is asked for,
+/// the driver's values against the interpreter's.
+pub fn check(folder: &Path, pool: &Pool, cross_check: bool) -> Result<Vec<Checked>, Fault> {
     let samples = samples(folder)?;
     let stop = AtomicBool::new(false);
-    let checked = parallel::map(&samples, parallel::processors(), &stop, |sample| check_one(sample, pool));
+    let checked = parallel::map(&samples, parallel::processors(), &stop, |sample| check_one(sample, pool, cross_check));
     let panicked = || Err(unreadable(folder, "a thread panicked"));
     let results: Result<Vec<Checked>, Fault> = checked.into_iter().map(|one| one.unwrap_or_else(panicked)).collect();
     let mut results = results?;
@@ -107,7 +116,7 @@ pub fn check(folder: &Path, pool: &Pool) -> Result<Vec<Checked>, Fault> {
     Ok(results)
 }
 
-fn check_one(sample: &Path, pool: &Pool) -> Result<Checked, Fault> {
+fn check_one(sample: &Path, pool: &Pool, cross_check: bool) -> Result<Checked, Fault> {
     let bytes = fs::read(sample).map_err(|error| unreadable(sample, &error.to_string()))?;
     let path = sample.with_extension(EXPECTED);
     let expected = match fs::read_to_string(&path) {
@@ -119,10 +128,12 @@ fn check_one(sample: &Path, pool: &Pool) -> Result<Checked, Fault> {
     let answer = pool.grade(Submission {
         name: &name,
         bytes: &bytes,
-        order: Order { seed: SEED, ..Order::default() },
+        order: Order { seed: SEED, cross_check, ..Order::default() },
         wants_frames: false,
     });
-    Ok(Checked { sample: sample.into(), expected, found: answer.map(|answer| Expectation::of(&answer.report)) })
+    let cross_check = answer.as_ref().ok().and_then(|answer| answer.report.cross_check.clone());
+    let found = answer.map(|answer| Expectation::of(&answer.report));
+    Ok(Checked { sample: sample.into(), expected, found, cross_check })
 }
 
 /// The samples below `folder`, in order of name.

@@ -1,12 +1,13 @@
 //! The pipeline: the only module that knows all the stages.
 
 use crate::compare::{self, ExpectedFrame};
+use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::{self, Evidence, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::homework;
 use crate::language::Text;
-use crate::render::{AdapterKind, Device, Frames, Renderer, Rendering, Sample, Scene};
+use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
 use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::source::{self, Facts, Source};
 use crate::translate::{self, Interface, Refusal, Shader, Translation};
@@ -24,6 +25,9 @@ pub struct Order {
     pub seed: u64,
     /// How much the messages help.
     pub hints: Hints,
+    /// Whether the interpreter runs the file as well.
+    #[serde(default)]
+    pub cross_check: bool,
 }
 
 /// A graded file.
@@ -122,8 +126,17 @@ impl Grader {
         if rendering.undefined.is_some() && !self.shows_undefined(&source, &shader, scene, &rendering)? {
             rendering.undefined = None;
         }
-        let report = self.report(&source, probes, &rendering, diagnostics, order.hints);
+        let mut report = self.report(&source, probes, &rendering, diagnostics, order.hints);
+        report.cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
         Ok(Graded { report, frames: Some(rendering.frames) })
+    }
+
+    /// The second opinion on all vertices that were drawn.
+    fn cross_check(&self, source: &Source, scene: &Scene, rendering: &Rendering) -> CrossCheck {
+        let batches: Vec<&Batch> = scene.frames.iter().chain(&scene.probes).collect();
+        let samples = rendering.frame_samples.iter().chain(&rendering.probe_samples);
+        let samples: Vec<&[Sample]> = samples.map(Vec::as_slice).collect();
+        cross_check::check(&source.text, &self.interface.output.name, &batches, &samples)
     }
 
     fn probing(&mut self, seed: u64) -> Rc<Probing> {
@@ -205,6 +218,7 @@ impl Grader {
             diagnostics,
             frames,
             probes: diagnosis.probes,
+            cross_check: None,
             environment: self.environment.clone(),
             elapsed_ms: 0.0,
         }
@@ -254,6 +268,7 @@ pub fn unfinished(
         diagnostics,
         frames: Vec::new(),
         probes: ProbeResult::default(),
+        cross_check: None,
         environment,
         elapsed_ms: 0.0,
     }

@@ -6,6 +6,7 @@
 //! uploads in a browser the [`service`]; [`command`] is what a person calls.
 
 pub mod compare;
+pub mod cross_check;
 pub mod diagnose;
 pub mod render;
 pub mod report;

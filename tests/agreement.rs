@@ -1,7 +1,10 @@
 //! What ggrade draws and captures, and what the CPU reference computes, against a real OpenGL driver.
 
 mod opengl;
+#[path = "agreement/programs.rs"]
+mod programs;
 
+use ggrade::cross_check::Opinion;
 use ggrade::render::{AdapterKind, Device, Frames, Renderer, Rendering, Sample, Scene};
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, Interface, Shader};
@@ -256,9 +259,12 @@ fn agrees_with_opengl(bench: &mut Bench, path: &Path, source: &Source, poses: &[
         Err(rejection) => panic!("{}: OpenGL refuses it: {rejection:?}", path.display()),
     };
     let background = bench.assignment.scene.background;
-    for ((picture, captured), (frames, index, samples)) in
-        bench.draw(&program, poses).into_iter().zip(all_frames(&renderings))
-    {
+    let drawn = bench.draw(&program, poses);
+    if let Ok(captured) = drawn.iter().map(|(_, captured)| captured.clone()).collect::<Result<Vec<_>, _>>() {
+        let checked = programs::interpreted(source, &bench.scene(poses).frames, &captured);
+        assert_eq!(checked.opinion, Opinion::Agrees, "{}: {checked:?}", path.display());
+    }
+    for ((picture, captured), (frames, index, samples)) in drawn.into_iter().zip(all_frames(&renderings)) {
         // Values that are not numbers are drawn as the driver likes.
         if samples.iter().any(|sample| sample.colour.iter().chain(&sample.position).any(|x| !x.is_finite())) {
             continue;

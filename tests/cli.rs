@@ -55,6 +55,37 @@ fn a_wrong_answer_ends_with_1_and_names_the_mistake() {
 }
 
 #[test]
+fn a_second_opinion_is_given_where_it_is_asked_for() {
+    let right = sample_like("accepted/answers", "plain-int-zero");
+    assert!(json(&right, &[]).get("cross_check").is_none());
+    let checked = &json(&right, &["--cross-check"])["cross_check"];
+    // 25 frames of three vertices, and 560 probes.
+    assert_eq!((&checked["opinion"], &checked["agreeing"]), (&"agrees".into(), &635.into()));
+    ggrade()
+        .arg("grade")
+        .arg(&right)
+        .arg("--cross-check")
+        .assert()
+        .code(0)
+        .stdout(predicate::str::contains("Interpreter  635 vertices agree with the driver, 0 differ"));
+    // What the interpreter finds never changes what is judged.
+    let wrong = sample_like("wrong", "specular-half-unnormalized--");
+    let [without, with] = [vec![], vec!["--cross-check"]].map(|arguments| json(&wrong, &arguments)["score"].clone());
+    assert_eq!(without, with);
+}
+
+#[test]
+fn a_folder_is_held_against_the_interpreter() {
+    ggrade()
+        .arg("corpus")
+        .arg(sample("accepted/translate"))
+        .arg("--cross-check")
+        .assert()
+        .code(0)
+        .stdout(predicate::str::contains("that were drawn agree with the interpreter; 0 differ, 0 were not run"));
+}
+
+#[test]
 fn the_unchanged_starter_scores_0() {
     let starter = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments/ggsample06/starter.vert");
     let report = json(&starter, &[]);

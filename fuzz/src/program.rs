@@ -286,7 +286,7 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "bitfieldInsert(U, U, 4, 9)",
             "(U >> 3u)",
             "packUnorm4x8(⁴)",
-            "packHalf2x16(²)",
+            "packUnorm2x16(²)",
             "(B ? U : U)",
         ],
         Type::Float => &[
@@ -340,7 +340,7 @@ fn templates(kind: Type) -> &'static [&'static str] {
             "min(², ²)",
             "modf(², d)",
             "(³ * W)",
-            "unpackHalf2x16(U)",
+            "unpackUnorm2x16(U)",
             "vec2(E)",
         ],
         Type::Vec3 => &[

@@ -109,6 +109,9 @@ pub struct Grade {
     /// How much the messages help: only what is seen, also the equation it breaks, or also where to look
     #[arg(long, value_enum, default_value_t)]
     pub hints: Hints,
+    /// Run the file in ggrade's own interpreter as well, and say where it computes other values than the driver
+    #[arg(long)]
+    pub cross_check: bool,
     /// Seconds that the grading may take
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, env = "GGRADE_DEADLINE")]
     pub deadline: f64,
@@ -129,6 +132,9 @@ pub struct Corpus {
     /// Write the reports found as the expected ones (never in CI); ends with exit code 1, naming what changed
     #[arg(long, env = "BLESS")]
     pub bless: bool,
+    /// Run each sample in ggrade's own interpreter as well: a value that differs from the driver's is a difference
+    #[arg(long)]
+    pub cross_check: bool,
     /// Show the samples that agree as well
     #[arg(long)]
     pub all: bool,

@@ -3,6 +3,7 @@
 use super::{Outcome, language, warn};
 use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
+use crate::cross_check::Opinion;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::parallel;
@@ -26,7 +27,8 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
     let workers = parallel::processors();
     let pool = Pool::start(arguments.sandbox.apply(settings), workers)?;
     warn(&pool, language(None));
-    let results = corpus::check(&arguments.folder, &pool)?;
+    let results = corpus::check(&arguments.folder, &pool, arguments.cross_check)?;
+    let disputed = cross_checked(&results, arguments.all);
     let mut differing = 0;
     for checked in &results {
         if checked.agrees() {
@@ -48,7 +50,33 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
             "{differing} expected reports were written anew: look at them"
         ))));
     }
-    Ok(if differing == 0 { Outcome::FullMarks } else { Outcome::Graded })
+    Ok(if differing == 0 && disputed == 0 { Outcome::FullMarks } else { Outcome::Graded })
+}
+
+/// Says where the interpreter disagrees with the driver, and how many samples those are.
+fn cross_checked(results: &[Checked], all: bool) -> usize {
+    let mut counts = [0; 3];
+    for checked in results {
+        let Some(cross_check) = &checked.cross_check else { continue };
+        let (number, label) = match cross_check.opinion {
+            Opinion::Agrees => (0, "agree"),
+            Opinion::Differs => (1, "DISPUTED"),
+            Opinion::NotRun => (2, "not run"),
+        };
+        counts[number] += 1;
+        if number == 1 || (all && number == 2) {
+            let message = cross_check.message.as_ref().map_or("", |message| &message.en);
+            anstream::println!("{label}  {}  {message}", checked.sample.display());
+        }
+    }
+    let [agreeing, differing, not_run] = counts;
+    if agreeing + differing + not_run > 0 {
+        anstream::println!(
+            "{agreeing} of {} samples that were drawn agree with the interpreter; {differing} differ, {not_run} were not run",
+            agreeing + differing + not_run
+        );
+    }
+    differing
 }
 
 fn show(checked: &Checked) {

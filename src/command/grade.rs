@@ -66,7 +66,7 @@ pub(super) fn grade(
     let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
     warn(&pool, language);
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
-    let order = Order { seed, hints: arguments.hints };
+    let order = Order { seed, hints: arguments.hints, cross_check: arguments.cross_check };
     pool.grade(Submission { name, bytes, order, wants_frames })
 }
 

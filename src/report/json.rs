@@ -1,6 +1,7 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
 use super::{Environment, FrameResult, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};
 use crate::language::Language;
 use serde::{Serialize, Serializer};
@@ -30,6 +31,7 @@ pub fn view(report: &Report, language: Language) -> View<'_> {
         diagnostics: report.diagnostics.iter().map(|d| Message::of(d, language)).collect(),
         frames: report.frames.iter().map(Frame::of).collect(),
         probes: Probes::of(&report.probes),
+        cross_check: report.cross_check.as_ref().map(|checked| CrossChecked::of(checked, language)),
         environment: &report.environment,
         elapsed_ms: Number(report.elapsed_ms),
     }
@@ -70,9 +72,31 @@ pub struct View<'a> {
     diagnostics: Vec<Message<'a>>,
     frames: Vec<Frame>,
     probes: Probes,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cross_check: Option<CrossChecked<'a>>,
     environment: &'a Environment,
     #[schema(value_type = Option<f64>)]
     elapsed_ms: Number,
+}
+
+/// What the interpreter says of the same vertices.
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+struct CrossChecked<'a> {
+    opinion: Opinion,
+    agreeing: u32,
+    undefined: u32,
+    unsettled: u32,
+    differing: u32,
+    message: Option<&'a str>,
+    line: Option<u32>,
+}
+
+impl<'a> CrossChecked<'a> {
+    fn of(checked: &'a CrossCheck, language: Language) -> Self {
+        let CrossCheck { opinion, agreeing, undefined, unsettled, differing, ref message, line } = *checked;
+        let message = message.as_ref().map(|message| message.get(language));
+        Self { opinion, agreeing, undefined, unsettled, differing, message, line }
+    }
 }
 
 #[derive(Debug, Serialize, utoipa::ToSchema)]

@@ -1,6 +1,7 @@
 //! Every word of our own in the views, in one table.
 
 use super::Verdict;
+use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Severity, Stage};
 use crate::language::Language;
 
@@ -46,6 +47,7 @@ pub(crate) struct Labels {
     pub position: &'static str,
     pub reduced: &'static str,
     pub probes: &'static str,
+    pub interpreter: &'static str,
     pub seed: &'static str,
     pub equation: &'static str,
     pub terms: &'static str,
@@ -100,6 +102,7 @@ pub(crate) const EN: Labels = Labels {
     position: "Position in the animation",
     reduced: "Shown at a reduced resolution.",
     probes: "Probes",
+    interpreter: "Interpreter",
     seed: "seed",
     equation: "Equation",
     terms: "Term by term",
@@ -154,6 +157,7 @@ pub(crate) const JA: Labels = Labels {
     position: "アニメーションの位置",
     reduced: "解像度を下げて表示しています。",
     probes: "検査点",
+    interpreter: "インタープリター",
     seed: "シード",
     equation: "式",
     terms: "項ごとの比較",
@@ -246,6 +250,21 @@ impl Labels {
             format!("{total} 点のうち {agree} 点が一致")
         } else {
             format!("{agree} of {total} agree")
+        }
+    }
+
+    /// How a second opinion relates to the driver's, by vertices.
+    pub fn cross_check(&self, checked: &CrossCheck) -> String {
+        let CrossCheck { opinion, agreeing, undefined, unsettled, differing, .. } = checked;
+        match (opinion, self.japanese()) {
+            (Opinion::NotRun, false) => "not run".into(),
+            (Opinion::NotRun, true) => "実行していません".into(),
+            (_, false) => format!(
+                "{agreeing} vertices agree with the driver, {differing} differ, {undefined} undefined, {unsettled} a matter of rounding"
+            ),
+            (_, true) => format!(
+                "ドライバーと一致 {agreeing} 頂点, 不一致 {differing}, 未定義 {undefined}, 丸めによるもの {unsettled}"
+            ),
         }
     }
 }

@@ -15,6 +15,7 @@ pub(crate) mod wrap;
 
 pub use equation::{Definition, Equation, Term};
 
+use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
@@ -148,6 +149,9 @@ pub struct Report {
     pub frames: Vec<FrameResult>,
     /// The probes.
     pub probes: ProbeResult,
+    /// What the interpreter computes for the same vertices, where that was asked for.
+    #[serde(default)]
+    pub cross_check: Option<CrossCheck>,
     /// What graded it.
     pub environment: Environment,
     /// Milliseconds that the grading took.

@@ -66,6 +66,7 @@ pub(crate) fn correct() -> Report {
             renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".into(),
             driver: "llvmpipe Mesa 22.3.6".into(),
         },
+        cross_check: None,
         elapsed_ms: 412.25,
     }
 }

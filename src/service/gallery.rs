@@ -96,7 +96,7 @@ impl Gallery {
         }
         let run = async {
             let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
-            let order = Order { seed: submission.seed, hints: submission.hints };
+            let order = Order { seed: submission.seed, hints: submission.hints, ..Order::default() };
             let _turn = self.turn.acquire().await;
             blocking(state, move |state| {
                 let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };

@@ -95,7 +95,7 @@ impl Session<'_> {
         };
         let run = Run {
             pool: pool.as_ref(),
-            order: Order { seed: self.header.seed, hints: self.header.hints },
+            order: Order { seed: self.header.seed, hints: self.header.hints, ..Order::default() },
             threads,
             folder: self.folder,
             journal: &journal,

@@ -45,7 +45,11 @@ async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
     warn(&pool, language);
     let mut session = Session {
         pool,
-        order: Order { seed: arguments.seed.unwrap_or_else(crate::grade::random_seed), hints: arguments.hints },
+        order: Order {
+            seed: arguments.seed.unwrap_or_else(crate::grade::random_seed),
+            hints: arguments.hints,
+            ..Order::default()
+        },
         language,
         screen: Screen::new(saves.name(), language),
         last: None,

@@ -189,6 +189,14 @@ impl Writer {
             let heading = self.paint(BOLD, &pad(labels.probes, column));
             self.line(&format!("{heading}  {text}"));
         }
+        if let Some(checked) = &report.cross_check {
+            self.gap();
+            let heading = self.paint(BOLD, labels.interpreter);
+            self.line(&format!("{heading}  {}", labels.cross_check(checked)));
+            if let Some(message) = &checked.message {
+                self.paragraph(2, message.get(self.language));
+            }
+        }
     }
 
     fn diagnostics(&mut self, report: &Report, excerpts: Option<&str>) {
