@@ -139,3 +139,20 @@ fn wrong_samples_are_taken() {
         }
     }
 }
+
+/// Whatever a hostile file contains, it is refused or ends.
+#[test]
+fn hostile_samples_end() {
+    let (mut ended, mut stopped, mut refused) = (0, 0, 0);
+    for path in samples("hostile").into_iter().chain(samples("rejected")) {
+        let text = String::from_utf8_lossy(&std::fs::read(&path).expect("a sample")).into_owned();
+        match Program::compile(&text, Stage::Vertex) {
+            Err(_) => refused += 1,
+            Ok(program) => match program.run(8).fuel(2_000_000).outputs() {
+                Ok(_) => ended += 1,
+                Err(_) => stopped += 1,
+            },
+        }
+    }
+    assert!(ended > 100 && stopped > 10 && refused > 100, "{ended} ended, {stopped} were stopped, {refused} refused");
+}
