@@ -4,7 +4,7 @@ use super::super::frame::Frame;
 use super::super::shown;
 use super::Place;
 use crate::service::State;
-use crate::service::classes::{Person, people};
+use crate::service::classes::people;
 use crate::service::deletion;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
@@ -52,14 +52,7 @@ struct Found {
 
 async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, Problem> {
     if !chosen.submission.is_empty() {
-        let submission = state.store.submission(&chosen.submission).await?.ok_or_else(Problem::not_found)?;
-        return Ok(Found {
-            heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
-            name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
-            back: format!("/r/{}", submission.id),
-            target: Target::Submission(submission.id),
-            is_on_roster: false,
-        });
+        return found_submission(state, frame, &chosen.submission).await;
     }
     if !chosen.batch.is_empty() {
         let batch = state.store.batch(&chosen.batch).await?.ok_or_else(Problem::not_found)?;
@@ -74,11 +67,17 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
     }
     let people = people(state).await?;
     let person = people.all().find(|person| person.key == chosen.person).ok_or_else(Problem::not_found)?;
+    if person.is_anonymous {
+        return found_submission(state, frame, &person.key).await;
+    }
     let student = state.store.student_by_id(&person.key).await?;
     let key = percent_encoding::utf8_percent_encode(&person.key, percent_encoding::NON_ALPHANUMERIC);
     Ok(Found {
         heading: frame.say("Delete this student with everything of theirs?", "この学生のデータをすべて削除しますか?"),
-        name: format!("{} {}", person.number, person.name).trim().to_owned(),
+        name: match format!("{} {}", person.number, person.name).trim() {
+            "" => frame.say("no number", "番号なし").to_owned(),
+            name => name.to_owned(),
+        },
         back: format!("/teacher/person?key={key}"),
         is_on_roster: student.as_ref().is_some_and(|student| student.is_on_roster()),
         target: match (&student, person.key.split_once('/')) {
@@ -86,14 +85,21 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
             (None, Some((batch, position))) => {
                 Target::Entry(batch.to_owned(), position.parse().map_err(|_| Problem::not_found())?)
             }
-            (None, None) => unnamed(person),
+            (None, None) => Target::Browser(person.key.clone()),
         },
     })
 }
 
-/// Somebody who is a browser, or one file and nothing more.
-fn unnamed(person: &Person) -> Target {
-    if person.is_anonymous { Target::Submission(person.key.clone()) } else { Target::Browser(person.key.clone()) }
+/// One file: also where a file is all that is known of somebody.
+async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<Found, Problem> {
+    let submission = state.store.submission(id).await?.ok_or_else(Problem::not_found)?;
+    Ok(Found {
+        heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
+        name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
+        back: format!("/r/{}", submission.id),
+        target: Target::Submission(submission.id),
+        is_on_roster: false,
+    })
 }
 
 /// `GET /teacher/delete?submission=`, `batch=` or `person=`: what would go.
