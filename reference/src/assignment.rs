@@ -5,7 +5,7 @@ mod check;
 use crate::equation::{Equation, Variant};
 use crate::expression::Value;
 pub use crate::manifest::{Attribute, Matrix, RubricLine, Stage};
-use crate::mistake::{Found, Mistake};
+use crate::mistake::{Form, Found, Mistake};
 use crate::scene::{Matrices, Scene, Vertex};
 use crate::{Text, Type, manifest};
 use glam::DMat4;
@@ -186,6 +186,26 @@ impl Assignment {
         self.mistakes.iter().find(|m| m.id == id)
     }
 
+    /// Fraction of a rubric line's points that is kept by a mistake in the form in which it was found: 1 for a line that
+    /// the form does not reach, although others of the same mistake do.
+    pub fn keeps(&self, found: &Found, line: &RubricLine) -> f64 {
+        let Some(mistake) = self.mistake(&found.id) else { return 1.0 };
+        let reaches = mistake.forms.get(found.form).is_none_or(|form| self.reaches(form, line));
+        if reaches { mistake.keeps(&line.id) } else { 1.0 }
+    }
+
+    /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
+    /// term of the colour is the mistake's own affair.
+    pub(crate) fn reaches(&self, form: &Form, line: &RubricLine) -> bool {
+        let equation = &self.equation;
+        let Some(judged) = equation.index(&line.judges) else { return true };
+        if !equation.depends(equation.colour, judged) {
+            return true;
+        }
+        let mut replaced = form.overrides.iter().map(|o| o.definition);
+        replaced.any(|definition| equation.depends(judged, definition) || equation.depends(definition, judged))
+    }
+
     /// Points of the whole rubric.
     pub fn max_score(&self) -> f64 {
         self.rubric.iter().map(|line| line.points).sum()
@@ -210,9 +230,7 @@ impl Assignment {
             let form = self.mistake(&found.id)?.forms.get(found.form)?;
             for replaced in &form.overrides {
                 *variant.expressions.get_mut(replaced.definition)? = &replaced.expression;
-            }
-            if let Some(parameter) = found.parameter {
-                variant.parameter = parameter;
+                *variant.parameters.get_mut(replaced.definition)? = found.parameter.unwrap_or(f64::NAN);
             }
         }
         Some(variant)

@@ -40,7 +40,8 @@ pub struct Equation {
 pub struct Variant<'a> {
     pub(crate) equation: &'a Equation,
     pub(crate) expressions: Vec<&'a Expression>,
-    pub(crate) parameter: f64,
+    /// For each definition the free parameter of what replaces it; NaN if there is none.
+    pub(crate) parameters: Vec<f64>,
 }
 
 /// What a variant computes for one vertex.
@@ -59,6 +60,12 @@ impl Equation {
     /// The place of a definition in that order.
     pub fn index(&self, name: &str) -> Option<usize> {
         self.definitions.iter().position(|d| d.name == name)
+    }
+
+    /// Whether the value of the definition `of` depends on that of `on`, or is it.
+    pub(crate) fn depends(&self, of: usize, on: usize) -> bool {
+        let slots = self.definitions[of].expression.slots();
+        of == on || slots.iter().filter_map(|slot| self.definition_in(*slot)).any(|used| self.depends(used, on))
     }
 
     /// The slot of a definition's value.
@@ -91,7 +98,7 @@ impl Equation {
         Variant {
             equation: self,
             expressions: self.definitions.iter().map(|d| &d.expression).collect(),
-            parameter: f64::NAN,
+            parameters: vec![f64::NAN; self.definitions.len()],
         }
     }
 }
@@ -102,18 +109,18 @@ impl<'a> Variant<'a> {
         &self.expressions
     }
 
-    /// The value of the free parameter; NaN if there is none.
-    pub const fn parameter(&self) -> f64 {
-        self.parameter
+    /// The value of the free parameter in each of them; NaN if there is none.
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
     }
 
     /// Computes every definition for one vertex. `uniforms` and `attributes` stand in the interface's order.
     pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Outcome<'a> {
         let mut values: Vec<Value> = Vec::with_capacity(self.expressions.len());
-        for expression in &self.expressions {
+        for (expression, parameter) in self.expressions.iter().zip(&self.parameters) {
             let value = expression.evaluate(&|slot| match self.equation.definition_in(slot) {
                 Some(d) => values.get(d).cloned().unwrap_or(Value::Float(f64::NAN)),
-                None => self.equation.given(slot, uniforms, attributes).unwrap_or(Value::Float(self.parameter)),
+                None => self.equation.given(slot, uniforms, attributes).unwrap_or(Value::Float(*parameter)),
             });
             values.push(value);
         }

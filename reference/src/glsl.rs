@@ -10,17 +10,21 @@ use std::fmt::Write;
 pub fn answer(assignment: &Assignment, mistakes: &[Found]) -> Option<String> {
     let variant = assignment.variant(mistakes)?;
     let mut text = preamble(assignment);
-    let mut parameters = mistakes.iter().filter_map(|found| {
-        let free = assignment.mistake(&found.id)?.fit.as_ref()?;
-        Some((free.name.as_str(), found.parameter?))
-    });
-    if let Some((name, value)) = parameters.next() {
-        line(&mut text, &format!("const float {name} = {};", number(value)));
-    }
+    let mut names: Vec<_> = mistakes
+        .iter()
+        .filter(|found| found.parameter.is_some())
+        .filter_map(|found| Some(assignment.mistake(&found.id)?.fit.as_ref()?.name.as_str()))
+        .collect();
+    names.dedup();
     line(&mut text, "void main()");
     line(&mut text, "{");
+    names.iter().for_each(|name| line(&mut text, &format!("    float {name};")));
     let definitions = assignment.equation.definitions();
-    for (definition, expression) in definitions.iter().zip(variant.expressions()) {
+    let values = variant.expressions().iter().zip(variant.parameters());
+    for (definition, (expression, parameter)) in definitions.iter().zip(values) {
+        if !parameter.is_nan() {
+            names.iter().for_each(|name| line(&mut text, &format!("    {name} = {};", number(*parameter))));
+        }
         let kind = expression.kind().glsl();
         let (name, value) = (&definition.name, expression.text());
         line(&mut text, &format!("    {kind} {name} = {value};"));
@@ -95,8 +99,8 @@ mod tests {
         let assignment = assignment("ggsample06").expect("built in");
         let found = Found { id: "specular-wrong-exponent".into(), form: 0, parameter: Some(20.0) };
         let text = answer(assignment, &[found]).expect("a known mistake");
-        assert!(text.contains("const float x = 20.0;\nvoid main()"));
-        assert!(text.contains("    float highlight = pow(facing, x);\n"));
+        assert!(text.contains("void main()\n{\n    float x;\n"));
+        assert!(text.contains("    x = 20.0;\n    float highlight = pow(facing, x);\n"));
     }
 
     #[test]

@@ -239,6 +239,12 @@ pub struct Mistake {
     /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
     #[serde(default)]
     pub near: Vec<String>,
+    /// Of these the text contains one, parentheses and swizzles aside, where a free parameter explains as much.
+    #[serde(default)]
+    pub needs: Vec<String>,
+    /// Of these constants the statements use none, where a free parameter explains as much.
+    #[serde(default)]
+    pub lacks: Vec<String>,
     /// What is seen in the picture.
     pub seen: Text,
     /// Which equation of the lecture it breaks.
@@ -259,4 +265,7 @@ pub struct Fit {
     pub to: f64,
     /// A likely value.
     pub example: f64,
+    /// Whether the colour at a place may rise and fall again while it grows.
+    #[serde(default)]
+    pub turns: bool,
 }

@@ -18,6 +18,11 @@ pub struct Mistake {
     pub fit: Option<FreeParameter>,
     /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
     pub near: Vec<String>,
+    /// What the text contains, parentheses and swizzles aside, if it is this mistake and not a number that equals it by chance:
+    /// one of these.
+    pub needs: Vec<String>,
+    /// Constants that the statements no longer use if it is this mistake and not a number that equals it by chance.
+    pub lacks: Vec<String>,
     /// What is seen in the picture.
     pub seen: Text,
     /// Which equation of the lecture it breaks.
@@ -55,6 +60,8 @@ pub struct FreeParameter {
     pub to: f64,
     /// A value that a student may well have written.
     pub example: f64,
+    /// Whether the colour at a place may rise and fall again while it grows; else it only rises or only falls.
+    pub turns: bool,
 }
 
 /// A mistake that was found, in the form in which it was found.

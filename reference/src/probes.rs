@@ -13,6 +13,10 @@ use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Deserialize;
+use std::ops::Range;
+
+/// The last groups have one camera: the second of them has the positions of the first, the third has its own.
+const TWINS: usize = 3;
 
 /// Which terms of a right answer show at a probe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
@@ -80,6 +84,22 @@ impl ProbeSet {
         &self.groups[probe.group].uniforms
     }
 
+    /// The places of two groups with one camera and the same positions, number by number, but other normals.
+    pub fn with_other_normals(&self) -> Option<[Range<usize>; 2]> {
+        self.twins(1)
+    }
+
+    /// The places of two groups with one camera, but other positions and normals.
+    pub fn with_other_vertices(&self) -> Option<[Range<usize>; 2]> {
+        self.twins(2)
+    }
+
+    fn twins(&self, other: usize) -> Option<[Range<usize>; 2]> {
+        let first = self.groups.len().checked_sub(TWINS)?;
+        let each = self.probes.len() / self.groups.len();
+        Some([first, first + other].map(|group| group * each..(group + 1) * each))
+    }
+
     /// The probes of one group.
     pub fn of_group(&self, group: usize) -> &[Probe] {
         let each = self.probes.len() / self.groups.len().max(1);
@@ -105,10 +125,16 @@ impl Assignment {
         let mut groups = Vec::new();
         let mut probes = Vec::new();
         for group in 0..self.probing.groups {
-            let matrices = random_camera(&mut random);
+            let twin = (group + TWINS).checked_sub(self.probing.groups + 1);
+            let matrices = match (twin, groups.last()) {
+                (Some(_), Some(Group { matrices, .. })) => matrices.clone(),
+                _ => random_camera(&mut random),
+            };
             let uniforms = self.uniform_values(&matrices);
             for place in 0..self.probing.per_group {
-                let vertex = design::vertex(&mut random, place, &light, &matrices);
+                let before = probes.len().checked_sub(self.probing.per_group).map(|at| &probes[at]);
+                let position = before.filter(|_| twin == Some(0)).map(|probe: &Probe| probe.vertex.position);
+                let vertex = design::vertex(&mut random, place, position, &light, &matrices);
                 let attributes = self.attribute_values(&vertex);
                 let outcome = right.evaluate(&uniforms, &attributes);
                 probes.push(Probe {

@@ -265,3 +265,124 @@ fn an_answer_with_other_constants_is_right_for_those_constants() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn two_free_numbers_are_found_together() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(9);
+    let number = |id: &str, form: usize, x: f64| Found { id: id.to_owned(), form, parameter: Some(x) };
+    for planted in [
+        vec![number("diffuse-scaled", 0, 0.5), number("specular-wrong-exponent", 0, 20.0)],
+        vec![number("ambient-scaled", 0, 2.0), number("diffuse-scaled", 0, 0.7)],
+        vec![number("ambient-scaled", 0, 1.5), number("specular-scaled", 0, 0.6)],
+        vec![number("diffuse-with-exponent", 2, 3.0), number("specular-half-unnormalized", 2, 0.7)],
+        vec![
+            number("ambient-scaled", 0, 1.5),
+            number("diffuse-scaled", 0, 0.5),
+            number("specular-wrong-exponent", 0, 30.0),
+        ],
+    ] {
+        let given = noisy(&samples(assignment, &probes, &planted));
+        let Fit::Explained(found) = explain(assignment, &probes, &given, TOLERANCE) else {
+            panic!("{planted:?} is not explained");
+        };
+        assert_eq!(ids(&found), ids(&planted));
+        for (found, planted) in found.iter().zip(&planted) {
+            let (x, y) = (found.parameter.unwrap(), planted.parameter.unwrap());
+            assert!((x / y - 1.0).abs() < 0.01, "{found:?} instead of {planted:?}");
+        }
+    }
+}
+
+#[test]
+fn a_view_vector_that_is_a_little_short_is_found() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(10);
+    for x in [0.99, 1.02, 0.7] {
+        let planted = Found { id: "specular-view-unnormalized".into(), form: 2, parameter: Some(x) };
+        let given = noisy(&samples(assignment, &probes, &[planted]));
+        match explain(assignment, &probes, &given, TOLERANCE) {
+            Fit::Explained(found) => assert_eq!(ids(&found), ["specular-view-unnormalized"], "{x}"),
+            other => panic!("{x}: {other:?}"),
+        }
+    }
+}
+
+/// The lines whose term is right, for a shader that computes `colour` from the right definitions.
+fn right_lines(colour: impl Fn(&reference::probes::Probe, &dyn Fn(&str) -> Value) -> [f64; 3]) -> Vec<String> {
+    let assignment = ggsample06();
+    let probes = assignment.probes(11);
+    let one = |p: &reference::probes::Probe| {
+        let outcome = assignment.equation.right().evaluate(probes.uniforms(p), &p.attributes);
+        colour(p, &|name| outcome.get(name).expect("a definition"))
+    };
+    let given: Vec<[f64; 3]> = probes.iter().map(one).collect();
+    match explain(assignment, &probes, &given, TOLERANCE) {
+        Fit::Unexplained(terms) => terms.into_iter().filter(|t| t.is_right()).map(|t| t.line).collect(),
+        Fit::Explained(found) => panic!("{found:?} explains it"),
+    }
+}
+
+#[test]
+fn another_light_costs_the_ambient_term_nothing() {
+    let right = right_lines(|_, value| {
+        let (n, v) = (value("n").vec3(), value("v").vec3());
+        let l = glam::DVec3::new(1.0, 1.0, 1.0).normalize();
+        let highlight = 0.4 * n.dot((l + v).normalize()).max(0.0).powi(80);
+        [0.12 + 0.6 * n.dot(l).max(0.0) + highlight, highlight, highlight]
+    });
+    assert_eq!(right, ["ambient"]);
+}
+
+#[test]
+fn a_term_that_overflows_costs_the_others_nothing() {
+    // The highlight is the reciprocal of a power: infinite where the right one is 0, and huge in most other places.
+    let right = right_lines(|_, value| {
+        let highlight = f64::from((0.4 / value("facing").float().powi(80)) as f32);
+        let red = 0.12 + 0.6 * value("lambert").float();
+        [red + highlight, highlight, highlight]
+    });
+    assert_eq!(right, ["ambient", "diffuse"]);
+    // The diffuse term is divided by its own reflectance: 0 / 0 in green and blue.
+    let right = right_lines(|p, value| [p.colour.x + 0.4 * value("lambert").float(), f64::NAN, f64::NAN]);
+    assert_eq!(right, ["ambient", "specular"]);
+}
+
+#[test]
+fn a_term_that_is_wrong_where_it_stands_alone_is_not_right_by_its_colour() {
+    // Ambient and diffuse light are both red. Here the ambient term varies with the normal.
+    let right = right_lines(|p, value| [p.colour.x + 0.1 * value("n").vec3().y.abs() + 0.1, p.colour.y, p.colour.z]);
+    assert_eq!(right, ["specular"]);
+}
+
+#[test]
+fn what_is_missing_is_not_wrong_as_well() {
+    let assignment = ggsample06();
+    let probes = assignment.probes(12);
+    // A fifth of the diffuse light, from the wrong side, and no ambient light: also "ambient times the reversed cosine, no
+    // diffuse term".
+    let colour = |p: &reference::probes::Probe| {
+        let outcome = assignment.equation.right().evaluate(probes.uniforms(p), &p.attributes);
+        let value = |name: &str| outcome.get(name).expect("a definition");
+        let specular = value("specular").vec3();
+        [0.12 * (-value("nl").float()).max(0.0) + specular.x, specular.y, specular.z]
+    };
+    let given: Vec<[f64; 3]> = probes.iter().map(colour).collect();
+    if let Fit::Explained(found) = explain(assignment, &probes, &given, TOLERANCE) {
+        let is = |id: &str| found.iter().any(|found| found.id == id);
+        assert!(!(is("diffuse-missing") && is("diffuse-light-reversed")), "{found:?}");
+    }
+}
+
+#[test]
+fn a_form_costs_only_the_lines_that_it_reaches() {
+    let assignment = ggsample06();
+    let kept = |form: usize| -> Vec<f64> {
+        let found = Found { id: "normal-not-transformed".into(), form, parameter: None };
+        assignment.rubric.iter().map(|line| assignment.keeps(&found, line)).collect()
+    };
+    // The normal itself, only in the diffuse term, only in the highlight.
+    assert_eq!(kept(0), [1.0, 1.0, 0.5, 0.75]);
+    assert_eq!(kept(1), [1.0, 1.0, 0.5, 1.0]);
+    assert_eq!(kept(2), [1.0, 1.0, 1.0, 0.75]);
+}

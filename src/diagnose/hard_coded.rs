@@ -2,21 +2,26 @@
 
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
+use reference::assignment::RubricLine;
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
 use reference::{Assignment, Value};
+use std::ops::Range;
 
-/// Whether the colour does not depend on the attributes, or not on the matrices, although a right answer's does: the
-/// same everywhere in a group of one camera, or the same for one vertex number under every camera.
+/// Whether the colour depends on nothing but the matrices and the vertex number, as a table does: it stays the same, number
+/// by number, when all attributes change.
 pub fn is_lookup(probes: &ProbeSet, samples: &[Sample]) -> bool {
-    let groups = probes.groups.len();
-    if groups < 2 || samples.len() < 2 * groups {
-        return false;
-    }
-    let each = samples.len() / groups;
-    let within_group = samples.chunks_exact(each).all(|group| group.iter().all(|sample| same(sample, &group[0])));
-    let by_number = samples.chunks_exact(each).all(|group| group.iter().zip(samples).all(|(a, b)| same(a, b)));
-    within_group || by_number
+    probes.with_other_vertices().is_some_and(|groups| stays_the_same(groups, samples))
+}
+
+/// Whether the colour stays the same, vertex by vertex, when only the normals change.
+pub fn ignores_normals(probes: &ProbeSet, samples: &[Sample]) -> bool {
+    probes.with_other_normals().is_some_and(|groups| stays_the_same(groups, samples))
+}
+
+fn stays_the_same(groups: [Range<usize>; 2], samples: &[Sample]) -> bool {
+    let [one, other] = groups.map(|places| samples.get(places).unwrap_or_default());
+    !one.is_empty() && one.len() == other.len() && one.iter().zip(other).all(|(a, b)| same(a, b))
 }
 
 fn same(a: &Sample, b: &Sample) -> bool {
@@ -28,20 +33,16 @@ fn same(a: &Sample, b: &Sample) -> bool {
 /// missing, and white is everything added up.)
 pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[Found]) -> bool {
     let is_one_colour = samples.iter().all(|sample| same(sample, &samples[0]));
-    let leaves = |line: &str| found.iter().all(|found| keeps(assignment, found, line));
+    let leaves = |line: &RubricLine| found.iter().all(|found| assignment.keeps(found, line) > 0.0);
     let mut colours = assignment.rubric.iter().filter(|line| line.id != super::SHAPE);
     found.iter().any(|found| found.parameter.is_some())
-        || is_one_colour && colours.any(|line| leaves(&line.id) && varies(assignment, probes, &line.judges))
+        || is_one_colour && colours.any(|line| leaves(line) && varies(assignment, probes, &line.judges))
 }
 
 /// Whether the mistakes leave nothing of the colour, so that they cannot draw a right picture.
 pub fn leaves_nothing(assignment: &Assignment, found: &[Found]) -> bool {
     let mut colours = assignment.rubric.iter().filter(|line| line.id != super::SHAPE);
-    colours.all(|line| !found.iter().all(|found| keeps(assignment, found, &line.id)))
-}
-
-fn keeps(assignment: &Assignment, found: &Found, line: &str) -> bool {
-    assignment.mistake(&found.id).is_none_or(|mistake| mistake.keeps(line) > 0.0)
+    colours.all(|line| !found.iter().all(|found| assignment.keeps(found, line) > 0.0))
 }
 
 /// Whether a definition of the right equation has different values at the probes.

@@ -4,6 +4,7 @@ pub mod constants;
 mod hard_coded;
 mod locate;
 mod message;
+mod plain;
 
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
 use crate::language::Text;
@@ -12,7 +13,7 @@ use crate::report::{FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
 use constants::ChangedConstant;
 use reference::Assignment;
-use reference::fit::{Fit, TermJudgement, explain, is_right};
+use reference::fit::{Fit, TermJudgement, is_right};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
@@ -24,8 +25,14 @@ const POSITION_CHANGED: &str = "position-changed";
 const CONSTANTS_CHANGED: &str = "constants-changed";
 const HARD_CODED: &str = "hard-coded";
 const UNEXPLAINED: &str = "unexplained";
+const NEARLY_RIGHT: &str = "nearly-right";
 /// What a negative base of a power is called, also where this driver hides that its result is undefined.
 const UNDEFINED_POWER: &str = "specular-unclamped";
+
+/// Colours that are off by no more than this everywhere are nearly right: each of three terms is off by one step of 8 bits.
+///
+/// Noise: [`COLOUR_TOLERANCE`]. Defect to catch: the faintest known mistake differs by more than 2e-2 at some probe.
+const NEARLY: f64 = 3.0 / 255.0;
 
 /// How much a message helps.
 #[derive(
@@ -97,6 +104,8 @@ enum Cause {
     },
     /// The colour does not come from the equation at all.
     HardCoded,
+    /// Nothing known explains it, but it is never off by much.
+    NearlyRight,
     /// Nothing known explains it; each term as far as it stands alone.
     Unexplained(Vec<TermJudgement>),
 }
@@ -183,17 +192,20 @@ fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     if let Some(found) = explained_by(&constants, evidence, &samples) {
         return Cause::Known { constants, found };
     }
-    match explain(assignment, probes, &samples, COLOUR_TOLERANCE) {
+    let is_lookup = hard_coded::is_lookup(probes, evidence.samples);
+    // Without the normals the course's own poses can only be right if they are treated apart.
+    let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
+    match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
         Fit::Explained(found)
-            if hard_coded::is_lookup(probes, evidence.samples)
-                && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
+            if is_lookup && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
         {
             Cause::HardCoded
         }
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
-        Fit::Unexplained(_) if frames_agree || hard_coded::is_lookup(probes, evidence.samples) => Cause::HardCoded,
+        Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
+        Fit::Unexplained(_) if reference::fit::is_right(probes, &samples, NEARLY) => Cause::NearlyRight,
         Fit::Unexplained(terms) => Cause::Unexplained(terms),
     }
 }
@@ -205,7 +217,8 @@ fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples:
     }
     let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
     let changed = evidence.assignment.with_constants(&changes).ok()?;
-    match explain(&changed, &changed.reprobe(evidence.probes), samples, COLOUR_TOLERANCE) {
+    let probes = changed.reprobe(evidence.probes);
+    match plain::explained(&changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) => Some(found),
         Fit::Unexplained(_) => None,
     }
@@ -221,7 +234,7 @@ impl Cause {
                     .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
                     .collect(),
             ),
-            Self::HardCoded | Self::Unexplained(_) => None,
+            Self::HardCoded | Self::NearlyRight | Self::Unexplained(_) => None,
         }
     }
 
@@ -233,6 +246,7 @@ impl Cause {
                 changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
             }
             Self::HardCoded => vec![HARD_CODED.into()],
+            Self::NearlyRight => vec![NEARLY_RIGHT.into()],
             Self::Unexplained(_) => vec![UNEXPLAINED.into()],
         }
     }
@@ -246,13 +260,13 @@ fn judge(
     cause: &Cause,
     mistakes: &[String],
 ) -> RubricLine {
-    let touching = |id: &&str| is_touched(evidence.assignment, line, shape, cause, id);
-    let culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(touching).collect();
-    let kept: f64 = culprits
-        .iter()
-        .filter_map(|id| evidence.assignment.mistake(id))
-        .map(|mistake| mistake.keeps(&line.id))
-        .product();
+    let keeps = |id: &&str| kept(evidence.assignment, line, shape, cause, id);
+    let mut culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(|id| keeps(id) < 1.0).collect();
+    let kept: f64 = culprits.iter().map(keeps).product();
+    // What is not there at all is not wrong in some way as well.
+    if let Some(fatal) = culprits.iter().find(|id| keeps(id) == 0.0) {
+        culprits = vec![*fatal];
+    }
     let told = message::tell(evidence, line, cause, &culprits);
     RubricLine {
         id: line.id.clone(),
@@ -266,22 +280,26 @@ fn judge(
     }
 }
 
-/// Whether the mistake costs the line points in this answer.
-fn is_touched(
+/// Fraction of the line's points that the mistake leaves in this answer.
+fn kept(
     assignment: &Assignment,
     line: &reference::assignment::RubricLine,
     shape: bool,
     cause: &Cause,
     id: &str,
-) -> bool {
-    match (cause, id) {
+) -> f64 {
+    let is_touched = match (cause, id) {
         (_, POSITION_CHANGED) => !shape && line.id == SHAPE,
         (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
-        _ => costs(assignment, id, &line.id),
-    }
+        (Cause::Known { found, .. }, _) if let Some(found) = found.iter().find(|found| found.id == id) => {
+            return assignment.keeps(found, line);
+        }
+        _ => true,
+    };
+    if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
 }
 
 /// Whether the constant is one of the line's.

@@ -18,6 +18,8 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 ///
 /// A colour beyond ±2²⁰ is painted as if it were that: white or black at every pixel that shows any of it, as it is anyway,
 /// but the driver's conversion to 8 bits goes through an `i32` and would make black of what that cannot hold.
+///
+/// Alpha is not seen. It says here what is painted, so that a colour that equals the background is not taken for it.
 const PASS_ON: &str = "
 struct Vertex {
     @builtin(position) position: vec4f,
@@ -30,7 +32,7 @@ fn bounded(colour: vec4f) -> vec4f {
 }
 
 @vertex fn pass_on(@location(0) position: vec4f, @location(1) colour: vec4f) -> Vertex {
-    return Vertex(vec4f(position.xy, (position.z + position.w) * 0.5, position.w), bounded(colour));
+    return Vertex(vec4f(position.xy, (position.z + position.w) * 0.5, position.w), vec4f(bounded(colour).rgb, 1.0));
 }
 ";
 

@@ -26,6 +26,16 @@ pub(super) type Resolved = Vec<u32>;
 struct Key {
     rule: Rule,
     inputs: [u32; MAX_INPUTS],
+    /// The bits of its free parameter.
+    parameter: u64,
+}
+
+/// A definition that is replaced, by what, and the value of what is free in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Replaced {
+    pub definition: usize,
+    pub rule: Rule,
+    pub parameter: f64,
 }
 
 struct Column {
@@ -88,20 +98,20 @@ impl<'a> Columns<'a> {
         let mut resolved = Vec::with_capacity(definitions.len());
         for definition in definitions {
             let rule = self.rule(&definition.expression);
-            let column = self.column(rule, &resolved);
+            let column = self.column(rule, f64::NAN, &resolved);
             resolved.push(column);
         }
         resolved
     }
 
     /// `base` with some definitions replaced; what depends on them follows.
-    pub(super) fn derive(&mut self, base: &Resolved, replaced: &[(usize, Rule)]) -> Resolved {
+    pub(super) fn derive(&mut self, base: &Resolved, replaced: &[Replaced]) -> Resolved {
         let mut resolved = base.clone();
         let mut changed: Set = 0;
-        let first = replaced.first().map_or(base.len(), |(d, _)| *d);
+        let first = replaced.first().map_or(base.len(), |r| r.definition);
         for definition in first..base.len() {
-            if let Some(rule) = self.changed_rule(base, replaced, changed, definition) {
-                resolved[definition] = self.column(rule, &resolved);
+            if let Some((rule, parameter)) = self.changed_rule(base, replaced, changed, definition) {
+                resolved[definition] = self.column(rule, parameter, &resolved);
                 changed |= 1 << definition;
             }
         }
@@ -112,23 +122,23 @@ impl<'a> Columns<'a> {
     fn changed_rule(
         &self,
         base: &Resolved,
-        replaced: &[(usize, Rule)],
+        replaced: &[Replaced],
         changed: Set,
         definition: usize,
-    ) -> Option<Rule> {
-        if let Some((_, rule)) = replaced.iter().find(|(d, _)| *d == definition) {
-            return Some(*rule);
+    ) -> Option<(Rule, f64)> {
+        if let Some(replaced) = replaced.iter().find(|r| r.definition == definition) {
+            return Some((replaced.rule, replaced.parameter));
         }
-        let rule = self.columns[base[definition] as usize].key.rule;
-        (self.rules[rule.0 as usize].used & changed != 0).then_some(rule)
+        let key = &self.columns[base[definition] as usize].key;
+        (self.rules[key.rule.0 as usize].used & changed != 0).then(|| (key.rule, f64::from_bits(key.parameter)))
     }
 
-    fn column(&mut self, rule: Rule, resolved: &[u32]) -> u32 {
+    fn column(&mut self, rule: Rule, parameter: f64, resolved: &[u32]) -> u32 {
         let mut inputs = [u32::MAX; MAX_INPUTS];
         for (slot, definition) in inputs.iter_mut().zip(&self.rules[rule.0 as usize].uses) {
             *slot = resolved[*definition];
         }
-        let key = Key { rule, inputs };
+        let key = Key { rule, inputs, parameter: parameter.to_bits() };
         let next = u32::try_from(self.columns.len()).unwrap_or(u32::MAX);
         let column = *self.known.entry(key).or_insert(next);
         if column == next {
@@ -149,20 +159,12 @@ impl<'a> Columns<'a> {
     }
 
     /// The vertex colour at a probe for `base` with some definitions replaced, without making columns of them.
-    ///
-    /// `parameter` stands for the free parameter of the new rules.
-    pub(super) fn colour_with(
-        &mut self,
-        base: &Resolved,
-        replaced: &[(usize, Rule)],
-        parameter: f64,
-        probe: usize,
-    ) -> DVec3 {
+    pub(super) fn colour_with(&mut self, base: &Resolved, replaced: &[Replaced], probe: usize) -> DVec3 {
         let equation = &self.assignment.equation;
         let mut changed: Set = 0;
-        let first = replaced.first().map_or(base.len(), |(d, _)| *d);
+        let first = replaced.first().map_or(base.len(), |r| r.definition);
         for definition in first..=equation.colour {
-            let Some(rule) = self.changed_rule(base, replaced, changed, definition) else {
+            let Some((rule, parameter)) = self.changed_rule(base, replaced, changed, definition) else {
                 continue;
             };
             for place in 0..self.rules[rule.0 as usize].uses.len() {
@@ -215,7 +217,10 @@ impl<'a> Columns<'a> {
                 let input = input.map_or(u32::MAX, |i| key.inputs[i]);
                 self.columns[input as usize].values[probe].clone()
             }
-            None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(f64::NAN)),
+            None => {
+                let parameter = f64::from_bits(key.parameter);
+                equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(parameter))
+            }
         })
     }
 }

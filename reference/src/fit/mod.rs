@@ -1,13 +1,14 @@
 //! Which known mistakes explain what a shader computed at the probes.
 //!
-//! The combination with the fewest mistakes that reproduces every sample wins; of equals one without a free parameter, then the
-//! one that touches the fewest lines of the rubric, then the first in the assignment's table. What nothing explains is judged term by term, where a term stands alone.
+//! The combination with the fewest mistakes that reproduces every sample wins; of equals the one with the fewest free parameters,
+//! then the one that touches the fewest lines of the rubric, then the first in the assignment's table. What nothing explains is judged term by term, where a term stands alone.
 
-mod alone;
 mod columns;
 mod digits;
 mod search;
+mod solve;
 mod terms;
+mod views;
 
 pub use terms::{TermJudgement, Worst};
 
@@ -87,14 +88,15 @@ const OVERFLOWING: f64 = 1e36;
 
 /// Whether a sample is what is expected, see [`explain`].
 fn agrees(expected: DVec3, sample: DVec3, tolerance: f64) -> bool {
-    (0..3).all(|channel| {
-        let (expected, sample) = (expected[channel], sample[channel]);
-        if expected.is_nan() {
-            !sample.is_finite()
-        } else if expected.abs() > OVERFLOWING {
-            sample.is_nan() || sample.abs() > OVERFLOWING / 10.0
-        } else {
-            (sample - expected).abs() <= tolerance * expected.abs().max(1.0)
-        }
-    })
+    (0..3).all(|channel| channel_agrees(expected[channel], sample[channel], tolerance))
+}
+
+fn channel_agrees(expected: f64, sample: f64, tolerance: f64) -> bool {
+    if expected.is_nan() {
+        !sample.is_finite()
+    } else if expected.abs() > OVERFLOWING {
+        sample.is_nan() || sample.abs() > OVERFLOWING / 10.0
+    } else {
+        (sample - expected).abs() <= tolerance * expected.abs().max(1.0)
+    }
 }

@@ -1,50 +1,58 @@
-//! Trying combinations of mistakes, the fewest first.
+//! Trying combinations of mistakes: the fewest first, and of as many those with the fewest free parameters.
 
-use super::columns::{Columns, Resolved, Rule, Set};
-use super::digits::simpler;
+use super::columns::{Columns, Replaced, Resolved, Set};
+use super::views::Views;
 use super::{MOST_MISTAKES, agrees};
 use crate::Assignment;
-use crate::mistake::{Form, Found, FreeParameter, Mistake, Override};
+use crate::mistake::{Form, Found, FreeParameter, Mistake};
 use crate::probes::ProbeSet;
 use glam::DVec3;
 use std::rc::Rc;
-
-/// Halvings of the free parameter's range: 60 leave nothing of an f64's precision.
-const HALVINGS: usize = 60;
-
-/// So many samples are looked at for the one that determines a free parameter best; more where none of them depends on it
-/// by so many times the tolerance.
-const ENOUGH: usize = 32;
-const CLEAR: f64 = 20.0;
 
 /// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
 /// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need less than half.
 const MOST_COLOURS: u64 = 800_000;
 
 /// One form of one mistake.
-struct Candidate<'a> {
+pub(super) struct Candidate<'a> {
     mistake: usize,
     form: usize,
     /// The definitions that are replaced.
     touches: Set,
     /// The rubric lines that it costs points, as bits.
-    lines: u64,
+    pub lines: u64,
+    /// The rubric lines of which it leaves nothing.
+    empties: u64,
+    /// Whether it is in what becomes of all terms.
+    is_of_all: bool,
     /// Whether nothing of the rubric's terms is left in the colour: such a mistake stands alone.
     whole: bool,
-    replaced: Vec<(usize, Rule)>,
-    free: Option<&'a FreeParameter>,
+    pub replaced: Vec<Replaced>,
+    pub free: Option<&'a FreeParameter>,
 }
 
-struct Search<'a> {
+impl Candidate<'_> {
+    /// What it replaces, with a number for what is free in it.
+    pub(super) fn with(&self, parameter: f64) -> Vec<Replaced> {
+        self.replaced.iter().map(|replaced| Replaced { parameter, ..*replaced }).collect()
+    }
+}
+
+/// A candidate of an explanation, and the value of what is free in it.
+type Chosen<'a> = (Rc<Candidate<'a>>, Option<f64>);
+
+pub(super) struct Search<'a> {
     assignment: &'a Assignment,
-    columns: Columns<'a>,
+    pub columns: Columns<'a>,
     /// In the order of the definitions that they replace: what is replaced last has the least to recompute.
     candidates: Vec<Rc<Candidate<'a>>>,
     /// In the order in which they are tried.
-    samples: Vec<DVec3>,
-    tolerance: f64,
+    pub samples: Vec<DVec3>,
+    pub tolerance: f64,
+    /// How many mistakes are looked for at present.
+    pub count: usize,
     /// How often the colour at a probe was computed.
-    spent: u64,
+    pub spent: u64,
     /// What may be spent on the combinations of the present number of mistakes.
     budget: u64,
     /// The most plausible explanation so far.
@@ -69,21 +77,28 @@ pub(super) fn search(
 ) -> Option<Vec<Found>> {
     let mut columns = Columns::new(assignment, probes, order);
     let right = columns.right();
+    let mut candidates = candidates(assignment, &mut columns);
+    let agreeing = Views::new(assignment, probes, samples, tolerance).agreeing(order);
+    candidates.retain(|c| {
+        !agreeing.iter().any(|(line, places)| is_refuted(c, *line, places, &mut columns, &right, tolerance))
+    });
     let mut search = Search {
         assignment,
-        candidates: candidates(assignment, &mut columns),
+        candidates,
         columns,
         samples: order.iter().map(|place| samples[*place]).collect(),
         tolerance,
+        count: 0,
         spent: 0,
         budget: u64::MAX,
         best: None,
     };
     for count in 1..=MOST_MISTAKES {
-        for free in [false, true] {
+        for free in 0..=count {
+            search.count = count;
             search.spent = 0;
             search.budget = if count == MOST_MISTAKES { MOST_COLOURS } else { u64::MAX };
-            search.extend(&right, &mut Vec::new(), 0, count, free);
+            search.extend(&right, &mut Vec::new(), 0, count - free, free);
             if let Some((_, found)) = search.best {
                 return Some(found);
             }
@@ -101,7 +116,9 @@ fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<
                 mistake: index,
                 form: place,
                 touches: form.overrides.iter().map(|o| 1 << o.definition).sum(),
-                lines: lines(assignment, mistake),
+                lines: lines(assignment, mistake, form, 1.0),
+                empties: lines(assignment, mistake, form, f64::MIN_POSITIVE),
+                is_of_all: is_of_all(assignment, form),
                 whole: replaces_everything(assignment, form),
                 replaced: rules(columns, form),
                 free,
@@ -109,19 +126,55 @@ fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<
         }
     }
     // Stable: the table's order decides among forms that replace the same.
-    all.sort_by_key(|c| c.replaced.first().map(|(d, _)| *d));
+    all.sort_by_key(|c| c.replaced.first().map(|r| r.definition));
     all
 }
 
-fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form) -> Vec<(usize, Rule)> {
-    let rule = |o: &'a Override| (o.definition, columns.rule(&o.expression));
-    form.overrides.iter().map(rule).collect()
+fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form) -> Vec<Replaced> {
+    let overrides = form.overrides.iter();
+    overrides
+        .map(|o| Replaced { definition: o.definition, rule: columns.rule(&o.expression), parameter: f64::NAN })
+        .collect()
 }
 
-fn lines(assignment: &Assignment, mistake: &Mistake) -> u64 {
+/// Whether a candidate of this line alone changes what is seen to be right, even if another could make up for it.
+///
+/// `places`: where the line's term stands alone and agrees, as places in the order of the columns.
+fn is_refuted(
+    candidate: &Candidate<'_>,
+    line: usize,
+    places: &[usize],
+    columns: &mut Columns<'_>,
+    right: &Resolved,
+    tolerance: f64,
+) -> bool {
+    let parameters = candidate.free.map_or([f64::NAN; 2], |free| [free.from, free.to]);
+    !candidate.is_of_all
+        && candidate.lines == 1 << line
+        && parameters.into_iter().all(|parameter| {
+            let replaced = candidate.with(parameter);
+            places.iter().any(|place| {
+                let expected = columns.colour(columns.colour_column(right), *place);
+                !agrees(expected, columns.colour_with(right, &replaced, *place), tolerance)
+            })
+        })
+}
+
+/// The lines of which less is kept than this, as bits.
+fn lines(assignment: &Assignment, mistake: &Mistake, form: &Form, fraction: f64) -> u64 {
     let rubric = assignment.rubric.iter().enumerate();
-    let lost = rubric.filter(|(_, line)| mistake.keeps.iter().any(|(l, _)| *l == line.id));
+    let lost = rubric.filter(|(_, line)| mistake.keeps(&line.id) < fraction && assignment.reaches(form, line));
     lost.map(|(place, _)| 1 << place).sum()
+}
+
+/// Whether the form replaces nothing before a term.
+fn is_of_all(assignment: &Assignment, form: &Form) -> bool {
+    let equation = &assignment.equation;
+    let judged = || assignment.rubric.iter().filter_map(|line| equation.index(&line.judges));
+    let replaced = form.overrides.iter().map(|o| o.definition);
+    !replaced
+        .clone()
+        .any(|definition| judged().any(|term| term != equation.position && equation.depends(term, definition)))
 }
 
 /// Whether the form's colour depends on no definition that the rubric judges.
@@ -145,148 +198,101 @@ fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
 }
 
 impl<'a> Search<'a> {
-    /// Adds `count` more candidates, from `next` on, to the chosen ones; `free`: the last one has a free parameter.
-    fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Rc<Candidate<'a>>>, next: usize, count: usize, free: bool) {
+    /// Adds to the chosen ones `fixed` candidates without a free parameter, from `next` on, and `free` with one.
+    fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Chosen<'a>>, next: usize, fixed: usize, free: usize) {
         if self.spent > self.budget {
             return;
         }
-        if count == 1 && free {
-            self.fit(base, chosen);
+        if fixed == 0 {
+            self.extend_free(base, chosen, &mut Vec::new(), 0, free);
             return;
         }
         for index in next..self.candidates.len() {
             let candidate = &self.candidates[index];
-            let alone = count == 1 && chosen.is_empty();
-            if candidate.free.is_some() || (candidate.whole && !alone) || !fits(chosen, candidate) {
+            let alone = fixed == 1 && free == 0 && chosen.is_empty();
+            if candidate.free.is_some() || (candidate.whole && !alone) || !fits(chosen, candidate, free > 0) {
                 continue;
             }
             let candidate = Rc::clone(candidate);
-            if count == 1 {
-                if self.explains(base, &candidate.replaced, f64::NAN) {
-                    self.keep(chosen, &candidate, None);
+            if fixed == 1 && free == 0 {
+                if self.explains(base, &candidate.replaced) {
+                    self.keep(chosen, &[(candidate, None)]);
                 }
                 continue;
             }
             let resolved = self.columns.derive(base, &candidate.replaced);
-            chosen.push(candidate);
-            self.extend(&resolved, chosen, index + 1, count - 1, free);
+            chosen.push((candidate, None));
+            self.extend(&resolved, chosen, index + 1, fixed - 1, free);
             chosen.pop();
         }
     }
 
+    /// Adds `count` more candidates with a free parameter, from `next` on, each in lines of its own.
+    fn extend_free(
+        &mut self,
+        base: &Resolved,
+        chosen: &[Chosen<'a>],
+        open: &mut Vec<Rc<Candidate<'a>>>,
+        next: usize,
+        count: usize,
+    ) {
+        if count == 0 {
+            if let Some(solved) = self.solve_all(base, open) {
+                self.keep(chosen, &solved);
+            }
+            return;
+        }
+        for index in next..self.candidates.len() {
+            let candidate = &self.candidates[index];
+            let shares = |other: &Rc<Candidate>| other.lines & candidate.lines != 0;
+            if candidate.free.is_none() || !fits(chosen, candidate, true) || open.iter().any(shares) {
+                continue;
+            }
+            open.push(Rc::clone(candidate));
+            self.extend_free(base, chosen, open, index + 1, count - 1);
+            open.pop();
+        }
+    }
+
     /// Whether `base` with some definitions replaced reproduces every sample.
-    fn explains(&mut self, base: &Resolved, replaced: &[(usize, Rule)], parameter: f64) -> bool {
+    pub fn explains(&mut self, base: &Resolved, replaced: &[Replaced]) -> bool {
         (0..self.samples.len()).all(|i| {
             self.spent += 1;
-            let expected = self.columns.colour_with(base, replaced, parameter, i);
+            let expected = self.columns.colour_with(base, replaced, i);
             agrees(expected, self.samples[i], self.tolerance)
         })
     }
 
-    /// Tries every candidate with a free parameter on top of the chosen ones.
-    fn fit(&mut self, base: &Resolved, chosen: &[Rc<Candidate<'a>>]) {
-        for index in 0..self.candidates.len() {
-            let candidate = Rc::clone(&self.candidates[index]);
-            let Some(parameter) = candidate.free.filter(|_| fits(chosen, &candidate)) else {
-                continue;
-            };
-            if let Some(value) = self.solve(base, &candidate, parameter) {
-                self.keep(chosen, &candidate, Some(value));
-            }
-        }
-    }
-
     /// Keeps an explanation if it is the most plausible so far.
-    fn keep(&mut self, chosen: &[Rc<Candidate<'a>>], last: &Rc<Candidate<'a>>, parameter: Option<f64>) {
-        let mut all = [chosen, std::slice::from_ref(last)].concat();
-        all.sort_by_key(|c| (c.mistake, c.form));
-        let lines = all.iter().map(|c| c.lines.count_ones()).sum();
-        let rank = (lines, all.iter().map(|c| c.mistake).collect());
+    fn keep(&mut self, chosen: &[Chosen<'a>], last: &[Chosen<'a>]) {
+        let mut all = [chosen, last].concat();
+        all.sort_by_key(|(c, _)| (c.mistake, c.form));
+        let lines = all.iter().map(|(c, _)| c.lines.count_ones()).sum();
+        let rank = (lines, all.iter().map(|(c, _)| c.mistake).collect());
         if self.best.as_ref().is_some_and(|(best, _)| *best <= rank) {
             return;
         }
-        let one = |candidate: &Rc<Candidate>| Found {
+        let one = |(candidate, parameter): &Chosen| Found {
             id: self.assignment.mistakes[candidate.mistake].id.clone(),
             form: candidate.form,
-            parameter: parameter.filter(|_| candidate.free.is_some()),
+            parameter: *parameter,
         };
         self.best = Some((rank, all.iter().map(one).collect()));
-    }
-
-    /// The parameter with which a candidate explains every sample.
-    fn solve(&mut self, base: &Resolved, candidate: &Candidate<'a>, parameter: &FreeParameter) -> Option<f64> {
-        let (probe, channel) = self.pivot(base, candidate, parameter)?;
-        let replaced = &candidate.replaced;
-        let mut value = |x: f64| self.columns.colour_with(base, replaced, x, probe)[channel];
-        let target = self.samples[probe][channel];
-        let rising = value(parameter.from) < value(parameter.to);
-        let (mut low, mut high) = (parameter.from.ln(), parameter.to.ln());
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(low, high);
-            if (value(middle.exp()) < target) == rising {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let exact = f64::midpoint(low, high).exp();
-        if !self.explains(base, replaced, exact) {
-            return None;
-        }
-        let simplest = simpler(exact).into_iter().find(|x| self.explains(base, replaced, *x));
-        Some(simplest.unwrap_or(exact))
-    }
-
-    /// The probe and channel that determine a free parameter best.
-    ///
-    /// The colour is monotonic in the parameter, so every sample lies between the colours for its least and greatest value
-    /// (else there is no solution), and the sample that is furthest from both depends on it most. Not all of them are looked
-    /// at: that would be nearly all that a search does.
-    fn pivot(
-        &mut self,
-        base: &Resolved,
-        candidate: &Candidate<'a>,
-        parameter: &FreeParameter,
-    ) -> Option<(usize, usize)> {
-        let mut best = None;
-        let mut reach = self.tolerance;
-        for probe in 0..self.samples.len() {
-            self.spent += 2;
-            let sample = self.samples[probe];
-            let mut end = |x: f64| self.columns.colour_with(base, &candidate.replaced, x, probe);
-            let (a, b) = (end(parameter.from), end(parameter.to));
-            for channel in 0..3 {
-                let (low, high) = (a[channel].min(b[channel]), a[channel].max(b[channel]));
-                let y = sample[channel];
-                if a[channel].is_nan() && b[channel].is_nan() {
-                    if y.is_finite() {
-                        return None;
-                    }
-                    continue;
-                }
-                let slack = self.tolerance * high.abs().max(low.abs()).max(1.0);
-                if !(y >= low - slack && y <= high + slack) {
-                    return None;
-                }
-                let inside = (y - low).min(high - y);
-                if inside > reach {
-                    reach = inside;
-                    best = Some((probe, channel));
-                }
-            }
-            // A sample on which it depends clearly determines it well enough; whether all agree is asked next.
-            if probe >= ENOUGH && reach > CLEAR * self.tolerance {
-                break;
-            }
-        }
-        best
     }
 }
 
 /// Whether a candidate goes with the chosen ones: another mistake, in other definitions, and not the third in one line of the
-/// rubric, for no term with three mistakes in it can be named with confidence.
-fn fits(chosen: &[Rc<Candidate<'_>>], new: &Candidate<'_>) -> bool {
-    let clash = |c: &Rc<Candidate>| c.mistake == new.mistake || c.touches & new.touches != 0;
-    let shared = chosen.iter().fold(new.lines, |lines, c| lines & c.lines);
-    !chosen.iter().any(clash) && (chosen.len() + 1 < MOST_MISTAKES || shared == 0)
+/// rubric, for no term with three mistakes in it can be named with confidence. What is missing is not wrong as well.
+///
+/// `free`: one of the mistakes is to have a free parameter. Then not even two of three are in the same lines, and none is in
+/// what becomes of all terms, because a number to choose makes up for nearly anything.
+fn fits(chosen: &[Chosen<'_>], new: &Candidate<'_>, free: bool) -> bool {
+    let is_last = chosen.len() + 1 == MOST_MISTAKES;
+    let clash = |(c, _): &Chosen| {
+        let empty = c.empties & new.lines == new.lines || new.empties & c.lines == c.lines;
+        c.mistake == new.mistake || c.touches & new.touches != 0 || empty
+    };
+    let shared = chosen.iter().fold(new.lines, |lines, (c, _)| lines & c.lines);
+    let crowded = |(c, _): &Chosen| c.lines == new.lines || c.is_of_all || new.is_of_all;
+    !chosen.iter().any(clash) && !(is_last && (shared != 0 || free && chosen.iter().any(crowded)))
 }

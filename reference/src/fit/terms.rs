@@ -1,9 +1,10 @@
 //! Judging the terms of a shader that no known mistake explains, each where it stands alone.
 
-use super::{agrees, alone};
+use super::agrees;
+use super::views::Views;
 use crate::Assignment;
 use crate::assignment::RubricLine;
-use crate::probes::{Probe, ProbeSet, Region};
+use crate::probes::{ProbeSet, Region};
 use glam::DVec3;
 
 /// What is to be said about one line of the rubric.
@@ -43,56 +44,63 @@ pub struct Worst {
     pub found: DVec3,
 }
 
-/// Judges every line of the rubric whose term stands alone somewhere.
+/// Judges every line of the rubric whose term stands alone somewhere, see [`Views`].
 ///
-/// The first such line is the one that is the same everywhere, the ambient term. If it is wrong but constant, the others are
-/// judged on top of it as it is.
+/// At least one is wrong: it is known that the sum is.
 pub(super) fn judge(
     assignment: &Assignment,
     probes: &ProbeSet,
     samples: &[DVec3],
     tolerance: f64,
 ) -> Vec<TermJudgement> {
+    let views = Views::new(assignment, probes, samples, tolerance);
+    let right = views.judge();
     let mut judgements: Vec<TermJudgement> = Vec::new();
     let mut shift = DVec3::ZERO;
-    for line in assignment.rubric.iter().filter(|l| !l.alone_in.is_empty()) {
-        let all_right = judgements.iter().all(TermJudgement::is_right);
-        let here = |p: &Probe| line.alone_in.contains(&p.region) || (all_right && line.also_in.contains(&p.region));
-        let places: Vec<usize> = (0..samples.len()).filter(|i| here(&probes.probes[*i])).collect();
-        let judgement = judge_line(line, probes, samples, &places, shift, tolerance);
-        if judgements.is_empty() && !judgement.is_right() {
+    for (term, right) in views.terms.iter().zip(right) {
+        let places = alone(term.line, probes);
+        if judgements.is_empty() && !right {
             shift = constant_shift(probes, samples, &places, tolerance).unwrap_or(DVec3::ZERO);
         }
-        judgements.push(judgement);
+        judgements.push(if right {
+            TermJudgement::right(&term.line.id, samples.len())
+        } else {
+            wrong(
+                term.line,
+                probes,
+                samples,
+                &places,
+                if judgements.is_empty() { DVec3::ZERO } else { shift },
+                tolerance,
+            )
+        });
     }
-    acquit(&mut judgements, assignment, probes, samples, tolerance);
     judgements
 }
 
-/// Clears the terms that are right by the direction of their colour, although they never stand alone in this shader.
-fn acquit(
-    judgements: &mut [TermJudgement],
-    assignment: &Assignment,
+/// The places where the line's term stands alone.
+fn alone(line: &RubricLine, probes: &ProbeSet) -> Vec<usize> {
+    let here = |place: &usize| line.alone_in.contains(&probes.probes[*place].region);
+    (0..probes.probes.len()).filter(here).collect()
+}
+
+/// The judgement of a wrong term: how far it is off where it stands alone, or anywhere if it is right there.
+fn wrong(
+    line: &RubricLine,
     probes: &ProbeSet,
     samples: &[DVec3],
+    places: &[usize],
+    shift: DVec3,
     tolerance: f64,
-) {
-    let terms = alone::terms(assignment, probes);
-    let culprit = alone::only_wrong(&terms, probes, samples, tolerance);
-    for (index, term) in terms.iter().enumerate() {
-        let right = match culprit {
-            Some(culprit) => culprit != index,
-            None => alone::right_in_its_channels(&terms, index, probes, samples, tolerance) == Some(true),
-        };
-        let Some(judgement) = judgements.iter_mut().find(|judgement| judgement.line == term.line.id) else { continue };
-        if right {
-            *judgement = TermJudgement::right(&term.line.id, samples.len());
-        } else if judgement.is_right() && culprit == Some(index) {
-            // It is right where it stands alone, and wrong beside the others.
-            let all: Vec<usize> = (0..samples.len()).collect();
-            *judgement = judge_line(term.line, probes, samples, &all, DVec3::ZERO, tolerance);
-        }
+) -> TermJudgement {
+    let alone = judge_line(line, probes, samples, places, shift, tolerance);
+    if !alone.is_right() {
+        return alone;
     }
+    let all: Vec<usize> = (0..samples.len()).collect();
+    let everywhere = judge_line(line, probes, samples, &all, DVec3::ZERO, tolerance);
+    let matched = everywhere.matched.min(everywhere.judged.saturating_sub(1));
+    TermJudgement { matched, ..everywhere }
 }
 
 fn judge_line(

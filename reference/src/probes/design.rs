@@ -144,23 +144,32 @@ impl Light {
     }
 }
 
-/// The vertex in a group's `place`, carried back to object space.
-pub(super) fn vertex(random: &mut Random, place: usize, light: &Light, matrices: &Matrices) -> Vertex {
+/// The vertex in a group's `place`, carried back to object space; `position`: in object space, where it is given.
+pub(super) fn vertex(
+    random: &mut Random,
+    place: usize,
+    position: Option<DVec4>,
+    light: &Light,
+    matrices: &Matrices,
+) -> Vertex {
     let design = &DESIGNS[place % DESIGNS.len()];
-    let (p, n) = in_eye_space(random, design, light);
-    let position = matrices.model_view.inverse().transform_point3(p);
+    let given = position.map(|position| (matrices.model_view * position).truncate());
+    let (p, n) = in_eye_space(random, design, given, light);
     let normal = matrices.normal.inverse().transform_vector3(n).normalize();
-    Vertex::new(position, normal)
+    match position {
+        Some(position) => Vertex::new(position.truncate(), normal),
+        None => Vertex::new(matrices.model_view.inverse().transform_point3(p), normal),
+    }
 }
 
 /// Position and normal as designed; after [`TRIES`] tries, whatever the last one was.
-fn in_eye_space(random: &mut Random, design: &Design, light: &Light) -> (DVec3, DVec3) {
+fn in_eye_space(random: &mut Random, design: &Design, given: Option<DVec3>, light: &Light) -> (DVec3, DVec3) {
     let towards_light = light.position.truncate().normalize();
     let mut last = (DVec3::NEG_Z, DVec3::Z);
     for _ in 0..TRIES {
         let opening = random.between(design.opening.0, design.opening.1);
         let view = random.at_angle(towards_light, opening.to_radians());
-        let p = -view * random.between(design.distance.0, design.distance.1);
+        let p = given.unwrap_or(-view * random.between(design.distance.0, design.distance.1));
         let vectors = light.vectors(p);
         let n = match design.normal {
             Normal::Highlight(level) => {

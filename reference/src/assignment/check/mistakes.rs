@@ -27,7 +27,7 @@ pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &Has
             if !(f.from > 0.0 && f.from < f.example && f.example < f.to && f.to.is_finite()) {
                 return Err(error(place, "`fit` needs 0 < from < example < to"));
             }
-            Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example })
+            Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example, turns: f.turns })
         }
     };
     let forms = entry
@@ -46,6 +46,8 @@ pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &Has
         forms,
         fit,
         near: entry.near,
+        needs: entry.needs,
+        lacks: entry.lacks,
         seen: entry.seen,
         equation: entry.equation,
         look: entry.look,

@@ -1,0 +1,95 @@
+//! Of explanations that come to the same, the one that the text bears out.
+//!
+//! A factor of 3.5 equals `kspec + lspec` in place of their product. Only the text tells which of the two it is.
+
+use crate::source::Source;
+use reference::Assignment;
+use reference::fit::{Fit, explain};
+use reference::mistake::{Found, Mistake};
+use reference::probes::ProbeSet;
+
+/// The explanation of the samples; where the text refutes a part of it, another one that needs no more mistakes, if there is one.
+pub fn explained(
+    assignment: &Assignment,
+    source: &Source,
+    probes: &ProbeSet,
+    samples: &[[f64; 3]],
+    tolerance: f64,
+) -> Fit {
+    let fit = explain(assignment, probes, samples, tolerance);
+    let Fit::Explained(found) = &fit else { return fit };
+    let Some(rest) = without_refuted(assignment, source, found) else { return fit };
+    match explain(&rest, probes, samples, tolerance) {
+        Fit::Explained(other) if other.len() <= found.len() => Fit::Explained(other),
+        _ => fit,
+    }
+}
+
+/// The assignment without the found mistakes that the text refutes, if there are any.
+fn without_refuted(assignment: &Assignment, source: &Source, found: &[Found]) -> Option<Assignment> {
+    let statements = statements(source);
+    let is_refuted = |mistake: &Mistake| {
+        let is_found = found.iter().any(|found| found.id == mistake.id && found.parameter.is_none());
+        let squeezed = squeezed(&statements);
+        let misses = !mistake.needs.is_empty() && !mistake.needs.iter().any(|part| squeezed.contains(part));
+        is_found && (misses || mistake.lacks.iter().any(|name| words(&statements).any(|word| word == name)))
+    };
+    let refuted: Vec<usize> = (0..assignment.mistakes.len()).filter(|i| is_refuted(&assignment.mistakes[*i])).collect();
+    (!refuted.is_empty()).then(|| {
+        let mut rest = assignment.clone();
+        refuted.iter().for_each(|index| rest.mistakes[*index].forms.clear());
+        rest
+    })
+}
+
+/// The code without the declarations of constants.
+fn statements(source: &Source) -> String {
+    let lines = (1..=source.line_count()).map(|number| source.code_line(number));
+    let is_constant = |line: &&str| {
+        let line = line.trim_start();
+        line.starts_with("const ") || line.starts_with('#')
+    };
+    lines.filter(|line| !is_constant(line)).collect::<Vec<_>>().join("\n")
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
+}
+
+/// The text without spaces, parentheses, constructors of vectors and swizzles.
+fn squeezed(text: &str) -> String {
+    let mut squeezed: String = text.chars().filter(|c| !c.is_whitespace() && !"()".contains(*c)).collect();
+    for part in [".rgba", ".xyzw", ".rgb", ".xyz", "vec3", "vec4"] {
+        squeezed = squeezed.replace(part, "");
+    }
+    squeezed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::homework;
+    use crate::source;
+
+    fn refuted(statement: &str, id: &str) -> bool {
+        let code =
+            format!("const vec4 kspec = vec4(0.4);\nconst vec4 lspec = vec4(1);\nvoid main() {{\n  {statement}\n}}\n");
+        let source = source::read("a.vert", code.as_bytes()).expect("a vertex shader");
+        let found = [Found { id: id.into(), form: 0, parameter: None }];
+        without_refuted(homework::assignment("ggsample06").unwrap(), &source, &found).is_some()
+    }
+
+    #[test]
+    fn a_sum_of_constants_is_one_only_where_it_is_written() {
+        assert!(!refuted("gl_Position = s * (lspec.rgb + kspec.rgb);", "specular-added"));
+        assert!(!refuted("gl_Position = s * (vec3(kspec) + vec3(lspec));", "specular-added"));
+        assert!(refuted("gl_Position = 3.5 * s * kspec * lspec;", "specular-added"));
+    }
+
+    #[test]
+    fn another_light_is_used_only_where_the_right_one_is_not() {
+        assert!(!refuted("gl_Position = s * kspec * lamb;", "specular-uses-ambient-light"));
+        assert!(refuted("gl_Position = 0.2 * s * kspec * lspec;", "specular-uses-ambient-light"));
+        assert!(!refuted("gl_Position = 0.2 * s * kspec * lspec;", "specular-no-exponent"));
+    }
+}
