@@ -74,18 +74,11 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
         sha256: Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
         encoding: None,
     };
-    let refuse = |facts, error| Box::new(Refusal { facts, source: None, diagnostics: vec![error] });
-    if bytes.len() > MAX_BYTES {
-        return Err(refuse(facts, too_large(bytes.len())));
-    }
-    if let Some(error) = kind::binary(bytes) {
-        return Err(refuse(facts, error));
-    }
-    let decoded = encoding::decode(bytes);
+    let decoded = match decode(bytes) {
+        Ok(decoded) => decoded,
+        Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![error] })),
+    };
     facts.encoding = Some(decoded.encoding);
-    if let Some(error) = kind::control_characters(&decoded.text) {
-        return Err(refuse(facts, error));
-    }
     let mut source = Source::new(facts, &decoded.text);
     source.notes = decoded.notes;
     source.notes.extend(odd::in_comments(&source));
@@ -100,6 +93,25 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     }
     diagnostics.extend(source.notes.iter().cloned());
     Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
+}
+
+/// Why `bytes` cannot be read as text, where they cannot: too many, a binary format, no sense in any encoding.
+pub fn not_text(bytes: &[u8]) -> Option<Diagnostic> {
+    decode(bytes).err()
+}
+
+fn decode(bytes: &[u8]) -> Result<encoding::Decoded, Diagnostic> {
+    if bytes.len() > MAX_BYTES {
+        return Err(too_large(bytes.len()));
+    }
+    if let Some(error) = kind::binary(bytes) {
+        return Err(error);
+    }
+    let decoded = encoding::decode(bytes);
+    match kind::no_sense(&decoded.text, decoded.encoding) {
+        Some(error) => Err(error),
+        None => Ok(decoded),
+    }
 }
 
 impl Source {

@@ -10,16 +10,18 @@ use super::roster::not_on_roster;
 use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
 use super::{Config, store};
 use crate::diagnose::Hints;
+use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::report::Report;
+use crate::source;
 use axum::http::StatusCode;
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 use std::time::Instant;
 use tokio::sync::broadcast;
 
-/// Longest file that is stored, in bytes. The source stage takes less, and says so in the words of a report.
-pub const MAX_UPLOAD: usize = 256 * 1024;
+/// Longest file that is taken, in bytes: a longer one is not read as text.
+pub const MAX_UPLOAD: usize = source::MAX_BYTES;
 
 /// Longest file name that is kept, in characters.
 const LONGEST_NAME: usize = 200;
@@ -168,18 +170,31 @@ async fn checked(state: &State, upload: &Upload) -> Result<store::Assignment, Pr
         )
         .retry_after(10));
     }
-    if upload.bytes.is_empty() {
+    check_text(&upload.bytes)?;
+    let assignment = state.store.assignment(&upload.assignment).await?;
+    may_hand_in(state, &assignment, upload).await?;
+    Ok(assignment)
+}
+
+/// Whether the file can be read as text. What cannot is not stored and costs no attempt.
+pub(super) fn check_text(bytes: &[u8]) -> Result<(), Problem> {
+    if bytes.is_empty() {
         return Err(Problem::unprocessable(
             "The file is empty. Choose the .vert file that you have saved.",
             "ファイルが空です。保存した .vert ファイルを選んでください。",
         ));
     }
-    if upload.bytes.len() > MAX_UPLOAD {
+    if bytes.len() > MAX_UPLOAD {
         return Err(too_large());
     }
-    let assignment = state.store.assignment(&upload.assignment).await?;
-    may_hand_in(state, &assignment, upload).await?;
-    Ok(assignment)
+    let Some(Diagnostic { message, hint, .. }) = source::not_text(bytes) else { return Ok(()) };
+    let (en, ja) = hint.map(|hint| (format!("{} ", hint.en), hint.ja)).unwrap_or_default();
+    Err(Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "not-text",
+        format!("{} {en}Nothing was stored.", message.en),
+        format!("{}{ja}何も保存されていません。", message.ja),
+    ))
 }
 
 async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upload) -> Result<(), Problem> {

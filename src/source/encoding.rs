@@ -52,6 +52,11 @@ impl Encoding {
         }
     }
 
+    /// Whether its characters are pairs of bytes.
+    pub(super) fn is_utf16(self) -> bool {
+        matches!(self, Self::Utf16Le | Self::Utf16Be)
+    }
+
     fn codec(self) -> &'static encoding_rs::Encoding {
         match self {
             Self::Utf8 => UTF_8,

@@ -4,7 +4,7 @@
 mod binary;
 mod prose;
 
-pub(super) use binary::{binary, control_characters};
+pub(super) use binary::{binary, no_sense};
 pub use prose::fragment_shader;
 pub(super) use prose::wrong_text;
 

@@ -135,6 +135,10 @@ async fn every_error_is_a_problem_in_both_languages(database: Database) {
     check(bench.hand_in("", "").await, 422, "unprocessable");
     check(bench.hand_in("", vec![b'x'; 300 * 1024]).await, 413, "too-large");
     check(bench.hand_in("", vec![b'x'; 5 << 20]).await, 413, "too-large");
+    check(bench.hand_in("", vec![b'x'; 65 * 1024]).await, 413, "too-large");
+    let reply = check(bench.hand_in("", b"\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR".to_vec()).await, 422, "not-text");
+    let detail = reply.json()["detail"].as_str().expect("a detail").to_owned();
+    assert!(detail.contains("picture (PNG)") && detail.contains("the .vert file itself"), "{detail}");
     check(bench.send(post("application/json", b"{}".to_vec())).await, 415, "unsupported-media-type");
     check(bench.send(post("multipart/form-data", b"".to_vec())).await, 400, "bad-request");
     check(bench.send(post("multipart/form-data; boundary=x", b"--x\r\nnonsense".to_vec())).await, 400, "bad-request");

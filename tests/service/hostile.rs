@@ -6,7 +6,10 @@ mod files;
 use crate::cluster::Database;
 use crate::process::{Server, command, look_up};
 use files::{Hostile, Seen};
+use ggrade::diagnostic::Stage;
+use ggrade::report::Verdict;
 use ggrade::service::submit::MAX_UPLOAD;
+use ggrade::source::not_text;
 use reqwest::Client;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -47,13 +50,20 @@ async fn hostile_files_get_their_verdicts_and_the_server_stays_up() {
 async fn hand_in(client: &Client, address: &str, file: &Hostile) -> Result<(), String> {
     let (status, json) =
         crate::process::hand_in(client, address, file.bytes.clone()).await.ok_or_else(|| "no answer".to_owned())?;
-    // Refused at the door, with nothing stored: what is empty, and what is far too large.
+    // Refused at the door, with nothing stored: what is empty, what is too large, and what is no text.
+    let unread = not_text(&file.bytes).map(|error| error.message.en);
     let problem = match file.bytes.len() {
         0 => Some((422, "urn:ggrade:problem:unprocessable", "The file is empty")),
-        length if length > MAX_UPLOAD => Some((413, "urn:ggrade:problem:too-large", "larger than 256 KiB")),
-        _ => None,
+        length if length > MAX_UPLOAD => Some((413, "urn:ggrade:problem:too-large", "larger than 64 KiB")),
+        _ => unread.as_deref().map(|message| (422, "urn:ggrade:problem:not-text", message)),
     };
     if let Some((expected, kind, says)) = problem {
+        // Elsewhere such a file gets a report that says the same.
+        if !file.bytes.is_empty()
+            && (file.promise.verdict, file.promise.stage) != (Verdict::Rejected, Some(Stage::Source))
+        {
+            return Err(format!("refused at the door, and promised {:?}", file.promise));
+        }
         let is_named = json["detail"].as_str().is_some_and(|detail| detail.contains(says));
         let is_kept = status == expected && json["type"] == kind && is_named;
         return is_kept.then_some(()).ok_or_else(|| format!("{status}: {json}"));

@@ -21,7 +21,7 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 /// Longest body of a usual request, in bytes: a file of the largest size in the roomiest form encoding.
-pub const MAX_BODY: usize = 4 * super::submit::MAX_UPLOAD;
+pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
 
 #[derive(OpenApi)]
 #[openapi(

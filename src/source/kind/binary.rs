@@ -3,6 +3,7 @@
 use super::looks_like;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
+use crate::source::Encoding;
 
 /// First bytes that the crate `infer` does not know, with what they mean in English and Japanese.
 const SIGNATURES: [(&[u8], &str, &str); 9] = [
@@ -36,15 +37,26 @@ pub(in crate::source) fn binary(bytes: &[u8]) -> Option<Diagnostic> {
     Some(with_nul(bytes, nul))
 }
 
-/// The refusal of text in which control characters abound: a binary format that nobody knows, without a NUL.
-pub(in crate::source) fn control_characters(text: &str) -> Option<Diagnostic> {
+/// The refusal of text that makes no sense: a binary format that nobody knows, without a NUL, or with the byte-order
+/// mark of UTF-16 by chance.
+pub(in crate::source) fn no_sense(text: &str, encoding: Encoding) -> Option<Diagnostic> {
     if let Some(at) = text.find('\0') {
         return Some(with_nul(text.as_bytes(), at));
     }
-    let is_strange = |c: &char| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}');
-    let strange = text.chars().filter(is_strange).count();
+    let is_private = |c: char| matches!(c, '\u{E000}'..='\u{F8FF}' | '\u{F0000}'..);
+    let is_strange = |c: char| match c {
+        '\t' | '\n' | '\r' | '\u{B}' | '\u{C}' => false,
+        char::REPLACEMENT_CHARACTER => encoding.is_utf16(),
+        c => c.is_control() || is_private(c),
+    };
+    let (all, strange) = (text.chars().count(), text.chars().filter(|&c| is_strange(c)).count());
     // A stray escape or end-of-file character is told at its place; one in sixteen is no text.
-    (strange > 8 && strange * 16 > text.chars().count()).then(|| looks_like("binary data", "バイナリファイル"))
+    if strange > 8 && strange * 16 > all {
+        return Some(looks_like("binary data", "バイナリファイル"));
+    }
+    // Code is ASCII, and so are the line ends of any text; read with the wrong byte first, there is none of it.
+    let ascii = text.chars().filter(char::is_ascii).count();
+    (encoding.is_utf16() && all > 16 && ascii * 64 < all).then(utf16_without_sense)
 }
 
 /// The kind that `infer` found, in words.
@@ -86,6 +98,21 @@ fn utf16_without_mark() -> Diagnostic {
         ),
     )
     .hint(Text::new("Save the file as UTF-8.", "UTF-8 で保存し直してください。"))
+}
+
+fn utf16_without_sense() -> Diagnostic {
+    Diagnostic::error(
+        Stage::Source,
+        Text::new(
+            "The file begins with the byte-order mark of UTF-16, and read as UTF-16 it makes no sense: it is damaged, or \
+             no text.",
+            "ファイルの先頭に UTF-16 の BOM がありますが、UTF-16 として読むと意味をなしません。壊れているか、テキストではありません。",
+        ),
+    )
+    .hint(Text::new(
+        "Open it in a text editor, check that it is your vertex shader, and save it as UTF-8.",
+        "テキストエディタで開いて頂点シェーダであることを確かめ、UTF-8 で保存し直してください。",
+    ))
 }
 
 fn with_nul(bytes: &[u8], at: usize) -> Diagnostic {
@@ -146,7 +173,7 @@ mod tests {
     #[test]
     fn a_nul_in_text_is_told_with_its_line() {
         assert!(english(b"a\nb\0\n").is_some_and(|message| message.starts_with("Line 2 ")));
-        assert!(control_characters("a\0").is_some());
+        assert!(no_sense("a\0", Encoding::Utf8).is_some());
     }
 
     #[test]
@@ -158,7 +185,25 @@ mod tests {
 
     #[test]
     fn noise_is_binary_and_one_escape_is_not() {
-        assert!(control_characters(&"\u{1}\u{2}a".repeat(20)).is_some());
-        assert!(control_characters("void main() {}\u{1A}").is_none());
+        assert!(no_sense(&"\u{1}\u{2}a".repeat(20), Encoding::Utf8).is_some());
+        assert!(no_sense("void main() {}\u{1A}", Encoding::Utf8).is_none());
+    }
+
+    #[test]
+    fn utf16_has_to_make_sense() {
+        let read = |text: &str| no_sense(text, Encoding::Utf16Le);
+        let shader =
+            "#version 410 core\n// 次の行を, 陰影付けの式で頂点の色を求めるように書き換えてください.\nvoid main() {}\n";
+        assert_eq!(read(shader), None);
+        // Every pair of bytes in the wrong order.
+        let swapped: Vec<u16> = shader.encode_utf16().map(u16::swap_bytes).collect();
+        assert!(read(&String::from_utf16_lossy(&swapped)).is_some());
+        // Noise: the squares of odd numbers modulo 65,521, a prime, scatter over all code units.
+        let noise: Vec<u16> =
+            (0..2000_u64).map(|i| u16::try_from((2 * i + 12_345).pow(2) % 65_521).unwrap_or(1)).collect();
+        let noise: Vec<u16> = noise.into_iter().filter(|&unit| unit != 0).collect();
+        assert!(read(&String::from_utf16_lossy(&noise)).is_some());
+        // Characters of one's own (gaiji) in a comment are no reason.
+        assert_eq!(no_sense("// \u{E000}\u{E001}\nvoid main() {}\n", Encoding::ShiftJis), None);
     }
 }
