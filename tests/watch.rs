@@ -138,11 +138,20 @@ fn a_file_put_in_the_place_of_the_old_one_is_seen() {
     fs::rename(&new, watching.path()).unwrap();
     watching.until("80 → 100");
     // As editors with backups do it: the old one moves away, then comes a new one.
-    fs::rename(watching.path(), watching.folder.path().join("ggsample06.vert~")).unwrap();
-    std::thread::sleep(Duration::from_millis(50));
-    fs::write(watching.path(), wrong()).unwrap();
-    let seen = watching.until("100 → 80");
-    assert!(!seen.contains("is gone"), "{seen}");
+    // Where a busy machine leaves the place empty for longer than an editor does, it is tried again.
+    for (content, change) in [(wrong(), "100 → 80"), (right(), "80 → 100")].into_iter().cycle().take(20) {
+        fs::rename(watching.path(), watching.folder.path().join("ggsample06.vert~")).unwrap();
+        let start = Instant::now();
+        std::thread::sleep(Duration::from_millis(50));
+        fs::write(watching.path(), content).unwrap();
+        let is_editor = start.elapsed() < Duration::from_millis(200);
+        let seen = watching.until(change);
+        if is_editor {
+            assert!(!seen.contains("is gone"), "{seen}");
+            return;
+        }
+    }
+    panic!("this machine does nothing within 0.2 s");
 }
 
 #[test]
