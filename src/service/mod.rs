@@ -3,6 +3,7 @@
 //! | address | what |
 //! | --- | --- |
 //! | `/`, `/a/{assignment}` | the student's page; POST: a file, then to `/r/{id}` |
+//! | `/a/{assignment}/read` | POST: the text of a file, as grading reads it; nothing is stored |
 //! | `/r/{id}` | the permanent page of a report; who has the address may see it |
 //! | `/r/{id}/frames/{n}.png`, `animation.png` | its pictures; `?view=yours`, `expected`, `difference`, `all` |
 //! | `/r/{id}/terms/{term}-yours.png`, `…-expected.png` | one term of the equation on its own |

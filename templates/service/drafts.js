@@ -1,26 +1,204 @@
 "use strict";
-// What was typed stays in this browser.
-const keepDrafts = (form, editor) => {
-  const { key } = form.dataset;
+// What was typed stays in this browser, in versions that one can see and go back to. Each version has a key of its own
+// and is written by one page only, so that two tabs never write over each other.
+const keepDrafts = (form, editor, { restored }) => {
+  const { key, own } = form.dataset;
+  const textarea = form.elements.text;
+  const dialog = document.querySelector("dialog.versions");
+  const words = dialog.dataset;
+  const note = document.querySelector(".note-of-drafts");
+  const PREFIX = `${key} version `;
+  const MOST = 80; // versions that are kept
+  const PAUSE = 60_000; // milliseconds without a change, or in all, after which typing begins a new version
+  const LONGEST = 300_000;
+  let mine; // the version that this page writes: { id, start, at, text, kind, and name of a file or time of a version }
+  let next = { kind: "typed" }; // where the next version comes from
 
-  const keep = () => {
+  const stored = (storage, name) => {
     try {
-      localStorage.setItem(key, editor.text);
-    } catch { /* a browser that keeps nothing */ }
+      return JSON.parse(storage.getItem(name));
+    } catch {
+      return null;
+    }
   };
 
-  editor.changed(keep);
+  // All versions, the newest first.
+  const versions = () => {
+    const found = [];
+    try {
+      for (let index = 0; index < localStorage.length; index += 1) {
+        const name = localStorage.key(index);
+        const version = name.startsWith(PREFIX) ? stored(localStorage, name) : null;
+        if (typeof version?.text === "string") found.push({ ...version, id: name.slice(PREFIX.length) });
+      }
+    } catch { /* a browser that keeps nothing */ }
+    return found.sort((a, b) => b.at - a.at);
+  };
+
+  // Of too many, the one that stands closest to its neighbours in time goes; the newest and the oldest stay.
+  const thin = (most) => {
+    const all = versions();
+    while (all.length > most && all.length > 2) {
+      let closest = 1;
+      const gap = (index) => all[index - 1].at - all[index + 1].at;
+      for (let index = 2; index < all.length - 1; index += 1) if (gap(index) <= gap(closest)) closest = index;
+      localStorage.removeItem(PREFIX + all[closest].id);
+      all.splice(closest, 1);
+    }
+  };
+
+  const write = () => {
+    const { id, ...version } = mine;
+    for (let most = MOST; ; most = Math.floor(most / 2)) {
+      try {
+        localStorage.setItem(PREFIX + id, JSON.stringify(version));
+        sessionStorage.setItem(key, JSON.stringify({ id, own }));
+        return;
+      } catch {
+        // Full: older versions make room, as long as there are any.
+        try {
+          if (most > 2) { thin(most); continue; }
+        } catch { /* not even that */ }
+        tell(words.unkept);
+        return;
+      }
+    }
+  };
+
+  // Keeps the text as it is now.
+  const keep = (from) => {
+    const now = Date.now();
+    const text = editor.text;
+    if (from && mine?.text === text) return;
+    const goesOn = !from && mine && now - mine.at < PAUSE && now - mine.start < LONGEST;
+    if (!goesOn) {
+      mine = { id: crypto.randomUUID?.() ?? `${now}-${Math.random()}`, start: now, ...(from ?? next) };
+      next = { kind: "typed" };
+      thin(MOST);
+    }
+    Object.assign(mine, { at: now, text });
+    write();
+  };
+  editor.changed(() => keep());
+
+  // ---- Seeing versions, and going back ----
+  const TIME = new Intl.DateTimeFormat(document.documentElement.lang, { month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", second: "2-digit" });
+  const time = (version) => TIME.format(version.at);
+  const tell = (text) => {
+    note.querySelector("span").textContent = text;
+    note.hidden = !text;
+  };
+  const tellNewer = (version, wording) => tell(wording.replace("{}", time(version)));
+
+  const list = dialog.querySelector("ol");
+  const preview = dialog.querySelector("pre");
+  const restore = dialog.querySelector("[data-do=restore]");
+  let chosen;
+
+  const choose = (version, button) => {
+    chosen = version;
+    list.querySelector("[aria-current]")?.removeAttribute("aria-current");
+    button.setAttribute("aria-current", "true");
+    restore.disabled = version.text === editor.text;
+    // Lines that the editor does not have are tinted.
+    const present = new Set(editor.text.split("\n"));
+    preview.replaceChildren(...version.text.split("\n").map((line) => {
+      const row = document.createElement(present.has(line) ? "span" : "mark");
+      row.textContent = `${line}\n`;
+      return row;
+    }));
+    const first = preview.querySelector("mark") ?? preview.firstChild;
+    preview.scrollTop = first.offsetTop - preview.offsetTop - preview.clientHeight / 2;
+  };
+
+  const row = (version) => {
+    const button = document.createElement("button");
+    const when = document.createElement("time");
+    const what = document.createElement("small");
+    button.type = "button";
+    when.dateTime = new Date(version.at).toISOString();
+    when.textContent = time(version);
+    const shown = version.text === editor.text ? ` · ${words.shown}` : "";
+    const of = version.of ? TIME.format(version.of) : version.name;
+    what.textContent = `${words[version.kind] ?? ""}${of ? ` ${of}` : ""}${shown}`;
+    button.append(when, what);
+    button.addEventListener("click", () => choose(version, button));
+    const item = document.createElement("li");
+    item.append(button);
+    return item;
+  };
+
+  const open = () => {
+    tell("");
+    const all = versions();
+    list.replaceChildren(...all.map(row));
+    dialog.querySelector(".none").hidden = all.length > 0;
+    dialog.querySelector(".panes").hidden = !all.length;
+    restore.disabled = true;
+    preview.replaceChildren();
+    dialog.showModal();
+    if (!all.length) return;
+    const other = Math.max(0, all.findIndex((version) => version.text !== editor.text));
+    choose(all[other], list.children[other].firstChild);
+    list.children[other].firstChild.focus();
+  };
+
+  note.querySelector("[data-do=dismiss]").addEventListener("click", () => tell(""));
+  dialog.querySelector("[data-do=close]").addEventListener("click", () => dialog.close());
+  restore.addEventListener("click", () => {
+    dialog.close();
+    editor.fill(chosen.text);
+    keep({ kind: "version", of: chosen.at });
+    restored();
+  });
+  for (const button of document.querySelectorAll("[data-do=versions]")) {
+    button.hidden = false;
+    button.addEventListener("click", open);
+  }
+
+  // Another tab wrote a version: this one goes on with its own text, and says so.
+  addEventListener("storage", (event) => {
+    if (!event.key?.startsWith(PREFIX) || !event.newValue) return;
+    const version = stored(localStorage, event.key);
+    if (version && version.text !== editor.text) tellNewer(version, words.other);
+  });
+
+  // ---- What the page begins with ----
+  // Earlier releases kept one text, under the key itself.
+  try {
+    const text = localStorage.getItem(key);
+    if (text !== null) {
+      const now = Date.now();
+      localStorage.setItem(`${PREFIX}earlier`, JSON.stringify({ start: now, at: now, text, kind: "typed" }));
+      localStorage.removeItem(key);
+    }
+  } catch { /* a browser that keeps nothing */ }
 
   return {
     keep,
-    // The text that was kept, where it is another one than the page shows.
-    kept() {
-      try {
-        const text = localStorage.getItem(key);
-        return text && text !== editor.text ? text : undefined;
-      } catch {
-        return undefined;
+    // Puts the text to go on with into the editor: this tab's own, else the newest. Whether it is another one than the
+    // page came with.
+    begin() {
+      const all = versions();
+      // Typed before the scripts were there, or brought back by the browser.
+      if (textarea.value !== textarea.defaultValue) {
+        if (!all.some((version) => version.text === editor.text)) keep();
+        return true;
       }
+      let tab = null;
+      try {
+        tab = stored(sessionStorage, key);
+      } catch { /* as above */ }
+      // A page that shows an earlier attempt goes on with that, and when it is loaded again with what became of it.
+      const isOpenedAnew = performance.getEntriesByType("navigation")[0]?.type === "navigate";
+      const isTabs = tab && (own === undefined || (tab.own === own && !isOpenedAnew));
+      const tabs = isTabs ? all.find((version) => version.id === tab.id) : undefined;
+      const kept = tabs ?? (own === undefined ? all[0] : undefined);
+      const isOther = kept !== undefined && kept.text !== editor.text;
+      if (isOther) editor.fill(kept.text);
+      if (own !== undefined && !kept) next = { kind: "attempt" };
+      if (all[0] && all[0] !== kept && all[0].text !== editor.text) tellNewer(all[0], words.newer);
+      return isOther;
     },
   };
 };

@@ -1,7 +1,7 @@
 "use strict";
-// Grades the text of the page and shows what comes of it. `page` is what it works on: the elements, the text to send
-// (`body`), the editor that marks lines (`mark`, `show`).
-const gradeText = ({ form, result, state, body, mark, show }) => {
+// Grades the text of the page and shows what comes of it. It works on the page's elements, the text to send (`body`) and
+// the editor that marks lines.
+const gradeText = ({ form, result, state, body, editor }) => {
   const PAUSE = 350; // milliseconds without a key after which the text is graded
   const words = form.dataset;
   const shown = result.querySelector("[data-shown]");
@@ -10,9 +10,8 @@ const gradeText = ({ form, result, state, body, mark, show }) => {
   let timer = 0;
   let current; // the request under way
   let player;
-  let composing = false;
   let isHeld = false; // while a text is handed in
-  let isWaiting = false; // whether a text waits for that, or for a composition, to end
+  let isWaiting = false; // whether a text waits for that to end
 
   const say = (text, kind = "") => {
     state.textContent = text;
@@ -85,8 +84,8 @@ const gradeText = ({ form, result, state, body, mark, show }) => {
     if (isTyped && !runs && !shown.querySelector("article.report:not([data-drawn])")) interrupt(article);
     else replace(article);
     const marks = JSON.parse(article.dataset.marks ?? "[]");
-    mark(marks);
-    if (!isTyped && marks.length) show(marks[0].line);
+    editor.mark(marks);
+    if (!isTyped && marks.length) editor.show(marks[0].line);
     say(`${article.dataset.summary} · ${said}`, article.dataset.mark);
   };
 
@@ -135,19 +134,11 @@ const gradeText = ({ form, result, state, body, mark, show }) => {
     outdate();
   };
 
-  form.addEventListener("compositionstart", () => {
-    composing = true;
-    isWaiting = timer !== 0;
-    clearTimeout(timer);
-  });
-  form.addEventListener("compositionend", () => {
-    composing = false;
-    if (isWaiting) typed();
-  });
+  // The editor tells of a text when an input method has done; one that begins within the pause is waited for as well.
   const typed = () => {
     stop();
-    isWaiting = composing || isHeld;
-    if (!isWaiting) timer = setTimeout(() => grade(true), PAUSE);
+    isWaiting = isHeld;
+    if (!isWaiting) timer = setTimeout(() => (editor.isComposing ? typed() : grade(true)), PAUSE);
   };
 
   // Nothing is graded until it is released: then a text that was typed meanwhile is.
@@ -183,7 +174,7 @@ const gradeText = ({ form, result, state, body, mark, show }) => {
       stop();
       clear();
       player = undefined;
-      mark([]);
+      editor.mark([]);
       say("");
     },
   };

@@ -2,12 +2,11 @@
 // The page on which a student works: puts its parts together.
 {
   const form = document.querySelector("form.work");
-  const textarea = form.elements.text;
+  const sheet = form.querySelector("[data-editor]");
   const result = document.querySelector("[data-result]");
   const state = document.getElementById("state");
-  const { starter, failed } = form.dataset;
-  const editor = editGlsl(form.querySelector("[data-editor]"), textarea);
-  const drafts = keepDrafts(form, editor);
+  const { starter, output, failed } = form.dataset;
+  const editor = editGlsl(sheet, form.elements.text, { grade: () => grading.again() });
   document.documentElement.classList.add("scripted");
 
   const body = () => {
@@ -17,23 +16,19 @@
     return data;
   };
 
-  const mark = (marks) => {
-    editor.mark(marks);
-    textarea.setAttribute("aria-invalid", String(marks.some((mark) => mark.kind === "error")));
-  };
-
   const standing = keepStanding(form);
-  const grading = gradeText({ form, result, state, body, mark, show: editor.show });
+  const grading = gradeText({ form, result, state, body, editor });
   handInHere({ form, result, body, grading, refresh: standing.refresh });
 
-  const files = pickFiles(form, editor, {
-    async taken() {
-      drafts.keep();
-      await grading.loaded();
-      // On a small window the result is below: go there.
-      if (matchMedia("(max-width: 62rem)").matches) result.scrollIntoView();
+  const drafts = keepDrafts(form, editor, {
+    restored() {
+      files.forget();
+      grading.loaded();
     },
-    refused: grading.say,
+  });
+  const files = pickFiles(form, editor, (file) => {
+    drafts.keep({ kind: "file", name: file.name });
+    grading.loaded();
   });
 
   editor.changed(grading.typed);
@@ -46,7 +41,8 @@
     editor.fill(await answer.text());
     files.forget();
     grading.clear();
-    drafts.keep();
+    drafts.keep({ kind: "starter" });
+    showPlace();
   });
 
   result.addEventListener("click", (event) => {
@@ -56,19 +52,24 @@
     editor.go(Number(line[1]));
   });
 
-  textarea.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) {
-      event.preventDefault();
-      grading.again();
-    }
-  });
+  // Brings the last line into sight that gives the result its value: that is where the answer goes.
+  const showPlace = () => {
+    const code = editor.text.replace(/\/\*[^]*?\*\/|\/\/.*/g, (comment) => comment.replace(/[^\n]/g, " "));
+    const gives = new RegExp(`\\b${output}\\b\\s*(\\.\\s*\\w+\\s*)?[-+*/]?=(?!=)`);
+    const line = code.split("\n").findLastIndex((text) => gives.test(text)) + 1;
+    if (line) editor.show(line);
+  };
 
-  // A page that is shown with a text of its own, such as an earlier attempt, keeps it.
-  const kept = drafts.kept();
-  if (form.dataset.own !== undefined) {
-    grading.loaded();
-  } else if (kept !== undefined) {
-    editor.fill(kept);
-    grading.loaded();
-  }
+  // The editor is as high as what the window leaves below what stands above it.
+  const measure = () => {
+    const above = sheet.getBoundingClientRect().top - form.getBoundingClientRect().top;
+    const desk = form.parentElement.getBoundingClientRect().top + scrollY;
+    form.style.setProperty("--above", `${Math.round(desk + above)}px`);
+  };
+  addEventListener("resize", measure);
+  measure();
+
+  const isOther = drafts.begin();
+  showPlace();
+  if (isOther || form.dataset.own !== undefined) grading.loaded();
 }

@@ -5,6 +5,8 @@
 
 #[path = "../chromium/mod.rs"]
 mod chromium;
+mod drafts;
+mod editor;
 mod staying;
 mod teacher;
 
@@ -26,11 +28,12 @@ fn hostile(folder: &std::path::Path) -> String {
 }
 
 /// Chooses a file on the student's page and waits for its result, which is a draft.
-async fn choose(browser: &Browser, file: &str, mark: &str) {
+pub(crate) async fn choose(browser: &Browser, file: &str, mark: &str) {
+    let name = std::path::Path::new(file).file_name().expect("a name").to_string_lossy();
     browser.keys("#file", file).await;
     browser
         .until(&format!(
-            "document.querySelector('article.report[data-mark={mark}]') && \
+            "document.querySelector('article.report[data-mark={mark}] .file')?.textContent === {name:?} && \
                             !document.querySelector('[aria-busy]')"
         ))
         .await;
@@ -57,13 +60,10 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     assert_eq!(browser.text(".result .word").await, "Not right yet");
     assert_eq!(browser.text(".result .score").await.replace('\n', " "), "Score 80 / 100");
     // The half vector is not normalised in line 33: the editor marks it, and a link of the report leads there.
-    browser.until("document.querySelectorAll('.gutter li')[32].className === 'rubric'").await;
-    browser.click(".rubric a[href='#L33']").await;
-    let at = browser
-        .js("const t = document.querySelector('#code'); return document.activeElement === t && \
-                         t.value.slice(t.selectionStart, t.selectionEnd)")
-        .await;
-    assert_eq!(at, "  vec3 h = (l + v) / 2.0;      // 中間ベクトル");
+    browser.until("document.querySelector('.cm-gutterElement.rubric')?.textContent === '33'").await;
+    browser.click(".report a[href='#L33']").await;
+    browser.until("document.activeElement.matches('.cm-content')").await;
+    assert_eq!(browser.js("return String(getSelection())").await, "  vec3 h = (l + v) / 2.0;      // 中間ベクトル");
     browser.until("[...document.querySelectorAll('.report img')].every(i => i.complete && i.naturalWidth > 0)").await;
     browser.check("student-wrong-draft").await;
     assert!(!browser.has(".attempts").await, "a draft is no attempt");
@@ -77,8 +77,8 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     browser.until("document.querySelectorAll('.attempts li').length === 1").await;
     choose(&browser, &sample(BROKEN), "none").await;
     assert_eq!(browser.text(".result .word").await, "Not accepted");
-    assert!(browser.has(".gutter .error").await && browser.has(".paint .error mark").await);
-    assert_eq!(browser.js("return document.querySelector('#code').getAttribute('aria-invalid')").await, "true");
+    assert!(browser.has(".cm-gutterElement.error").await && browser.has(".cm-line.error mark").await);
+    assert!(browser.has(".cm-content[aria-invalid=true]").await);
     browser.check("student-broken").await;
 
     let folder = tempfile::tempdir().expect("a folder");
@@ -118,22 +118,16 @@ async fn the_editor_grades_what_is_typed_last() {
     browser.languages("en").await;
     browser.open(&server.at("/")).await;
     // The cursor goes behind `vc = ` and the answer is typed, with a slip first.
-    browser
-        .js("const t = document.querySelector('#code'); const at = t.value.indexOf('vc = cv;') + 5; \
-                t.focus(); t.setSelectionRange(at, at + 2);")
-        .await;
-    browser.keys("#code", "kamb * lam").await;
+    browser.cursor_into("vc = cv;", 5).await;
+    browser.press("Delete", 46, 0).await;
+    browser.press("Delete", 46, 0).await;
+    browser.type_text("kamb * lam").await;
     browser.until("document.querySelector('article.report[data-mark=none]')").await;
-    browser
-        .keys(
-            "#code",
-            "b + max(dot(n, l), 0.0) * kdiff * ldiff \
-                           + pow(max(dot(n, normalize(l + v)), 0.0), kshi) * kspec * lspec",
-        )
-        .await;
+    browser.type_text("b + max(dot(n, l), 0.0) * kdiff * ldiff").await;
+    browser.type_text(" + pow(max(dot(n, normalize(l + v)), 0.0), kshi) * kspec * lspec").await;
     browser.until("document.querySelector('article.report[data-mark=full]')").await;
     assert!(browser.text("#state").await.starts_with("Correct: 100 / 100"), "said in the live region");
-    assert!(!browser.has(".gutter .error").await, "no mark is left behind");
+    assert!(!browser.has(".cm-gutterElement.error").await, "no mark is left behind");
     browser.check("editor-typed").await;
 
     // The animation stops at a pose, by keyboard.
@@ -143,9 +137,9 @@ async fn the_editor_grades_what_is_typed_last() {
     browser.until("document.querySelector('.player').classList.contains('paused')").await;
 
     // Tab leaves the editor.
-    browser.js("document.querySelector('#code').focus()").await;
-    browser.keys("#code", "\u{E004}").await;
-    assert_ne!(browser.js("return document.activeElement.id").await, "code");
+    browser.cursor_to("void main").await;
+    browser.press("Tab", 9, 0).await;
+    browser.until("!document.activeElement.closest('[data-editor]')").await;
 
     // What was typed is still there when the page is opened again, and is graded; the hand-out comes back on demand.
     browser.open(&server.at("/")).await;
@@ -183,15 +177,15 @@ async fn a_phone_and_a_browser_without_scripts_do_everything() {
     browser.scripts(false).await;
     browser.open(&server.at("/")).await;
     browser.shot("no-script-first").await;
-    assert!(!browser.has(".gutter").await);
+    assert!(!browser.has(".cm-editor").await);
     browser.keys("#file", &sample(BROKEN)).await;
-    browser.click("form.work .without-script").await;
+    browser.click("[name=send][value=file][formaction]").await;
     browser.until_there("article.report .listing").await;
     assert!(browser.text(".about").await.starts_with("A draft"));
     browser.shot("no-script-draft").await;
     browser.open(&server.at("/")).await;
     browser.keys("#file", &sample(RIGHT)).await;
-    browser.click("form.work .primary").await;
+    browser.click("[name=send][value=file]:not([formaction])").await;
     browser.until_there("article.report.report .head.full").await;
     assert_eq!(browser.text(".word").await, "Correct");
     assert!(browser.text(".receipt").await.contains("100 / 100"));

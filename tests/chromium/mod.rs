@@ -1,10 +1,11 @@
 //! A headless Chromium as the tests of the pages drive it, and the service that it looks at.
 
+mod editor;
 pub mod server;
 
 use axum::http::Method;
 use fantoccini::error::CmdError;
-use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand};
+use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand, WindowHandle};
 use fantoccini::{Client, ClientBuilder, Locator};
 use reqwest::Url;
 use serde_json::{Value, json};
@@ -125,6 +126,11 @@ impl Browser {
         !self.client.find_all(Locator::Css(css)).await.expect("an answer").is_empty()
     }
 
+    /// How many such elements there are. Works without scripts.
+    pub async fn count(&self, css: &str) -> usize {
+        self.client.find_all(Locator::Css(css)).await.expect("an answer").len()
+    }
+
     /// Waits until an expression of the page is true.
     pub async fn until(&self, condition: &str) {
         let start = Instant::now();
@@ -146,17 +152,53 @@ impl Browser {
         found.unwrap_or_else(|error| panic!("waited in vain for {css}: {error}"));
     }
 
-    /// Clicks the first element, as soon as the page has scrolled to it.
+    /// Clicks the first element as a person does: when neither it nor the page moves any more, and nothing covers it.
+    /// Works without scripts.
     pub async fn click(&self, css: &str) {
         let start = Instant::now();
+        let mut before = None;
         loop {
             let element = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
-            match element.click().await {
-                Ok(()) => return,
-                Err(error) => assert!(start.elapsed() < PATIENCE, "{css}: {error}"),
+            let now = (element.rectangle().await.ok(), self.scrolled().await);
+            let clicked = if before.as_ref() == Some(&now) { Some(element.click().await) } else { None };
+            match clicked {
+                Some(Ok(())) => return,
+                // The click itself may have scrolled to the element: look again.
+                Some(Err(error)) => assert!(start.elapsed() < PATIENCE, "{css}: {error}"),
+                None => assert!(start.elapsed() < PATIENCE, "{css} never comes to rest: {before:?}, then {now:?}"),
             }
+            before = Some(now);
             tokio::time::sleep(LOOK).await;
         }
+    }
+
+    /// How far the page is scrolled.
+    async fn scrolled(&self) -> (Value, Value) {
+        let metrics = self.devtools("Page.getLayoutMetrics", json!({})).await;
+        let view = &metrics["cssVisualViewport"];
+        (view["pageX"].clone(), view["pageY"].clone())
+    }
+
+    /// Opens a tab, and looks at it.
+    pub async fn new_tab(&self) -> WindowHandle {
+        let handle = self.client.new_window(true).await.expect("a tab").handle;
+        self.client.switch_to_window(handle.clone()).await.expect("the tab");
+        handle
+    }
+
+    /// The tab that is looked at.
+    pub async fn tab(&self) -> WindowHandle {
+        self.client.window().await.expect("a tab")
+    }
+
+    /// Looks at a tab.
+    pub async fn to_tab(&self, handle: &WindowHandle) {
+        self.client.switch_to_window(handle.clone()).await.expect("the tab");
+    }
+
+    /// Goes back to the page before.
+    pub async fn back(&self) {
+        self.client.back().await.expect("a page");
     }
 
     /// Types into an element, or gives a file field its file.

@@ -47,6 +47,7 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("report.js", SCRIPT),
         Asset::text("pages.css", include_str!("../../../templates/service/pages.css")),
         Asset::text("teacher.css", include_str!("../../../templates/service/teacher.css")),
+        Asset::text("editor.css", include_str!("../../../templates/service/editor.css")),
         Asset::text("editor.js", include_str!("../../../templates/service/editor.js")),
         Asset::text("drafts.js", include_str!("../../../templates/service/drafts.js")),
         Asset::text("picker.js", include_str!("../../../templates/service/picker.js")),
@@ -113,6 +114,7 @@ pub(super) async fn serve(Path(name): Path<String>) -> Response {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     #[test]
     fn every_asset_has_an_address_of_its_own_content() {
@@ -130,7 +132,8 @@ mod tests {
     #[test]
     fn styles_and_scripts_refer_to_no_other_host() {
         for asset in ASSETS.iter().filter(|asset| asset.name.ends_with(".css") || asset.name.ends_with(".js")) {
-            let text = String::from_utf8_lossy(&asset.content);
+            // The name of a markup language is no reference.
+            let text = String::from_utf8_lossy(&asset.content).replace("http://www.w3.org/2000/svg", "");
             for reference in ["http:", "https:", "@import", "url(//"] {
                 assert!(!text.contains(reference), "{} has {reference}", asset.name);
             }
@@ -145,5 +148,33 @@ mod tests {
                 assert!(!text.contains(way), "{} has {way}", asset.name);
             }
         }
+    }
+
+    /// The editor is built with npm and kept beside its sources: `script/editor`. It may not be edited by hand, nor its
+    /// sources without it.
+    #[test]
+    fn the_editor_is_what_its_sources_build() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates/service/editor");
+        let read = |name: &str| std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let sha256 = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>();
+        let build = String::from_utf8(read("build.js")).expect("a text");
+        let (_, rest) = build.split_once("const SOURCES = [").expect("the list of sources");
+        let names: Vec<_> = rest.split("];").next().expect("its end").split('"').skip(1).step_by(2).collect();
+        let mut files: Vec<_> = std::fs::read_dir(&folder)
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .filter(|name| name.ends_with(".js") || name.ends_with(".json"))
+            .collect();
+        files.sort();
+        let mut listed = names.clone();
+        listed.sort_unstable();
+        assert_eq!(listed, files, "build.js lists its sources");
+
+        let sources: Vec<u8> = names.iter().flat_map(|name| read(name)).collect();
+        let built = include_str!("../../../templates/service/editor.js");
+        let (head, body) = built.split_once('\n').expect("a first line");
+        let expected = format!("// sources {} body {}", sha256(&sources), sha256(body.as_bytes()));
+        assert_eq!(head, expected, "templates/service/editor.js is not what its sources build: run script/editor");
+        assert!(body.contains("Permission is hereby granted"), "without its licence");
     }
 }

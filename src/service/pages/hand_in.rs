@@ -10,8 +10,8 @@ use crate::service::idempotency::{self, Given};
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
-use crate::service::store::{Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, is_stranger, sha256, submit};
+use crate::service::store::{self, Audience, Submission, Via};
+use crate::service::submit::{Receipt, Upload, check_text, is_stranger, sha256, submit};
 use crate::source;
 use axum::extract::{Multipart, Path, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -64,10 +64,16 @@ pub(super) async fn desk(
             )
         }),
     };
-    let text = match &wish.from {
-        Some(submission) => text_of(&state, submission).await?,
+    let own = match &wish.from {
+        Some(submission) => text_of(&state, submission).await?.map(|text| (submission.clone(), text)),
         None => None,
     };
+    let lost = (wish.from.is_some() && own.is_none()).then(|| {
+        frame.say(
+            "The text to go on with is no longer kept; below is the handed-out file, or your newest draft.",
+            "開こうとした提出の内容は残っていません。配布ファイルまたは最新の下書きを表示しています。",
+        )
+    });
     let desk = Desk {
         frame: frame.of(&id),
         homework: state.assignment,
@@ -80,8 +86,8 @@ pub(super) async fn desk(
         who: identity.student().map(|student| student.number.clone()),
         csrf: visitor.csrf(&state),
         history: &history,
-        text,
-        notice: notice.map(str::to_owned),
+        own,
+        notice: notice.or(lost).map(str::to_owned),
     };
     shown(desk.render())
 }
@@ -111,6 +117,23 @@ pub(super) async fn starter(Shared(state): Shared<State>, Path(id): Path<String>
     let file = state.assignment.files.first().ok_or_else(Problem::not_found)?;
     let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-cache")];
     Ok((headers, file.starter.clone()).into_response())
+}
+
+/// `POST /a/{assignment}/read`: the text of a file as grading reads it, for the editor. Nothing is stored.
+pub(super) async fn read(
+    Shared(state): Shared<State>,
+    Path(id): Path<String>,
+    visitor: Visitor,
+    form: Multipart,
+) -> Result<Response, Problem> {
+    served(&state, &id)?;
+    let form = Form::read(form).await?;
+    visitor.check_csrf(&state, &form.csrf)?;
+    let (name, bytes) = form.file(&state)?;
+    check_text(&bytes)?;
+    let text = readable(&name, &bytes).ok_or_else(|| Problem::internal(&"a text without a text"))?;
+    let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-store")];
+    Ok((headers, text).into_response())
 }
 
 /// `POST /a/{assignment}`: hands in, and goes to the report. A script gets the receipt as a part of its page.
@@ -167,8 +190,8 @@ async fn take(
     let field = form.key.take();
     let visitor = visitor.known(state).await?;
     let (name, bytes) = form.file(state)?;
-    // A page that stays open may be sent again with another text, which is another request.
-    let field = field.map(|field| format!("{field} {}", sha256(&bytes)));
+    // A page that stays open may be sent again with another text, and first to try it: those are other requests.
+    let field = field.map(|field| format!("{field} {} {}", store::word(&via), sha256(&bytes)));
     let key = Given::read(headers, field.as_deref(), &client)?;
     submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None, key }).await
 }
@@ -180,6 +203,14 @@ struct Form {
     key: Option<String>,
     file: Option<(String, Vec<u8>)>,
     text: Option<String>,
+    send: Option<Sent>,
+}
+
+/// Which of the two a browser without scripts hands in: its form has the text as well as the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sent {
+    File,
+    Text,
 }
 
 impl Form {
@@ -190,6 +221,13 @@ impl Form {
                 idempotency::FIELD => form.key = Some(field.text().await.map_err(|error| unreadable(&error))?),
                 "csrf" => form.csrf = field.text().await.map_err(|error| unreadable(&error))?,
                 "text" => form.text = Some(field.text().await.map_err(|error| unreadable(&error))?),
+                "send" => {
+                    form.send = match field.text().await.map_err(|error| unreadable(&error))?.as_str() {
+                        "file" => Some(Sent::File),
+                        "text" => Some(Sent::Text),
+                        _ => None,
+                    }
+                }
                 "file" => {
                     let name = field.file_name().unwrap_or_default().to_owned();
                     let bytes = field.bytes().await.map_err(|error| unreadable(&error))?;
@@ -204,13 +242,19 @@ impl Form {
         Ok(form)
     }
 
-    /// The chosen file, else the text, which browsers send with CRLF.
+    /// What is handed in: the one of file and text that the person chose, else the file, else the text, which browsers
+    /// send with CRLF.
     fn file(self, state: &State) -> Result<(String, Vec<u8>), Problem> {
         let name = state.assignment.files.first().map(|file| file.name.clone()).unwrap_or_default();
-        match (self.file, self.text) {
-            (Some(file), _) => Ok(file),
-            (None, Some(text)) => Ok((name, text.replace("\r\n", "\n").into_bytes())),
-            (None, None) => Err(Problem::bad_request(
+        let file = self.file.filter(|_| self.send != Some(Sent::Text));
+        match (file, self.text, self.send) {
+            (Some(file), ..) => Ok(file),
+            (None, _, Some(Sent::File)) => Err(Problem::bad_request(
+                "No file is chosen. Go back and choose the .vert file, or hand in the text of the editor.",
+                "ファイルが選ばれていません。前のページに戻って .vert ファイルを選ぶか、エディタの内容を提出してください。",
+            )),
+            (None, Some(text), _) => Ok((name, text.replace("\r\n", "\n").into_bytes())),
+            (None, None, _) => Err(Problem::bad_request(
                 "The form has no file and no text. Choose the .vert file, or type in the editor.",
                 "ファイルもテキストも送られていません。.vert ファイルを選ぶか、エディタに入力してください。",
             )),

@@ -41,6 +41,7 @@ pub fn router(state: &State) -> Router<State> {
         .route("/", get(hand_in::first))
         .route("/a/{assignment}", get(hand_in::desk).post(hand_in::hand_in))
         .route("/a/{assignment}/draft", post(hand_in::draft))
+        .route("/a/{assignment}/read", post(hand_in::read))
         .route("/a/{assignment}/starter", get(hand_in::starter))
         .route("/r/{id}", get(result::page))
         .route("/r/{id}/part", get(result::part_of))

@@ -11,10 +11,8 @@ use crate::report::{Equation, Verdict};
 use crate::service::clock::Millis;
 use crate::service::identity::new_id;
 use crate::service::store::{HistoryRow, State as Progress};
+use crate::service::submit::{MAX_UPLOAD, too_large};
 use askama::Template;
-
-/// Longest file that is shown in the editor, in bytes.
-const LONGEST_SHOWN: usize = 200_000;
 
 /// What a student's page is made of.
 pub(super) struct Desk<'a> {
@@ -28,8 +26,8 @@ pub(super) struct Desk<'a> {
     pub csrf: String,
     /// What this browser has handed in, the newest first.
     pub history: &'a [HistoryRow],
-    /// A text in place of the hand-out.
-    pub text: Option<String>,
+    /// Id and text of a submission to go on with, in place of the hand-out.
+    pub own: Option<(String, String)>,
     /// What is to be said first.
     pub notice: Option<String>,
 }
@@ -56,7 +54,13 @@ struct View {
     /// By which the service knows a form that is sent twice.
     form_key: String,
     text: String,
-    has_own_text: bool,
+    /// Id of the submission whose text it is.
+    own: Option<String>,
+    /// Where files are read as text, what the largest has in bytes, and what is said of others.
+    read: String,
+    most: usize,
+    too_large: String,
+    several: String,
     can_hand_in: bool,
     grades_drafts: bool,
     expected: &'static str,
@@ -80,7 +84,7 @@ struct Attempt {
 
 impl Desk<'_> {
     /// The page.
-    pub fn render(self) -> askama::Result<String> {
+    pub fn render(mut self) -> askama::Result<String> {
         let id = &self.homework.id;
         let language = self.frame.language;
         let file = self.homework.files.first();
@@ -88,10 +92,17 @@ impl Desk<'_> {
         let output = self.homework.interface.outputs.first().map(|output| output.name.clone());
         let equation = Equation::illumination();
         let standing = self.standing;
-        let text = self.text.clone().filter(|text| text.len() <= LONGEST_SHOWN);
+        let file_name = file.map(|file| file.name.clone()).unwrap_or_default();
+        let several = match language {
+            Language::En => format!("Several files: give one at a time. The homework is {file_name}."),
+            Language::Ja => {
+                format!("ファイルが複数あります。1 つずつ選んでください。課題のファイルは {file_name} です。")
+            }
+        };
+        let (own, text) = self.own.take().unzip();
         View {
             title: title(self.homework, language),
-            file: file.map(|file| file.name.clone()).unwrap_or_default(),
+            file: file_name,
             facts: self.facts(),
             now: standing.now,
             hindrance: standing.hindrance(&self.frame),
@@ -109,8 +120,12 @@ impl Desk<'_> {
             key: format!("ggrade {id}"),
             csrf: self.csrf,
             form_key: new_id(),
-            has_own_text: text.is_some(),
+            own,
             text: text.unwrap_or(starter),
+            read: format!("/a/{id}/read"),
+            most: MAX_UPLOAD,
+            too_large: too_large().detail.get(language).to_owned(),
+            several,
             expected: assets::address(&assets::expected_name(id)),
             output: output.unwrap_or_default(),
             equation_source: equation.source.get(language).to_owned(),

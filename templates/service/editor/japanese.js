@@ -1,0 +1,21 @@
+// CodeMirror's words in Japanese.
+export const japanese = {
+  "Find": "検索",
+  "Replace": "置換後の文字列",
+  "next": "次へ",
+  "previous": "前へ",
+  "match case": "大文字と小文字を区別",
+  "regexp": "正規表現",
+  "by word": "単語単位",
+  "replace": "置換",
+  "replace all": "すべて置換",
+  "close": "閉じる",
+  "current match": "現在の一致",
+  "on line": "行:",
+  "replaced match on line $": "$ 行目を置換しました",
+  "replaced $ matches": "$ 件を置換しました",
+  "Go to line": "行へ移動",
+  "go": "移動",
+  "Selection deleted": "選択範囲を削除しました",
+  "Control character": "制御文字",
+};
