@@ -13,6 +13,8 @@ async fn cursor(browser: &Browser) -> (usize, usize) {
     let text = browser.editor_text().await;
     browser.press("Backspace", 8, 0).await;
     browser.until("!document.querySelector('#code').value.includes('\u{2603}')").await;
+    // The editor scrolls to the cursor with its next frame.
+    browser.drawn().await;
     let before = text.split('\u{2603}').next().expect("a text");
     (before.lines().last().map_or(0, |line| line.chars().count()) + 1, before.matches('\n').count() + 1)
 }
@@ -61,6 +63,7 @@ async fn the_caret_stands_where_it_is_painted() {
         browser.click_at(x + 1.0, y).await;
         assert_eq!(cursor(&browser).await, (111, 40), "{name}");
         browser.js("document.querySelector('.cm-scroller').scrollLeft = 0").await;
+        browser.drawn().await;
         let (x, y) = browser.painted("vc = cv;", 5).await;
         browser.click_at(x + 1.0, y).await;
         assert_eq!(cursor(&browser).await, (8, 40), "{name}");

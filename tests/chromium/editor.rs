@@ -38,6 +38,12 @@ impl Browser {
         text.as_str().expect("a text").to_owned()
     }
 
+    /// Waits until the page has drawn what it was told so far.
+    pub async fn drawn(&self) {
+        let script = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => done(true)))";
+        self.client.execute_async(script, Vec::new()).await.expect("a frame");
+    }
+
     /// Puts the cursor of the editor before the first `mark` of the lines in sight, by the mouse.
     pub async fn cursor_to(&self, mark: &str) {
         self.cursor_into(mark, 0).await;
@@ -47,14 +53,14 @@ impl Browser {
     pub async fn cursor_into(&self, mark: &str, after: usize) {
         self.client
             .execute(
-                "const box = document.querySelector('.cm-scroller'), left = box.scrollLeft; \
-                 [...document.querySelectorAll('.cm-line')].find(l => l.textContent.includes(arguments[0])) \
+                "[...document.querySelectorAll('.cm-line')].find(l => l.textContent.includes(arguments[0])) \
                    .scrollIntoView({ block: 'nearest' }); \
-                 box.scrollLeft = left",
+                 document.querySelector('.cm-scroller').scrollLeft = 0",
                 vec![mark.into()],
             )
             .await
             .unwrap_or_else(|error| panic!("{mark}: {error}"));
+        self.drawn().await;
         let at = self.painted(mark, after).await;
         self.click_at(at.0, at.1).await;
         self.until("document.activeElement?.matches('.cm-content')").await;

@@ -10,6 +10,7 @@ import { glsl } from "./glsl.js";
 import { japanese } from "./japanese.js";
 import { marking, marks } from "./marks.js";
 
+const TAKEN_OVER = 150; // milliseconds
 const isFilled = Annotation.define();
 // Android's keyboards compose every word, and go on until the cursor leaves it.
 const isAndroid = /Android/.test(navigator.userAgent);
@@ -35,13 +36,13 @@ globalThis.editGlsl = (host, textarea, { grade }) => {
     heldBack = false;
     for (const listener of listeners) listener();
   };
+  // The view takes over what was composed a moment after the end of it, and then there is nothing left to tell.
   const composed = () => {
     composing = false;
-    if (heldBack) tell();
+    setTimeout(() => { if (heldBack) tell(); }, TAKEN_OVER);
   };
 
   const view = new EditorView({
-    parent: host,
     state: EditorState.create({
       doc: textarea.value,
       extensions: [
@@ -82,7 +83,12 @@ globalThis.editGlsl = (host, textarea, { grade }) => {
       ],
     }),
   });
-  addEventListener("pagehide", composed);
+  // Before the textarea, as it is met first.
+  host.prepend(view.dom);
+  addEventListener("pagehide", () => {
+    composing = false;
+    if (heldBack) tell();
+  });
   host.classList.add("live");
   textarea.hidden = true;
 
