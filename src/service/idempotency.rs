@@ -71,8 +71,10 @@ impl Given {
     }
 
     fn of(&self, who: &str, parts: &[&str]) -> Key {
-        // No part has a NUL that a client could choose, but for the last one, which is a hash.
-        Key { id: sha256([who, &self.text].join("\0").as_bytes()), fingerprint: sha256(parts.join("\0").as_bytes()) }
+        // A name may have anything in it: hashed, no part passes for two.
+        let hashes: Vec<String> = parts.iter().map(|part| sha256(part.as_bytes())).collect();
+        let fingerprint = sha256(hashes.concat().as_bytes());
+        Key { id: sha256([who, &self.text].join("\0").as_bytes()), fingerprint }
     }
 }
 

@@ -1,7 +1,7 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
 use super::archive::Archive;
-use super::schema::{BatchJson, Errors, FormatName, IdempotencyKey, NotFound, Refusals};
+use super::schema::{BatchJson, Errors, FilledFormatName, FormatName, IdempotencyKey, NotFound, Refusals};
 use super::submissions::attachment;
 use crate::batch::formats::Format;
 use crate::language::Language;
@@ -199,7 +199,7 @@ async fn made(
 /// A batch in Moodle's worksheet
 #[utoipa::path(
     post, operation_id = "fill_batch_file", path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the batch"), ("format" = FormatName, Path, description = "`moodle-worksheet`; others take no file")),
+    params(("id" = String, Path, description = "Id of the batch"), ("format" = FilledFormatName, Path, description = "`moodle-worksheet`; others take no file")),
     request_body(content = String, content_type = "text/csv", description = "The worksheet that Moodle gives"),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]

@@ -14,7 +14,7 @@ use super::State;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::routing::get;
-use schema::{FormatName, Security};
+use schema::{FilledFormatName, FormatName, Security};
 use tower_http::compression::CompressionLayer;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
@@ -31,7 +31,7 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
                        (RFC 9457), in the language of `?lang=` or `Accept-Language`.",
         license(name = "MIT OR Apache-2.0")
     ),
-    components(schemas(super::errors::ProblemJson, FormatName)),
+    components(schemas(super::errors::ProblemJson, FormatName, FilledFormatName)),
     modifiers(&Security),
     tags(
         (name = "submissions", description = "One file. Its id opens it: who has the id may read the report."),

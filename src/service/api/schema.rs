@@ -196,17 +196,32 @@ impl BatchJson {
     }
 }
 
-/// The name of a format of `ggrade batch`.
+/// The name of a format of `ggrade batch` that is made of the class alone.
 pub(super) struct FormatName;
+
+/// The name of a format that fills in a file.
+pub(super) struct FilledFormatName;
+
+fn format_names(is_filled: bool) -> RefOr<Schema> {
+    let all = Format::value_variants().iter().filter(|format| (**format == Format::MoodleWorksheet) == is_filled);
+    ObjectBuilder::new().schema_type(Type::String).enum_values(Some(all.map(|format| format.id()))).into()
+}
 
 impl utoipa::PartialSchema for FormatName {
     fn schema() -> RefOr<Schema> {
-        let names = Format::value_variants().iter().map(|format| format.id());
-        ObjectBuilder::new().schema_type(Type::String).enum_values(Some(names)).into()
+        format_names(false)
     }
 }
 
 impl utoipa::ToSchema for FormatName {}
+
+impl utoipa::PartialSchema for FilledFormatName {
+    fn schema() -> RefOr<Schema> {
+        format_names(true)
+    }
+}
+
+impl utoipa::ToSchema for FilledFormatName {}
 
 /// The pictures of a submission.
 #[derive(Debug, Serialize, utoipa::ToSchema)]
