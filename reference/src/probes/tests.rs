@@ -109,3 +109,23 @@ fn colours_over_one_and_points_behind_the_eye_occur() {
     assert!(probes.iter().any(|p| p.colour.x > 1.05));
     assert!(probes.iter().any(|p| p.position.w < 0.0));
 }
+
+#[test]
+fn the_last_groups_are_twins_that_differ_in_normals_or_in_everything() {
+    let same = |a: glam::DVec4, b: glam::DVec4| (a - b).abs().max_element() < 1e-6;
+    for seed in SEEDS {
+        let probes = ggsample06().probes(seed);
+        let [first, other] = probes.with_other_normals().expect("groups enough");
+        let cameras = [first.start, other.start].map(|place| probes.groups[probes.probes[place].group].matrices);
+        assert_eq!(cameras[0], cameras[1]);
+        for (a, b) in first.zip(other) {
+            let (a, b) = (&probes.probes[a].vertex, &probes.probes[b].vertex);
+            assert!(same(a.position, b.position) && !same(a.normal, b.normal), "{a:?} {b:?}");
+        }
+        let [first, other] = probes.with_other_vertices().expect("groups enough");
+        for (a, b) in first.zip(other) {
+            let (a, b) = (&probes.probes[a].vertex, &probes.probes[b].vertex);
+            assert!(!same(a.position, b.position) && !same(a.normal, b.normal), "{a:?} {b:?}");
+        }
+    }
+}
