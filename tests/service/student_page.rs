@@ -73,7 +73,7 @@ async fn after_the_deadline_what_is_typed_is_practice(database: Database) {
     // Attempts are counted: nothing is graded before the end but what is handed in.
     let page = visit.page(&bench).await;
     assert!(page.contains("20 seconds left") && page.contains("data-until=\"1020000\""), "{page}");
-    assert!(page.contains("class=\"primary\"") && !page.contains("data-draft="), "{page}");
+    assert!(page.contains(">Hand in<") && !page.contains("data-draft="), "{page}");
     assert_eq!(visit.draft(&bench).await, StatusCode::FORBIDDEN);
     settings.attempts = None;
     store.set_assignment(&settings).await.expect("set");
@@ -84,7 +84,7 @@ async fn after_the_deadline_what_is_typed_is_practice(database: Database) {
     clock.advance(Duration::from_secs(30));
     let page = visit.page(&bench).await;
     assert!(page.contains("Closed since") && page.contains("Handing in is over. What you type is still graded"));
-    assert!(!page.contains("class=\"primary\"") && !page.contains("when you are content"), "{page}");
+    assert!(!page.contains(">Hand in<") && !page.contains("when you are content"), "{page}");
     assert!(page.contains("data-draft=") && page.contains("practice, not handed in"), "{page}");
     assert_eq!(visit.draft(&bench).await, StatusCode::OK);
     let reply = visit.send(&bench, "/a/ggsample06", "void main() {}").await;
