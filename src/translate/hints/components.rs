@@ -1,6 +1,7 @@
 //! Components of vectors, members, indices and conditions.
 
 use super::file::File;
+use super::tokens::Kind;
 use super::{Finding, expression, types};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -70,7 +71,19 @@ fn swizzle(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
             format!("ベクトルに `{field}` という成分はありません。"),
         )
     };
-    file.error_at(finding.index, text).hint(names_of_components())
+    // What is called a length elsewhere is a function here.
+    let hint = if field == "length" { length_of_vector(file, finding.index) } else { names_of_components() };
+    file.error_at(finding.index, text).hint(hint)
+}
+
+/// How the length of the vector is written whose member `.length` was meant to be.
+fn length_of_vector(file: &File<'_>, index: usize) -> Text {
+    let name = index.checked_sub(2).filter(|before| file.code[*before].kind == Kind::Word);
+    let example = format!("length({})", name.map_or("…", |before| file.code[before].text));
+    Text::new(
+        format!("The length of a vector is a function: `{example}`."),
+        format!("ベクトルの長さは関数で求めます: `{example}`。"),
+    )
 }
 
 /// How the components of a vector are named.

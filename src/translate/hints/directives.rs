@@ -166,11 +166,17 @@ fn unclosed_condition<'f, 'a>(file: &'f File<'a>) -> Option<&'f Token<'a>> {
     open.pop()
 }
 
-/// A file that is written in today's GLSL and does not say so: without `#version`, it is read as that of 2004.
+/// A file that is written in today's GLSL and does not say so, or not in a way that the compiler reads: it is then taken
+/// for one of 2004.
 pub fn missing_version(file: &File<'_>) -> Option<Diagnostic> {
-    let has_version = file.directives.iter().any(|token| directive_name(token.text).starts_with("version"));
+    if file.directives.iter().any(|token| directive_name(token.text) == "version") {
+        return None;
+    }
+    if let Some(meant) = meant_version(file) {
+        return Some(meant.hint(version_hint(file)));
+    }
     let modern = file.declarations.iter().any(|d| d.global && (d.is("in") || d.is("out") || d.is("layout")));
-    if has_version || !modern {
+    if !modern {
         return None;
     }
     let text = Text::new(
@@ -178,6 +184,55 @@ pub fn missing_version(file: &File<'_>) -> Option<Diagnostic> {
         "`#version` の行がないので、`in` や `out` の変数がない GLSL 1.10 として扱われます。",
     );
     Some(file.error(0, 1, text).hint(version_hint(file)))
+}
+
+/// A line that was meant to be `#version`.
+fn meant_version(file: &File<'_>) -> Option<Diagnostic> {
+    let is_meant = |name: &str| vocabulary::nearest(name, std::iter::once("version")).is_some();
+    let number_joined =
+        |name: &str| name.strip_prefix("version").is_some_and(|rest| rest.starts_with(char::is_numeric));
+    for line in &file.directives {
+        let name = directive_name(line.text);
+        if number_joined(name) {
+            let text = Text::new(
+                "A space is missing between `#version` and its number.",
+                "`#version` と番号の間に空白が必要です。",
+            );
+            return Some(file.error(line.start, line.text.len(), text));
+        }
+        if is_meant(name) {
+            let text = Text::new(
+                format!("`#{name}` is misspelt: it is written `#version`, in small letters."),
+                format!("`#{name}` は綴りが違います。小文字で `#version` と書きます。"),
+            );
+            return Some(file.error(line.start, line.text.len(), text));
+        }
+    }
+    let first = file.code.first().filter(|first| first.text == "version" || is_meant(first.text));
+    if let Some(first) = first.filter(|_| file.code.get(1).is_some_and(|next| next.kind == Kind::Number)) {
+        let text = Text::new(
+            format!("`{}` lacks the `#` before it: the line is written `#version …`.", first.text),
+            format!("`{}` の前に `#` がありません。`#version …` と書きます。", first.text),
+        );
+        return Some(file.error_at(0, text));
+    }
+    let commented = version_in_comment(file)?;
+    let text = Text::new(
+        "This `#version` stands in a comment, so the compiler does not read it.",
+        "この `#version` はコメントの中にあるので、コンパイラに読まれません。",
+    );
+    Some(file.error(commented, "#version".len(), text))
+}
+
+/// Where a line of a comment is a `#version`.
+fn version_in_comment(file: &File<'_>) -> Option<usize> {
+    let mut start = 0;
+    file.text.split_inclusive('\n').find_map(|line| {
+        let at = start;
+        start += line.len();
+        let rest = line.trim_start_matches(|c: char| c.is_whitespace() || matches!(c, '/' | '*'));
+        (rest.starts_with('#') && directive_name(rest) == "version").then(|| at + line.len() - rest.len())
+    })
 }
 
 /// The `#version` of the assignment, which its fragment shader has.
