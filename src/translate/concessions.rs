@@ -2,7 +2,7 @@
 
 use super::glslang::Outcome;
 use super::log::{self, Entry};
-use super::text;
+use super::{spirv, text};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
@@ -14,13 +14,34 @@ const SHARED_VERSION: i32 = 430;
 pub(super) struct Granted {
     pub text: String,
     pub warnings: Vec<Diagnostic>,
+    pub renamed: Vec<Renamed>,
+}
+
+/// A name of the student's that the compiler sees as another one of the same length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Renamed {
+    own: &'static str,
+    ours: &'static str,
+}
+
+/// What the compiler says, in the student's own names.
+pub(super) fn in_own_names(outcome: &mut Outcome, renamed: &[Renamed]) {
+    for Renamed { own, ours } in renamed {
+        for log in [&mut outcome.vertex_log, &mut outcome.link_log] {
+            let places: Vec<usize> = text::words(log).filter(|(_, word)| word == ours).map(|(at, _)| at).collect();
+            for at in places {
+                log.replace_range(at..at + ours.len(), own);
+            }
+        }
+        spirv::rename(&mut outcome.spirv, ours, own);
+    }
 }
 
 /// Looks in the log of a refused `text` for what drivers take; `None` where there is nothing of the kind.
 pub(super) fn grant(text: &str, outcome: &Outcome, source: &Source) -> Option<Granted> {
     let entries = log::entries(&outcome.vertex_log);
     let errors = || entries.iter().filter(|entry| entry.is_error);
-    let mut granted = Granted { text: text.to_owned(), warnings: Vec::new() };
+    let mut granted = Granted { text: text.to_owned(), warnings: Vec::new(), renamed: Vec::new() };
     for entry in errors().filter(|entry| entry.token == "extraneous semicolon") {
         granted.semicolon(entry, source);
     }
@@ -94,7 +115,7 @@ impl Granted {
     }
 
     /// Gives a name that the compiler keeps for itself another of the same length, unless the text has that too.
-    fn rename(&mut self, name: &str, new: &str, is_name: impl Fn(&str, usize) -> bool) {
+    fn rename(&mut self, name: &'static str, new: &'static str, is_name: impl Fn(&str, usize) -> bool) {
         if text::words(&self.text).any(|(_, word)| word == new) {
             return;
         }
@@ -105,6 +126,7 @@ impl Granted {
         for at in places {
             self.text.replace_range(at..at + name.len(), new);
         }
+        self.renamed.push(Renamed { own: name, ours: new });
     }
 }
 

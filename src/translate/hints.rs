@@ -31,7 +31,7 @@ use super::log::Entry;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Text;
 use std::ops::Range;
-use tokens::Token;
+pub use tokens::{Kind, Token, tokens};
 
 /// A message of the compiler with its place in the file.
 #[derive(Clone, Debug)]

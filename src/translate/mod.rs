@@ -13,8 +13,10 @@ mod gate;
 pub mod glslang;
 mod hints;
 mod interface;
+mod interpreter;
 mod limits;
 mod log;
+mod macros;
 mod module;
 mod opaque;
 mod portability;
@@ -28,6 +30,7 @@ mod undefined;
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
 pub use fuel::{MAX_TURNS, Meter};
 pub use interface::{Interface, Variable};
+pub use interpreter::{Given, Interpreter, Place, Value, Written};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use spirv::Lines;
 pub use undefined::NO_LINE;
@@ -35,6 +38,7 @@ pub use undefined::NO_LINE;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::source::Source;
+use concessions::Renamed;
 use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
 
 /// Why there is no shader.
@@ -61,12 +65,15 @@ pub struct Translation {
     pub shader: Shader,
     /// Warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
+    /// The text that the compiler accepts.
+    text: String,
+    renamed: Vec<Renamed>,
 }
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
     gate::check_text(source)?;
-    let Accepted { text, verdict, warnings } = first_pass(source, interface)?;
+    let Accepted { text, renamed, verdict, warnings } = first_pass(source, interface)?;
     let mut overlooked = hints::overlooked_errors(&source.text, interface);
     overlooked.extend(strict::errors(source, interface));
     if !overlooked.is_empty() {
@@ -75,16 +82,29 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
     let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
     diagnostics.extend(warnings);
     diagnostics.extend(portability::warnings(source, interface));
-    let spirv = second_pass(&text, text::version(source.code()))?;
+    let spirv = second_pass(&text, &renamed, text::version(source.code()))?;
     gate::check_words(&spirv, source)?;
     let shader = module::build(spirv, source, interface, false)?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
-    Ok(Translation { shader, diagnostics })
+    Ok(Translation { shader, diagnostics, text, renamed })
+}
+
+impl Translation {
+    /// The shader, to be run step by step. Its numeric constants are variables there, so that an expression of them is
+    /// computed on the line on which it is written, and not before the shader runs.
+    pub fn interpreter(&self, source: &Source) -> Option<Interpreter> {
+        let version = text::version(source.code());
+        let text = macros::on_their_lines(&self.text, version).unwrap_or_else(|| self.text.clone());
+        let variable = text::without_constants(&text);
+        let words = variable.and_then(|text| second_pass(&text, &self.renamed, version).ok());
+        Interpreter::new(&words.unwrap_or_else(|| self.shader.written().to_vec()))
+    }
 }
 
 /// A text that the compiler accepts under OpenGL's rules.
 struct Accepted {
     text: String,
+    renamed: Vec<Renamed>,
     verdict: Outcome,
     warnings: Vec<Diagnostic>,
 }
@@ -99,7 +119,8 @@ fn first_pass(source: &Source, interface: &Interface) -> Result<Accepted, Refusa
     }
     let mut text = text::prepared(source);
     let mut warnings = Vec::new();
-    let mut verdict = check(&text, interface);
+    let mut renamed = Vec::new();
+    let mut verdict = check(&text, interface, &renamed);
     for _ in 0..MAX_CONCESSIONS {
         if verdict.reached != Reached::Vertex {
             break;
@@ -107,30 +128,34 @@ fn first_pass(source: &Source, interface: &Interface) -> Result<Accepted, Refusa
         let Some(granted) = concessions::grant(&text, &verdict, source) else { break };
         text = granted.text;
         warnings.extend(granted.warnings);
-        verdict = check(&text, interface);
+        renamed.extend(granted.renamed);
+        verdict = check(&text, interface, &renamed);
     }
+
     match (verdict.reached, concessions::unimplemented(&verdict)) {
-        (Reached::Done, _) => Ok(Accepted { text, verdict, warnings }),
+        (Reached::Done, _) => Ok(Accepted { text, renamed, verdict, warnings }),
         (_, Some(feature)) => Err(unsupported(&format!("`{feature}`")).into()),
-        _ => Err(rejected(verdict, &text, source, interface)),
+        _ => Err(rejected(verdict, &text, &renamed, source, interface)),
     }
 }
 
 /// Compiles and links under OpenGL's rules.
-fn check(text: &str, interface: &Interface) -> Outcome {
-    compile(&Request {
+fn check(text: &str, interface: &Interface, renamed: &[Renamed]) -> Outcome {
+    let mut outcome = compile(&Request {
         vertex: &text::c_text(text),
         fragment: Some(&interface.fragment),
         preamble: c"",
         rules: Rules::OpenGl,
         version: None,
         emit: Stage::Vertex,
-    })
+    });
+    concessions::in_own_names(&mut outcome, renamed);
+    outcome
 }
 
-fn rejected(verdict: Outcome, text: &str, source: &Source, interface: &Interface) -> Refusal {
+fn rejected(verdict: Outcome, text: &str, renamed: &[Renamed], source: &Source, interface: &Interface) -> Refusal {
     // With `#line` the compiler counts as the student tells it to; a person counts lines of the file.
-    let plain = hints::without_line_directives(text).map(|text| check(&text, interface));
+    let plain = hints::without_line_directives(text).map(|text| check(&text, interface, renamed));
     let verdict = match plain {
         None => verdict,
         Some(plain) if plain.reached == verdict.reached => plain,
@@ -147,7 +172,7 @@ fn rejected(verdict: Outcome, text: &str, source: &Source, interface: &Interface
 }
 
 /// SPIR-V of a text that the first pass accepts.
-fn second_pass(text: &str, version: i32) -> Result<Vec<u32>, Fault> {
+fn second_pass(text: &str, renamed: &[Renamed], version: i32) -> Result<Vec<u32>, Fault> {
     let ready = text::for_spirv(text, version);
     let request = Request {
         vertex: &ready.text,
@@ -158,7 +183,8 @@ fn second_pass(text: &str, version: i32) -> Result<Vec<u32>, Fault> {
         version: ready.version,
         emit: Stage::Vertex,
     };
-    let outcome = compile(&request);
+    let mut outcome = compile(&request);
+    concessions::in_own_names(&mut outcome, renamed);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
     }
@@ -187,5 +213,5 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, 
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
 pub fn warm(interface: &Interface, vertex: &str) {
-    check(vertex, interface);
+    check(vertex, interface, &[]);
 }

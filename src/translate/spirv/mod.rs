@@ -1,6 +1,6 @@
 //! What the compiler wrote, made into what naga's front end takes, with the same meaning.
 
-mod code;
+pub(super) mod code;
 mod globals;
 mod images;
 mod infinite;
@@ -17,7 +17,7 @@ mod walk;
 
 pub(super) use globals::{DEFAULT_BLOCK, Unset};
 pub(super) use poison::NEGATIVE;
-pub(super) use walk::{Instruction, instructions, text};
+pub(super) use walk::{Instruction, instructions, rename, text};
 
 use code::Code;
 use std::collections::BTreeMap;

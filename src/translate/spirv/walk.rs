@@ -1,5 +1,7 @@
 //! Walking over words without taking them apart.
 
+use super::op;
+
 const HEADER_WORDS: usize = 5;
 
 /// One instruction: its opcode and its words, the first included.
@@ -24,4 +26,24 @@ pub(in crate::translate) fn instructions(words: &[u32]) -> impl Iterator<Item = 
 pub(in crate::translate) fn text(words: &[u32]) -> String {
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).take_while(|byte| *byte != 0).collect();
     String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Gives variables, members and the like that are called `name` another name of the same length.
+pub(in crate::translate) fn rename(words: &mut [u32], name: &str, other: &str) {
+    let mut at = HEADER_WORDS;
+    while let Some(first) = words.get(at).copied() {
+        let length = ((first >> 16) as usize).max(1);
+        let skipped = match first as u16 {
+            op::NAME => 2,
+            op::MEMBER_NAME => 3,
+            _ => length,
+        };
+        if let Some(own) = words.get_mut(at + skipped..at + length).filter(|own| !own.is_empty() && text(own) == name) {
+            let bytes = other.bytes().chain(std::iter::repeat(0)).take(own.len() * 4).collect::<Vec<u8>>();
+            for (word, bytes) in own.iter_mut().zip(bytes.as_chunks().0) {
+                *word = u32::from_le_bytes(*bytes);
+            }
+        }
+        at += length;
+    }
 }

@@ -1,0 +1,150 @@
+//! What the compiler wrote → an [`Interpreter`].
+
+use super::{Interpreter, Value, Variable};
+use crate::translate::spirv::code::{Code, Instruction};
+use crate::translate::spirv::op;
+use std::collections::HashMap;
+
+/// What a type consists of.
+#[derive(Clone, Debug)]
+pub(super) enum Shape {
+    Bool,
+    Int,
+    Float,
+    /// So many of one type: a vector, a matrix, an array.
+    Repeated(u32, usize),
+    Structure(Vec<u32>),
+    Pointer(u32),
+}
+
+/// Where a global variable gets its value from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Class {
+    /// From the program: attributes, uniforms.
+    Input,
+    Output,
+    /// From the shader.
+    Private,
+}
+
+/// Numbers of SPIR-V, section 3.7.
+mod storage {
+    pub const INPUT: u32 = 1;
+    pub const OUTPUT: u32 = 3;
+    pub const PRIVATE: u32 = 6;
+}
+
+/// The built-in variable `gl_Position`, SPIR-V, section 3.21.
+const POSITION: u32 = 0;
+
+impl Interpreter {
+    /// Reads words; `None` for what is not known here.
+    pub fn new(words: &[u32]) -> Option<Self> {
+        let code = Code::parse(words)?;
+        let shapes = shapes(&code)?;
+        let mut interpreter = Self {
+            constants: Vec::new(),
+            shapes,
+            names: code.names(),
+            variables: Vec::new(),
+            starts: HashMap::new(),
+            main: *code.heads.iter().find(|i| i.opcode == op::ENTRY_POINT)?.operands.get(1)?,
+            position: position(&code),
+            bound: code.bound() as usize,
+            instructions: code.functions,
+        };
+        interpreter.constants = vec![None; interpreter.bound];
+        for instruction in &code.globals {
+            interpreter.global(instruction, &code.heads)?;
+        }
+        for (at, instruction) in interpreter.instructions.iter().enumerate() {
+            match instruction.opcode {
+                op::FUNCTION => interpreter.starts.insert(*instruction.operands.get(1)?, at),
+                op::LABEL => interpreter.starts.insert(*instruction.operands.first()?, at),
+                _ => None,
+            };
+        }
+        Some(interpreter)
+    }
+
+    /// Takes a constant or a global variable.
+    fn global(&mut self, instruction: &Instruction, heads: &[Instruction]) -> Option<()> {
+        let operands = &instruction.operands;
+        let value = match instruction.opcode {
+            op::VARIABLE => {
+                let Shape::Pointer(shape) = *self.shapes.get(operands.first()?)? else { return None };
+                let class = match *operands.get(2)? {
+                    storage::PRIVATE => Class::Private,
+                    storage::OUTPUT => Class::Output,
+                    storage::INPUT | op::storage::UNIFORM_CONSTANT | op::storage::UNIFORM => Class::Input,
+                    _ => return None,
+                };
+                let id = operands[1];
+                let built_in = |number: u32| {
+                    let is_it = |i: &Instruction| {
+                        i.opcode == op::DECORATE && i.operands == [id, op::decoration::BUILT_IN, number]
+                    };
+                    heads.iter().any(is_it)
+                };
+                let is_vertex_number = built_in(op::built_in::VERTEX_ID) || built_in(op::built_in::VERTEX_INDEX);
+                let initial = operands.get(3).copied();
+                self.variables.push(Variable { id, shape, class, initial, is_vertex_number });
+                return Some(());
+            }
+            op::CONSTANT_TRUE => Value::Bool(true),
+            op::CONSTANT_FALSE => Value::Bool(false),
+            op::CONSTANT => self.number(*operands.first()?, operands.get(2..)?)?,
+            op::CONSTANT_NULL | op::UNDEF => self.zero(*operands.first()?)?,
+            op::CONSTANT_COMPOSITE => {
+                let part = |id: &u32| self.constants.get(*id as usize)?.clone();
+                Value::Composite(operands.get(2..)?.iter().map(part).collect::<Option<_>>()?)
+            }
+            _ => return Some(()),
+        };
+        *self.constants.get_mut(*operands.get(1)? as usize)? = Some(value);
+        Some(())
+    }
+
+    fn number(&self, shape: u32, words: &[u32]) -> Option<Value> {
+        match (self.shapes.get(&shape)?, words) {
+            (Shape::Int, [bits]) => Some(Value::Int(*bits)),
+            (Shape::Float, [bits]) => Some(Value::Float(f64::from(f32::from_bits(*bits)))),
+            (Shape::Float, [low, high]) => Some(Value::Float(f64::from_bits(u64::from(*high) << 32 | u64::from(*low)))),
+            _ => None,
+        }
+    }
+}
+
+/// The types by id; those that nothing here computes with are left out.
+fn shapes(code: &Code) -> Option<HashMap<u32, Shape>> {
+    let mut shapes = HashMap::new();
+    for instruction in &code.globals {
+        let operands = &instruction.operands;
+        let count = |at: usize| operands.get(at).map(|count| *count as usize);
+        let shape = match instruction.opcode {
+            op::TYPE_BOOL => Shape::Bool,
+            op::TYPE_INT => Shape::Int,
+            op::TYPE_FLOAT => Shape::Float,
+            op::TYPE_VECTOR | op::TYPE_MATRIX => Shape::Repeated(*operands.get(1)?, count(2)?),
+            op::TYPE_ARRAY => {
+                let length =
+                    code.globals.iter().find(|i| i.opcode == op::CONSTANT && i.operands.get(1) == operands.get(2));
+                Shape::Repeated(*operands.get(1)?, *length?.operands.get(2)? as usize)
+            }
+            op::TYPE_STRUCT => Shape::Structure(operands.get(1..)?.to_vec()),
+            op::TYPE_POINTER => Shape::Pointer(*operands.get(2)?),
+            _ => continue,
+        };
+        shapes.insert(*operands.first()?, shape);
+    }
+    Some(shapes)
+}
+
+/// The structure and its member that is `gl_Position`.
+fn position(code: &Code) -> Option<(u32, usize)> {
+    let is_it = |i: &&Instruction| {
+        i.opcode == op::MEMBER_DECORATE && i.operands.get(2..) == Some(&[op::decoration::BUILT_IN, POSITION])
+    };
+    let found = code.heads.iter().find(is_it)?;
+    Some((found.operands[0], found.operands[1] as usize))
+}
