@@ -2,6 +2,7 @@
 
 mod check;
 
+use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
 use crate::expression::Value;
 pub use crate::manifest::{Attribute, Matrix, RubricLine, Stage};
@@ -34,6 +35,8 @@ pub struct Assignment {
     pub rubric: Vec<RubricLine>,
     /// What goes wrong.
     pub mistakes: Vec<Mistake>,
+    /// What is said of right answers that would break elsewhere.
+    pub advice: Vec<Advice>,
     pub(crate) probing: manifest::Probes,
 }
 

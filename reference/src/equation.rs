@@ -21,6 +21,8 @@ pub struct Definition {
     pub expression: Expression,
     /// The slide of the lecture that defines it.
     pub slide: Option<u32>,
+    /// What the lecture calls it.
+    pub symbol: Option<String>,
 }
 
 /// Constants, uniforms, vertex attributes, and what is computed from them, in slots of that order.
@@ -91,6 +93,13 @@ impl Equation {
         }
         let slot = slot - self.constants.len();
         uniforms.get(slot).or_else(|| attributes.get(slot.checked_sub(self.uniforms)?)).cloned()
+    }
+
+    /// The names of the constants in the expression of a definition.
+    pub fn constants_in(&self, definition: usize) -> Vec<&str> {
+        let slots = self.definitions.get(definition).map_or(&[][..], |d| d.expression.slots());
+        let constants = slots.iter().filter(|slot| **slot < self.constants.len());
+        constants.filter_map(|slot| self.scope.get(*slot)).map(|(name, _)| name).collect()
     }
 
     /// The equation as it stands.

@@ -20,6 +20,7 @@
 //! assert!(fit.is_right());
 //! ```
 
+pub mod advice;
 pub mod assignment;
 pub mod equation;
 pub mod expression;

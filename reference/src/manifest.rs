@@ -33,6 +33,40 @@ pub struct Manifest {
     pub rubric: Vec<RubricLine>,
     /// The known mistakes.
     pub mistake: Vec<Mistake>,
+    /// What is said of right answers that would break elsewhere.
+    #[serde(default)]
+    pub advice: Vec<Advice>,
+}
+
+/// Something to say of a right answer that would break elsewhere.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Advice {
+    /// Its id in reports.
+    pub id: String,
+    /// Where it breaks.
+    pub when: Circumstance,
+    /// The definitions that are likely to be at fault, the likeliest first.
+    pub about: Vec<String>,
+    /// Whether it is said only if one of these is what breaks.
+    #[serde(default)]
+    pub only_about: bool,
+    /// What would break, and where to look.
+    pub message: Text,
+}
+
+/// What is different from a probe of the homework.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Circumstance {
+    /// Vertex attribute → what its components are multiplied by.
+    #[serde(default)]
+    pub scaled: BTreeMap<String, [f64; 4]>,
+    /// By how much the model is stretched along its axes.
+    pub stretched: Option<[f64; 3]>,
+    /// Constant → another value.
+    #[serde(default)]
+    pub constants: BTreeMap<String, Vec<f64>>,
 }
 
 /// A file that is handed in.
@@ -185,6 +219,8 @@ pub struct Definition {
     pub is: String,
     /// The slide of the lecture that defines it.
     pub slide: Option<u32>,
+    /// What the lecture calls it.
+    pub symbol: Option<String>,
 }
 
 /// How probes are chosen.
@@ -236,9 +272,12 @@ pub struct Mistake {
     pub forms: Vec<BTreeMap<String, String>>,
     /// The free parameter of its forms.
     pub fit: Option<Fit>,
-    /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
+    /// Whether the handed-out file itself has the mistake.
     #[serde(default)]
-    pub near: Vec<String>,
+    pub handed_out: bool,
+    /// Whether something is left out where a right value is used.
+    #[serde(default)]
+    pub at_use: bool,
     /// Of these the text contains one, parentheses and swizzles aside, where a free parameter explains as much.
     #[serde(default)]
     pub needs: Vec<String>,
@@ -251,6 +290,47 @@ pub struct Mistake {
     pub equation: Text,
     /// Where to look.
     pub look: Text,
+    /// Texts for files of which these would not be true.
+    #[serde(default)]
+    pub instead: Vec<Alternative>,
+}
+
+/// Texts in place of a mistake's own.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Alternative {
+    /// When they are said: where all of it holds.
+    pub when: When,
+    /// What is seen in the picture.
+    pub seen: Option<Text>,
+    /// Which equation of the lecture it breaks.
+    pub equation: Option<Text>,
+    /// Where to look.
+    pub look: Option<Text>,
+}
+
+/// What must hold for an [`Alternative`].
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct When {
+    /// The mistake is found in one of these of its forms, from 0.
+    #[serde(default)]
+    pub forms: Vec<usize>,
+    /// None of these words is in the statement that is named; in the file, where none is named.
+    #[serde(default)]
+    pub lacks: Vec<String>,
+    /// How the student's file has the term.
+    pub term: Option<TermState>,
+}
+
+/// How a file has a term that does not show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TermState {
+    /// It is computed, and it is 0.
+    Zero,
+    /// Nothing stands for it.
+    Absent,
 }
 
 /// A free parameter.

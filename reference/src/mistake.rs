@@ -16,8 +16,10 @@ pub struct Mistake {
     pub forms: Vec<Form>,
     /// The number in the forms that is not known beforehand.
     pub fit: Option<FreeParameter>,
-    /// What a line that shows the mistake is likely to contain, spaces aside; the most telling first.
-    pub near: Vec<String>,
+    /// Whether the handed-out file itself has it, so that its own line may be named.
+    pub handed_out: bool,
+    /// Whether something is left out where a right value is used, so that the use is what is named.
+    pub at_use: bool,
     /// What the text contains, parentheses and swizzles aside, if it is this mistake and not a number that equals it by chance:
     /// one of these.
     pub needs: Vec<String>,
@@ -29,6 +31,45 @@ pub struct Mistake {
     pub equation: Text,
     /// Where to look and what to try, to be completed with [`Text::fill`]: `{line}`, `{name}`, `{expected}`, `{found}`.
     pub look: Text,
+    /// Texts in place of those where they would not be true of the student's file; the first that applies.
+    pub instead: Vec<Alternative>,
+}
+
+/// What is said of a mistake.
+#[derive(Clone, Copy, Debug)]
+pub struct Texts<'a> {
+    /// See [`Mistake::seen`].
+    pub seen: &'a Text,
+    /// See [`Mistake::equation`].
+    pub equation: &'a Text,
+    /// See [`Mistake::look`].
+    pub look: &'a Text,
+}
+
+/// Texts for files of which the usual ones would not be true.
+#[derive(Clone, Debug)]
+pub struct Alternative {
+    /// When it applies: where all of these hold.
+    pub when: Vec<Condition>,
+    /// In place of [`Mistake::seen`].
+    pub seen: Option<Text>,
+    /// In place of [`Mistake::equation`].
+    pub equation: Option<Text>,
+    /// In place of [`Mistake::look`].
+    pub look: Option<Text>,
+}
+
+/// What is looked up in the student's file before something is said of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// The mistake was found in one of these forms.
+    Forms(Vec<usize>),
+    /// None of these words stands in the statement that is named, or in the file where none is.
+    Lacks(Vec<String>),
+    /// The term is computed, and it is 0 everywhere.
+    Zero,
+    /// Nothing that the colour depends on stands for the term.
+    Absent,
 }
 
 /// One way of writing a mistake: definitions of the equation, replaced.
@@ -76,6 +117,17 @@ pub struct Found {
 }
 
 impl Mistake {
+    /// What is said where these conditions hold.
+    pub fn texts(&self, holds: &dyn Fn(&Condition) -> bool) -> Texts<'_> {
+        let applies = |alternative: &&Alternative| alternative.when.iter().all(holds);
+        let other = self.instead.iter().find(applies);
+        Texts {
+            seen: other.and_then(|other| other.seen.as_ref()).unwrap_or(&self.seen),
+            equation: other.and_then(|other| other.equation.as_ref()).unwrap_or(&self.equation),
+            look: other.and_then(|other| other.look.as_ref()).unwrap_or(&self.look),
+        }
+    }
+
     /// Fraction of the line's points that is kept; 1 for a line that the mistake does not touch.
     pub fn keeps(&self, line: &str) -> f64 {
         let kept = self.keeps.iter().find(|(l, _)| l == line);

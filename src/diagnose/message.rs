@@ -1,14 +1,17 @@
 //! What a line of the rubric says: what is seen, which equation it breaks, where to look.
+//!
+//! A message is said only where it is true of the student's text: what it presupposes is looked up first ([`Facts`]).
 
 use super::constants::ChangedConstant;
-use super::locate::{self, Located};
+use super::locate::{Located, Points, Role, Statement, is_handed_out};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
 use crate::report::FrameResult;
-use crate::translate::NO_LINE;
+use crate::source::Source;
+use crate::translate::{Interpreter, NO_LINE};
 use reference::assignment::RubricLine;
 use reference::fit::Worst;
-use reference::mistake::Mistake;
+use reference::mistake::{Condition, Found, Mistake};
 use reference::probes::Region;
 
 /// A message and the line of the student's file that it speaks of.
@@ -18,11 +21,17 @@ pub(super) struct Told {
 }
 
 /// The message for a line of the rubric that these mistakes cost points.
-pub(super) fn tell(evidence: &Evidence<'_>, line: &RubricLine, cause: &Cause, culprits: &[&str]) -> Told {
+pub(super) fn tell(
+    evidence: &Evidence<'_>,
+    facts: &Facts,
+    line: &RubricLine,
+    cause: &Cause,
+    culprits: &[&str],
+) -> Told {
     let told: Vec<Told> = culprits
         .iter()
         .filter_map(|id| evidence.assignment.mistake(id))
-        .map(|mistake| of_mistake(evidence, line, cause, mistake))
+        .map(|mistake| of_mistake(evidence, facts, line, cause, mistake))
         .collect();
     if told.is_empty() {
         return Told { text: agreement(evidence, line), line: None };
@@ -36,15 +45,18 @@ pub(super) fn tell(evidence: &Evidence<'_>, line: &RubricLine, cause: &Cause, cu
     }
 }
 
-fn of_mistake(evidence: &Evidence<'_>, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Told {
-    let blanks = Blanks::of(evidence, line, cause, mistake);
+fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Told {
+    let mut blanks = Blanks::of(evidence, facts, line, cause, mistake);
+    blanks.values.extend(facts.names.iter().map(|(name, value)| (name.as_str(), value.clone())));
     let values: Vec<(&str, &str)> = blanks.values.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    let mut parts = vec![&mistake.seen];
+    let situation = blanks.situation(evidence, cause, mistake);
+    let texts = mistake.texts(&situation);
+    let mut parts = vec![texts.seen];
     if evidence.hints >= Hints::Gentle {
-        parts.push(&mistake.equation);
+        parts.push(texts.equation);
     }
     if evidence.hints >= Hints::Full {
-        parts.push(&mistake.look);
+        parts.push(texts.look);
     }
     let filled: Vec<reference::Text> = parts.iter().map(|part| part.fill(&values)).collect();
     let join = |language: fn(&reference::Text) -> &String, space| {
@@ -59,18 +71,69 @@ fn of_mistake(evidence: &Evidence<'_>, line: &RubricLine, cause: &Cause, mistake
     Told { text, line: (evidence.hints >= Hints::Full).then_some(blanks.line).flatten() }
 }
 
+/// What the messages may say of the student's text, because it was looked up there.
+#[derive(Debug, Default)]
+pub(super) struct Facts {
+    /// Where each mistake stands that was found, by id.
+    places: Vec<(String, Option<Located>)>,
+    /// What stands for a name in the texts: the student's own for a definition, or the lecture's symbol; and the
+    /// names of the handed-out file that the student's still has.
+    names: Vec<(String, String)>,
+}
+
+impl Facts {
+    pub fn of(evidence: &Evidence<'_>, cause: &Cause) -> Self {
+        let (changed, found): (&[ChangedConstant], &[Found]) = match cause {
+            Cause::Known { constants, found } => (constants, found),
+            _ => (&[], &[]),
+        };
+        let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
+        let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
+        let points = Points::new(evidence, &theirs);
+        let points = points.as_ref();
+        let place = |index: usize| points.and_then(|points| points.locate(found, index));
+        let places = found.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index)));
+        let mut names = Self::handed_out(evidence);
+        for definition in evidence.assignment.equation.definitions() {
+            let own = points.and_then(|points| points.name_of(&definition.name));
+            let symbol = definition.symbol.clone();
+            names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
+        }
+        Self { places: places.collect(), names }
+    }
+
+    /// The names of the handed-out file that the student's still has.
+    fn handed_out(evidence: &Evidence<'_>) -> Vec<(String, String)> {
+        let interface = &evidence.assignment.interface;
+        let constants = evidence.assignment.constants.iter().map(|constant| &constant.name);
+        let inputs = interface.inputs.iter().map(|input| &input.name);
+        let all = constants.chain(inputs).chain(interface.outputs.iter().map(|output| &output.name));
+        let code = Statement::all(evidence.source);
+        all.filter(|name| code.has(name)).map(|name| (name.clone(), format!("`{name}`"))).collect()
+    }
+
+    fn place(&self, id: &str) -> Option<&Located> {
+        self.places.iter().find(|(known, _)| known == id)?.1.as_ref()
+    }
+}
+
 /// What the placeholders of a mistake's texts stand for in this file.
 #[derive(Default)]
-struct Blanks {
-    values: Vec<(&'static str, String)>,
+struct Blanks<'f> {
+    values: Vec<(&'f str, String)>,
     line: Option<u32>,
+    role: Option<Role>,
     worst: Option<Worst>,
 }
 
-impl Blanks {
-    fn of(evidence: &Evidence<'_>, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Self {
+impl<'f> Blanks<'f> {
+    fn of(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Self {
         let mut blanks = Self::default();
         match (cause, mistake.id.as_str()) {
+            (_, super::POSITION_CHANGED) => {
+                let store = evidence.interpreter.and_then(Interpreter::last_position);
+                blanks.place(evidence, mistake, store.map(Located::at));
+            }
             (Cause::Known { constants, .. }, super::CONSTANTS_CHANGED) => {
                 let of_line = |changed: &&ChangedConstant| super::belongs(evidence.assignment, &changed.name, line);
                 blanks.constant(constants.iter().find(of_line));
@@ -81,8 +144,8 @@ impl Blanks {
             }
             (Cause::Known { found, .. }, id) => {
                 let met = evidence.undefined.filter(|line| id == super::UNDEFINED_POWER && *line != NO_LINE);
-                let met = met.map(|line| Located { line, name: None });
-                blanks.place(met.or_else(|| locate::find(evidence.source, &mistake.near)));
+                let met = met.map(Located::at);
+                blanks.place(evidence, mistake, facts.place(id).cloned().or(met));
                 let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);
                 blanks.parameter(parameter, evidence);
             }
@@ -90,17 +153,44 @@ impl Blanks {
                 if evidence.frames.iter().all(FrameResult::agrees) {
                     blanks.values.push(("frames", evidence.frames.len().to_string()));
                 }
-                blanks.place(locate::find(evidence.source, &mistake.near));
+                let line = first_use(evidence.source, &VERTEX_NUMBERS);
+                blanks.place(evidence, mistake, line.map(Located::at));
             }
         }
         blanks
     }
 
-    fn place(&mut self, located: Option<Located>) {
-        let Some(Located { line, name }) = located else { return };
+    fn place(&mut self, evidence: &Evidence<'_>, mistake: &Mistake, located: Option<Located>) {
+        let Some(Located { line, name, role }) = located else { return };
+        self.role = Some(role);
+        // A line that the student did not write is not where the student's mistake is.
+        let starter = &evidence.assignment.files[0].starter;
+        if !mistake.handed_out && is_handed_out(evidence.source, line, starter) {
+            return;
+        }
         self.line = Some(line);
         self.values.push(("line", line.to_string()));
-        self.values.extend(name.map(|name| ("name", name)));
+        let code = Statement::at(evidence.source, line);
+        self.values.extend(name.filter(|name| code.has(name)).map(|name| ("name", name)));
+    }
+
+    /// What decides which of a mistake's texts are true of this file.
+    fn situation(&self, evidence: &Evidence<'_>, cause: &Cause, mistake: &Mistake) -> impl Fn(&Condition) -> bool {
+        let code = match self.line {
+            Some(line) => Statement::at(evidence.source, line),
+            None => Statement::all(evidence.source),
+        };
+        let form = match cause {
+            Cause::Known { found, .. } => found.iter().find(|found| found.id == mistake.id).map(|found| found.form),
+            _ => None,
+        };
+        let role = self.role;
+        move |condition| match condition {
+            Condition::Forms(forms) => form.is_some_and(|form| forms.contains(&form)),
+            Condition::Lacks(words) => !words.iter().any(|word| code.has(word)),
+            Condition::Zero => role == Some(Role::Zero),
+            Condition::Absent => role == Some(Role::Absent),
+        }
     }
 
     fn constant(&mut self, changed: Option<&ChangedConstant>) {
@@ -126,6 +216,14 @@ impl Blanks {
         self.values.push(("found", numbers(&worst.found.to_array())));
         self.worst = Some(worst);
     }
+}
+
+/// What tells one vertex from another without its attributes.
+const VERTEX_NUMBERS: [&str; 2] = ["gl_VertexID", "gl_InstanceID"];
+
+/// The first line on which one of these words stands.
+fn first_use(source: &Source, names: &[&str]) -> Option<u32> {
+    source.words().find(|(_, word)| names.contains(word)).map(|(at, _)| source.position(at).0)
 }
 
 fn numbers(values: &[f64]) -> String {

@@ -1,5 +1,6 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
+mod advice;
 mod mistakes;
 
 use super::{Assignment, AssignmentError, Constant, HandedIn, Input, Interface, Output, Uniform, error};
@@ -48,6 +49,8 @@ pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) ->
         mistakes.push(mistakes::mistake(entry, &equation, &lines)?);
     }
     probing(&m.probes, &constants)?;
+    let advice = m.advice.into_iter().map(|entry| advice::advice(entry, &interface, &constants, &equation));
+    let advice = advice.collect::<Checked<Vec<_>>>()?;
     Ok(Assignment {
         files: files(m.file, read)?,
         scene: scene(&m.scene)?,
@@ -58,6 +61,7 @@ pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) ->
         equation,
         rubric: m.rubric,
         mistakes,
+        advice,
         probing: m.probes,
     })
 }
@@ -147,7 +151,8 @@ fn equation(interface: &Interface, constants: &[Constant], entries: &[manifest::
         let place = format!("definition `{}`", d.name);
         let expression = Expression::parse(&d.is, &scope).map_err(|e| error(place, e.to_string()))?;
         declare(&mut scope, &d.name, expression.kind())?;
-        definitions.push(Definition { name: d.name.clone(), expression, slide: d.slide });
+        let symbol = d.symbol.clone();
+        definitions.push(Definition { name: d.name.clone(), expression, slide: d.slide, symbol });
     }
     if definitions.len() > MAX_DEFINITIONS {
         let message = format!("more than {MAX_DEFINITIONS} of them");

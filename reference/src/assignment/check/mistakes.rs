@@ -5,8 +5,8 @@ use crate::Text;
 use crate::assignment::error;
 use crate::equation::Equation;
 use crate::expression::{Expression, Scope, Type};
-use crate::manifest;
-use crate::mistake::{Form, FreeParameter, Mistake, Override};
+use crate::manifest::{self, TermState};
+use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
 use std::collections::{BTreeMap, HashSet};
 
 /// A mistake whose forms fit the equation.
@@ -43,11 +43,17 @@ pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &Has
         id: entry.id,
         title: entry.title,
         keeps: entry.keeps.into_iter().collect(),
-        forms,
         fit,
-        near: entry.near,
         needs: entry.needs,
         lacks: entry.lacks,
+        handed_out: entry.handed_out,
+        at_use: entry.at_use,
+        instead: entry
+            .instead
+            .into_iter()
+            .map(|other| alternative(other, forms.len(), &place))
+            .collect::<Checked<_>>()?,
+        forms,
         seen: entry.seen,
         equation: entry.equation,
         look: entry.look,
@@ -66,6 +72,31 @@ fn title(title: &Text, place: &str) -> Checked<()> {
         }
     }
     Ok(())
+}
+
+fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> Checked<Alternative> {
+    let manifest::When { forms: of_forms, lacks, term } = entry.when;
+    if let Some(form) = of_forms.iter().find(|form| **form >= forms) {
+        return Err(error(place, format!("`instead` speaks of form {form}, and there are {forms}")));
+    }
+    let mut when = Vec::new();
+    if !of_forms.is_empty() {
+        when.push(Condition::Forms(of_forms));
+    }
+    if !lacks.is_empty() {
+        when.push(Condition::Lacks(lacks));
+    }
+    when.extend(term.map(|term| match term {
+        TermState::Zero => Condition::Zero,
+        TermState::Absent => Condition::Absent,
+    }));
+    if when.is_empty() {
+        return Err(error(place, "`instead` has no condition"));
+    }
+    if entry.seen.is_none() && entry.equation.is_none() && entry.look.is_none() {
+        return Err(error(place, "`instead` says nothing"));
+    }
+    Ok(Alternative { when, seen: entry.seen, equation: entry.equation, look: entry.look })
 }
 
 fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, place: &str) -> Checked<Form> {

@@ -1,0 +1,77 @@
+//! What a right answer is asked beyond the homework: where it would break, that is worth a word and costs nothing.
+
+use crate::expression::Value;
+use crate::probes::{Probe, ProbeSet};
+use crate::scene::Matrices;
+use crate::{Assignment, Text};
+use glam::{DMat4, DVec3};
+
+/// A circumstance that the homework does not have, and what to say of an answer that is right only without it.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    /// Its name in reports; stable.
+    pub id: String,
+    /// What is different from a probe of the homework.
+    pub when: Circumstance,
+    /// The definitions that are likely to be at fault, the likeliest first.
+    pub about: Vec<String>,
+    /// Whether it is said only if one of these definitions is what breaks.
+    pub only_about: bool,
+    /// What would break, and where to look, to be completed with [`Text::fill`]: `{line}`, `{name}`.
+    pub message: Text,
+}
+
+/// What is different from a probe of the homework.
+#[derive(Clone, Debug, Default)]
+pub struct Circumstance {
+    /// Vertex attributes by name, and what their components are multiplied by.
+    pub scaled: Vec<(String, [f64; 4])>,
+    /// By how much the model is stretched along its axes.
+    pub stretched: Option<[f64; 3]>,
+    /// Constants of the handed-out file with other values.
+    pub constants: Vec<(String, Value)>,
+}
+
+/// A probe under a circumstance.
+#[derive(Clone, Debug)]
+pub struct Variation {
+    /// The values of the uniforms, in the interface's order.
+    pub uniforms: Vec<Value>,
+    /// The values of the attributes, in the interface's order.
+    pub attributes: Vec<Value>,
+}
+
+/// The seed of the probes that are varied: advice depends on no other.
+const SEED: u64 = 1;
+
+impl Assignment {
+    /// `count` probes under a circumstance, spread over all that there are.
+    pub fn variations(&self, when: &Circumstance, probes: &ProbeSet, count: usize) -> Vec<Variation> {
+        let all = &probes.probes;
+        (0..count.min(all.len())).map(|at| self.variation(when, probes, &all[at * all.len() / count])).collect()
+    }
+
+    /// The probes that are varied.
+    pub fn advice_probes(&self) -> ProbeSet {
+        self.probes(SEED)
+    }
+
+    fn variation(&self, when: &Circumstance, probes: &ProbeSet, probe: &Probe) -> Variation {
+        let matrices = probes.groups[probe.group].matrices;
+        let matrices = when.stretched.map_or(matrices, |by| stretched(&matrices, by));
+        let mut attributes = probe.attributes.clone();
+        for (input, value) in self.interface.inputs.iter().zip(&mut attributes) {
+            if let (Some((_, by)), Value::Vec4(vector)) =
+                (when.scaled.iter().find(|(name, _)| *name == input.name), value)
+            {
+                *vector *= glam::DVec4::from_array(*by);
+            }
+        }
+        Variation { uniforms: self.uniform_values(&matrices), attributes }
+    }
+}
+
+fn stretched(matrices: &Matrices, by: [f64; 3]) -> Matrices {
+    let projection = matrices.model_view_projection * matrices.model_view.inverse();
+    Matrices::new(matrices.model_view * DMat4::from_scale(DVec3::from_array(by)), projection)
+}

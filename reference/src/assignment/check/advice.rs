@@ -1,0 +1,42 @@
+//! What is said of right answers that would break elsewhere.
+
+use super::{Checked, named};
+use crate::advice::{Advice, Circumstance};
+use crate::assignment::{Constant, Interface, error};
+use crate::equation::Equation;
+use crate::expression::Value;
+use crate::manifest;
+
+/// An entry whose names are known.
+pub(super) fn advice(
+    entry: manifest::Advice,
+    interface: &Interface,
+    constants: &[Constant],
+    equation: &Equation,
+) -> Checked<Advice> {
+    let place = format!("advice `{}`", entry.id);
+    for definition in &entry.about {
+        named(equation, definition, &place)?;
+    }
+    let manifest::Circumstance { scaled, stretched, constants: changed } = entry.when;
+    if let Some(name) = scaled.keys().find(|name| !interface.inputs.iter().any(|input| input.name == **name)) {
+        return Err(error(place, format!("there is no input `{name}`")));
+    }
+    let value = |(name, numbers): (String, Vec<f64>)| {
+        let constant = constants.iter().find(|constant| constant.name == name);
+        let value = constant.and_then(|constant| Value::from_numbers(constant.kind, &numbers));
+        let wrong = || error(&place, format!("there is no constant `{name}` with {} numbers", numbers.len()));
+        value.map(|value| (name.clone(), value)).ok_or_else(wrong)
+    };
+    let constants = changed.into_iter().map(value).collect::<Checked<Vec<_>>>()?;
+    if scaled.is_empty() && stretched.is_none() && constants.is_empty() {
+        return Err(error(place, "`when` changes nothing"));
+    }
+    Ok(Advice {
+        id: entry.id,
+        when: Circumstance { scaled: scaled.into_iter().collect(), stretched, constants },
+        about: entry.about,
+        only_about: entry.only_about,
+        message: entry.message,
+    })
+}
