@@ -33,6 +33,12 @@ pub struct Expectation {
     pub rubric: BTreeMap<String, f64>,
     /// Ids of the mistakes.
     pub mistakes: Vec<String>,
+    /// Line of the file that is named, by rubric line.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub lines: BTreeMap<String, u32>,
+    /// What would break elsewhere, and the line that is named.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub advice: BTreeMap<String, Option<u32>>,
     /// Where the diagnostics point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub diagnostics: Vec<Place>,
@@ -60,6 +66,8 @@ impl Expectation {
             score: report.score,
             rubric: report.rubric.iter().map(|line| (line.id.clone(), line.points)).collect(),
             mistakes: report.mistakes.clone(),
+            lines: report.rubric.iter().filter_map(|line| Some((line.id.clone(), line.line?))).collect(),
+            advice: report.advice.iter().map(|advice| (advice.id.clone(), advice.line)).collect(),
             diagnostics: report
                 .diagnostics
                 .iter()

@@ -2,6 +2,7 @@
 
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
+use crate::diagnose::advice::{self, Beyond};
 use crate::diagnose::{self, Evidence, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -10,7 +11,7 @@ use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
 use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::source::{self, Facts, Source};
-use crate::translate::{self, Interface, Refusal, Shader, Translation};
+use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
@@ -47,6 +48,8 @@ pub struct Grader {
     renderer: Renderer,
     expected: Vec<ExpectedFrame>,
     environment: Environment,
+    /// What advice comes from; the same for every seed.
+    beyond: Vec<Beyond>,
     /// The last seed's: a class is graded with one seed.
     last: Option<Rc<Probing>>,
 }
@@ -77,7 +80,9 @@ impl Grader {
             driver: device.driver.clone(),
         };
         let renderer = Renderer::new(device, fixed?)?;
-        Ok(Self { assignment, interface, renderer, expected: expected.map_err(panicked)?, environment, last: None })
+        let expected = expected.map_err(panicked)?;
+        let beyond = advice::beyond(assignment);
+        Ok(Self { assignment, interface, renderer, expected, environment, beyond, last: None })
     }
 
     /// What grades.
@@ -91,6 +96,10 @@ impl Grader {
         // A panic of the translator or renderer is our limit. The process is not to be used again.
         let judged = catch_unwind(AssertUnwindSafe(|| self.judge(name, bytes, order)));
         let mut graded = judged.unwrap_or_else(|panic| Err(translate::unsupported(&panic_message(&*panic))))?;
+        graded.report.hints = order.hints;
+        if order.hints == Hints::None {
+            graded.report.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.hint = None);
+        }
         graded.report.elapsed_ms = start.elapsed().as_secs_f64() * 1e3;
         Ok(graded)
     }
@@ -103,7 +112,7 @@ impl Grader {
         if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
             return Ok(self.refused(&source.facts, Verdict::Rejected, vec![error]));
         }
-        let Translation { shader, mut diagnostics } = match translate::translate(&source, &self.interface) {
+        let mut translation = match translate::translate(&source, &self.interface) {
             Ok(translation) => translation,
             Err(Refusal::Rejected(mut diagnostics)) => {
                 diagnostics.extend(source.notes);
@@ -115,18 +124,21 @@ impl Grader {
             }
             Err(Refusal::Fault(fault)) => return Err(fault),
         };
+        let mut diagnostics = std::mem::take(&mut translation.diagnostics);
+        let shader = &translation.shader;
         diagnostics.extend(source.notes.iter().cloned());
         let probing = self.probing(order.seed);
         let Probing { probes, scene } = &*probing;
-        let mut rendering = self.renderer.render(&shader, scene)?;
+        let mut rendering = self.renderer.render(shader, scene)?;
         if let Some(ran_out) = rendering.ran_out {
             diagnostics.insert(0, shader.out_of_fuel(ran_out));
             return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
         }
-        if rendering.undefined.is_some() && !self.shows_undefined(&source, &shader, scene, &rendering)? {
+        if rendering.undefined.is_some() && !self.shows_undefined(&source, shader, scene, &rendering)? {
             rendering.undefined = None;
         }
-        let mut report = self.report(&source, probes, &rendering, diagnostics, order.hints);
+        let interpreter = translation.interpreter(&source);
+        let mut report = self.report(&source, probes, &rendering, interpreter.as_ref(), diagnostics, order.hints);
         report.cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
         Ok(Graded { report, frames: Some(rendering.frames) })
     }
@@ -184,6 +196,7 @@ impl Grader {
         source: &Source,
         probes: &ProbeSet,
         rendering: &Rendering,
+        interpreter: Option<&Interpreter>,
         diagnostics: Vec<Diagnostic>,
         hints: Hints,
     ) -> Report {
@@ -201,6 +214,8 @@ impl Grader {
             probes,
             samples: &samples,
             undefined: rendering.undefined,
+            interpreter,
+            beyond: &self.beyond,
             hints,
         };
         let diagnosis = diagnose::diagnose(&evidence);
@@ -214,12 +229,14 @@ impl Grader {
             max_score,
             rubric: diagnosis.rubric,
             mistakes: diagnosis.mistakes,
+            advice: diagnosis.advice,
             explanation: diagnosis.explanation,
             diagnostics,
             frames,
             probes: diagnosis.probes,
             cross_check: None,
             environment: self.environment.clone(),
+            hints,
             elapsed_ms: 0.0,
         }
     }
@@ -264,12 +281,14 @@ pub fn unfinished(
         max_score: assignment.max_score(),
         rubric,
         mistakes: Vec::new(),
+        advice: Vec::new(),
         explanation: None,
         diagnostics,
         frames: Vec::new(),
         probes: ProbeResult::default(),
         cross_check: None,
         environment,
+        hints: Hints::default(),
         elapsed_ms: 0.0,
     }
 }

@@ -20,18 +20,47 @@ fn mistakes() -> String {
     table
 }
 
-#[test]
-fn the_table_of_mistakes_is_the_assignments_own() {
+fn advice() -> String {
+    let assignment = reference::assignment("ggsample06").unwrap();
+    let mut table = "| advice | what is said |\n| --- | --- |\n".to_owned();
+    for advice in &assignment.advice {
+        writeln!(table, "| `{}` | {} |", advice.id, advice.message.fill(&[]).en).unwrap();
+    }
+    table
+}
+
+/// Holds the table called `name` in `docs/scoring.md` against what is expected.
+fn check_table(name: &str, expected: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scoring.md");
     let text = std::fs::read_to_string(&path).unwrap();
-    let (before, rest) = text.split_once("<!-- table: mistakes -->\n").expect("the table's place");
+    let start = format!("<!-- table: {name} -->\n");
+    let (before, rest) = text.split_once(&start).expect("the table's place");
     let (found, after) = rest.split_once("<!-- end of table -->").expect("the table's end");
-    let expected = mistakes();
     if found != expected && std::env::var_os("BLESS").is_some() && std::env::var_os("CI").is_none() {
-        let text = format!("{before}<!-- table: mistakes -->\n{expected}<!-- end of table -->{after}");
-        std::fs::write(&path, text).unwrap();
+        std::fs::write(&path, format!("{before}{start}{expected}<!-- end of table -->{after}")).unwrap();
     }
     assert_eq!(found, expected, "docs/scoring.md is not what the assignment says");
+}
+
+#[test]
+fn the_tables_of_mistakes_and_advice_are_the_assignments_own() {
+    check_table("mistakes", &mistakes());
+    check_table("advice", &advice());
+}
+
+#[test]
+fn every_piece_of_advice_has_two_samples() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/accepted/advice");
+    let names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    let assignment = reference::assignment("ggsample06").unwrap();
+    for advice in &assignment.advice {
+        let samples =
+            names.iter().filter(|name| name.starts_with(&format!("{}--", advice.id)) && name.ends_with(".vert"));
+        assert!(samples.count() >= 2, "fewer than two samples of {}", advice.id);
+    }
 }
 
 #[test]

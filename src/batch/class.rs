@@ -4,6 +4,7 @@ use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Report;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// Who handed in.
@@ -97,4 +98,22 @@ pub struct Class {
     pub expected_portrait: Vec<u8>,
     /// Language of every message.
     pub language: Language,
+}
+
+impl Class {
+    /// The class as its students may see it, see [`Report::for_student`]: for formats whose documents are shown to them.
+    pub fn for_students(&self) -> Cow<'_, Self> {
+        let is_same =
+            |entry: &Entry| entry.report().is_none_or(|report| matches!(report.for_student(), Cow::Borrowed(_)));
+        if self.entries.iter().all(is_same) {
+            return Cow::Borrowed(self);
+        }
+        let mut class = self.clone();
+        for entry in &mut class.entries {
+            if let Outcome::Graded(report) = &mut entry.outcome {
+                **report = report.for_student().into_owned();
+            }
+        }
+        Cow::Owned(class)
+    }
 }

@@ -36,7 +36,7 @@ pub fn line(entry: &Entry, language: Language) -> String {
         standing: Standing::of(&entry.outcome),
         message,
         shares_with: &entry.shares_with,
-        report: entry.report().map(|report| json::view(report, language)),
+        report: entry.report().map(|report| json::staff_view(report, language)),
     };
     // Strings, numbers and unit enums under constant keys: there is nothing that could fail.
     let mut line = serde_json::to_string(&line).unwrap_or_default();

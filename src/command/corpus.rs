@@ -99,12 +99,16 @@ fn summary(expectation: Option<&Expectation>) -> String {
             format!("{:?} {:?} {}:{}", place.severity, place.stage, number(place.line), number(place.column))
         })
         .collect();
+    let lines: Vec<_> = expectation.lines.iter().map(|(id, line)| format!("{id}:{line}")).collect();
+    let advice: Vec<_> = expectation.advice.iter().map(|(id, line)| format!("{id}:{}", line.unwrap_or(0))).collect();
     format!(
-        "{:?} {} ({}) [{}] {}",
+        "{:?} {} ({}) [{}] {} {} {}",
         expectation.verdict,
         expectation.score,
         rubric.join(", "),
         expectation.mistakes.join(" "),
+        lines.join(" "),
+        advice.join(" "),
         places.join("; ")
     )
 }

@@ -19,7 +19,7 @@ use std::time::Duration;
 
 /// Grades one file and writes it in `format`.
 pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, language: Language) -> Result<Outcome, Fault> {
-    let class = class(arguments, format, deadline, language);
+    let class = class(arguments, format, deadline, language).for_students().into_owned();
     let variable = |name| std::env::var(name).ok();
     let scale = vpl::Scale::from_variables(variable("VPL_GRADEMIN").as_deref(), variable("VPL_GRADEMAX").as_deref());
     grade::put(arguments, &exchange::single(format, &class, scale)?.unwrap_or_default())?;

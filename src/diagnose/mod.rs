@@ -1,5 +1,6 @@
 //! Samples → which terms are right, which known mistakes explain the rest, and what that is worth. Pure.
 
+pub mod advice;
 pub mod constants;
 mod hard_coded;
 mod locate;
@@ -9,14 +10,17 @@ mod plain;
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
 use crate::language::Text;
 use crate::render::Sample;
-use crate::report::{FrameResult, Hypothesis, ProbeResult, RubricLine};
+pub use crate::report::Hints;
+use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
+use crate::translate::Interpreter;
+use advice::Beyond;
 use constants::ChangedConstant;
+use message::Facts;
 use reference::Assignment;
 use reference::fit::{Fit, TermJudgement, is_right};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
-use serde::{Deserialize, Serialize};
 
 /// The rubric line that is judged by where things are drawn, not by their colour.
 const SHAPE: &str = "shape";
@@ -34,32 +38,6 @@ const UNDEFINED_POWER: &str = "specular-unclamped";
 /// Noise: [`COLOUR_TOLERANCE`]. Defect to catch: the faintest known mistake differs by more than 2e-2 at some probe.
 const NEARLY: f64 = 3.0 / 255.0;
 
-/// How much a message helps.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    clap::ValueEnum,
-    Serialize,
-    Deserialize,
-    utoipa::ToSchema,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum Hints {
-    /// What is seen, no more.
-    None,
-    /// And which equation it breaks.
-    Gentle,
-    /// And which line to look at, with a question to think about.
-    #[default]
-    Full,
-}
-
 /// What a rendering showed.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence<'a> {
@@ -75,6 +53,10 @@ pub struct Evidence<'a> {
     pub samples: &'a [Sample],
     /// The line where a negative number was raised to a power, where one was.
     pub undefined: Option<u32>,
+    /// The shader, to be run step by step; none where it has something that the interpreter does not know.
+    pub interpreter: Option<&'a Interpreter>,
+    /// The probes that advice comes from.
+    pub beyond: &'a [Beyond],
     /// How much the messages help.
     pub hints: Hints,
 }
@@ -88,6 +70,8 @@ pub struct Diagnosis {
     pub rubric: Vec<RubricLine>,
     /// Ids of the mistakes found.
     pub mistakes: Vec<String>,
+    /// What would break elsewhere, where all is right.
+    pub advice: Vec<Advice>,
     /// The equation that computes what the shader computes, where one is known.
     pub explanation: Option<Vec<Hypothesis>>,
     /// The probes in figures.
@@ -120,10 +104,14 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
         mistakes.insert(0, POSITION_CHANGED.into());
     }
     let lines = &evidence.assignment.rubric;
-    let rubric: Vec<RubricLine> = lines.iter().map(|line| judge(evidence, line, shape, &cause, &mistakes)).collect();
+    let facts = if mistakes.is_empty() { Facts::default() } else { Facts::of(evidence, &cause) };
+    let judged = lines.iter().map(|line| judge(evidence, &facts, line, shape, &cause, &mistakes));
+    let rubric: Vec<RubricLine> = judged.collect();
+    let advice = if mistakes.is_empty() && evidence.hints > Hints::None { advice::find(evidence) } else { Vec::new() };
     Diagnosis {
         is_right: mistakes.is_empty(),
         rubric,
+        advice,
         mistakes,
         explanation: cause.explanation(),
         probes: probes.result,
@@ -255,6 +243,7 @@ impl Cause {
 /// Judges one line of the rubric.
 fn judge(
     evidence: &Evidence<'_>,
+    facts: &Facts,
     line: &reference::assignment::RubricLine,
     shape: bool,
     cause: &Cause,
@@ -267,7 +256,7 @@ fn judge(
     if let Some(fatal) = culprits.iter().find(|id| keeps(id) == 0.0) {
         culprits = vec![*fatal];
     }
-    let told = message::tell(evidence, line, cause, &culprits);
+    let told = message::tell(evidence, facts, line, cause, &culprits);
     RubricLine {
         id: line.id.clone(),
         label: Text::new(&line.label.en, &line.label.ja),

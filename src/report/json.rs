@@ -1,6 +1,6 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
-use super::{Environment, FrameResult, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use super::{Advice, Environment, FrameResult, Hints, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};
 use crate::language::Language;
@@ -17,8 +17,18 @@ pub fn render(report: &Report, language: Language) -> String {
     json
 }
 
-/// The same object, to be embedded in a larger answer.
+/// The same object, to be embedded in a larger answer, as its student may see it ([`Report::for_student`]).
 pub fn view(report: &Report, language: Language) -> View<'_> {
+    let view = staff_view(report, language);
+    if report.hints > Hints::None {
+        return view;
+    }
+    let rubric = view.rubric.into_iter().map(|line| Rubric { mistake: None, line: None, ..line });
+    View { rubric: rubric.collect(), mistakes: &[], ..view }
+}
+
+/// The same object with all that a teacher may see.
+pub fn staff_view(report: &Report, language: Language) -> View<'_> {
     View {
         schema: SCHEMA,
         assignment: &report.assignment,
@@ -28,6 +38,7 @@ pub fn view(report: &Report, language: Language) -> View<'_> {
         max_score: Number(report.max_score),
         rubric: report.rubric.iter().map(|line| Rubric::of(line, language)).collect(),
         mistakes: &report.mistakes,
+        advice: report.advice.iter().map(|advice| Remark::of(advice, language)).collect(),
         diagnostics: report.diagnostics.iter().map(|d| Message::of(d, language)).collect(),
         frames: report.frames.iter().map(Frame::of).collect(),
         probes: Probes::of(&report.probes),
@@ -69,6 +80,7 @@ pub struct View<'a> {
     max_score: Number,
     rubric: Vec<Rubric<'a>>,
     mistakes: &'a [String],
+    advice: Vec<Remark<'a>>,
     diagnostics: Vec<Message<'a>>,
     frames: Vec<Frame>,
     probes: Probes,
@@ -123,6 +135,22 @@ impl<'a> Rubric<'a> {
             label: line.label.get(language),
             line: line.line,
         }
+    }
+}
+
+#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[schema(as = Advice)]
+struct Remark<'a> {
+    id: &'a str,
+    message: &'a str,
+    file: &'a str,
+    line: Option<u32>,
+}
+
+impl<'a> Remark<'a> {
+    fn of(advice: &'a Advice, language: Language) -> Self {
+        let Advice { id, message, file, line } = advice;
+        Self { id, message: message.get(language), file, line: *line }
     }
 }
 
@@ -211,7 +239,7 @@ mod tests {
     #[test]
     fn fields_stand_in_the_order_of_the_contract() {
         let value = parsed(&samples::wrong(), Language::En);
-        let top = "schema assignment source verdict score max_score rubric mistakes diagnostics \
+        let top = "schema assignment source verdict score max_score rubric mistakes advice diagnostics \
                    frames probes environment elapsed_ms";
         assert_eq!(keys(&value), top.split_whitespace().collect::<Vec<_>>());
         assert_eq!(keys(&value["source"]), ["name", "sha256", "bytes", "encoding"]);

@@ -19,6 +19,7 @@ use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// The outcome in one word.
@@ -76,6 +77,45 @@ pub struct Hypothesis {
     pub form: usize,
     /// The number that the form leaves open, such as an exponent.
     pub parameter: Option<f64>,
+}
+
+/// Something true and worth saying that costs no points.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Advice {
+    /// Its id; stable.
+    pub id: String,
+    /// What would break, and where to look.
+    pub message: Text,
+    /// The file that it is about.
+    pub file: String,
+    /// The line to look at, from 1.
+    pub line: Option<u32>,
+}
+
+/// How much a message helps.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    clap::ValueEnum,
+    Serialize,
+    Deserialize,
+    utoipa::ToSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Hints {
+    /// What is seen, no more.
+    None,
+    /// And which equation it breaks.
+    Gentle,
+    /// And which line to look at, with a question to think about.
+    #[default]
+    Full,
 }
 
 /// How one frame of the animation compares. Differences are in 1/255, over red, green and blue.
@@ -143,6 +183,9 @@ pub struct Report {
     pub mistakes: Vec<String>,
     /// The equation with these mistakes in it computes what the shader computes; none where no equation known does.
     pub explanation: Option<Vec<Hypothesis>>,
+    /// What would break elsewhere in a right answer.
+    #[serde(default)]
+    pub advice: Vec<Advice>,
     /// What the stages say about places in the file.
     pub diagnostics: Vec<Diagnostic>,
     /// The frames, in order of t; empty when nothing was rendered.
@@ -154,8 +197,33 @@ pub struct Report {
     pub cross_check: Option<CrossCheck>,
     /// What graded it.
     pub environment: Environment,
+    /// How much its messages help.
+    #[serde(default)]
+    pub hints: Hints,
     /// Milliseconds that the grading took.
     pub elapsed_ms: f64,
+}
+
+impl Report {
+    /// The report of the same bytes under another name.
+    pub fn rename(&mut self, name: &str) {
+        self.advice.iter_mut().for_each(|advice| name.clone_into(&mut advice.file));
+        name.clone_into(&mut self.source.name);
+    }
+
+    /// The report as its student may see it. The name of a mistake is the answer in words, so where messages say only
+    /// what is seen, it is left out; a class's own pages and tables have it for the teacher.
+    pub fn for_student(&self) -> Cow<'_, Self> {
+        if self.hints > Hints::None {
+            return Cow::Borrowed(self);
+        }
+        let mut report = self.clone();
+        report.mistakes.clear();
+        for line in &mut report.rubric {
+            (line.mistake, line.line) = (None, None);
+        }
+        Cow::Owned(report)
+    }
 }
 
 /// Alpha of a pixel of a right picture at which a rasteriser's rounding may decide whether it is painted: it is not

@@ -58,6 +58,7 @@ pub(crate) fn correct() -> Report {
         ],
         mistakes: vec![],
         explanation: None,
+        advice: vec![],
         diagnostics: vec![],
         frames: (0..POSES).map(|k| frame(k, 0.0)).collect(),
         probes: ProbeResult { seed: 20_240_613, samples: 640, mismatched: 0, max_difference: Some(4.1e-7) },
@@ -67,6 +68,7 @@ pub(crate) fn correct() -> Report {
             driver: "llvmpipe Mesa 22.3.6".into(),
         },
         cross_check: None,
+        hints: Hints::Full,
         elapsed_ms: 412.25,
     }
 }

@@ -305,7 +305,7 @@ async fn keep_known(
     key: Option<&Key>,
     mut report: Report,
 ) -> Result<Option<Receipt>, Problem> {
-    report.source.name.clone_from(&new.name);
+    report.rename(&new.name);
     if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
         return Ok(None);
     }

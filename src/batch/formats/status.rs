@@ -20,7 +20,7 @@ fn summary_of(report: &Report, language: Language) -> String {
     let labels = Labels::of(language);
     let headline = labels.headline(report.verdict);
     let line = match report.verdict {
-        Verdict::Correct => None,
+        Verdict::Correct => report.advice.first().map(|advice| format!("{headline} {}", advice.message.get(language))),
         Verdict::Wrong => report.rubric.iter().find(|line| line.points < line.max_points).map(|line| {
             let points = format!("{} / {}", number(line.points), number(line.max_points));
             let (label, message) = (line.label.get(language), line.message.get(language));

@@ -11,7 +11,11 @@ use crate::report::text::number;
 /// What a student is told about the outcome as a whole.
 pub fn explanation(entry: &Entry, language: Language) -> String {
     match &entry.outcome {
-        Outcome::Graded(report) => Labels::of(language).headline(report.verdict).to_owned(),
+        Outcome::Graded(report) => {
+            let advice = report.advice.iter().map(|advice| untrusted::visible(advice.message.get(language)));
+            let headline = Labels::of(language).headline(report.verdict).to_owned();
+            std::iter::once(headline).chain(advice).collect::<Vec<_>>().join("\n")
+        }
         Outcome::NotGraded(why) => untrusted::visible(why.get(language)),
         Outcome::Fault(_) => autograder_failed().get(language).to_owned(),
     }

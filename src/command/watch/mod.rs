@@ -133,7 +133,7 @@ impl Session {
         let view = View { report: &report, source: source.as_ref(), pictures: None, language: self.language };
         match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
-                let change = self.last.as_ref().map(|last| change::between(last, &report));
+                let change = self.last.as_ref().map(|last| change::between(&last.for_student(), &report.for_student()));
                 self.screen.report(&document, change.as_ref().map(|change| change.get(self.language)));
                 let is_correct = report.verdict == Verdict::Correct;
                 self.outcome = if is_correct { Outcome::FullMarks } else { Outcome::Graded };

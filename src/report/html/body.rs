@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use crate::report::labels::Labels;
 use crate::report::text::number;
-use crate::report::{Equation, Report, RubricLine, Verdict};
+use crate::report::{Advice, Equation, Hints, Report, RubricLine, Verdict};
 use askama::Template;
 
 /// How much of its points a line or a whole file earned, as a teacher marks it.
@@ -80,17 +80,34 @@ struct Rubric {
 }
 
 impl Rubric {
-    fn of(line: &RubricLine, labels: &Labels, language: Language) -> Self {
+    fn of(line: &RubricLine, shows_mistake: bool, labels: &Labels, language: Language) -> Self {
         Self {
             id: line.id.clone(),
             mark: Mark::of(line.points, line.max_points),
             label: line.label.get(language).to_owned(),
             points: number(line.points),
             max_points: number(line.max_points),
-            mistake: line.mistake.clone(),
+            mistake: line.mistake.clone().filter(|_| shows_mistake),
             message: pieces(line.message.get(language)),
             line: line.line,
             place: line.line.map(|line| labels.line(line)).unwrap_or_default(),
+        }
+    }
+}
+
+/// What would break elsewhere.
+struct Remark {
+    text: Vec<Piece>,
+    line: Option<u32>,
+    place: String,
+}
+
+impl Remark {
+    fn of(advice: &Advice, labels: &Labels, language: Language) -> Self {
+        Self {
+            text: pieces(advice.message.get(language)),
+            line: advice.line,
+            place: advice.line.map(|line| labels.line(line)).unwrap_or_default(),
         }
     }
 }
@@ -202,6 +219,7 @@ pub(super) struct Body<'a> {
     next: Option<String>,
     bar: Vec<Stretch>,
     rubric: Vec<Rubric>,
+    advice: Vec<Remark>,
     messages: Vec<Message>,
     player: Option<Player<'a>>,
     frames: Vec<FrameView>,
@@ -223,7 +241,8 @@ impl<'a> Body<'a> {
         let labels = Labels::of(language);
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let gallery = part.gallery.filter(|_| is_drawn);
-        let rubric = report.rubric.iter().map(|line| Rubric::of(line, labels, language));
+        let shows_mistakes = report.hints > Hints::None;
+        let rubric = report.rubric.iter().map(|line| Rubric::of(line, shows_mistakes, labels, language));
         let rubric: Vec<Rubric> = rubric.collect();
         let messages = report.diagnostics.iter().map(|d| Message::of(d, labels, language));
         let messages: Vec<Message> = messages.collect();
@@ -258,6 +277,7 @@ impl<'a> Body<'a> {
             has_footer: part.has_footer,
             listing,
             rubric,
+            advice: report.advice.iter().map(|advice| Remark::of(advice, labels, language)).collect(),
             messages,
             elapsed: format!("{:.0} ms", report.elapsed_ms),
         }

@@ -37,6 +37,7 @@ const CODE: Style = AnsiColor::Cyan.on_default();
 
 /// The report as text, with a final newline.
 pub fn render(report: &Report, options: &Options) -> String {
+    let report = &*report.for_student();
     let mut writer = Writer {
         out: String::new(),
         labels: Labels::of(options.language),
@@ -49,6 +50,7 @@ pub fn render(report: &Report, options: &Options) -> String {
         writer.diagnostics(report, options.excerpts);
     } else {
         writer.rubric(report);
+        writer.advice(report);
         writer.measurements(report);
         writer.diagnostics(report, options.excerpts);
     }
@@ -174,6 +176,18 @@ impl Writer {
             let mistake = self.paint(DIM, &mistake);
             self.line(&format!("  {mistake}"));
         }
+    }
+
+    fn advice(&mut self, report: &Report) {
+        if report.advice.is_empty() {
+            return;
+        }
+        let heading = self.paint(BOLD, self.labels.advice);
+        self.line(&heading);
+        for advice in &report.advice {
+            self.paragraph(2, advice.message.get(self.language));
+        }
+        self.gap();
     }
 
     fn measurements(&mut self, report: &Report) {

@@ -127,7 +127,11 @@ impl Store {
         const SQL: &str = "SELECT report FROM reports WHERE submission_id = $1";
         let Some(submission) = self.submission(id).await? else { return Ok(None) };
         let json: Option<String> = on!(&self.read, db => sqlx::query_scalar(SQL).bind(id).fetch_optional(db).await?);
-        let report = json.map(|json| serde_json::from_str(&json)).transpose()?;
+        let mut report: Option<Report> = json.map(|json| serde_json::from_str(&json)).transpose()?;
+        if let Some(report) = &mut report {
+            // Reports of 0.1.0 do not say how much they help; their submissions do.
+            report.hints = report.hints.min(submission.hints);
+        }
         Ok(Some(Stored { submission, report }))
     }
 

@@ -222,7 +222,8 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
     };
     let mistake_ids = report.map(|report| report.mistakes.clone()).unwrap_or_default();
     let titled = |id: String| (mistake_title(&class.assignment, &id, class.language).to_owned(), id);
-    let is_said_already = status == Standing::Correct || !mistake_ids.is_empty();
+    let advised = report.is_some_and(|report| !report.advice.is_empty());
+    let is_said_already = (status == Standing::Correct && !advised) || !mistake_ids.is_empty();
     Row {
         key: entry.student.key.clone(),
         name: one_line(&entry.student.name),

@@ -10,7 +10,7 @@ use super::wording;
 use crate::batch::class::{Class, Entry, Outcome};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
-use crate::report::{Report, RubricLine, Verdict};
+use crate::report::{Advice, Report, RubricLine, Verdict};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -94,6 +94,9 @@ impl Run {
                 self.push(&file, &lost(&file, line, language));
             }
         }
+        for advice in &report.advice {
+            self.push(&file, &advised(&file, advice, language));
+        }
         for diagnostic in &report.diagnostics {
             self.push(&file, &said(&file, diagnostic, language));
         }
@@ -158,6 +161,16 @@ fn lost<'a>(file: &File, line: &'a RubricLine, language: Language) -> Finding<'a
         message: format!("{}: {}", wording::rubric_title(line, language), visible(line.message.get(language))),
         region: line.line.and_then(|number| file.lines.whole(number)),
         line: line.line,
+    }
+}
+
+fn advised<'a>(file: &File, advice: &'a Advice, language: Language) -> Finding<'a> {
+    Finding {
+        rule: &advice.id,
+        level: "note",
+        message: visible(advice.message.get(language)),
+        region: advice.line.and_then(|number| file.lines.whole(number)),
+        line: advice.line,
     }
 }
 

@@ -46,6 +46,11 @@ impl Rules {
         for mistake in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.mistakes) {
             rules.add(&mistake.id, "Mistake", "warning", described(mistake, language));
         }
+        for advice in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.advice) {
+            let text = advice.message.fill(&[]);
+            let text = Text::new(text.en, text.ja).get(language).to_owned();
+            rules.add(&advice.id, "Advice", "note", texts(&text, &text, &text));
+        }
         // Mistakes that are found otherwise than by the equation have no description in the assignment.
         let named = class.entries.iter().filter_map(|entry| entry.report());
         let named = named.flat_map(|report| &report.rubric).filter_map(|line| line.mistake.as_deref());
