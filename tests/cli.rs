@@ -279,8 +279,8 @@ fn said(name: &str, line: &str) -> (String, Option<u64>) {
 #[test]
 fn a_term_that_is_0_is_not_called_missing_from_the_sum() {
     let (message, line) = said("wrong/diffuse-missing--scaled-by-0.vert", "diffuse");
-    assert!(message.contains("its value is 0 everywhere: look at line 39"), "{message}");
-    assert_eq!(line, Some(39));
+    assert!(message.contains("its value is 0 everywhere: look at line 40"), "{message}");
+    assert_eq!(line, Some(40));
     let (message, _) = said("wrong/specular-missing--function-not-called.vert", "specular");
     assert!(message.contains("does not appear in the sum"), "{message}");
 }
@@ -340,7 +340,7 @@ fn advice_costs_nothing_and_does_not_depend_on_the_seed() {
         assert_eq!((&report["verdict"], &report["score"]), (&"correct".into(), &100.into()));
         let advice = report["advice"].as_array().unwrap();
         assert_eq!(advice.len(), 1, "{advice:?}");
-        assert_eq!((&advice[0]["id"], &advice[0]["line"]), (&"normal-length".into(), &39.into()));
+        assert_eq!((&advice[0]["id"], &advice[0]["line"]), (&"normal-length".into(), &36.into()));
         assert_eq!(advice[0]["file"], "normal-length--matrix-only.vert");
     }
     ggrade()
@@ -354,7 +354,7 @@ fn advice_costs_nothing_and_does_not_depend_on_the_seed() {
         .arg(&answer)
         .assert()
         .code(0)
-        .stdout(predicate::str::contains("id=\"advice\"").and(predicate::str::contains("<a href=\"#L39\">")));
+        .stdout(predicate::str::contains("id=\"advice\"").and(predicate::str::contains("<a href=\"#L36\">")));
     let sarif = ggrade().args(["grade", "--format", "sarif"]).arg(&answer).output().unwrap();
     let sarif: serde_json::Value = serde_json::from_slice(&sarif.stdout).unwrap();
     let result = &sarif["runs"][0]["results"][0];

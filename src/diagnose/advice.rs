@@ -4,7 +4,7 @@
 //! costs no points; a right answer is right because every frame and every probe agrees.
 
 use super::Evidence;
-use super::locate::{Located, Points, Statement, given, is_close, is_handed_out, of};
+use super::locate::{Located, Points, Words, given, is_close, is_handed_out, of};
 use crate::language::Text;
 use crate::report::Advice;
 use crate::translate::{Given, Interpreter};
@@ -15,6 +15,9 @@ use reference::advice::Variation;
 /// How many probes are varied for each piece of advice. A run takes some 20 µs, so that all of them cost a hundredth of
 /// a grading.
 const PROBES: usize = 8;
+
+/// A shader that takes more instructions for a vertex is not asked: it would cost more than a word is worth.
+const MOST_STEPS: u32 = 4_000;
 
 /// The probes of one piece of advice, and what a right answer computes there.
 #[derive(Debug)]
@@ -90,6 +93,9 @@ impl Beyond {
         let mut differs = Differs::default();
         for (variation, (colour, position)) in self.variations.iter().zip(&self.expected) {
             let written = interpreter.run(&self.given(variation), output, &mut |_, _| None)?;
+            if written.steps > MOST_STEPS {
+                return None;
+            }
             differs.colour |= !is_close(colour.to_array(), &written.output);
             let own: [f64; 4] = written.position?.try_into().ok()?;
             differs.position |= !is_same_point(*position, DVec4::from_array(own));
@@ -102,8 +108,8 @@ impl Beyond {
         let mut values = Vec::new();
         if let Some(Located { line, name, .. }) = located {
             values.push(("line", line.to_string()));
-            let statement = Statement::at(evidence.source, line);
-            values.extend(name.filter(|name| statement.has(name)).map(|name| ("name", name)));
+            let words = Words::at(evidence.source, line);
+            values.extend(name.filter(|name| words.has(name)).map(|name| ("name", name)));
         }
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let message = self.advice.message.fill(&values);

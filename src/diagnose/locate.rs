@@ -9,7 +9,7 @@ mod lines;
 mod points;
 mod search;
 
-pub(super) use lines::{Statement, is_handed_out};
+pub(super) use lines::{Words, is_handed_out};
 pub(super) use points::{Points, given, is_close, of};
 
 /// A place in the file.

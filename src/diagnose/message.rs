@@ -3,7 +3,7 @@
 //! A message is said only where it is true of the student's text: what it presupposes is looked up first ([`Facts`]).
 
 use super::constants::ChangedConstant;
-use super::locate::{Located, Points, Role, Statement, is_handed_out};
+use super::locate::{Located, Points, Role, Words, is_handed_out};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
 use crate::report::FrameResult;
@@ -108,7 +108,7 @@ impl Facts {
         let constants = evidence.assignment.constants.iter().map(|constant| &constant.name);
         let inputs = interface.inputs.iter().map(|input| &input.name);
         let all = constants.chain(inputs).chain(interface.outputs.iter().map(|output| &output.name));
-        let code = Statement::all(evidence.source);
+        let code = Words::all(evidence.source);
         all.filter(|name| code.has(name)).map(|name| (name.clone(), format!("`{name}`"))).collect()
     }
 
@@ -170,15 +170,15 @@ impl<'f> Blanks<'f> {
         }
         self.line = Some(line);
         self.values.push(("line", line.to_string()));
-        let code = Statement::at(evidence.source, line);
+        let code = Words::at(evidence.source, line);
         self.values.extend(name.filter(|name| code.has(name)).map(|name| ("name", name)));
     }
 
     /// What decides which of a mistake's texts are true of this file.
     fn situation(&self, evidence: &Evidence<'_>, cause: &Cause, mistake: &Mistake) -> impl Fn(&Condition) -> bool {
         let code = match self.line {
-            Some(line) => Statement::at(evidence.source, line),
-            None => Statement::all(evidence.source),
+            Some(line) => Words::at(evidence.source, line),
+            None => Words::all(evidence.source),
         };
         let form = match cause {
             Cause::Known { found, .. } => found.iter().find(|found| found.id == mistake.id).map(|found| found.form),

@@ -61,6 +61,8 @@ pub struct Written {
     pub output: Vec<f64>,
     /// `gl_Position`.
     pub position: Option<Vec<f64>>,
+    /// How many instructions it took.
+    pub steps: u32,
 }
 
 /// A value on its way: the result of an instruction, or a constant that it takes.
@@ -78,7 +80,7 @@ pub struct Place {
 pub type Watch<'w> = dyn FnMut(Place, &Value) -> Option<Value> + 'w;
 
 /// A run has no more steps than this; a homework's answer has a few hundred.
-const MAX_STEPS: u32 = 50_000;
+const MAX_STEPS: u32 = 10_000;
 /// GLSL has no recursion; functions nest no deeper than this.
 const MAX_CALLS: u32 = 64;
 
@@ -104,7 +106,7 @@ impl Interpreter {
             run.memory.get(at)?.at(&[member])
         });
         let position = block.or_else(|| run.memory.get(find("gl_Position")?)).and_then(Value::floats);
-        Some(Written { output, position })
+        Some(Written { output, position, steps: run.steps })
     }
 
     /// The line of the student's file that an instruction comes from.
@@ -204,6 +206,16 @@ impl Interpreter {
     pub fn function(&self, place: Place) -> usize {
         let before = &self.instructions[..=place.instruction as usize];
         before.iter().rposition(|i| i.opcode == op::FUNCTION).unwrap_or(0)
+    }
+
+    /// The number of the first instruction of `main`.
+    pub fn function_of_main(&self) -> usize {
+        self.starts.get(&self.main).copied().unwrap_or(0)
+    }
+
+    /// Whether two values are computed in the same way on the same line.
+    pub fn is_alike(&self, a: Place, b: Place) -> bool {
+        self.line(a) == self.line(b) && self.opcode(a) == self.opcode(b)
     }
 
     fn name(&self, id: u32) -> &str {

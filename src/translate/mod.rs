@@ -94,10 +94,14 @@ impl Translation {
     /// computed on the line on which it is written, and not before the shader runs.
     pub fn interpreter(&self, source: &Source) -> Option<Interpreter> {
         let version = text::version(source.code());
-        let text = macros::on_their_lines(&self.text, version).unwrap_or_else(|| self.text.clone());
+        // Lines are those of the file, whatever it says of them.
+        let plain = hints::without_line_directives(&self.text);
+        let text = plain.as_ref().unwrap_or(&self.text);
+        let text = macros::on_their_lines(text, version).unwrap_or_else(|| text.clone());
         let variable = text::without_constants(&text);
-        let words = variable.and_then(|text| second_pass(&text, &self.renamed, version).ok());
-        Interpreter::new(&words.unwrap_or_else(|| self.shader.written().to_vec()))
+        let compiled = |text: &str| second_pass(text, &self.renamed, version).ok();
+        let words = variable.as_deref().and_then(compiled).or_else(|| compiled(&text));
+        Interpreter::new(&words?)
     }
 }
 

@@ -63,11 +63,6 @@ impl Shader {
         build(self.written.clone(), source, interface, true)
     }
 
-    /// What the compiler wrote.
-    pub(super) fn written(&self) -> &[u32] {
-        &self.written
-    }
-
     /// The module as the compiler wrote it, without fuel, capture and whatever else ggrade adds: to measure what they cost.
     /// Its attributes have locations in the interface's order, its output location 0, its uniforms binding 0 of group 0.
     pub fn plain(&self, interface: &Interface) -> Result<Module, Fault> {

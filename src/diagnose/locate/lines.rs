@@ -2,46 +2,28 @@
 
 use crate::source::Source;
 
-/// The statement that a line is part of.
+/// What is written on a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::diagnose) struct Statement {
-    /// Its words; those of the macros that it uses as well.
-    words: Vec<String>,
-}
+pub(in crate::diagnose) struct Words(Vec<String>);
 
-impl Statement {
-    /// The statement that goes over line `number`, from 1.
+impl Words {
+    /// The words of line `number`, from 1, and of the macros that it uses.
     pub fn at(source: &Source, number: u32) -> Self {
-        let code = source.code();
-        let line = source.code_line(number);
-        let Some(start) = source.offset(number, 1) else { return Self { words: Vec::new() } };
-        let end = start + line.len();
-        let is_end = |c: char| matches!(c, ';' | '{' | '}');
-        let directive = line.trim_start().starts_with('#');
-        let text = if directive {
-            line
-        } else {
-            let first = code[..start].rfind(is_end).map_or(0, |at| at + 1);
-            let last = code[end..].find(is_end).map_or(code.len(), |at| end + at);
-            &code[first..if line.trim_end().ends_with(is_end) { end } else { last }]
-        };
-        let mut words = words(text);
-        let macros: Vec<String> =
-            code.lines().filter_map(macro_of).filter(|(name, _)| words.contains(name)).map(|(_, body)| body).collect();
-        for body in macros {
-            words.extend(self::words(&body));
-        }
-        Self { words }
+        let mut words = words(source.code_line(number));
+        let macros = source.code().lines().filter_map(macro_of).filter(|(name, _)| words.contains(name));
+        let bodies: Vec<String> = macros.map(|(_, body)| body).collect();
+        words.extend(bodies.iter().flat_map(|body| self::words(body)));
+        Self(words)
     }
 
     /// The whole file.
     pub fn all(source: &Source) -> Self {
-        Self { words: words(source.code()) }
+        Self(words(source.code()))
     }
 
     /// Whether it has the word.
     pub fn has(&self, word: &str) -> bool {
-        self.words.iter().any(|own| own == word)
+        self.0.iter().any(|own| own == word)
     }
 }
 

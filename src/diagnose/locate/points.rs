@@ -10,9 +10,14 @@ use reference::advice::Variation;
 use reference::equation::Variant;
 use reference::probes::Probe;
 use reference::{Assignment, Value as Reference};
+use std::cell::Cell;
 
 /// How many wrong and how many right samples are looked at. Each run takes some 20 µs.
 const OF_EACH_KIND: usize = 10;
+
+/// How many instructions a search may run. Measured: 100,000 to 600,000 for answers of the usual length, which takes some
+/// milliseconds; a file whose loops make it run longer is answered without a line.
+const MOST_STEPS: u64 = 5_000_000;
 
 /// The shader at some of the probes.
 pub(in crate::diagnose) struct Points<'a> {
@@ -22,6 +27,8 @@ pub(in crate::diagnose) struct Points<'a> {
     pub(super) output: &'a str,
     pub(super) points: Vec<Point<'a>>,
     source: &'a Source,
+    /// How many more instructions may be run.
+    budget: Cell<u64>,
 }
 
 /// One probe.
@@ -29,6 +36,7 @@ pub(super) struct Point<'a> {
     pub given: Given<'a>,
     uniforms: &'a [Reference],
     attributes: &'a [Reference],
+    steps: u32,
     /// Every value on the way to the colour, in the order in which they are computed.
     pub values: Vec<(Place, Value)>,
 }
@@ -61,7 +69,8 @@ impl<'a> Points<'a> {
             }
             points.push(point);
         }
-        (!points.is_empty()).then_some(Self { interpreter, assignment, output, points, source: evidence.source })
+        let (source, budget) = (evidence.source, Cell::new(MOST_STEPS));
+        (!points.is_empty()).then_some(Self { interpreter, assignment, output, points, source, budget })
     }
 
     /// Runs the shader under a circumstance of advice.
@@ -73,7 +82,7 @@ impl<'a> Points<'a> {
             Some(Point::new(interpreter, output, beyond.given(variation), uniforms, attributes)?.0)
         };
         let points = beyond.variations.iter().map(point).collect::<Option<_>>()?;
-        Some(Self { interpreter, assignment, output, points, source })
+        Some(Self { interpreter, assignment, output, points, source, budget: Cell::new(MOST_STEPS) })
     }
 
     /// Whether the student wrote the line on which a value is computed: what was handed out is right.
@@ -95,6 +104,8 @@ impl<'a> Points<'a> {
     /// Whether the colour is `wanted` at every point when the values are changed so.
     pub(super) fn becomes(&self, wanted: &[[f64; 3]], change: &dyn Fn(usize, Place, &Value) -> Option<Value>) -> bool {
         self.points.iter().zip(wanted).enumerate().all(|(index, (point, wanted))| {
+            let Some(left) = self.budget.get().checked_sub(u64::from(point.steps)) else { return false };
+            self.budget.set(left);
             let written =
                 self.interpreter.run(&point.given, self.output, &mut |place, value| change(index, place, value));
             written.is_some_and(|written| is_close(*wanted, &written.output))
@@ -145,7 +156,7 @@ impl<'a> Point<'a> {
             None
         };
         let written = interpreter.run(&given, output, look)?;
-        Some((Self { given, uniforms, attributes, values }, written))
+        Some((Self { given, uniforms, attributes, steps: written.steps, values }, written))
     }
 }
 

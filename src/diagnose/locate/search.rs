@@ -137,7 +137,17 @@ impl<'s, 'a> Search<'s, 'a> {
     /// The first value that mends the colour when it is what definition `d` should be.
     fn direct(&self, d: usize) -> Option<Place> {
         let mut places = self.mending(d);
-        if self.at_use { places.last() } else { places.next() }
+        if self.at_use {
+            return places.last();
+        }
+        let first = places.next()?;
+        // Where it is right further down, and made wrong again after that, what stands before is not to blame.
+        let is_right = |place: &Place| self.is_definition(*place, d) && self.order(*place) > self.order(first);
+        let Some((right, _)) = self.values().rfind(|(place, _)| place.operand == 0 && is_right(place)) else {
+            return Some(first);
+        };
+        let later = places.find(|place| self.order(*place) > self.order(right) && self.depends(*place, right));
+        later.or(Some(first))
     }
 
     fn mending(&self, d: usize) -> impl Iterator<Item = Place> {
@@ -145,6 +155,7 @@ impl<'s, 'a> Search<'s, 'a> {
             fits(value, &self.right[0][d])
                 && (self.handed_out || self.points.is_own(*place))
                 && !self.is_start_of_sum(*place)
+                && (self.is_zero() || !self.is_zero_at_all_points(*place))
         });
         candidates.map(|(place, _)| place).filter(move |place| {
             self.mends(&|point, at, value| (at == *place).then(|| put(value, &self.right[point][d]))?)
@@ -232,11 +243,23 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Whether a value is that of some definition of the right equation, at every point.
     fn is_right(&self, place: Place) -> bool {
-        (0..self.right[0].len()).any(|d| {
-            self.points.points.iter().zip(&self.right).all(|(point, right)| {
-                let value = point.values.iter().find(|(at, _)| *at == place).and_then(|(_, value)| value.floats());
-                value.is_none_or(|value| is_same(&value, &right[d]))
-            })
+        (0..self.right[0].len()).any(|d| self.is_definition(place, d))
+    }
+
+    /// Whether a value is that of definition `d` at every point.
+    fn is_definition(&self, place: Place, d: usize) -> bool {
+        self.at_all_points(place, |value, point| is_same(value, &self.right[point][d]))
+    }
+
+    fn is_zero_at_all_points(&self, place: Place) -> bool {
+        self.at_all_points(place, |value, _| value.iter().take(3).all(|x| *x == 0.0))
+    }
+
+    /// Whether something holds of a value wherever it is computed.
+    fn at_all_points(&self, place: Place, holds: impl Fn(&[f64], usize) -> bool) -> bool {
+        self.points.points.iter().enumerate().all(|(index, point)| {
+            let value = point.values.iter().find(|(at, _)| *at == place).and_then(|(_, value)| value.floats());
+            value.is_none_or(|value| holds(&value, index))
         })
     }
 
@@ -267,8 +290,11 @@ impl<'s, 'a> Search<'s, 'a> {
     /// Whether a constant is what a sum begins with, and not a term.
     fn is_start_of_sum(&self, place: Place) -> bool {
         let interpreter = self.points.interpreter;
-        if place.operand == 0 || interpreter.stores_in(place, self.points.output) {
-            return place.operand != 0;
+        if place.operand == 0 || !self.is_zero_at_all_points(place) {
+            return false;
+        }
+        if interpreter.stores_in(place, self.points.output) {
+            return true;
         }
         let Some(name) = interpreter.variable(place) else { return false };
         let loads = self.values().filter(|(at, _)| at.operand == 0 && interpreter.is_load_of(*at, name));
@@ -288,17 +314,23 @@ impl<'s, 'a> Search<'s, 'a> {
         })
     }
 
-    /// A helper that computes something right where it is called elsewhere is not to blame: the call is.
+    /// A function or a macro that computes something right where it is used elsewhere is not to blame: what it is given
+    /// here is, or else what is made of it.
     fn outside_of_helper(&self, place: Place) -> Place {
         let interpreter = self.points.interpreter;
-        let other_turn = |at: &Place| at.instruction == place.instruction && at.turn != place.turn && at.operand == 0;
-        let is_right_elsewhere = self.values().any(|(at, _)| other_turn(&at) && self.is_right(at));
-        if !is_right_elsewhere {
+        let is_other_use =
+            |at: &Place| *at != place && at.operand == 0 && interpreter.is_same_text(*at, place) && self.is_right(*at);
+        if !self.values().any(|(at, _)| is_other_use(&at)) {
             return place;
         }
-        let helper = interpreter.function(place);
-        let mut callers = self.replaced.iter().chain(&self.following).flat_map(|d| self.mending(*d));
-        callers.find(|at| interpreter.function(*at) != helper).unwrap_or(place)
+        let is_outside = |at: &Place| {
+            interpreter.line(*at) != interpreter.line(place)
+                && interpreter.function(*at) == interpreter.function_of_main()
+        };
+        let given = self.replaced.iter().flat_map(|d| 0..*d).filter(|d| self.right[0][*d].len() == 3);
+        let given = given.filter_map(|d| self.mending(d).find(is_outside)).min_by_key(|at| self.order(*at));
+        let made = || self.replaced.iter().chain(&self.following).find_map(|d| self.mending(*d).find(is_outside));
+        given.or_else(made).unwrap_or(place)
     }
 }
 

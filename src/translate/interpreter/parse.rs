@@ -37,6 +37,9 @@ mod storage {
 /// The built-in variable `gl_Position`, SPIR-V, section 3.21.
 const POSITION: u32 = 0;
 
+/// Variables have no more components than this: every load copies them.
+const MAX_COMPONENTS: usize = 1024;
+
 impl Interpreter {
     /// Reads words; `None` for what is not known here.
     pub fn new(words: &[u32]) -> Option<Self> {
@@ -57,6 +60,10 @@ impl Interpreter {
         for instruction in &code.globals {
             interpreter.global(instruction, &code.heads)?;
         }
+        let is_large = |shape: &Shape| matches!(shape, Shape::Pointer(of) if interpreter.size(*of) > MAX_COMPONENTS);
+        if interpreter.shapes.values().any(is_large) {
+            return None;
+        }
         for (at, instruction) in interpreter.instructions.iter().enumerate() {
             match instruction.opcode {
                 op::FUNCTION => interpreter.starts.insert(*instruction.operands.get(1)?, at),
@@ -65,6 +72,15 @@ impl Interpreter {
             };
         }
         Some(interpreter)
+    }
+
+    /// How many components a value of a type has.
+    fn size(&self, shape: u32) -> usize {
+        match self.shapes.get(&shape) {
+            Some(Shape::Repeated(part, count)) => self.size(*part).saturating_mul(*count),
+            Some(Shape::Structure(parts)) => parts.iter().map(|part| self.size(*part)).fold(0, usize::saturating_add),
+            _ => 1,
+        }
     }
 
     /// Takes a constant or a global variable.
