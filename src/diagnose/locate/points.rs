@@ -91,6 +91,12 @@ impl<'a> Points<'a> {
         self.interpreter.line(place).is_some_and(|line| !is_handed_out(self.source, line, starter))
     }
 
+    /// Whether a value is computed in the text of a macro.
+    pub(super) fn is_in_macro(&self, place: Place) -> bool {
+        let line = self.interpreter.line(place).map(|line| self.source.code_line(line));
+        line.is_some_and(|line| line.trim_start().starts_with('#'))
+    }
+
     /// The definitions of a variant of the equation at each point, in the equation's order.
     pub(super) fn definitions(&self, variant: &Variant<'_>) -> Vec<Vec<Vec<f64>>> {
         let names = self.assignment.equation.definitions();

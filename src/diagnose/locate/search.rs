@@ -318,8 +318,11 @@ impl<'s, 'a> Search<'s, 'a> {
     /// here is, or else what is made of it.
     fn outside_of_helper(&self, place: Place) -> Place {
         let interpreter = self.points.interpreter;
-        let is_other_use =
-            |at: &Place| *at != place && at.operand == 0 && interpreter.is_same_text(*at, place) && self.is_right(*at);
+        let is_other_use = |at: &Place| {
+            let is_shared = at.instruction == place.instruction
+                || self.points.is_in_macro(place) && interpreter.is_alike(*at, place);
+            *at != place && at.operand == 0 && is_shared && self.is_right(*at)
+        };
         if !self.values().any(|(at, _)| is_other_use(&at)) {
             return place;
         }
