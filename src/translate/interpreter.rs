@@ -191,7 +191,7 @@ impl Interpreter {
                     .base_of_store(*place)
                     .is_some_and(|id| block.is_some_and(|b| b.id == id) || self.name(id) == "gl_Position")
         };
-        self.line(all.filter(is_it).last()?)
+        self.line(all.filter(is_it).next_back()?)
     }
 
     fn base_of_store(&self, place: Place) -> Option<u32> {

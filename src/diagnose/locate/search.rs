@@ -297,8 +297,8 @@ impl<'s, 'a> Search<'s, 'a> {
             return true;
         }
         let Some(name) = interpreter.variable(place) else { return false };
-        let loads = self.values().filter(|(at, _)| at.operand == 0 && interpreter.is_load_of(*at, name));
-        loads.last().is_some_and(|(_, value)| value.iter().take(3).any(|x| *x != 0.0))
+        let mut loads = self.values().filter(|(at, _)| at.operand == 0 && interpreter.is_load_of(*at, name));
+        loads.next_back().is_some_and(|(_, value)| value.iter().take(3).any(|x| *x != 0.0))
     }
 
     /// Whether the colour changes with one of the constants that the definition is made of.
