@@ -99,7 +99,7 @@ fn summary(expectation: Option<&Expectation>) -> String {
             format!("{:?} {:?} {}:{}", place.severity, place.stage, number(place.line), number(place.column))
         })
         .collect();
-    let lines: Vec<_> = expectation.lines.iter().map(|(id, line)| format!("{id}:{line}")).collect();
+    let lines: Vec<_> = expectation.lines.iter().flatten().map(|(id, line)| format!("{id}:{line}")).collect();
     let advice: Vec<_> = expectation.advice.iter().map(|(id, line)| format!("{id}:{}", line.unwrap_or(0))).collect();
     format!(
         "{:?} {} ({}) [{}] {} {} {}",

@@ -208,6 +208,12 @@ impl Interpreter {
         before.iter().rposition(|i| i.opcode == op::FUNCTION).unwrap_or(0)
     }
 
+    /// Whether a constant is what a global variable begins with.
+    pub fn is_initial(&self, place: Place) -> bool {
+        let is_global = |id: u32| self.variables.iter().any(|v| v.id == id && v.class == Class::Private);
+        place.operand > 0 && self.opcode(place) == Some(op::STORE) && self.base_of_store(place).is_some_and(is_global)
+    }
+
     /// The number of the first instruction of `main`.
     pub fn function_of_main(&self) -> usize {
         self.starts.get(&self.main).copied().unwrap_or(0)

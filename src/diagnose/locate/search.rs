@@ -154,6 +154,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let candidates = self.values().filter(move |(place, value)| {
             fits(value, &self.right[0][d])
                 && (self.handed_out || self.points.is_own(*place))
+                && !self.points.interpreter.is_initial(*place)
                 && !self.is_start_of_sum(*place)
                 && (self.is_zero() || !self.is_zero_at_all_points(*place))
         });
