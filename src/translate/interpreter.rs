@@ -184,14 +184,14 @@ impl Interpreter {
     /// The line of the last statement that assigns to `gl_Position`.
     pub fn last_position(&self) -> Option<u32> {
         let block = self.variables.iter().find(|v| self.position.is_some_and(|(shape, _)| shape == v.shape));
-        let all = (0..self.instructions.len() as u32).map(|instruction| Place { instruction, turn: 0, operand: 2 });
+        let mut all = (0..self.instructions.len() as u32).map(|instruction| Place { instruction, turn: 0, operand: 2 });
         let is_it = |place: &Place| {
             self.opcode(*place) == Some(op::STORE)
                 && self
                     .base_of_store(*place)
                     .is_some_and(|id| block.is_some_and(|b| b.id == id) || self.name(id) == "gl_Position")
         };
-        self.line(all.filter(is_it).next_back()?)
+        self.line(all.rfind(is_it)?)
     }
 
     fn base_of_store(&self, place: Place) -> Option<u32> {
