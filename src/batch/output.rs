@@ -116,7 +116,6 @@ fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> 
         Format::MoodleFeedback => folder.write_by(file, |out| feedback::write(class, out)).map(|packed| packed.notes),
         Format::Gradescope
         | Format::Github
-        | Format::Classroom
         | Format::ClassroomLegacy
         | Format::Junit
         | Format::Sarif

@@ -1,5 +1,5 @@
-//! GitHub Classroom: the result of one submission as JSON (`classroom50/result/v1`), and in the older base64 form that
-//! the action `classroom-resources/autograding-grading-reporter` reads.
+//! GitHub Classroom: the result of one submission in the base64 form that the action
+//! `classroom-resources/autograding-grading-reporter` reads.
 
 use super::untrusted::{one_line, visible};
 use super::wording;
@@ -11,35 +11,13 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-/// Name and version of the JSON form.
-pub const SCHEMA: &str = "classroom50/result/v1";
-
-/// The JSON form, one object. After a failure of ours `score` is null and the status `error`.
-pub fn render(entry: &Entry, class: &Class) -> String {
-    let language = class.language;
-    let report = entry.report();
-    let tests: Vec<_> = rubric(entry).iter().map(|line| test(line, language)).collect();
-    let result = json!({
-        "schema": SCHEMA,
-        "assignment": class.assignment,
-        "status": status(entry),
-        "score": score(entry),
-        "max_score": report.map(|report| report.max_score),
-        "message": message(entry, language),
-        "tests": tests,
-    });
-    let mut text = format!("{result:#}");
-    text.push('\n');
-    text
-}
-
-/// The older form: base64 of a JSON object, in one line, for the reporter's `…_RESULTS`.
+/// Base64 of a JSON object, in one line, for the reporter's `…_RESULTS`.
 ///
 /// It has no way to say "no score": after a failure of ours it is worth 0 of 0 points.
-pub fn render_legacy(entry: &Entry, class: &Class) -> String {
+pub fn render(entry: &Entry, class: &Class) -> String {
     let language = class.language;
     let duration = entry.report().map_or(0.0, |report| report.elapsed_ms.round() / 1000.0);
-    let mut tests: Vec<_> = rubric(entry).iter().map(|line| legacy_test(entry, line, duration, language)).collect();
+    let mut tests: Vec<_> = rubric(entry).iter().map(|line| test(entry, line, duration, language)).collect();
     if tests.is_empty() {
         tests.push(json!({
             "name": Standing::of(&entry.outcome).word(language),
@@ -74,13 +52,6 @@ fn status(entry: &Entry) -> &'static str {
     }
 }
 
-fn score(entry: &Entry) -> Option<f64> {
-    match Standing::of(&entry.outcome) {
-        Standing::Fault => None,
-        _ => Some(entry.report().map_or(0.0, |report| report.score)),
-    }
-}
-
 /// What is said of the submission as a whole: the outcome, then what the stages say about places in it.
 fn message(entry: &Entry, language: Language) -> String {
     let mut lines = vec![wording::explanation(entry, language)];
@@ -95,17 +66,7 @@ fn line_status(line: &RubricLine) -> &'static str {
     if wording::is_full(line) { "pass" } else { "fail" }
 }
 
-fn test(line: &RubricLine, language: Language) -> Value {
-    json!({
-        "name": one_line(line.label.get(language)),
-        "status": line_status(line),
-        "score": line.points,
-        "max_score": line.max_points,
-        "message": visible(line.message.get(language)),
-    })
-}
-
-fn legacy_test(entry: &Entry, line: &RubricLine, duration: f64, language: Language) -> Value {
+fn test(entry: &Entry, line: &RubricLine, duration: f64, language: Language) -> Value {
     // Where nothing ran, what the compiler says is what the student needs.
     let nothing_ran = matches!(Standing::of(&entry.outcome), Standing::Rejected | Standing::Stopped);
     let message = if nothing_ran { message(entry, language) } else { visible(line.message.get(language)) };
@@ -132,31 +93,25 @@ mod tests {
     use crate::batch::formats::nasty;
     use crate::report::samples;
 
-    fn parsed(entry: &Entry) -> Value {
-        serde_json::from_str(&render(entry, &nasty::class())).expect("JSON")
-    }
-
     /// As the reporter reads it: base64 of UTF-8 JSON.
     fn decoded(entry: &Entry) -> Value {
-        let text = render_legacy(entry, &nasty::class());
+        let text = render(entry, &nasty::class());
         let line = text.strip_suffix('\n').unwrap();
         assert!(line.bytes().all(|b| b.is_ascii_alphanumeric() || b"+/=".contains(&b)), "{line}");
         serde_json::from_slice(&STANDARD.decode(line).expect("base64")).expect("JSON")
     }
 
     #[test]
-    fn each_outcome_has_its_status_and_score() {
-        let results: Vec<_> = nasty::class().entries.iter().map(parsed).collect();
+    fn each_outcome_has_its_status() {
+        let results: Vec<_> = nasty::class().entries.iter().map(decoded).collect();
         let status: Vec<_> = results.iter().map(|result| result["status"].as_str().unwrap()).collect();
         assert_eq!(status, ["pass", "fail", "fail", "fail", "fail", "error"]);
-        let scores: Vec<_> = results.iter().map(|result| result["score"].as_f64()).collect();
-        assert_eq!(scores, [Some(100.0), Some(80.0), Some(0.0), Some(0.0), Some(0.0), None]);
-        assert!(results.iter().all(|result| result["schema"] == "classroom50/result/v1"));
-        assert!(results[2]["message"].as_str().unwrap().contains("line 11, column 12: `Max` is not declared."));
+        let rejected = results[2]["tests"][0]["message"].as_str().unwrap();
+        assert!(rejected.contains("line 11, column 12: `Max` is not declared."), "{rejected}");
     }
 
     #[test]
-    fn the_older_form_adds_up_in_the_reporter() {
+    fn the_scores_add_up_in_the_reporter() {
         for entry in &nasty::class().entries {
             let result = decoded(entry);
             // The reporter adds the scores of the tests and holds them against max_score.
@@ -174,17 +129,14 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_of_ours_takes_no_points_in_the_older_form() {
+    fn a_failure_of_ours_takes_no_points() {
         let result = decoded(&nasty::class().entries[5]);
         assert_eq!((&result["status"], &result["max_score"]), (&json!("error"), &json!(0.0)));
     }
 
     #[test]
     fn what_students_write_is_shown_and_not_obeyed() {
-        let entry = nasty::attack(samples::wrong());
-        for result in [parsed(&entry), decoded(&entry)] {
-            let message = result["tests"][0]["message"].as_str().unwrap();
-            assert_eq!(message, visible(nasty::NASTY));
-        }
+        let result = decoded(&nasty::attack(samples::wrong()));
+        assert_eq!(result["tests"][0]["message"], visible(nasty::NASTY));
     }
 }

@@ -6,10 +6,9 @@ use crate::batch::class::{Class, Entry};
 use crate::fault::Fault;
 
 /// The formats of this module.
-pub const FORMATS: [Format; 8] = [
+pub const FORMATS: [Format; 7] = [
     Format::Gradescope,
     Format::Github,
-    Format::Classroom,
     Format::ClassroomLegacy,
     Format::Junit,
     Format::Sarif,
@@ -62,8 +61,7 @@ pub fn single(format: Format, class: &Class, scale: vpl::Scale) -> Result<Option
 fn per_student(format: Format, entry: &Entry, class: &Class, scale: vpl::Scale) -> Option<String> {
     Some(match format {
         Format::Gradescope => gradescope::render(entry, &class.expected_portrait, class.language),
-        Format::Classroom => classroom::render(entry, class),
-        Format::ClassroomLegacy => classroom::render_legacy(entry, class),
+        Format::ClassroomLegacy => classroom::render(entry, class),
         Format::Vpl => vpl::render(entry, scale, class.language),
         Format::Coderunner => coderunner::render(entry, class.language),
         _ => return None,

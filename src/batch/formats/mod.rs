@@ -48,9 +48,7 @@ pub enum Format {
     Gradescope,
     /// Workflow commands and a job summary for GitHub Actions.
     Github,
-    /// The result that GitHub Classroom's tools read.
-    Classroom,
-    /// The older form of it.
+    /// The result that GitHub Classroom's reporter reads.
     ClassroomLegacy,
     /// JUnit XML.
     Junit,
@@ -85,7 +83,7 @@ const fn row(
 }
 
 /// In the order of the variants, which is the order in which help lists them.
-const TABLE: [Row; 13] = [
+const TABLE: [Row; 12] = [
     row(
         Format::Html,
         "html",
@@ -136,18 +134,11 @@ const TABLE: [Row; 13] = [
         "GitHub Actions のアノテーションとジョブサマリー",
     ),
     row(
-        Format::Classroom,
-        "classroom",
-        &["classroom/KEY.json"],
-        "GitHub Classroom result, one a student",
-        "GitHub Classroom の結果（学生ごと）",
-    ),
-    row(
         Format::ClassroomLegacy,
         "classroom-legacy",
         &["classroom-legacy/KEY.txt"],
-        "GitHub Classroom result in its older base64 form, one a student",
-        "GitHub Classroom の結果の旧形式（base64、学生ごと）",
+        "GitHub Classroom's result for its grading reporter (base64), one a student",
+        "GitHub Classroom の grading reporter が読む結果（base64、学生ごと）",
     ),
     row(
         Format::Junit,
