@@ -19,13 +19,21 @@ pub struct Student {
     pub moodle: Option<Participant>,
 }
 
-/// A student as Moodle's files name them.
+/// A student, or where groups hand in a group, as Moodle's files name them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Participant {
-    /// What stands before the number in the download's names: the full name, or under blind marking `Participant`.
+    /// What stands before the number in the download's names: the full name, under blind marking `Participant`, or the
+    /// name of a group.
     pub name: String,
-    /// The number in the download's names, which the worksheet's `Participant 1234` has too. Unique in an assignment.
-    pub number: u64,
+    /// The number in the download's names. A participant's is unique in an assignment, and the worksheet's
+    /// `Participant 1234` has it too; a group's is of another kind, and may be somebody's by accident. None for those
+    /// who are in no group and hand in together, the default group.
+    pub number: Option<u64>,
+}
+
+impl Participant {
+    /// What Moodle calls those who are in no group, in the languages of the course.
+    pub const DEFAULT_GROUP: [&str; 2] = ["Default group", "デフォルトグループ"];
 }
 
 /// What became of one student's submission.

@@ -54,10 +54,24 @@ pub fn choose(asked: &[Format], given: Given) -> Result<Vec<Format>, Text> {
     Ok(chosen)
 }
 
+/// What a teacher may miss of what is written.
+pub fn hint(asked: &[Format], given: Given) -> Option<Text> {
+    let missed = asked.is_empty() && given.moodle && !given.worksheet && !given.anonymous;
+    missed.then(|| {
+        Text::new(
+            "For Moodle, name its grading worksheet with --moodle-worksheet FILE.csv: it is filled in, and everyone's report \
+             is packed as moodle-feedback.zip",
+            "Moodle に戻すには、評定ワークシートを --moodle-worksheet FILE.csv で指定してください。評定とコメントを記入し、\
+             全員の採点結果を moodle-feedback.zip にまとめます",
+        )
+    })
+}
+
 fn is_usual(format: Format, given: Given) -> bool {
     match format {
         Format::MoodleWorksheet => given.worksheet,
-        Format::MoodleFeedback => given.moodle && !given.anonymous,
+        // Only the worksheet tells participants from groups.
+        Format::MoodleFeedback => given.moodle && given.worksheet && !given.anonymous,
         // Its columns say what grades.csv says, for those who have nbgrader.
         Format::Nbgrader => false,
         _ => true,
@@ -113,7 +127,14 @@ fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> 
             folder.write(file, &filled.bytes)?;
             Ok(filled.notes)
         }
-        Format::MoodleFeedback => folder.write_by(file, |out| feedback::write(class, out)).map(|packed| packed.notes),
+        Format::MoodleFeedback => {
+            let recipients = match sheet {
+                Some(sheet) => worksheet::recipients(class, sheet)?,
+                None => feedback::by_number(class),
+            };
+            let packed = folder.write_by(file, |out| feedback::write(class, &recipients, out))?;
+            Ok(packed.notes.into_iter().chain(sheet.is_none().then(feedback::without_worksheet)).collect())
+        }
         Format::Gradescope
         | Format::Github
         | Format::ClassroomLegacy

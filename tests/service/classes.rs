@@ -100,6 +100,17 @@ async fn a_moodle_archive_is_graded_behind_the_scenes(database: Database) {
     .await;
     assert_eq!(filled.status, StatusCode::OK, "{filled:?}");
     assert!(String::from_utf8_lossy(&filled.body).contains("100"));
+    // Where groups hand in, the numbers are groups', and the worksheet says whose the reports are.
+    let sheet = "Identifier,Full name,Status,Group,Grade,Maximum Grade,Feedback comments\n\
+                 Participant 101,木村 春,,佐藤 花子,,100,\nParticipant 7,林 夏,,山田 太郎,,100,\n\
+                 Participant 8,森 秋,,山田 太郎,,100,\n";
+    let post = request("POST", &format!("{location}/files/moodle-feedback"), "text/csv", sheet);
+    let feedback = bench.send(post).await;
+    let feedback = zip::ZipArchive::new(Cursor::new(feedback.body)).expect("an archive");
+    let mut names: Vec<String> = feedback.file_names().map(|name| name.expect("a name").into_owned()).collect();
+    names.sort();
+    let people = ["木村 春_101", "林 夏_7", "森 秋_8"];
+    assert_eq!(names, people.map(|name| format!("{name}_assignfeedback_file_/feedback.html")));
     bench.finish().await;
 }
 

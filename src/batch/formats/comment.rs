@@ -1,4 +1,11 @@
 //! The feedback as the piece of HTML that Moodle's feedback comments hold: one line, no quotes but those of one class.
+//!
+//! Moodle's worksheet gives comments back without their tags. So what is ours begins and ends with words that are text:
+//! by them [`existing`] finds it in a worksheet, and a new grading takes its place.
+
+mod existing;
+mod exported;
+mod former;
 
 use super::plain::html;
 use crate::batch::class::{Class, Entry, Outcome};
@@ -9,6 +16,7 @@ use crate::report::html::rich::pieces;
 use crate::report::labels::Labels;
 use crate::report::text::number;
 use crate::report::{Report, RubricLine};
+use former::Former;
 
 /// Begins what is ours in a comment; what a teacher wrote before or behind it stays.
 const OPEN: &str = "<div class=ggrade>";
@@ -16,26 +24,45 @@ const OPEN: &str = "<div class=ggrade>";
 const OPEN_QUOTED: &str = "<div class=\"ggrade\">";
 const CLOSE: &str = "</div>";
 
+const LANGUAGES: [Language; 2] = [Language::En, Language::Ja];
+
+/// The words that begin what is ours, and those that end it. Both are in Shift_JIS, as Excel in Japan saves a worksheet.
+const fn marks(language: Language) -> [&'static str; 2] {
+    match language {
+        Language::En => ["▼ Automatic feedback by ggrade", "▲ End of automatic feedback"],
+        Language::Ja => ["▼ ggrade による自動採点", "▲ 自動採点ここまで"],
+    }
+}
+
+/// A comment for a cell of the worksheet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Comment {
+    /// The cell's content: ours, and what a teacher wrote around it.
+    pub html: String,
+    /// Whether the end of an older version's comment had to be guessed: words that a teacher wrote right behind it, in
+    /// the same line, are gone with it.
+    pub is_end_guessed: bool,
+}
+
+/// The comment on one student in place of the one that is in the cell, and behind a teacher's words where there is none.
+pub(super) fn merge(cell: &str, entry: &Entry, class: &Class) -> Comment {
+    existing::replaced(cell, &render(entry, class.language), &Former::of(entry, class))
+}
+
 /// The comment on one student.
-pub(super) fn render(entry: &Entry, class: &Class) -> String {
-    let language = class.language;
+fn render(entry: &Entry, language: Language) -> String {
+    let [begin, end] = marks(language);
+    format!("{OPEN}<p>{begin}</p>{}<p>{end}</p>{CLOSE}", body(entry, language))
+}
+
+/// What a comment says.
+fn body(entry: &Entry, language: Language) -> String {
     let title = Standing::of(&entry.outcome).word(language);
-    let body = match &entry.outcome {
+    match &entry.outcome {
         Outcome::Graded(report) => graded(report, title, language),
         Outcome::NotGraded(reason) => format!("<p><strong>{title}</strong></p><p>{}</p>", rich(reason.get(language))),
         Outcome::Fault(_) => format!("<p><strong>{title}</strong></p>"),
-    };
-    format!("{OPEN}{body}{CLOSE}")
-}
-
-/// `existing` with our part replaced by `ours`, or with `ours` behind it.
-pub(super) fn merge(existing: &str, ours: &str) -> String {
-    for open in [OPEN, OPEN_QUOTED] {
-        let Some((before, rest)) = existing.split_once(open) else { continue };
-        let Some((_, after)) = rest.split_once(CLOSE) else { continue };
-        return format!("{before}{ours}{after}");
     }
-    format!("{existing}{ours}")
 }
 
 fn graded(report: &Report, title: &str, language: Language) -> String {

@@ -6,10 +6,11 @@
 
 use super::plain::{html, one_line};
 use super::status::summary;
-use crate::batch::class::{Class, Entry, Outcome, Participant};
+use crate::batch::class::{Class, Entry, Outcome};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{Seek, Write};
 use zip::write::SimpleFileOptions;
@@ -24,30 +25,59 @@ pub struct Packed {
     pub notes: Vec<Text>,
 }
 
+/// A participant of Moodle's who gets a student's report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recipient<'a> {
+    /// Whose report.
+    pub entry: &'a Entry,
+    /// The participant's name, which Moodle does not go by.
+    pub name: String,
+    /// The participant's number, which it goes by.
+    pub number: u64,
+}
+
+/// The recipients where there is no worksheet: the numbers of the download are taken for participants'.
+pub fn by_number<'a>(class: &'a Class) -> Vec<Recipient<'a>> {
+    let recipient = |entry: &'a Entry| {
+        let Entry { student, .. } = entry;
+        let participant = student.moodle.as_ref()?;
+        Some(Recipient { entry, name: participant.name.clone(), number: participant.number? })
+    };
+    class.entries.iter().filter_map(recipient).collect()
+}
+
+/// What a teacher should know of an archive that was made without a worksheet.
+pub fn without_worksheet() -> Text {
+    Text::new(
+        "moodle-feedback.zip was made without Moodle's worksheet: right where everyone hands in alone. Where groups hand in, \
+         the numbers are those of groups and other students would get these files: name the worksheet with \
+         --moodle-worksheet",
+        "moodle-feedback.zip は評定ワークシートなしで作りました。一人ずつ提出する課題ではこのまま使えます。グループで提出する\
+         課題では番号がグループのもので、別の学生に渡ってしまいます。--moodle-worksheet でワークシートを指定してください",
+    )
+}
+
 /// Writes the archive into `out`; each page is copied from disk on the way.
-pub fn write(class: &Class, out: impl Write + Seek) -> Result<Packed, Fault> {
+pub fn write(class: &Class, recipients: &[Recipient], out: impl Write + Seek) -> Result<Packed, Fault> {
     let mut archive = ZipWriter::new(out);
     let mut packed = Packed::default();
     let separator = separator(class);
-    let mut left_out = (Vec::new(), Vec::new());
-    for entry in &class.entries {
-        match (&entry.student.moodle, &entry.outcome) {
-            (None, _) => left_out.0.push(entry),
-            (_, Outcome::Fault(_)) => left_out.1.push(entry),
-            (Some(participant), _) => {
-                add(&mut archive, entry, participant, separator, class)?;
-                packed.pages += 1;
-            }
-        }
+    let (faults, graded): (Vec<&Entry>, Vec<&Entry>) =
+        class.entries.iter().partition(|entry| matches!(entry.outcome, Outcome::Fault(_)));
+    for recipient in recipients.iter().filter(|recipient| !matches!(recipient.entry.outcome, Outcome::Fault(_))) {
+        add(&mut archive, recipient, separator, class)?;
+        packed.pages += 1;
     }
     archive.finish().map_err(|error| failed(&error))?;
+    let known: HashSet<&str> = recipients.iter().map(|recipient| recipient.entry.student.key.as_str()).collect();
+    let unknown: Vec<&Entry> = graded.into_iter().filter(|e| !known.contains(e.student.key.as_str())).collect();
     packed.notes.extend(super::names::note(
-        &left_out.0,
-        "Not in Moodle's feedback archive, because they have no number of Moodle",
-        "Moodle の番号がないため、フィードバックの ZIP に含めていません",
+        &unknown,
+        "Not in Moodle's feedback archive, because no participant of Moodle is known to whom it would go",
+        "渡す相手（Moodle の参加者）が分からないため、フィードバックの ZIP に含めていません",
     ));
     packed.notes.extend(super::names::note(
-        &left_out.1,
+        &faults,
         "Not in Moodle's feedback archive, because grading them failed",
         "採点に失敗したため、フィードバックの ZIP に含めていません",
     ));
@@ -69,12 +99,12 @@ fn separator(class: &Class) -> &'static str {
 
 fn add<W: Write + Seek>(
     archive: &mut ZipWriter<W>,
-    entry: &Entry,
-    participant: &Participant,
+    recipient: &Recipient,
     separator: &str,
     class: &Class,
 ) -> Result<(), Fault> {
-    let name = format!("{}_{}_assignfeedback_file{separator}feedback.html", name_part(participant), participant.number);
+    let Recipient { entry, name, number } = recipient;
+    let name = format!("{}_{number}_assignfeedback_file{separator}feedback.html", name_part(name));
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).unix_permissions(0o644);
     archive.start_file(name, options).map_err(|error| failed(&error))?;
     let copied = match &entry.page {
@@ -87,9 +117,11 @@ fn add<W: Write + Seek>(
     })
 }
 
-/// The name as the download had it. Moodle itself writes no `_` into it, since the first one ends it.
-fn name_part(participant: &Participant) -> String {
-    participant.name.chars().map(|c| if matches!(c, '_' | '/' | '\\') || c.is_control() { ' ' } else { c }).collect()
+/// The name as the download had it, but for what Moodle's importer stumbles over: the first `_` ends a name, and files
+/// that begin with `.` or `~` are hidden to it.
+fn name_part(name: &str) -> String {
+    let name = name.trim_start_matches(['.', '~']).chars();
+    name.map(|c| if matches!(c, '_' | '/' | '\\') || c.is_control() { ' ' } else { c }).collect()
 }
 
 /// A page for a student of whom there is no report.

@@ -46,7 +46,7 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
     let mut row = vec![
         cell(&student.key),
         cell(&student.name),
-        student.moodle.as_ref().map(|moodle| moodle.number.to_string()).unwrap_or_default(),
+        student.moodle.as_ref().and_then(|moodle| moodle.number).map(|number| number.to_string()).unwrap_or_default(),
         Standing::of(&entry.outcome).id().to_owned(),
         report.map(|report| exact(report.score)).unwrap_or_default(),
         report.map(|report| exact(report.max_score)).unwrap_or_default(),

@@ -38,7 +38,7 @@ pub(super) fn class(language: Language) -> Class {
             student: Student {
                 key: format!("s{number}"),
                 name: (*name).to_owned(),
-                moodle: Some(Participant { name: (*name).to_owned(), number }),
+                moodle: Some(Participant { name: (*name).to_owned(), number: Some(number) }),
             },
             path: Some(format!("class.zip/{name}_{number}_assignsubmission_file/ggsample06.vert")),
             local: None,

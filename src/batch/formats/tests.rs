@@ -60,7 +60,7 @@ fn nbgrader_columns_are_those_of_its_exporter() {
 
 fn packed(class: &Class) -> (zip::ZipArchive<Cursor<Vec<u8>>>, feedback::Packed) {
     let mut bytes = Cursor::new(Vec::new());
-    let packed = feedback::write(class, &mut bytes).expect("an archive");
+    let packed = feedback::write(class, &feedback::by_number(class), &mut bytes).expect("an archive");
     (zip::ZipArchive::new(bytes).expect("an archive"), packed)
 }
 
@@ -103,7 +103,7 @@ fn the_feedback_archive_has_the_form_of_the_download() {
         let mut class = class(Language::En);
         class.entries.truncate(1);
         class.entries[0].path = Some(format!("class.zip/{form}"));
-        class.entries[0].student.moodle.as_mut().expect("a participant").name = "A_b".into();
+        class.entries[0].student.moodle.as_mut().expect("a participant").name = ".~A_b".into();
         let (archive, _) = packed(&class);
         let names: Vec<_> = archive.file_names().map(|name| name.expect("a name").into_owned()).collect();
         assert_eq!(names, [format!("A b{expected}")]);
@@ -114,7 +114,7 @@ fn the_feedback_archive_has_the_form_of_the_download() {
 fn a_page_that_is_gone_is_our_fault() {
     let mut class = class(Language::En);
     class.entries[0].page = Some("/nowhere/s1001.html".into());
-    let fault = feedback::write(&class, Cursor::new(Vec::new())).expect_err("a fault");
+    let fault = feedback::write(&class, &feedback::by_number(&class), Cursor::new(Vec::new())).expect_err("a fault");
     assert!(fault.message.en.contains("/nowhere/s1001.html"));
 }
 

@@ -71,7 +71,7 @@ enum Step {
 
 fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading: &mut Reading) -> Step {
     let name = tree::decoded(entry.file_name());
-    if tree::is_litter(&name) {
+    if tree::is_litter(&name) || is_beside_another(entry, &name) {
         return Step::Over;
     }
     let below = entry.path().strip_prefix(root).unwrap_or(entry.path());
@@ -118,6 +118,13 @@ fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading:
         return Step::Over;
     }
     Step::On
+}
+
+/// Whether this is what macOS keeps of another file: that stands beside it, or the content says so.
+fn is_beside_another(entry: &DirEntry, name: &str) -> bool {
+    let Some(other) = tree::beside(name).filter(|_| entry.file_type().is_file()) else { return false };
+    entry.path().with_file_name(other).exists()
+        || bytes(entry.path(), 4).is_ok_and(|start| tree::is_apple_double(&start))
 }
 
 fn not_a_file(kind: std::fs::FileType) -> Text {

@@ -126,7 +126,9 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
             None => {}
         }
     }
-    groups.extend(students::of_files(loose, options));
+    let (found, refused) = students::of_files(loose, options);
+    groups.extend(found);
+    reading.refused.extend(refused);
     let students = key::students(groups.iter().map(|group| &group.who));
     let mut hand_ins: Vec<HandIn> =
         students.into_iter().zip(groups).map(|(student, group)| hand_in(student, group, options)).collect();

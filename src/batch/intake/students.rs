@@ -6,7 +6,7 @@
 //! they are looked into where all folders beside them are such, so that no student becomes several by what is handed in.
 
 use super::choose::{Fit, fit};
-use super::moodle::{self, Marked};
+use super::moodle::{self, Loose, Marked};
 use super::tree::{File, Folder, Held, Node};
 use super::{Options, Refused};
 use crate::batch::class::Participant;
@@ -56,7 +56,7 @@ pub(super) fn in_folder(
     options: &Options,
     is_one_of_several: bool,
 ) -> (Vec<Group>, Vec<Refused>) {
-    let mut finding = Finding { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() };
+    let mut finding = Finding::new(options);
     if is_moodle(&folder) {
         finding.moodle(shown, folder);
     } else if finding.is_one_student(&folder, is_one_of_several) {
@@ -69,18 +69,16 @@ pub(super) fn in_folder(
 }
 
 /// The students whose files were named one by one.
-pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -> Vec<Group> {
-    let mut finding = Finding { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() };
+pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -> (Vec<Group>, Vec<Refused>) {
+    let mut finding = Finding::new(options);
     for (shown, path, file) in files {
         let mut names = shown.rsplit('/');
         let name = names.next().unwrap_or(&shown).to_owned();
         let parent = path.parent().and_then(|parent| std::path::absolute(parent).ok());
         let parent = parent.as_deref().and_then(|parent| parent.file_name()).map(super::tree::decoded);
-        let marked = moodle::file(&name).or_else(|| parent.as_deref().and_then(moodle::folder));
-        if let Some(marked) = marked {
-            let own = marked.file_name.unwrap_or(&name).to_owned();
-            let group = finding.participant(&shown, &marked);
-            group.take(&marked, Owned { name: own.clone(), below: own, path: shown, file });
+        let in_folder = || Some(Loose::Of(moodle::folder(parent.as_deref()?)?));
+        if let Some(loose) = moodle::file(&name).or_else(in_folder) {
+            finding.loose(&loose, &name, shown, file);
             continue;
         }
         let is_wanted = fit(&name, &options.file_name) <= Fit::Copy;
@@ -93,7 +91,7 @@ pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -
             has_online_text: false,
         });
     }
-    finding.groups
+    (finding.groups, finding.refused)
 }
 
 struct Finding<'a> {
@@ -101,10 +99,14 @@ struct Finding<'a> {
     groups: Vec<Group>,
     refused: Vec<Refused>,
     /// The group of each participant.
-    by_number: HashMap<u64, usize>,
+    by_number: HashMap<Option<u64>, usize>,
 }
 
-impl Finding<'_> {
+impl<'o> Finding<'o> {
+    fn new(options: &'o Options) -> Self {
+        Self { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() }
+    }
+
     fn class(&mut self, place: &str, folder: Folder) {
         if is_moodle(&folder) {
             return self.moodle(place, folder);
@@ -134,24 +136,39 @@ impl Finding<'_> {
             let place = format!("{place}/{name}");
             match node {
                 Node::Folder(folder) => match of_folder(&name) {
-                    Some(marked) => {
+                    Some(Loose::Of(marked)) => {
                         let files = owned(&place, folder);
                         let group = self.participant(&place, &marked);
                         files.into_iter().for_each(|file| group.take(&marked, file));
                     }
+                    Some(Loose::Unclear(participants)) => self.unclear(place, &participants),
                     None if is_moodle(&folder) => self.moodle(&place, folder),
+                    None if folder.is_empty() => self.refused.push(Refused { path: place, reason: nobodys() }),
                     None => owned(&place, folder).into_iter().for_each(|owned| self.nobodys(owned.path, &owned.file)),
                 },
                 Node::File(file) => match moodle::file(&name) {
-                    Some(marked) => {
-                        let own = marked.file_name.unwrap_or(&name).to_owned();
-                        let group = self.participant(&place, &marked);
-                        group.take(&marked, Owned { name: own.clone(), below: own, path: place, file });
-                    }
+                    Some(loose) => self.loose(&loose, &name, place, file),
                     None => self.nobodys(place, &file),
                 },
             }
         }
+    }
+
+    /// A file of the name `name` among those of all students.
+    fn loose(&mut self, loose: &Loose, name: &str, path: String, file: File) {
+        match loose {
+            Loose::Of(marked) => {
+                let own = marked.file_name.unwrap_or(name).to_owned();
+                let group = self.participant(&path, marked);
+                group.take(marked, Owned { name: own.clone(), below: own, path, file });
+            }
+            Loose::Unclear(participants) => self.unclear(path, participants),
+        }
+    }
+
+    /// What can be several students' is nobody's, and is named.
+    fn unclear(&mut self, path: String, participants: &[Participant]) {
+        self.refused.push(Refused { path, reason: super::wording::unclear(participants) });
     }
 
     /// Whether a file beside the students' folders is a student's: a shader, or an archive that cannot be opened.
@@ -180,11 +197,7 @@ impl Finding<'_> {
     /// A file that belongs to no student. What was refused has been named already.
     fn nobodys(&mut self, path: String, file: &File) {
         if !matches!(file.held, Held::Refused(_)) {
-            let reason = Text::new(
-                "It stands where only students' folders and shaders are expected, and belongs to nobody.",
-                "学生ごとのフォルダやシェーダが並ぶ場所にあり、どの学生のものか分かりません。",
-            );
-            self.refused.push(Refused { path, reason });
+            self.refused.push(Refused { path, reason: nobodys() });
         }
     }
 
@@ -254,8 +267,18 @@ fn is_moodle(folder: &Folder) -> bool {
 }
 
 /// Whose a folder or an archive is in a Moodle download: Moodle's own folder, or among loose files a student's archive.
-fn of_folder(name: &str) -> Option<Marked<'_>> {
-    moodle::folder(without_zip(name)).or_else(|| moodle::file(name))
+fn of_folder(name: &str) -> Option<Loose<'_>> {
+    match without_zip(name) {
+        stem if stem == name => moodle::folder(name).map(Loose::Of).or_else(|| moodle::file(name)),
+        stem => moodle::archive(name, stem),
+    }
+}
+
+fn nobodys() -> Text {
+    Text::new(
+        "It stands where only students' folders and shaders are expected, and belongs to nobody.",
+        "学生ごとのフォルダやシェーダが並ぶ場所にあり、どの学生のものか分かりません。",
+    )
 }
 
 /// The files below a student's folder.

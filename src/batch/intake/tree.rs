@@ -140,8 +140,47 @@ pub(super) fn decoded(name: &OsStr) -> String {
     text.nfc().collect()
 }
 
-/// What systems leave in folders and archives by themselves, and nobody hands in.
+/// What systems and tools leave in folders and archives by themselves, and nobody hands in. Other names that begin with a
+/// dot are names: Moodle's folders begin with those of people.
+const LITTER: [&str; 25] = [
+    ".AppleDouble",
+    ".DS_Store",
+    ".LSOverride",
+    ".Spotlight-V100",
+    ".TemporaryItems",
+    ".Trash",
+    ".Trashes",
+    ".cache",
+    ".clangd",
+    ".directory",
+    ".fseventsd",
+    ".git",
+    ".gitattributes",
+    ".github",
+    ".gitignore",
+    ".gitkeep",
+    ".hg",
+    ".idea",
+    ".localized",
+    ".svn",
+    ".vs",
+    ".vscode",
+    "__MACOSX",
+    "Thumbs.db",
+    "desktop.ini",
+];
+
+/// Whether this is the name of such a thing.
 pub(super) fn is_litter(name: &str) -> bool {
-    let hidden = name.starts_with('.') && !name.eq_ignore_ascii_case(".vert");
-    hidden || ["__MACOSX", "Thumbs.db", "desktop.ini"].iter().any(|litter| name.eq_ignore_ascii_case(litter))
+    LITTER.iter().any(|litter| name.eq_ignore_ascii_case(litter))
+}
+
+/// What macOS keeps of the file `NAME` beside it, in `._NAME`: the part of the name that is the other's.
+pub(super) fn beside(name: &str) -> Option<&str> {
+    name.strip_prefix("._").filter(|name| !name.is_empty())
+}
+
+/// Whether a file begins as one that macOS keeps beside another (AppleDouble, RFC 1740).
+pub(super) fn is_apple_double(start: &[u8]) -> bool {
+    start.starts_with(&[0x00, 0x05, 0x16, 0x07])
 }

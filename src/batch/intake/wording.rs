@@ -1,5 +1,7 @@
 //! What a student is told whose hand-in has no file to grade.
 
+use super::moodle;
+use crate::batch::class::Participant;
 use crate::language::Text;
 
 /// How many file names a message lists.
@@ -36,6 +38,24 @@ pub(super) fn none_fits(names: &[String], has_online_text: bool, wanted: &str) -
     Text::new(
         format!("There is no `{wanted}`, only {}.{}", list.en, hint.en),
         format!("`{wanted}` がありません。提出されているのは {} です。{}", list.ja, hint.ja),
+    )
+}
+
+/// A name in a Moodle download that is one of several students'.
+pub(super) fn unclear(participants: &[Participant]) -> Text {
+    let names: Vec<String> = participants.iter().map(moodle::numbered).collect();
+    let list = list(&names);
+    Text::new(
+        format!(
+            "Its name can be read as that of a file of each of these: {}. It is not graded for any of them. Download the \
+             submissions with \"Download submissions in folders\" on, which leaves no doubt.",
+            list.en
+        ),
+        format!(
+            "この名前は、次のどの提出者のファイルとも読めます: {}。だれの提出としても採点していません。Moodle の\
+             「提出をフォルダに入れてダウンロードする」を有効にしてダウンロードし直すと、区別できます。",
+            list.ja
+        ),
     )
 }
 

@@ -1,7 +1,6 @@
 //! What is looked at before anything is graded.
 
 use crate::batch::anonymous::{self, Pseudonyms};
-use crate::batch::class::Class;
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::worksheet;
 use crate::batch::intake::Intake;
@@ -52,15 +51,7 @@ fn usage_unreadable(path: &Path, detail: &str) -> NotBegun {
 /// Moodle's worksheet; one that cannot be filled in is found before anything is graded.
 pub(super) fn read_sheet(path: &Path) -> Result<Vec<u8>, NotBegun> {
     let sheet = std::fs::read(path).map_err(|error| usage_unreadable(path, &error.to_string()))?;
-    let nobody = Class {
-        assignment: String::new(),
-        title: String::new(),
-        entries: Vec::new(),
-        refused: Vec::new(),
-        expected_portrait: Vec::new(),
-        language: Language::En,
-    };
-    worksheet::fill(&nobody, &sheet).map_err(|fault| {
+    worksheet::check(&sheet).map_err(|fault| {
         let path = path.display();
         NotBegun::Usage(Text::new(format!("{path}: {}", fault.message.en), format!("{path}: {}", fault.message.ja)))
     })?;

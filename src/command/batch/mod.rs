@@ -14,7 +14,7 @@ use crate::batch::standing::Standing;
 use crate::batch::start::{self, Mode, NotBegun};
 use crate::cli::Batch;
 use crate::fault::Fault;
-use session::Session;
+use session::{Session, Wanted};
 use std::time::Duration;
 
 /// Grades a class.
@@ -79,7 +79,8 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
         expected_portrait: portraits.expected,
         language: header.language,
     };
-    session.finish(&candidates, &class, &formats, sheet.as_deref(), before)
+    let hint = output::hint(&arguments.formats, given);
+    session.finish(&candidates, &class, &Wanted { formats: &formats, sheet: sheet.as_deref(), hint }, before)
 }
 
 /// How a graded class ends the program.

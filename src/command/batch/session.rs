@@ -34,6 +34,15 @@ pub(super) struct Session<'a> {
     pub header: &'a Header,
 }
 
+/// What is written of a graded class.
+pub(super) struct Wanted<'a> {
+    pub formats: &'a [Format],
+    /// Moodle's worksheet.
+    pub sheet: Option<&'a [u8]>,
+    /// What a teacher may miss.
+    pub hint: Option<Text>,
+}
+
 impl Session<'_> {
     fn say(&self, text: &Text) {
         anstream::eprintln!("ggrade: {}", text.get(self.header.language));
@@ -173,15 +182,15 @@ impl Session<'_> {
         &self,
         candidates: &[Candidate],
         class: &Class,
-        formats: &[Format],
-        sheet: Option<&[u8]>,
+        wanted: &Wanted,
         before: Option<Found>,
     ) -> Result<Outcome, NotBegun> {
         let records: Vec<_> =
             candidates.iter().zip(&class.entries).map(|(candidate, entry)| candidate.record(&entry.outcome)).collect();
         journal::write(self.folder, self.header, &records)?;
         let changes = before.map(|found| Changes::between((found.header, found.records), self.header, class));
-        let (mut written, fault) = output::write(class, formats, sheet, changes.as_ref(), self.folder);
+        let (mut written, fault) = output::write(class, wanted.formats, wanted.sheet, changes.as_ref(), self.folder);
+        written.notes.extend(wanted.hint.clone());
         let what = Text::new(
             "Every result, for --resume, --compare and programs",
             "全員の結果 (--resume、--compare、プログラム用)",

@@ -165,7 +165,8 @@ pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item =
 
 /// A batch in a format of `ggrade batch`
 ///
-/// Formats of several files come as a ZIP. `moodle-worksheet` needs the worksheet: POST it here.
+/// Formats of several files come as a ZIP. `moodle-worksheet` needs the worksheet: POST it here. So does
+/// `moodle-feedback` where groups hand in: without the worksheet it takes the numbers of the archive for participants'.
 #[utoipa::path(
     get, operation_id = "read_batch_file", path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
     params(("id" = String, Path, description = "Id of the batch"), ("format" = FormatName, Path, description = "Name of the format")),
@@ -196,10 +197,12 @@ async fn made(
     saved(classes::download(state, whose, wanted, &Arc::default()).await?)
 }
 
-/// A batch in Moodle's worksheet
+/// A batch for Moodle, by its worksheet
+///
+/// `moodle-worksheet` is the worksheet filled in, `moodle-feedback` everyone's report for the participants in it.
 #[utoipa::path(
     post, operation_id = "fill_batch_file", path = "/api/v1/batches/{id}/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the batch"), ("format" = FilledFormatName, Path, description = "`moodle-worksheet`; others take no file")),
+    params(("id" = String, Path, description = "Id of the batch"), ("format" = FilledFormatName, Path, description = "`moodle-worksheet` or `moodle-feedback`")),
     request_body(content = String, content_type = "text/csv", description = "The worksheet that Moodle gives"),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]

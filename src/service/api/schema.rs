@@ -199,17 +199,17 @@ impl BatchJson {
 /// The name of a format of `ggrade batch` that is made of the class alone.
 pub(super) struct FormatName;
 
-/// The name of a format that fills in a file.
+/// The name of a format that is made by the worksheet that Moodle gives.
 pub(super) struct FilledFormatName;
 
-fn format_names(is_filled: bool) -> RefOr<Schema> {
-    let all = Format::value_variants().iter().filter(|format| (**format == Format::MoodleWorksheet) == is_filled);
+fn format_names(is_wanted: fn(&Format) -> bool) -> RefOr<Schema> {
+    let all = Format::value_variants().iter().filter(|format| is_wanted(format));
     ObjectBuilder::new().schema_type(Type::String).enum_values(Some(all.map(|format| format.id()))).into()
 }
 
 impl utoipa::PartialSchema for FormatName {
     fn schema() -> RefOr<Schema> {
-        format_names(false)
+        format_names(|format| *format != Format::MoodleWorksheet)
     }
 }
 
@@ -217,7 +217,7 @@ impl utoipa::ToSchema for FormatName {}
 
 impl utoipa::PartialSchema for FilledFormatName {
     fn schema() -> RefOr<Schema> {
-        format_names(true)
+        format_names(|format| matches!(format, Format::MoodleWorksheet | Format::MoodleFeedback))
     }
 }
 

@@ -101,7 +101,7 @@ pub fn is_slow(format: Format) -> bool {
 pub struct Wanted {
     /// The format.
     pub format: Format,
-    /// Moodle's worksheet, which one format fills in.
+    /// Moodle's worksheet, which one format fills in and another takes the members of groups from.
     pub sheet: Option<Vec<u8>>,
     /// The language of its words.
     pub language: Language,
@@ -117,6 +117,9 @@ pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<S
             "This format fills in the worksheet that Moodle gives: send that CSV file along.",
             "この形式は Moodle のワークシートに記入するものです。Moodle からダウンロードした CSV を送ってください。",
         ));
+    }
+    if let Some(sheet) = &sheet {
+        worksheet::check(sheet).map_err(|fault| Problem::unprocessable(fault.message.en, fault.message.ja))?;
     }
     let (title, refused, members) = members(state, whose).await?;
     let submissions: Vec<_> =
@@ -146,18 +149,11 @@ pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<S
             }
         }
     }
-    let made = tokio::task::spawn_blocking(move || match (format, sheet) {
-        (Format::MoodleWorksheet, Some(sheet)) => filled(&class, format, &sheet),
-        _ => written(&class, format, &temporary.path().join("out")).map_err(|fault| Problem::of_fault(&fault)),
+    let made = tokio::task::spawn_blocking(move || {
+        written(&class, format, sheet.as_deref(), &temporary.path().join("out"))
     });
-    made.await.map_err(|panic| Problem::internal(&panic))?
-}
-
-/// Moodle's worksheet filled in; what is wrong with it the teacher can mend.
-fn filled(class: &Class, format: Format, sheet: &[u8]) -> Result<Download, Problem> {
-    let filled =
-        worksheet::fill(class, sheet).map_err(|fault| Problem::unprocessable(fault.message.en, fault.message.ja))?;
-    Ok(Download { name: format.files()[0].to_owned(), bytes: filled.bytes })
+    let made = made.await.map_err(|panic| Problem::internal(&panic))?;
+    made.map_err(|fault| Problem::of_fault(&fault))
 }
 
 /// One student of a class, with what stands for them.
@@ -292,13 +288,13 @@ async fn page(
 }
 
 /// Writes a format into a folder, and takes its file from there, or all its files as a ZIP.
-fn written(class: &Class, format: Format, path: &Path) -> Result<Download, Fault> {
+fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> Result<Download, Fault> {
     let folder = match Folder::open(path) {
         Ok(folder) => folder,
         Err(NotOpened::Fault(fault)) => return Err(fault),
         Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
     };
-    if let (_, Some(fault)) = output::write(class, &[format], None, None, &folder) {
+    if let (_, Some(fault)) = output::write(class, &[format], sheet, None, &folder) {
         return Err(fault);
     }
     let pages: Vec<&Entry> = class.entries.iter().filter(|entry| entry.page.is_some()).collect();

@@ -212,7 +212,8 @@ fn lines(class: &Class) -> Vec<Line> {
 fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, shares: Option<(usize, usize)>) -> Row {
     let (report, status) = (entry.report(), Standing::of(&entry.outcome));
     let file = entry.path.as_deref().and_then(|path| path.rsplit('/').next()).map(one_line);
-    let number_in_moodle = entry.student.moodle.as_ref().map(|moodle| moodle.number.to_string());
+    let number_in_moodle =
+        entry.student.moodle.as_ref().and_then(|moodle| moodle.number).map(|number| number.to_string());
     let points = |line: &Line| {
         let found = report.and_then(|report| report.rubric.iter().find(|found| found.id == line.id));
         found.map_or(Points { text: "–".into(), is_less: false }, |found| Points {

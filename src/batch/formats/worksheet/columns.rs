@@ -11,11 +11,17 @@ pub(super) struct Columns {
     pub maximum: usize,
     pub can_change: Option<usize>,
     pub feedback: Option<usize>,
+    pub full_name: Option<usize>,
+    /// The group that hands in together; only in assignments where groups do.
+    pub group: Option<usize>,
 }
 
 // Japanese Moodle has called a grade 評点, 評定 and 成績 in its versions; each of these names goes with each of them.
 const GRADE: [&str; 4] = ["grade", "評定", "評点", "成績"];
 const IDENTIFIER: [&str; 5] = ["identifier", "id", "識別子", "識別番号", "参加者id"];
+const FULL_NAME: [&str; 4] = ["fullname", "フルネーム", "氏名", "姓名"];
+const STATUS: [&str; 3] = ["status", "ステータス", "状態"];
+const GROUP: [&str; 2] = ["group", "グループ"];
 const SCALE: [&str; 4] = ["scale", "尺度", "評価尺度", "評定尺度"];
 
 impl Columns {
@@ -40,12 +46,19 @@ impl Columns {
             .and_then(|column| column.checked_sub(1))
             .filter(|column| GRADE.contains(&names[*column].as_str()))
             .or_else(|| position(&|name| GRADE.contains(&name)));
+        let grade = grade.ok_or_else(|| missing("Grade", "評定"))?;
+        // Moodle's column of the group stands between status and grade; a profile field of that name before both.
+        let status = position(&|name| STATUS.contains(&name));
+        let group =
+            (status.map_or(0, |status| status + 1)..grade).find(|column| GROUP.contains(&names[*column].as_str()));
         Ok(Self {
             identifier: identifier.ok_or_else(|| missing("Identifier", "ID"))?,
-            grade: grade.ok_or_else(|| missing("Grade", "評定"))?,
+            grade,
             maximum: maximum.ok_or_else(|| missing("Maximum grade", "最大評定"))?,
             can_change: position(&is_can_change),
             feedback: position(&is_feedback),
+            full_name: position(&|name| FULL_NAME.contains(&name)),
+            group,
         })
     }
 }
@@ -127,7 +140,15 @@ mod tests {
         Columns::find(&header, |column| vec![if column == 0 { "参加者 1" } else { "x" }.to_owned()])
     }
 
-    const EXPECTED: Columns = Columns { identifier: 0, grade: 3, maximum: 4, can_change: Some(5), feedback: Some(8) };
+    const EXPECTED: Columns = Columns {
+        identifier: 0,
+        grade: 3,
+        maximum: 4,
+        can_change: Some(5),
+        feedback: Some(8),
+        full_name: Some(1),
+        group: None,
+    };
 
     #[test]
     fn headers_of_both_languages_are_known() {
@@ -149,6 +170,16 @@ mod tests {
         assert_eq!((columns.grade, columns.can_change, columns.feedback), (3, None, None));
         // What the first column is called does not matter where its cells say what they are.
         assert_eq!(find("識別,氏名,評定,最大評定").expect("columns").identifier, 0);
+    }
+
+    #[test]
+    fn the_group_behind_the_status_is_moodles() {
+        let group = |header| find(header).expect("columns").group;
+        assert_eq!(group("Identifier,Full name,Group,Status,Group,Grade,Maximum Grade"), Some(4));
+        assert_eq!(group("ID,フルネーム,ステータス,グループ,評点,最大評点"), Some(3));
+        // Fields of the profile, and nobody hands in with a group.
+        assert_eq!(group("Identifier,Full name,Group,Status,Grade,Maximum Grade"), None);
+        assert_eq!(group("Identifier,Full name,Status,Grade,Maximum Grade,Group"), None);
     }
 
     #[test]

@@ -4,22 +4,26 @@
 //! graded; every other byte is the one that came in. Filling in the result again changes nothing.
 
 mod columns;
+mod matching;
 mod points;
 mod raw;
+mod sheet;
 #[cfg(test)]
 mod tests;
 
-use self::columns::{Columns, participant, says_no};
+use self::columns::{Columns, says_no};
+use self::matching::{Match, Matching};
 use self::points::Style;
-use self::raw::{Cell, records, written};
+use self::raw::{Cell, written};
+use self::sheet::{Person, Sheet};
 use super::comment;
+use super::feedback::{self, Recipient};
 use super::names::{list, note};
 use super::plain::one_line;
 use crate::batch::class::{Class, Entry, Outcome};
 use crate::fault::Fault;
 use crate::language::Text;
-use encoding_rs::{Encoding, SHIFT_JIS, UTF_8};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 use std::ops::Range;
 
 /// A worksheet that is filled in.
@@ -33,56 +37,35 @@ pub struct Filled {
     pub notes: Vec<Text>,
 }
 
+/// Whether this is a worksheet that can be filled in; a fault that says why not.
+pub fn check(worksheet: &[u8]) -> Result<(), Fault> {
+    Sheet::read(worksheet).map(drop)
+}
+
 /// The worksheet with the grades of the class; a fault when it is not such a worksheet.
 pub fn fill(class: &Class, worksheet: &[u8]) -> Result<Filled, Fault> {
     let sheet = Sheet::read(worksheet)?;
-    let by_number: HashMap<u64, &Entry> =
-        class.entries.iter().filter_map(|entry| Some((entry.student.moodle.as_ref()?.number, entry))).collect();
-    let mut work = Work { class, sheet: &sheet, edits: Vec::new(), seen: HashSet::new(), left: Left::default() };
-    let mut filled = 0;
-    for row in &sheet.rows {
-        filled += usize::from(work.row(row, &by_number)?);
-    }
+    let matching = Matching::new(class, &sheet);
+    let mut work =
+        Work { class, sheet: &sheet, matching, edits: Vec::new(), seen: HashSet::new(), left: Left::default() };
+    let filled = sheet.rows.iter().filter(|row| work.row(row)).count();
     let notes = work.notes();
     Ok(Filled { bytes: apply(worksheet, &work.edits), filled, notes })
 }
 
-/// A worksheet that was read.
-struct Sheet<'a> {
-    bytes: &'a [u8],
-    encoding: &'static Encoding,
-    separator: u8,
-    columns: Columns,
-    rows: Vec<Vec<Cell>>,
-}
-
-impl<'a> Sheet<'a> {
-    fn read(bytes: &'a [u8]) -> Result<Self, Fault> {
-        let encoding = encoding(bytes)?;
-        let start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-        let separator = separator(bytes, start);
-        let mut rows = records(bytes, start, separator).map_err(unclosed)?;
-        if rows.is_empty() {
-            return Err(unreadable("it is empty", "空のファイルです"));
-        }
-        let text = |cell: &Cell| decode(encoding, &cell.content(bytes));
-        let header: Vec<String> = rows.remove(0).iter().map(text).collect();
-        let cells = |column: usize| {
-            let cells = rows.iter().filter_map(|row| row.get(column)).map(text);
-            cells.filter(|text| !text.trim().is_empty()).collect()
-        };
-        let columns = Columns::find(&header, cells)?;
-        Ok(Self { bytes, encoding, separator, columns, rows })
+/// Whom each student's report goes to: the student, or every member of the group.
+pub fn recipients<'a>(class: &'a Class, worksheet: &[u8]) -> Result<Vec<Recipient<'a>>, Fault> {
+    let sheet = Sheet::read(worksheet)?;
+    let matching = Matching::new(class, &sheet);
+    if sheet.columns.group.is_none() {
+        return Ok(feedback::by_number(class).into_iter().filter(|one| matching.is_only(one)).collect());
     }
-
-    fn text(&self, row: &[Cell], column: usize) -> Option<String> {
-        row.get(column).map(|cell| decode(self.encoding, &cell.content(self.bytes)))
-    }
-
-    /// `text` as bytes of this file; what its encoding does not have becomes a character reference, as HTML takes it.
-    fn encode(&self, text: &str) -> Vec<u8> {
-        self.encoding.encode(text).0.into_owned()
-    }
+    let recipient = |row: &Vec<Cell>| {
+        let person = sheet.person(row)?.ok()?;
+        let Match::Of(entry) = matching.of(&person) else { return None };
+        Some(Recipient { entry, name: person.name.unwrap_or(person.identifier), number: person.number })
+    };
+    Ok(sheet.rows.iter().filter_map(recipient).collect())
 }
 
 /// New content for a cell.
@@ -98,48 +81,61 @@ struct Left<'a> {
     faults: Vec<&'a Entry>,
     no_maximum: Vec<&'a Entry>,
     not_graded: Vec<&'a Entry>,
+    ambiguous: BTreeSet<String>,
     unknown_rows: Vec<String>,
     bad_rows: Vec<String>,
+    guessed_ends: Vec<&'a Entry>,
 }
 
 /// The filling in.
 struct Work<'a> {
     class: &'a Class,
     sheet: &'a Sheet<'a>,
+    matching: Matching<'a>,
     edits: Vec<Edit>,
-    seen: HashSet<u64>,
+    /// Keys of the students whose row was found.
+    seen: HashSet<&'a str>,
     left: Left<'a>,
 }
 
 impl<'a> Work<'a> {
     /// Fills in a row; whether a grade is in it now.
-    fn row(&mut self, row: &[Cell], by_number: &HashMap<u64, &'a Entry>) -> Result<bool, Fault> {
-        let Columns { identifier, can_change, feedback, .. } = self.sheet.columns;
-        let Some(name) = self.sheet.text(row, identifier).filter(|name| !name.trim().is_empty()) else {
-            return Ok(false);
+    fn row(&mut self, row: &[Cell]) -> bool {
+        let person = match self.sheet.person(row) {
+            None => return false,
+            Some(Ok(person)) => person,
+            Some(Err(identifier)) => {
+                self.left.bad_rows.push(one_line(&identifier));
+                return false;
+            }
         };
-        let Some(number) = participant(&name) else {
-            self.left.bad_rows.push(one_line(&name));
-            return Ok(false);
+        let entry = match self.matching.of(&person) {
+            Match::Of(entry) => entry,
+            Match::Several(entries) => {
+                self.seen.extend(entries.iter().map(|entry| entry.student.key.as_str()));
+                self.left.ambiguous.insert(one_line(person.group.as_ref().unwrap_or(&person.identifier)));
+                return false;
+            }
+            Match::Nobody => {
+                self.left.unknown_rows.push(label(&person));
+                return false;
+            }
         };
-        self.seen.insert(number);
-        let Some(&entry) = by_number.get(&number) else {
-            self.left.unknown_rows.push(one_line(&name));
-            return Ok(false);
-        };
+        self.seen.insert(&entry.student.key);
+        let Columns { can_change, feedback, .. } = self.sheet.columns;
         if can_change.and_then(|column| self.sheet.text(row, column)).is_some_and(|cell| says_no(&cell)) {
             self.left.locked.push(entry);
-            return Ok(false);
+            return false;
         }
         if matches!(entry.outcome, Outcome::Fault(_)) {
             self.left.faults.push(entry);
-            return Ok(false);
+            return false;
         }
         let graded = self.grade(row, entry);
         if let Some(cell) = feedback.and_then(|column| row.get(column)) {
             self.comment(cell, entry);
         }
-        Ok(graded)
+        graded
     }
 
     fn grade(&mut self, row: &[Cell], entry: &'a Entry) -> bool {
@@ -162,9 +158,13 @@ impl<'a> Work<'a> {
         true
     }
 
-    fn comment(&mut self, cell: &Cell, entry: &Entry) {
-        let old = decode(self.sheet.encoding, &cell.content(self.sheet.bytes));
-        let new = self.sheet.encode(&comment::merge(&old, &comment::render(entry, self.class)));
+    fn comment(&mut self, cell: &Cell, entry: &'a Entry) {
+        let old = self.sheet.decode(cell);
+        let merged = comment::merge(&old, entry, self.class);
+        if merged.is_end_guessed {
+            self.left.guessed_ends.push(entry);
+        }
+        let new = self.sheet.encode(&merged.html);
         if cell.content(self.sheet.bytes) != new {
             self.edit(cell, &new);
         }
@@ -176,19 +176,23 @@ impl<'a> Work<'a> {
     }
 
     fn notes(&self) -> Vec<Text> {
-        let number = |entry: &&Entry| entry.student.moodle.as_ref().map(|moodle| moodle.number);
-        let entries: Vec<&Entry> = self.class.entries.iter().collect();
+        let is_moodles = |entry: &&Entry| entry.student.moodle.is_some();
+        let (moodles, others): (Vec<&Entry>, Vec<&Entry>) = self.class.entries.iter().partition(is_moodles);
         let without_row: Vec<&Entry> =
-            entries.iter().copied().filter(|e| number(e).is_some_and(|n| !self.seen.contains(&n))).collect();
-        let without_number: Vec<&Entry> = entries.iter().copied().filter(|e| number(e).is_none()).collect();
+            moodles.into_iter().filter(|entry| !self.seen.contains(entry.student.key.as_str())).collect();
         let left = &self.left;
         let feedback = self.sheet.columns.feedback.is_none().then(no_feedback_column);
         let notes = [
             note(&without_row, "Not in the worksheet", "ワークシートに行がありません"),
             note(
-                &without_number,
+                &others,
                 "No number of Moodle, so not filled into the worksheet",
                 "Moodle の番号がないため、ワークシートに記入していません",
+            ),
+            list(
+                left.ambiguous.iter().cloned().collect(),
+                "Several submissions or groups go by this name or number, so that none of them is filled in",
+                "同じ名前または番号の提出やグループが複数あり、区別できないため記入していません",
             ),
             list(
                 left.unknown_rows.clone(),
@@ -216,7 +220,14 @@ impl<'a> Work<'a> {
                 "Rows without a participant's number, left as they are",
                 "参加者の番号が読み取れないため、行をそのまま残しました",
             ),
+            note(
+                &left.guessed_ends,
+                "A comment of ggrade 0.1.0 was replaced up to the end of its paragraph: look whether words of yours stood \
+                 right behind it",
+                "ggrade 0.1.0 のコメントを段落の終わりまで置き換えました。直後に書き加えた文がなかったか確認してください",
+            ),
             feedback,
+            self.matching.is_of_other_kind.then(no_group_column),
         ];
         notes.into_iter().flatten().collect()
     }
@@ -236,44 +247,19 @@ fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
     out
 }
 
-/// UTF-8 as Moodle writes it, or Shift_JIS as Excel in Japan saves it.
-fn encoding(bytes: &[u8]) -> Result<&'static Encoding, Fault> {
-    let utf_16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
-    if !utf_16 && std::str::from_utf8(bytes).is_ok() {
-        return Ok(UTF_8);
-    }
-    match SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes) {
-        Some(_) if !utf_16 => Ok(SHIFT_JIS),
-        _ => Err(unreadable("it is neither UTF-8 nor Shift_JIS text", "UTF-8 でも Shift_JIS でもありません")),
-    }
+/// A row as a teacher finds it again.
+fn label(person: &Person) -> String {
+    let group = person.group.as_ref().map(|group| format!(" ({group})")).unwrap_or_default();
+    one_line(&format!("{}{group}", person.identifier))
 }
 
-fn decode(encoding: &'static Encoding, bytes: &[u8]) -> String {
-    encoding.decode_without_bom_handling(bytes).0.into_owned()
-}
-
-/// What separates the header's cells: Moodle writes commas, Excel where the comma is a decimal mark `;`.
-fn separator(bytes: &[u8], start: usize) -> u8 {
-    let cells = |separator: u8| records(bytes, start, separator).ok().and_then(|rows| rows.first().map(Vec::len));
-    *b"\t;,".iter().max_by_key(|separator| cells(**separator)).unwrap_or(&b',')
-}
-
-fn unclosed(line: usize) -> Fault {
-    unreadable(
-        &format!("a quote that opens on line {line} is never closed"),
-        &format!("{line} 行目で始まる引用符（\"）が閉じていません"),
+fn no_group_column() -> Text {
+    Text::new(
+        "The archive is of an assignment in which groups hand in, and the worksheet has no column \"Group\": it is of \
+         another assignment, and nothing is filled in.",
+        "アーカイブはグループで提出する課題のものですが、ワークシートに「グループ」の列がありません。別の課題の\
+         ワークシートなので、何も記入していません。",
     )
-}
-
-fn unreadable(en: &str, ja: &str) -> Fault {
-    Fault::new(Text::new(
-        format!("The worksheet cannot be read: {en}."),
-        format!("ワークシートを読み取れません（{ja}）。"),
-    ))
-    .remedy(Text::new(
-        "Download the grading worksheet from Moodle again, or save it as \"CSV UTF-8\".",
-        "Moodle から評定ワークシートをもう一度ダウンロードするか、「CSV UTF-8」形式で保存し直してください。",
-    ))
 }
 
 fn no_feedback_column() -> Text {

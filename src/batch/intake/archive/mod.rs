@@ -14,6 +14,7 @@ use super::tree::{self, Folder, Held, Node};
 use super::{Reading, moodle};
 use crate::language::Text;
 use record::Record;
+use std::collections::HashSet;
 use std::fs::File;
 use std::io;
 use storage::Storage;
@@ -43,8 +44,9 @@ fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut Reading) ->
         reading.refuse(shown.into(), damaged(directory.damaged));
     }
     let flaws = flaws::find(&directory.records);
+    let names = directory.records.iter().filter_map(|record| name::path(&record.name).ok()).collect();
     let (folder, nested, astray) = (Folder::default(), Vec::new(), Vec::new());
-    let mut unpacking = Unpacking { storage, shown, depth, folder, nested, astray, reading };
+    let mut unpacking = Unpacking { storage, shown, depth, folder, names, nested, astray, reading };
     for (record, flaw) in directory.records.iter().zip(flaws) {
         if !unpacking.reading.budget.take_entry() {
             unpacking.refuse(&record.name, &too_many());
@@ -61,6 +63,8 @@ struct Unpacking<'a, 'b> {
     shown: &'a str,
     depth: u32,
     folder: Folder,
+    /// Where its members stand.
+    names: HashSet<Vec<String>>,
     /// The archives in it, each with its path. They come last, so that none uses up what the files beside it need.
     nested: Vec<(Vec<String>, Record)>,
     /// Members with names that lead elsewhere, and why they are refused.
@@ -82,7 +86,7 @@ impl Unpacking<'_, '_> {
             Ok(path) => path,
             Err(reason) => return self.goes_astray(&record.name, reason),
         };
-        if path.iter().any(|part| tree::is_litter(part)) {
+        if path.iter().any(|part| tree::is_litter(part)) || self.is_beside_another(record, &path) {
             return;
         }
         if path.len() > self.limits().folder_depth {
@@ -114,6 +118,14 @@ impl Unpacking<'_, '_> {
             Err(_) if !is_refused => self.refuse(&record.name, &flaws::taken()),
             _ => {}
         }
+    }
+
+    /// Whether this is what macOS keeps of another file: that stands beside it, or the content says so.
+    fn is_beside_another(&mut self, record: &Record, path: &[String]) -> bool {
+        let Some((last, folders)) = path.split_last().filter(|_| !record.is_folder()) else { return false };
+        let Some(other) = tree::beside(last) else { return false };
+        let other: Vec<String> = folders.iter().cloned().chain([other.to_owned()]).collect();
+        self.names.contains(&other) || self.unpack(record, 4, true).is_ok_and(|start| tree::is_apple_double(&start))
     }
 
     fn open_nested(&mut self) {

@@ -58,6 +58,35 @@ fn names_from_macos_are_composed_and_its_litter_left_out() {
 }
 
 #[test]
+fn names_that_begin_with_a_dot_are_in_an_archive_too() {
+    let double = b"\0\x05\x16\x07\0\x02\0\0";
+    let intake = take_archive(&archive(&[
+        Member::stored(".太郎_31_assignsubmission_file/ggsample06.vert", "1").utf8(),
+        Member::deflated("Bob_32_assignsubmission_file/ggsample06.vert", b"2"),
+        Member::stored("Bob_32_assignsubmission_file/._ggsample06.vert", "beside"),
+        Member::deflated("Bob_32_assignsubmission_file/._other.docx", double),
+        Member::stored("Bob_32_assignsubmission_file/.DS_Store", ""),
+        Member::stored("__MACOSX/._Bob_32_assignsubmission_file", ""),
+        Member::stored(".unknown", ""),
+    ]));
+    assert_eq!(everyone(&intake), [(".太郎", Ok("1")), ("Bob", Ok("2"))]);
+    assert_eq!(refused(&intake).len(), 1);
+    assert!(reason(&intake, ".unknown").unwrap().contains("belongs to nobody"));
+}
+
+#[test]
+fn an_archive_that_may_be_two_students_is_nobodys() {
+    // Among loose files, Ann hands in an archive that is called as if it were Bob's.
+    let own = archive(&[Member::stored("ggsample06.vert", "ann")]);
+    let intake = take_archive(&archive(&[
+        Member::stored("Ann_9_assignsubmission_file_Bob_10_assignsubmission_file.zip", own.clone()),
+        Member::stored("Cy_11_assignsubmission_file_work.zip", own),
+    ]));
+    assert_eq!(everyone(&intake), [("Cy", Ok("ann"))]);
+    assert!(reason(&intake, "Bob_10_assignsubmission_file.zip").unwrap().contains("not graded for any of them"));
+}
+
+#[test]
 fn archives_in_archives_are_opened() {
     let alice = archive(&[Member::stored("ggsample06/ggsample06.vert", "a")]);
     let bob = archive(&[Member::stored("ggsample06.vert", "b")]);

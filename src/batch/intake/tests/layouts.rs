@@ -1,6 +1,7 @@
 //! Whose each file is, in the ways in which classes come.
 
 use super::*;
+use crate::batch::class::Participant;
 
 #[test]
 fn each_folder_is_a_student_and_an_empty_one_too() {
@@ -98,7 +99,7 @@ fn blind_participants_are_told_apart_by_their_numbers() {
         ("stray.vert", ""),
     ]);
     assert_eq!(everyone(&intake), [("Participant 9", Ok("9")), ("Participant 7", Ok("7")), ("参加者 8", Ok("8"))]);
-    assert_eq!(intake.hand_ins[2].student.moodle.as_ref().unwrap().number, 8);
+    assert_eq!(intake.hand_ins[2].student.moodle.as_ref().unwrap().number, Some(8));
     assert!(reason(&intake, "stray.vert").is_some());
 }
 
@@ -130,6 +131,104 @@ fn what_systems_leave_behind_is_not_there() {
     ]);
     assert_eq!(everyone(&intake), [("alice", Ok("a"))]);
     assert_eq!(intake.refused, []);
+}
+
+#[test]
+fn names_that_begin_with_a_dot_are_students() {
+    // Moodle's importer of feedback takes them for hidden files; its downloads have them all the same.
+    let intake = take_folder(&[
+        (".Dot Taro_31_assignsubmission_file/ggsample06.vert", "1"),
+        ("..Dots_32_assignsubmission_file_/ggsample06.vert", "2"),
+        ("._Eve_33_assignsubmission_file/ggsample06.vert", "3"),
+        (".git_34_assignsubmission_file/.git/x.vert", "no"),
+        (".git_34_assignsubmission_file/.my.vert", "4"),
+        (".DS_Store", ""),
+        (".hidden.docx", ""),
+        (".notes/", ""),
+    ]);
+    let mut found = everyone(&intake);
+    found.sort();
+    let expected = [("..Dots", Ok("2")), (".Dot Taro", Ok("1")), ("._Eve", Ok("3")), (".git", Ok("4"))];
+    assert_eq!(found, expected);
+    let named: Vec<_> = refused(&intake).into_iter().filter_map(|(path, _)| path.rsplit('/').next()).collect();
+    assert_eq!(named, [".hidden.docx", ".notes"]);
+    // Without Moodle, and with folders off.
+    let intake = take_folder(&[
+        (".taro/ggsample06.vert", "1"),
+        ("bob/ggsample06.vert", "2"),
+        ("bob/._x.vert", "\0\x05\x16\x07"),
+    ]);
+    assert_eq!(everyone(&intake), [(".taro", Ok("1")), ("bob", Ok("2"))]);
+    let loose =
+        take_folder(&[(".Taro_5_assignsubmission_file_x.vert", "1"), ("._Taro_5_assignsubmission_file_x.vert", "")]);
+    let mut found = everyone(&loose);
+    found.sort();
+    // The second is what macOS keeps of `Taro_5_…`, but there is no such file, and it says nothing of the kind: a text.
+    assert_eq!(found.len(), 1);
+    assert!(found[0].1.unwrap_err().starts_with("Several files"), "{found:?}");
+}
+
+#[test]
+fn what_macos_keeps_of_files_is_not_handed_in() {
+    let double = "\0\x05\x16\x07\0\x02";
+    let intake = take_folder(&[
+        ("Ann_1_assignsubmission_file_ggsample06.vert", "a"),
+        ("._Ann_1_assignsubmission_file_ggsample06.vert", "beside"),
+        ("._Bob_2_assignsubmission_file_ggsample06.vert", double),
+    ]);
+    assert_eq!(everyone(&intake), [("Ann", Ok("a"))]);
+    assert_eq!(intake.refused, []);
+}
+
+#[test]
+fn loose_files_that_may_be_two_students_are_nobodys_and_are_named() {
+    // `Eve*36*assignsubmission*file*x`, whose number is 41; and a file of Ann's that is called as if it were Bob's.
+    let crafted = "Eve_36_assignsubmission_file_x_41_assignsubmission_file_ggsample06.vert";
+    let passed_off = "Ann_9_assignsubmission_file_Bob_10_assignsubmission_file_ggsample06.vert";
+    let intake = take_folder(&[
+        (crafted, "eve"),
+        (passed_off, "ann"),
+        ("Victim_36_assignsubmission_file_ggsample06.vert", "victim"),
+        ("Bob_10_assignsubmission_file_ggsample06.vert", "bob"),
+        ("Ann_9_assignsubmission_file_notes.txt", ""),
+    ]);
+    let mut found = everyone(&intake);
+    found.sort_by_key(|(name, _)| *name);
+    assert_eq!(found[1..], [("Bob", Ok("bob")), ("Victim", Ok("victim"))]);
+    assert!(found[0].0 == "Ann" && found[0].1.unwrap_err().contains("notes.txt"), "{found:?}");
+    let why = reason(&intake, crafted).unwrap();
+    assert!(why.contains("`Eve (36)`") && why.contains("`Eve_36_assignsubmission_file_x (41)`"), "{why}");
+    let why = reason(&intake, passed_off).unwrap();
+    assert!(why.contains("`Ann (9)`") && why.contains("`Ann_9_assignsubmission_file_Bob (10)`"), "{why}");
+    // With folders on, the end of a folder's name is Moodle's own, whatever the name is.
+    let intake = take_folder(&[
+        ("Eve_36_assignsubmission_file_x_41_assignsubmission_file/ggsample06.vert", "eve"),
+        ("Victim_36_assignsubmission_file/ggsample06.vert", "victim"),
+    ]);
+    let keys: Vec<_> = intake.hand_ins.iter().map(|hand_in| hand_in.student.key.as_str()).collect();
+    assert_eq!((keys, intake.refused.len()), (vec!["41", "36"], 0));
+    // The same of files that are named one by one.
+    let folder = folder(&[(crafted, "eve"), ("Victim_36_assignsubmission_file_ggsample06.vert", "victim")]);
+    let class = folder.path().join("class");
+    let intake = take(&[class.join(crafted), class.join("Victim_36_assignsubmission_file_ggsample06.vert")]);
+    assert_eq!(everyone(&intake), [("Victim", Ok("victim"))]);
+    assert!(reason(&intake, crafted).is_some());
+}
+
+#[test]
+fn groups_and_those_in_none_are_read() {
+    let intake = take_folder(&[
+        ("チーム_赤 1_180_assignsubmission_file/ggsample06.vert", "1"),
+        ("Default group_assignsubmission_file/ggsample06.vert", "2"),
+    ]);
+    let found: Vec<_> = intake.hand_ins.iter().map(|h| (h.student.name.as_str(), h.student.moodle.clone())).collect();
+    let participant = |name: &str, number| Some(Participant { name: name.into(), number });
+    let expected =
+        [("Default group", participant("Default group", None)), ("チーム_赤 1", participant("チーム_赤 1", Some(180)))];
+    assert_eq!(found, expected);
+    assert!(intake.hand_ins[0].student.key.starts_with("Default-group-"));
+    let loose = take_folder(&[("デフォルトグループ_assignsubmission_file_ggsample06.vert", "2")]);
+    assert_eq!(everyone(&loose), [("デフォルトグループ", Ok("2"))]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::api::archive::Archive;
-use crate::service::api::batches::saved;
+use crate::service::api::batches::{named, saved};
 use crate::service::api::body::other;
 use crate::service::classes::{self, Person, Wanted, Whose, of_batch};
 use crate::service::errors::Problem;
@@ -168,7 +168,7 @@ async fn view_one(
             progress: state.store.progress(&batch.id).await?,
             table: Table::of(&frame, &state.assignment.id, &everyone, filter),
             refused: batch.refused.iter().map(|refused| (refused.path.clone(), said(&refused.reason))).collect(),
-            formats: formats(&frame, true),
+            formats: formats(&frame),
             files: format!("/api/v1/batches/{}/files", batch.id),
             of_batch: batch.id.clone(),
             title: batch.title,
@@ -180,7 +180,8 @@ async fn view_one(
     )
 }
 
-/// `POST /teacher/batches/{id}/worksheet`: Moodle's worksheet, filled in. One that cannot be read leads back to the form.
+/// `POST /teacher/batches/{id}/worksheet`: Moodle's worksheet, filled in, or the reports for the participants in it.
+/// One that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn worksheet(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
@@ -207,15 +208,16 @@ async fn filled(
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     let mut form = form.map_err(other)?;
-    let (mut csrf, mut sheet) = (String::new(), Vec::new());
+    let (mut csrf, mut sheet, mut format) = (String::new(), Vec::new(), Format::MoodleWorksheet);
     while let Some(field) = form.next_field().await.map_err(other)? {
         match field.name().unwrap_or_default() {
+            "format" => format = named(&field.text().await.map_err(other)?)?,
             "csrf" => csrf = field.text().await.map_err(other)?,
             "sheet" => sheet = field.bytes().await.map_err(other)?.to_vec(),
             _ => {}
         }
     }
     teacher.check_csrf(state, &csrf)?;
-    let wanted = Wanted { format: Format::MoodleWorksheet, sheet: Some(sheet), language, with_pages: false };
+    let wanted = Wanted { format, sheet: Some(sheet), language, with_pages: false };
     saved(classes::download(state, Whose::Batch(batch), wanted, &Arc::default()).await?)
 }

@@ -106,7 +106,7 @@ pub(in crate::service::pages) async fn page(
             trends: charts::trends(&frame, id, &everyone),
             mistakes,
             table: Table::of(&frame, id, listed, &filter),
-            formats: formats(&frame, false),
+            formats: formats(&frame),
             files: "/api/v1/class/files",
             of_batch: "",
             filter,

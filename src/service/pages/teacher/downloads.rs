@@ -26,11 +26,12 @@ pub(super) struct Offer {
     pub is_slow: bool,
 }
 
-/// The formats, but for the worksheet, which needs a file of Moodle's first.
-pub(super) fn formats(frame: &Frame, is_batch: bool) -> Vec<Offer> {
-    let all = Format::value_variants().iter();
-    let here =
-        all.filter(|format| **format != Format::MoodleWorksheet && (is_batch || **format != Format::MoodleFeedback));
+/// The formats that need a file of Moodle's first.
+const BY_WORKSHEET: [Format; 2] = [Format::MoodleWorksheet, Format::MoodleFeedback];
+
+/// The formats that need none.
+pub(super) fn formats(frame: &Frame) -> Vec<Offer> {
+    let here = Format::value_variants().iter().filter(|format| !BY_WORKSHEET.contains(format));
     let offer = |format: &Format| {
         let what = format.description().get(frame.language).replace('`', "");
         Offer { id: format.id(), what, is_slow: is_slow(*format) }
