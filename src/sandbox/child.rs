@@ -4,7 +4,7 @@ use super::channel::{Channel, Lost};
 use super::ending::Ending;
 use super::protection::{Policy, Protection};
 use super::protocol::{self, Body, Hello, Longest, Reply, Request};
-use super::{Settings, environment, schedule};
+use super::{Settings, environment, memory, schedule};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::Environment;
@@ -44,6 +44,16 @@ pub(super) struct NotStarted {
     pub fault: Fault,
     /// Whether another try may end otherwise.
     pub transient: bool,
+}
+
+impl NotStarted {
+    /// The same with too little memory as the reason, where that is it.
+    fn explained(self, settings: &Settings) -> Self {
+        match memory::shortage(settings.adapter, memory::Phase::Start, &self.fault.message) {
+            Some(fault) => Self { fault, transient: false },
+            None => self,
+        }
+    }
 }
 
 impl Worker {
@@ -86,7 +96,7 @@ impl Worker {
     }
 
     /// Waits until the device is warm and the sandbox closed.
-    pub fn greet(&mut self, policy: Policy) -> Result<(), NotStarted> {
+    pub fn greet(&mut self, settings: &Settings) -> Result<(), NotStarted> {
         let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE);
         let hello = hello.map_err(|lost| {
             let how = match lost {
@@ -96,13 +106,13 @@ impl Worker {
             };
             // No student's text has met this worker: what it says can be shown.
             let said = self.channel.tail();
-            NotStarted { fault: cannot_start(format!("{how} {said}").trim_end()), transient: true }
+            NotStarted { fault: cannot_start(format!("{how} {said}").trim_end()), transient: true }.explained(settings)
         })?;
         let (environment, protection) = match hello.0 {
-            Hello::Failed(fault) => return Err(NotStarted { fault, transient: false }),
+            Hello::Failed(fault) => return Err(NotStarted { fault, transient: false }.explained(settings)),
             Hello::Ready { environment, protection } => (environment, protection),
         };
-        if policy == Policy::Required && !protection.is_closed() {
+        if settings.policy == Policy::Required && !protection.is_closed() {
             return Err(NotStarted { fault: not_closed(&protection), transient: false });
         }
         self.environment = environment;

@@ -5,7 +5,8 @@
 //! worker that crashes or takes too long costs nothing but itself. `docs/security.md` tells what is promised.
 //!
 //! Here, in the parent: [`pool`] grades, [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
-//! pipes, [`ending`] what its end means. There, in the worker: [`worker`] serves, [`confine`], [`files`] and
+//! pipes, [`ending`] what its end means, [`memory`] whether this machine gives it enough.
+//! There, in the worker: [`worker`] serves, [`confine`], [`files`] and
 //! [`syscalls`] are the walls, [`preflight`] leans against them.
 
 mod channel;
@@ -14,6 +15,7 @@ mod confine;
 mod ending;
 mod environment;
 mod files;
+mod memory;
 mod pool;
 mod preflight;
 mod protection;

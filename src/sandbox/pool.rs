@@ -5,7 +5,7 @@ use super::ending::{Blame, Ending};
 use super::protection::Protection;
 use super::protocol::{Outcome, Reply, Request, Tile};
 use super::roster::{Place, Roster, Wanted};
-use super::{Policy, Settings};
+use super::{Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
@@ -183,6 +183,9 @@ impl Grading<'_> {
             Outcome::Graded { report, frames } => (*report, self.pool.paste(&frames, body)),
             Outcome::Failed(fault) => {
                 self.place.give_up(worker);
+                if let Some(shortage) = self.shortage(&fault.message).filter(|_| is_for_want_of_memory(&fault)) {
+                    return Err(shortage);
+                }
                 // An earlier file may have used up what this one lacked.
                 return if was_fresh { Err(fault) } else { Ok(Attempted::NotDone(fault)) };
             }
@@ -207,6 +210,13 @@ impl Grading<'_> {
         began: Instant,
         environment: Environment,
     ) -> Result<Attempted, Fault> {
+        if matches!(ending, Ending::Memory | Ending::Crash(_)) {
+            let Settings { deadline, memory, .. } = self.pool.settings;
+            // A file may have all the memory that it is promised: where it cannot, its end is none of its doing.
+            if let Some(shortage) = self.shortage(&ending.message(deadline, memory)) {
+                return Err(shortage);
+            }
+        }
         match ending.blame() {
             Blame::File => {}
             Blame::FileIfRepeated if self.is_certain(&ending, was_fresh, began) => {}
@@ -228,6 +238,12 @@ impl Grading<'_> {
         Ok(Attempted::Done(Box::new(Answer { report, frames: Vec::new() })))
     }
 
+    /// The fault where this machine gives a grading less memory than it is promised.
+    fn shortage(&self, detail: &Text) -> Option<Fault> {
+        let Settings { adapter, memory, .. } = self.pool.settings;
+        memory::shortage(adapter, memory::Phase::Grading(memory), detail)
+    }
+
     /// Whether an ending is the file's doing beyond doubt. A limit met by a worker that has seen nothing else is; a
     /// crash needs a second one, since any process can send its signal.
     fn is_certain(&self, ending: &Ending, was_fresh: bool, began: Instant) -> bool {
@@ -235,4 +251,10 @@ impl Grading<'_> {
         let is_late = began.elapsed() > self.pool.settings.deadline.mul_f64(1.0 - LEFT_TO_CONFIRM);
         is_limit || self.blamed.is_some() || is_late
     }
+}
+
+/// What Vulkan's errors say where an allocation failed, or the driver died of that.
+fn is_for_want_of_memory(fault: &Fault) -> bool {
+    let message = fault.message.en.to_lowercase();
+    ["out of memory", "not enough memory", "is lost"].iter().any(|words| message.contains(words))
 }

@@ -253,7 +253,7 @@ fn keep(shared: &Arc<Shared>) {
 
 /// Waits until the worker is ready, and has it join the others.
 fn receive(shared: &Shared, mut worker: Worker) {
-    let greeted = worker.greet(shared.settings.policy);
+    let greeted = worker.greet(&shared.settings);
     let process = worker.id();
     let mut state = shared.lock();
     state.starting.retain(|&other| other != process);

@@ -64,6 +64,45 @@ fn coderunner_gets_a_fraction_from_the_template() {
     assert_eq!((&result["fraction"], &result["testresults"][4][1]), (&json!(0.8), &json!("鏡面反射光")));
     let result = run("\"\"\" + open('/etc/passwd') + \"\"\"\\", real);
     assert_eq!(result["fraction"], json!(0.0));
-    let result = run("", "/nonexistent/ggrade");
-    assert!(result.get("fraction").is_none(), "{result:#}");
+    // CodeRunner marks 0 where there is no fraction, and shows the object as it is: so it is told what to show.
+    let no_driver = folder_with_a_program("exec env VK_DRIVER_FILES=/nonexistent/driver.json \"$REAL\" \"$@\"", real);
+    for failing in ["/nonexistent/ggrade", no_driver.path().join("ggrade").to_str().unwrap()] {
+        let result = run("", failing);
+        assert!(is_valid("coderunner-combinator.schema.json", &result), "{result:#}");
+        let text = result["prologuehtml"].as_str().unwrap();
+        assert!(text.starts_with("<p>") && text.contains("採点結果ではありません"), "{text}");
+        assert_eq!((&result["fraction"], result.get("testresults")), (&json!(0.0), None));
+    }
+}
+
+/// A folder with `ggrade`, a shell script in which `$REAL` is the program.
+fn folder_with_a_program(script: &str, real: &str) -> tempfile::TempDir {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ggrade");
+    std::fs::write(&path, format!("#!/bin/sh\nREAL={real}\n{script}\n")).unwrap();
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    folder
+}
+
+/// The exit code, and what is said, of grading a right file in an address space of so many KB, as a job server bounds it.
+fn graded_within(kilobytes: &str) -> (Option<i32>, String) {
+    let mut shell = Command::new("bash");
+    shell.env("GGRADE_DEADLINE", "30").env("REAL", env!("CARGO_BIN_EXE_ggrade"));
+    shell.args(["-c", "ulimit -v \"$0\"; exec \"$REAL\" \"$@\"", kilobytes, "grade"]);
+    let output = shell.arg(super::correct()).args(["--lang", "en"]).output().unwrap();
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn too_little_memory_is_called_so_and_is_nobodys_mistake() {
+    let (code, said) = graded_within("400000");
+    assert_eq!(code, Some(3), "{said}");
+    assert!(said.contains("too little memory: this process may have 409 MB"), "{said}");
+    assert!(said.contains("memory limit 0 in a CodeRunner question") && !said.contains("apt-get"), "{said}");
+    // Each limit below what a worker needs fails in another way, and none in a verdict.
+    for kilobytes in ["300000", "520000", "545000"] {
+        let (code, said) = graded_within(kilobytes);
+        assert!(code == Some(0) || code == Some(3) && said.contains("too little memory"), "{kilobytes}: {said}");
+    }
 }

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 
 /// One JSON object, as CodeRunner's documentation describes it.
 ///
-/// After a failure of ours it has no `fraction`, which CodeRunner takes for a failure of the grader: the answer stays
-/// unmarked, and no penalty is counted.
+/// After a failure of ours it has no `fraction`. CodeRunner cannot leave an answer unmarked: `deploy/coderunner/template.py`
+/// turns that into a 0 that says what it is.
 pub fn render(entry: &Entry, language: Language) -> String {
     let mut result = json!({ "prologuehtml": prologue(entry, language) });
     match &entry.outcome {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_of_ours_says_so_and_marks_nothing() {
+    fn a_failure_of_ours_says_so_and_proposes_no_mark() {
         let result = result(&nasty::class().entries[5]);
         assert!(result["prologuehtml"].as_str().unwrap().contains("costs no points"));
         assert!(result.get("fraction").is_none());
