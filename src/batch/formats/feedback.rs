@@ -1,4 +1,4 @@
-//! Moodle's feedback archive: everyone's report, for "Upload multiple feedback files in a zip".
+//! Moodle's feedback archive: everyone's report, for "Upload feedback files in a zip".
 //!
 //! Moodle reads `NAME_NUMBER_assignfeedback_file` and goes by the number. It cuts the folder's name at its underscores and,
 //! up to 4.0, wants a fifth part, which may be empty: the folders of its own downloads end in `_` there. From 4.1 on they

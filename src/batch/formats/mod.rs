@@ -116,8 +116,8 @@ const TABLE: [Row; 12] = [
         Format::MoodleFeedback,
         "moodle-feedback",
         &["moodle-feedback.zip"],
-        "Everyone's report for Moodle's \"Upload multiple feedback files in a zip\"",
-        "Moodle の「複数のフィードバックファイルを ZIP でアップロードする」に渡す全員の採点結果",
+        "Everyone's report for Moodle's \"Upload feedback files in a zip\" (needs --moodle-worksheet where groups hand in)",
+        "Moodle の「複数フィードバックファイルをZIPでアップロードする」に渡す全員の採点結果（グループ提出では --moodle-worksheet が必要です）",
     ),
     row(
         Format::Gradescope,
