@@ -6,5 +6,6 @@ mod class;
 mod grades;
 mod hostile;
 mod interrupted;
+mod moodle;
 mod places;
 mod regrade;

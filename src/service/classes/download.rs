@@ -149,9 +149,8 @@ pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<S
             }
         }
     }
-    let made = tokio::task::spawn_blocking(move || {
-        written(&class, format, sheet.as_deref(), &temporary.path().join("out"))
-    });
+    let made =
+        tokio::task::spawn_blocking(move || written(&class, format, sheet.as_deref(), &temporary.path().join("out")));
     let made = made.await.map_err(|panic| Problem::internal(&panic))?;
     made.map_err(|fault| Problem::of_fault(&fault))
 }
