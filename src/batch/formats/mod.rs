@@ -193,7 +193,6 @@ impl Format {
             | Self::MoodleFeedback
             | Self::Gradescope
             | Self::Github
-            | Self::Classroom
             | Self::ClassroomLegacy
             | Self::Vpl
             | Self::Coderunner => true,

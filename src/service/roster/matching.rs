@@ -67,7 +67,7 @@ impl Matcher {
         match &entry.moodle {
             // Moodle's own number stands in the path; the student's is in the name, where the site shows it there.
             Some(participant) => {
-                if let Some((id, known)) = self.participants.get(&participant.number)
+                if let Some((id, known)) = participant.number.and_then(|number| self.participants.get(&number))
                     && (is_blind(&participant.name) || known.is_empty() || !known.is_disjoint(&keys))
                 {
                     found.insert(id);
@@ -134,7 +134,11 @@ mod tests {
     }
 
     fn of_moodle(name: &str, number: u64) -> Entry {
-        Entry { key: number.to_string(), name: name.into(), moodle: Some(Participant { name: name.into(), number }) }
+        Entry {
+            key: number.to_string(),
+            name: name.into(),
+            moodle: Some(Participant { name: name.into(), number: Some(number) }),
+        }
     }
 
     fn roster() -> Matcher {
