@@ -113,7 +113,7 @@ impl Writer<'_> {
             13 => {
                 self.text += "switch (i % 4) {\n";
                 for case in 0..self.byte() % 4 {
-                    let _ = write!(self.text, "case {case}:\n");
+                    let _ = writeln!(self.text, "case {case}:");
                     self.assignment(depth + 1);
                     let end = self.pick(&["break;\n", "", "i++;\n"]);
                     self.text += end;

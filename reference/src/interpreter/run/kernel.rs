@@ -10,7 +10,13 @@ pub enum Precision {
     Exact,
     /// After each operation to 32 bits, as a driver does that follows IEEE 754.
     Single,
+    /// To a float near by where the result is none, above or below by its last bits, or the other way round: a value that
+    /// this moves hangs on how a driver rounds, or approximates a sine.
+    Noisy(bool),
 }
+
+/// How far a noisy result is off, relative to it: two steps of a float.
+const NOISE: f64 = 2.4e-7;
 
 /// Floats of this size and more round to infinity: the middle between the largest float and the next power of two.
 const OVERFLOW: f64 = 340_282_356_779_733_660_000_000_000_000_000_000_000.0;
@@ -21,6 +27,7 @@ trait Rounding {
 
 struct Exact;
 struct Single;
+struct Noisy<const UP: bool>;
 struct Double;
 
 impl Rounding for Exact {
@@ -34,6 +41,20 @@ impl Rounding for Single {
     #[inline(always)]
     fn round(x: f64) -> f64 {
         f64::from(x as f32)
+    }
+}
+
+impl<const UP: bool> Rounding for Noisy<UP> {
+    #[inline(always)]
+    fn round(x: f64) -> f64 {
+        let near = f64::from(x as f32);
+        // Drivers compute exactly what is a float: small whole numbers stay whole.
+        if near == x {
+            return x;
+        }
+        // Any bit will do that is as good as random.
+        let is_up = ((x.to_bits() >> 20) & 1 == 0) == UP;
+        f64::from((x * (1.0 + if is_up { NOISE } else { -NOISE })) as f32)
     }
 }
 
@@ -51,6 +72,8 @@ pub fn run(operation: Operation, class: Class, precision: Precision, to: &mut [f
         (Class::Uint, _) => integer(operation, to, [a, b, c], |x| f64::from(x as u32)),
         (Class::Double, _) => floating::<Double>(operation, to, [a, b, c]),
         (Class::Float, Precision::Exact) => floating::<Exact>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Noisy(true)) => floating::<Noisy<true>>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Noisy(false)) => floating::<Noisy<false>>(operation, to, [a, b, c]),
         (Class::Float, Precision::Single) => floating::<Single>(operation, to, [a, b, c]),
     }
 }

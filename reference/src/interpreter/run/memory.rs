@@ -35,7 +35,7 @@ impl Memory {
     pub fn new(constants: &[Option<Constant>], lanes: usize, precision: Precision) -> Self {
         let column = |constant: &Option<Constant>| {
             let value = match constant {
-                Some(constant) if constant.is_float && precision == Precision::Single => {
+                Some(constant) if constant.is_float && precision != Precision::Exact => {
                     f64::from(constant.value as f32)
                 }
                 Some(constant) => constant.value,
