@@ -10,12 +10,12 @@ pub enum Precision {
     Exact,
     /// After each operation to 32 bits, as a driver does that follows IEEE 754.
     Single,
-    /// To a float near by where the result is none, above or below by its last bits, or the other way round: a value that
-    /// this moves hangs on how a driver rounds, or approximates a sine.
-    Noisy(bool),
+    /// To a float near by where the result is none, in one of four ways: a value that this moves hangs on how a driver
+    /// rounds, or approximates a sine.
+    Noisy(u8),
 }
 
-/// How far a noisy result is off, relative to it: two steps of a float.
+/// How far a noisy result is off at least, relative to it: two steps of a float.
 const NOISE: f64 = 2.4e-7;
 
 /// Floats of this size and more round to infinity: the middle between the largest float and the next power of two.
@@ -27,7 +27,7 @@ trait Rounding {
 
 struct Exact;
 struct Single;
-struct Noisy<const UP: bool>;
+struct Noisy<const WAY: u8>;
 struct Double;
 
 impl Rounding for Exact {
@@ -44,7 +44,7 @@ impl Rounding for Single {
     }
 }
 
-impl<const UP: bool> Rounding for Noisy<UP> {
+impl<const WAY: u8> Rounding for Noisy<WAY> {
     #[inline(always)]
     fn round(x: f64) -> f64 {
         let near = f64::from(x as f32);
@@ -53,8 +53,9 @@ impl<const UP: bool> Rounding for Noisy<UP> {
             return x;
         }
         // Any bit will do that is as good as random.
-        let is_up = ((x.to_bits() >> 20) & 1 == 0) == UP;
-        f64::from((x * (1.0 + if is_up { NOISE } else { -NOISE })) as f32)
+        let is_up = (x.to_bits() >> (20 - WAY)) & 1 == 0;
+        let noise = NOISE * f64::from(1 + WAY);
+        f64::from((x * (1.0 + if is_up { noise } else { -noise })) as f32)
     }
 }
 
@@ -72,8 +73,10 @@ pub fn run(operation: Operation, class: Class, precision: Precision, to: &mut [f
         (Class::Uint, _) => integer(operation, to, [a, b, c], |x| f64::from(x as u32)),
         (Class::Double, _) => floating::<Double>(operation, to, [a, b, c]),
         (Class::Float, Precision::Exact) => floating::<Exact>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Noisy(true)) => floating::<Noisy<true>>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Noisy(false)) => floating::<Noisy<false>>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Noisy(0)) => floating::<Noisy<0>>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Noisy(1)) => floating::<Noisy<1>>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Noisy(2)) => floating::<Noisy<2>>(operation, to, [a, b, c]),
+        (Class::Float, Precision::Noisy(_)) => floating::<Noisy<3>>(operation, to, [a, b, c]),
         (Class::Float, Precision::Single) => floating::<Single>(operation, to, [a, b, c]),
     }
 }
