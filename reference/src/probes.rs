@@ -127,7 +127,7 @@ impl Assignment {
         for group in 0..self.probing.groups {
             let twin = (group + TWINS).checked_sub(self.probing.groups + 1);
             let matrices = match (twin, groups.last()) {
-                (Some(_), Some(Group { matrices, .. })) => matrices.clone(),
+                (Some(_), Some(Group { matrices, .. })) => *matrices,
                 _ => random_camera(&mut random),
             };
             let uniforms = self.uniform_values(&matrices);

@@ -171,7 +171,7 @@ impl<'a> Views<'a> {
         };
         match (alone.next(), alone.next()) {
             (Some(only), None) => Some(only),
-            _ => varying().find(has_the_colour).or_else(|| varying().last()),
+            _ => varying().find(has_the_colour).or_else(|| varying().next_back()),
         }
     }
 
