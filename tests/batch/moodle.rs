@@ -94,7 +94,7 @@ fn nobody_is_left_out_unnamed() {
         ],
     );
     let sheet = "Identifier;Full name;Grade;Maximum grade;Feedback comments\r\nParticipant 31;.Dot Taro;;20,00;\r\n\
-                 Participant 36;Victim;;20,00;a < b   it&#39;s fine\r\nParticipant 41;Eve;;20,00;\r\n";
+                 Participant 36;Victim;;20,00;\"a < b   it&#39;s fine\"\r\nParticipant 41;Eve;;20,00;\r\n";
     let output = grade(&place, Some(sheet));
     assert_eq!(output.status.code(), Some(1), "{}", said(&output));
     let sheet = fs::read_to_string(place.at("out/moodle-worksheet.csv")).unwrap();
