@@ -44,6 +44,19 @@ pub struct Struct {
     pub id: usize,
     /// Members by name, in order.
     pub members: Vec<(String, Type)>,
+    /// As of its [`Type::slots`]. Kept, because structures of structures are walked in exponential time.
+    slots: Option<usize>,
+    /// As of its [`Type::has_sampler`].
+    has_sampler: bool,
+}
+
+impl Struct {
+    /// A structure of these members; `id` tells it from others of its name.
+    pub fn new(name: String, id: usize, members: Vec<(String, Type)>) -> Self {
+        let slots = members.iter().try_fold(0_usize, |sum, (_, kind)| sum.checked_add(kind.slots()?));
+        let has_sampler = members.iter().any(|(_, kind)| kind.has_sampler());
+        Self { name, id, members, slots, has_sampler }
+    }
 }
 
 /// What a sampler reads.
@@ -141,9 +154,7 @@ impl Type {
             Self::Vector(_, n) => Some(usize::from(*n)),
             Self::Matrix(_, columns, rows) => Some(usize::from(*columns) * usize::from(*rows)),
             Self::Array(element, length) => element.slots()?.checked_mul((*length)?),
-            Self::Struct(structure) => {
-                structure.members.iter().try_fold(0_usize, |sum, (_, kind)| sum.checked_add(kind.slots()?))
-            }
+            Self::Struct(structure) => structure.slots,
             Self::Sampler(_) => Some(1),
         }
     }
@@ -196,7 +207,7 @@ impl Type {
         match self {
             Self::Sampler(_) => true,
             Self::Array(element, _) => element.has_sampler(),
-            Self::Struct(structure) => structure.members.iter().any(|(_, kind)| kind.has_sampler()),
+            Self::Struct(structure) => structure.has_sampler,
             _ => false,
         }
     }

@@ -29,7 +29,7 @@ pub fn variable(name: &str, stage: Stage) -> Option<(Storage, Type)> {
         ("gl_FragData", Stage::Fragment) => (output, vector(4).array(Some(8))),
         ("gl_DepthRange", _) => {
             let members = ["near", "far", "diff"].map(|name| (name.to_owned(), Type::FLOAT)).to_vec();
-            let structure = Struct { name: "gl_DepthRangeParameters".to_owned(), id: 0, members };
+            let structure = Struct::new("gl_DepthRangeParameters".to_owned(), 0, members);
             (Storage::Uniform, Type::Struct(Arc::new(structure)))
         }
         ("gl_NumSamples", _) => (Storage::Uniform, Type::INT),

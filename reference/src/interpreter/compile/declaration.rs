@@ -27,7 +27,7 @@ impl Compiler {
     fn structure(&mut self, name: &Name, members: &[Declaration]) -> Result<Type, Refusal> {
         let members = self.member_types(members)?;
         self.structures += 1;
-        let structure = Struct { name: name.to_string(), id: self.structures, members };
+        let structure = Struct::new(name.to_string(), self.structures, members);
         let kind = Type::Struct(Arc::new(structure));
         if !name.is_empty() {
             self.scopes.declare(Name::clone(name), Symbol::Structure(kind.clone()));

@@ -124,7 +124,7 @@ impl Compiler {
             return Ok(());
         };
         self.structures += 1;
-        let structure = Struct { name: block.name.to_string(), id: self.structures, members };
+        let structure = Struct::new(block.name.to_string(), self.structures, members);
         let one = Type::Struct(Arc::new(structure));
         let kind = self.arrays_of(one.clone(), lengths)?;
         let slot = self.allocate(&kind)?;
