@@ -116,9 +116,11 @@ impl Place<'_> {
     /// Takes a worker, waiting for one to be started where none is ready.
     pub fn take(&self, wanted: Wanted) -> Result<Worker, Fault> {
         let mut state = self.shared.lock();
-        // What failed before was told to whom it concerned; this caller is worth new tries.
-        state.failures = 0;
-        state.fault = None;
+        // Tries that failed were told to whom they concerned, and this caller is worth new ones. Those under way go on.
+        if state.ordered == 0 && state.ushers == 0 {
+            state.failures = 0;
+            state.fault = None;
+        }
         loop {
             self.shared.order(&mut state);
             if let Some(worker) = state.pick(wanted) {
