@@ -1,7 +1,6 @@
 //! The graders: one task for each file that is graded at once.
 
 use super::{Job, Outcome};
-use crate::cross_check::Opinion;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
@@ -151,28 +150,15 @@ async fn grade(state: &State, job: Job) {
 
 async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
     let pool = Arc::clone(&state.pool);
-    let id = job.submission.id.clone();
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { name, seed, hints, .. } = &job.submission;
-        let order = Order { seed: *seed, hints: *hints, cross_check: true };
+        let order = Order { seed: *seed, hints: *hints, ..Order::default() };
         pool.grade(sandbox::Submission { name, bytes: &job.bytes, order, wants_frames: false })
     });
     match graded.await {
-        Ok(answer) => answer.map(|answer| without_cross_check(answer.report, &id)),
+        Ok(answer) => answer.map(|answer| answer.report),
         Err(panic) => Err(Fault::new(Text::verbatim(panic.to_string()))),
     }
-}
-
-/// The report for the student. The second opinion is about us: it is counted, and where it differs the log says which
-/// submission's file to look at.
-fn without_cross_check(mut report: Report, id: &str) -> Report {
-    if let Some(checked) = report.cross_check.take() {
-        metrics::cross_checked(checked.opinion);
-        if checked.opinion == Opinion::Differs {
-            tracing::warn!(submission = id, vertices = checked.differing, "driver and interpreter disagree");
-        }
-    }
-    report
 }
 
 /// Stores what came of a grading, however long the database does not answer: until then nothing else is graded here.
