@@ -297,7 +297,7 @@ fn a_message_names_only_what_stands_in_the_file() {
 #[test]
 fn without_hints_no_view_names_a_mistake_or_a_line() {
     let half = sample_like("wrong", "specular-half-unnormalized--");
-    let formats = "text json html gradescope github classroom classroom-legacy junit sarif vpl coderunner";
+    let formats = "text json html gradescope github classroom-legacy junit sarif vpl coderunner";
     for format in formats.split_whitespace() {
         let run = |hints: &str| {
             let output = ggrade()

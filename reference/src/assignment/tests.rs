@@ -110,9 +110,13 @@ fn a_changed_constant_changes_the_equation() {
 #[test]
 fn every_text_stands_in_both_languages_and_can_do_without_values() {
     let a = assignment("ggsample06").expect("built in");
+    // A definition is always known, by the student's name or by its symbol.
+    let definitions = a.equation.definitions().iter();
+    let names: Vec<(&str, &str)> =
+        definitions.filter_map(|one| Some((one.name.as_str(), one.symbol.as_deref()?))).collect();
     for mistake in &a.mistakes {
         for text in [&mistake.seen, &mistake.equation, &mistake.look] {
-            let bare = text.fill(&[]);
+            let bare = text.fill(&names);
             for wording in [&bare.en, &bare.ja] {
                 assert!(!wording.trim().is_empty(), "{}", mistake.id);
                 assert!(!wording.contains(['{', '⟨', '⟩']) && !wording.contains("  "), "{}: {wording}", mistake.id);
@@ -120,7 +124,7 @@ fn every_text_stands_in_both_languages_and_can_do_without_values() {
             assert!(bare.en.is_ascii() || !bare.en.contains(['。', '、']));
             assert!(bare.ja.contains(['。', '?']), "{}: {}", mistake.id, bare.ja);
             let places = [("line", "7"), ("name", "h"), ("expected", "1"), ("found", "2"), ("frames", "25")];
-            let full = text.fill(&places);
+            let full = text.fill(&[&places[..], &names].concat());
             assert!(!full.en.contains('{') && !full.ja.contains('{'));
         }
     }
