@@ -55,7 +55,7 @@ async fn a_teacher_walks_through_the_class() {
     let folder = tempfile::tempdir().expect("a folder");
     let roster = folder.path().join("roster.csv");
     // One that cannot be read leads back to its form, with what is wrong beside it.
-    std::fs::write(&roster, "number,name\nS1001,和田 花子\nnobody\n").expect("a file");
+    std::fs::write(&roster, "number,name\nS1001,和田 花子\n,Nobody\n").expect("a file");
     browser.keys("#roster-file", &roster.to_string_lossy()).await;
     browser.click("form[action='/teacher/roster'] button").await;
     browser.until("document.querySelector('#roster-wrong')?.textContent.startsWith('Line 3 ')").await;
