@@ -1,13 +1,14 @@
 //! What was handed in: folders, files, archives and Moodle downloads → one [`HandIn`] per student.
 //!
 //! [`folder`] walks a folder of this machine, [`archive`] reads a ZIP; both fill a [`tree`]. [`students`] finds in the
-//! tree whose each file is ([`moodle`] knows the names in a Moodle download), [`choose`] which of a student's files is
-//! the one to grade. Nothing is ever unpacked onto the disk, and no link is followed.
+//! tree whose each file is ([`moodle`] knows the names in a Moodle download, [`layout`] what a folder looks like),
+//! [`choose`] which of a student's files is the one to grade. Nothing is ever unpacked onto the disk, and no link is followed.
 
 mod archive;
 mod choose;
 mod folder;
 mod key;
+mod layout;
 mod limits;
 mod moodle;
 mod place;

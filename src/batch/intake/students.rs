@@ -6,6 +6,7 @@
 //! they are looked into where all folders beside them are such, so that no student becomes several by what is handed in.
 
 use super::choose::{Fit, fit};
+use super::layout::{holds_classes, is_moodle, is_one_student, of_folder, without_zip};
 use super::moodle::{self, Loose, Marked};
 use super::tree::{File, Folder, Held, Node};
 use super::{Options, Refused};
@@ -59,7 +60,7 @@ pub(super) fn in_folder(
     let mut finding = Finding::new(options);
     if is_moodle(&folder) {
         finding.moodle(shown, folder);
-    } else if finding.is_one_student(&folder, is_one_of_several) {
+    } else if is_one_student(&folder, &options.file_name, is_one_of_several) {
         let name = shown.rsplit('/').next().unwrap_or(shown);
         finding.student(without_zip(name), shown, folder);
     } else {
@@ -111,11 +112,7 @@ impl<'o> Finding<'o> {
         if is_moodle(&folder) {
             return self.moodle(place, folder);
         }
-        let are_classes = only_folder(&folder).is_some_and(|(_, only)| self.is_flat_class(only))
-            || folder.children().all(|(_, node)| match node {
-                Node::Folder(folder) => folder.is_empty() || self.is_class(folder),
-                Node::File(_) => true,
-            });
+        let are_classes = holds_classes(&folder, &self.options.file_name);
         for (name, node) in folder.into_children() {
             let place = format!("{place}/{name}");
             match node {
@@ -200,53 +197,6 @@ impl<'o> Finding<'o> {
             self.refused.push(Refused { path, reason: nobodys() });
         }
     }
-
-    fn has_shader(&self, folder: &Folder) -> bool {
-        folder.has_file(&|name| fit(name, &self.options.file_name) <= Fit::Renamed)
-    }
-
-    /// Whether a folder holds students rather than being one's.
-    fn is_class(&self, folder: &Folder) -> bool {
-        let has_file = folder.file_names().next().is_some();
-        let with_shader = folder.children().filter(|(_, node)| match node {
-            Node::Folder(folder) => self.has_shader(folder),
-            Node::File(_) => false,
-        });
-        is_moodle(folder) || (!has_file && with_shader.count() >= 2)
-    }
-
-    /// Whether a folder is full of shaders of several students.
-    fn is_flat_class(&self, folder: &Folder) -> bool {
-        let fits: Vec<Fit> = folder.file_names().map(|name| fit(name, &self.options.file_name)).collect();
-        !fits.iter().any(|fit| *fit <= Fit::Copy) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
-    }
-
-    /// Whether the whole input is one student's: the wanted file lies in it and no other shader below, or in its only
-    /// folder, which has the homework's name. Beside other inputs it is one's unless it shows several students.
-    fn is_one_student(&self, folder: &Folder, is_one_of_several: bool) -> bool {
-        let fits = |name| fit(name, &self.options.file_name);
-        let below = folder.children().any(|(_, node)| match node {
-            Node::Folder(folder) => self.has_shader(folder),
-            Node::File(_) => false,
-        });
-        let has_wanted = folder.file_names().any(|name| fits(name) == Fit::Exact);
-        let is_project = only_folder(folder).is_some_and(|(name, _)| fits(name) <= Fit::Renamed);
-        (has_wanted && !below) || is_project || (is_one_of_several && !self.holds_students(folder))
-    }
-
-    fn holds_students(&self, folder: &Folder) -> bool {
-        let holds_within = || only_folder(folder).is_some_and(|(_, folder)| self.holds_students(folder));
-        self.is_class(folder) || self.is_flat_class(folder) || holds_within()
-    }
-}
-
-/// The only thing in a folder, where that is a folder.
-fn only_folder(folder: &Folder) -> Option<(&str, &Folder)> {
-    let mut children = folder.children();
-    match (children.next(), children.next()) {
-        (Some((name, Node::Folder(only))), None) => Some((name, only)),
-        _ => None,
-    }
 }
 
 impl Group {
@@ -256,21 +206,6 @@ impl Group {
         } else {
             self.has_online_text |= marked.plugin == "onlinetext";
         }
-    }
-}
-
-fn is_moodle(folder: &Folder) -> bool {
-    folder.children().any(|(name, node)| match node {
-        Node::Folder(_) => of_folder(name).is_some(),
-        Node::File(_) => moodle::file(name).is_some(),
-    })
-}
-
-/// Whose a folder or an archive is in a Moodle download: Moodle's own folder, or among loose files a student's archive.
-fn of_folder(name: &str) -> Option<Loose<'_>> {
-    match without_zip(name) {
-        stem if stem == name => moodle::folder(name).map(Loose::Of).or_else(|| moodle::file(name)),
-        stem => moodle::archive(name, stem),
     }
 }
 
@@ -288,14 +223,6 @@ fn owned(place: &str, folder: Folder) -> Vec<Owned> {
         Owned { name: path.last().cloned().unwrap_or_default(), path: format!("{place}/{below}"), below, file }
     };
     folder.into_files().into_iter().map(own).collect()
-}
-
-/// A name without the extension of an archive.
-fn without_zip(name: &str) -> &str {
-    match name.rsplit_once('.') {
-        Some((stem, extension)) if extension.eq_ignore_ascii_case("zip") && !stem.is_empty() => stem,
-        _ => name,
-    }
 }
 
 /// A file name without its extensions.

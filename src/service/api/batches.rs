@@ -1,7 +1,8 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
 use super::archive::Archive;
-use super::schema::{BatchJson, Errors, FilledFormatName, FormatName, IdempotencyKey, NotFound, Refusals};
+use super::refusals::{Errors, NotFound, Refusals};
+use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
 use super::submissions::attachment;
 use crate::batch::formats::Format;
 use crate::language::Language;

@@ -1,7 +1,7 @@
 //! Deleting: for teachers.
 
 use super::batches::CSRF;
-use super::schema::{Errors, NotFound, Refusals};
+use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::State;
 use crate::service::deletion::delete;
 use crate::service::errors::Problem;
@@ -10,6 +10,19 @@ use crate::service::store::{Counts, Target};
 use axum::Json;
 use axum::extract::{Path, State as Shared};
 use axum::http::HeaderMap;
+
+/// Who asks: a teacher, with the headers of the request.
+type Caller = (Teacher, HeaderMap);
+
+/// What an address names.
+enum Named {
+    /// A file, by its id.
+    Submission(String),
+    /// A class that was handed in, by its id.
+    Batch(String),
+    /// A student, by their number.
+    Student(String),
+}
 
 /// Delete a file
 ///
@@ -20,14 +33,11 @@ use axum::http::HeaderMap;
     responses((status = 200, description = "How much was deleted", body = Counts), NotFound, Refusals, Errors)
 )]
 pub(super) async fn delete_submission(
-    teacher: Teacher,
+    caller: Caller,
     Shared(state): Shared<State>,
     Path(id): Path<String>,
-    headers: HeaderMap,
 ) -> Result<Json<Counts>, Problem> {
-    check(&state, &teacher, &headers)?;
-    state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
-    delete(&state, &Target::Submission(id)).await.map(Json)
+    deleted(&state, &caller, Named::Submission(id)).await
 }
 
 /// Delete a class that was handed in
@@ -39,14 +49,11 @@ pub(super) async fn delete_submission(
     responses((status = 200, description = "How much was deleted", body = Counts), NotFound, Refusals, Errors)
 )]
 pub(super) async fn delete_batch(
-    teacher: Teacher,
+    caller: Caller,
     Shared(state): Shared<State>,
     Path(id): Path<String>,
-    headers: HeaderMap,
 ) -> Result<Json<Counts>, Problem> {
-    check(&state, &teacher, &headers)?;
-    state.store.batch(&id).await?.ok_or_else(Problem::not_found)?;
-    delete(&state, &Target::Batch(id)).await.map(Json)
+    deleted(&state, &caller, Named::Batch(id)).await
 }
 
 /// Delete a student
@@ -59,18 +66,25 @@ pub(super) async fn delete_batch(
     responses((status = 200, description = "How much was deleted", body = Counts), NotFound, Refusals, Errors)
 )]
 pub(super) async fn delete_student(
-    teacher: Teacher,
+    caller: Caller,
     Shared(state): Shared<State>,
     Path(number): Path<String>,
-    headers: HeaderMap,
 ) -> Result<Json<Counts>, Problem> {
-    check(&state, &teacher, &headers)?;
-    let number = normal_number(&number).ok_or_else(Problem::not_found)?;
-    let student = state.store.student_by_number(&number).await?.ok_or_else(Problem::not_found)?;
-    delete(&state, &Target::Student(student.id)).await.map(Json)
+    deleted(&state, &caller, Named::Student(number)).await
 }
 
-/// A page's own script brings the token of its forms; a program brings the teacher's.
-fn check(state: &State, teacher: &Teacher, headers: &HeaderMap) -> Result<(), Problem> {
-    teacher.check_csrf(state, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())
+/// Deletes what is there under that name. A page's own script brings the token of its forms; a program brings the
+/// teacher's.
+async fn deleted(state: &State, (teacher, headers): &Caller, named: Named) -> Result<Json<Counts>, Problem> {
+    teacher.check_csrf(state, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
+    let store = &state.store;
+    let target = match named {
+        Named::Submission(id) => store.submission(&id).await?.map(|found| Target::Submission(found.id)),
+        Named::Batch(id) => store.batch(&id).await?.map(|found| Target::Batch(found.id)),
+        Named::Student(number) => match normal_number(&number) {
+            Some(number) => store.student_by_number(&number).await?.map(|found| Target::Student(found.id)),
+            None => None,
+        },
+    };
+    delete(state, &target.ok_or_else(Problem::not_found)?).await.map(Json)
 }

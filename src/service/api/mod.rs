@@ -7,6 +7,7 @@ mod deletions;
 mod docs;
 mod operations;
 pub(super) mod pictures;
+mod refusals;
 mod schema;
 pub(super) mod submissions;
 

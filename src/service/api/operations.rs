@@ -1,6 +1,6 @@
 //! For who runs the service: is it alive, can it work, how much does it do.
 
-use super::schema::Errors;
+use super::refusals::Errors;
 use crate::service::State;
 use crate::service::errors::{Problem, ProblemJson};
 use crate::service::identity::{bearer, same};

@@ -1,6 +1,7 @@
 //! `/api/v1/submissions/{id}/frames` and `animation.png`.
 
-use super::schema::{Errors, FrameJson, FramesJson, NotFound};
+use super::refusals::{Errors, NotFound};
+use super::schema::{FrameJson, FramesJson};
 use super::submissions::find;
 use crate::service::State;
 use crate::service::errors::Problem;

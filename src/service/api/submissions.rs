@@ -1,7 +1,8 @@
 //! `/api/v1/submissions`.
 
 use super::body::Form;
-use super::schema::{Errors, IdempotencyKey, NotFound, Refusals, SubmissionJson};
+use super::refusals::{Errors, NotFound, Refusals};
+use super::schema::{IdempotencyKey, SubmissionJson};
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::service::State;

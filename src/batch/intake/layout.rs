@@ -1,0 +1,85 @@
+//! What a folder looks like by the names in it: one student's, a class, a Moodle download. `wanted` is the name of the
+//! assignment's file.
+
+use super::choose::{Fit, fit};
+use super::moodle::{self, Loose};
+use super::tree::{Folder, Node};
+
+/// Whether a name in the folder is a participant's of Moodle.
+pub(super) fn is_moodle(folder: &Folder) -> bool {
+    folder.children().any(|(name, node)| match node {
+        Node::Folder(_) => of_folder(name).is_some(),
+        Node::File(_) => moodle::file(name).is_some(),
+    })
+}
+
+/// Whose a folder or an archive is in a Moodle download: Moodle's own folder, or among loose files a student's archive.
+pub(super) fn of_folder(name: &str) -> Option<Loose<'_>> {
+    match without_zip(name) {
+        stem if stem == name => moodle::folder(name).map(Loose::Of).or_else(|| moodle::file(name)),
+        stem => moodle::archive(name, stem),
+    }
+}
+
+/// A name without the extension of an archive.
+pub(super) fn without_zip(name: &str) -> &str {
+    match name.rsplit_once('.') {
+        Some((stem, extension)) if extension.eq_ignore_ascii_case("zip") && !stem.is_empty() => stem,
+        _ => name,
+    }
+}
+
+/// Whether a folder of a class holds classes: each folder in it does, or its only one is full of students' shaders.
+pub(super) fn holds_classes(folder: &Folder, wanted: &str) -> bool {
+    only_folder(folder).is_some_and(|(_, only)| is_flat_class(only, wanted))
+        || folder.children().all(|(_, node)| match node {
+            Node::Folder(folder) => folder.is_empty() || is_class(folder, wanted),
+            Node::File(_) => true,
+        })
+}
+
+/// Whether the whole input is one student's: the wanted file lies in it and no other shader below, or in its only
+/// folder, which has the homework's name. Beside other inputs it is one's unless it shows several students.
+pub(super) fn is_one_student(folder: &Folder, wanted: &str, is_one_of_several: bool) -> bool {
+    let below = folder.children().any(|(_, node)| match node {
+        Node::Folder(folder) => has_shader(folder, wanted),
+        Node::File(_) => false,
+    });
+    let has_wanted = folder.file_names().any(|name| fit(name, wanted) == Fit::Exact);
+    let is_project = only_folder(folder).is_some_and(|(name, _)| fit(name, wanted) <= Fit::Renamed);
+    (has_wanted && !below) || is_project || (is_one_of_several && !holds_students(folder, wanted))
+}
+
+/// Whether a folder holds students rather than being one's.
+fn is_class(folder: &Folder, wanted: &str) -> bool {
+    let has_file = folder.file_names().next().is_some();
+    let with_shader = folder.children().filter(|(_, node)| match node {
+        Node::Folder(folder) => has_shader(folder, wanted),
+        Node::File(_) => false,
+    });
+    is_moodle(folder) || (!has_file && with_shader.count() >= 2)
+}
+
+/// Whether a folder is full of shaders of several students.
+fn is_flat_class(folder: &Folder, wanted: &str) -> bool {
+    let fits: Vec<Fit> = folder.file_names().map(|name| fit(name, wanted)).collect();
+    !fits.iter().any(|fit| *fit <= Fit::Copy) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
+}
+
+fn holds_students(folder: &Folder, wanted: &str) -> bool {
+    let holds_within = || only_folder(folder).is_some_and(|(_, folder)| holds_students(folder, wanted));
+    is_class(folder, wanted) || is_flat_class(folder, wanted) || holds_within()
+}
+
+fn has_shader(folder: &Folder, wanted: &str) -> bool {
+    folder.has_file(&|name| fit(name, wanted) <= Fit::Renamed)
+}
+
+/// The only thing in a folder, where that is a folder.
+fn only_folder(folder: &Folder) -> Option<(&str, &Folder)> {
+    let mut children = folder.children();
+    match (children.next(), children.next()) {
+        (Some((name, Node::Folder(only))), None) => Some((name, only)),
+        _ => None,
+    }
+}

@@ -1,0 +1,82 @@
+//! The contract, field by field.
+
+use super::*;
+use crate::report::samples;
+use serde_json::{Value, json};
+
+fn parsed(report: &Report, language: Language) -> Value {
+    serde_json::from_str(&render(report, language)).expect("one JSON object")
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    let object = value.as_object().expect("an object");
+    object.keys().map(String::as_str).collect()
+}
+
+#[test]
+fn fields_stand_in_the_order_of_the_contract() {
+    let value = parsed(&samples::wrong(), Language::En);
+    let top = "schema assignment source verdict score max_score rubric mistakes advice diagnostics \
+               frames probes environment elapsed_ms";
+    assert_eq!(keys(&value), top.split_whitespace().collect::<Vec<_>>());
+    assert_eq!(keys(&value["source"]), ["name", "sha256", "bytes", "encoding"]);
+    let rubric = ["id", "points", "max_points", "mistake", "message", "label", "line"];
+    assert_eq!(keys(&value["rubric"][3]), rubric);
+    let diagnostic = ["severity", "stage", "line", "column", "message", "hint"];
+    assert_eq!(keys(&value["diagnostics"][0]), diagnostic);
+    let frame = "t coverage_mismatches max_difference mean_difference mismatched_pixels";
+    assert_eq!(keys(&value["frames"][0]), frame.split_whitespace().collect::<Vec<_>>());
+    assert_eq!(keys(&value["probes"]), ["seed", "samples", "mismatched", "max_difference"]);
+    assert_eq!(keys(&value["environment"]), ["ggrade", "renderer", "driver"]);
+}
+
+#[test]
+fn values_are_those_of_the_report() {
+    let value = parsed(&samples::wrong(), Language::En);
+    assert_eq!(value["schema"], "ggrade/report/v1");
+    assert_eq!(value["verdict"], "wrong");
+    assert_eq!((&value["score"], &value["max_score"]), (&json!(80), &json!(100)));
+    assert_eq!(value["rubric"][3]["mistake"], "specular-half-unnormalized");
+    assert_eq!(value["rubric"][0]["mistake"], Value::Null);
+    assert_eq!(value["mistakes"], json!(["specular-half-unnormalized"]));
+    assert_eq!(value["frames"].as_array().map(Vec::len), Some(25));
+    assert_eq!(value["frames"][1]["t"], json!(0.04));
+    assert_eq!(value["diagnostics"][0]["severity"], "warning");
+    assert_eq!(value["probes"]["seed"], json!(20_240_613));
+}
+
+#[test]
+fn every_verdict_has_its_word() {
+    let words = samples::all().map(|report| parsed(&report, Language::En)["verdict"].clone());
+    assert_eq!(words, ["correct", "wrong", "rejected", "stopped"].map(Value::from));
+}
+
+#[test]
+fn messages_are_in_the_chosen_language() {
+    let report = samples::wrong();
+    let english = parsed(&report, Language::En);
+    let japanese = parsed(&report, Language::Ja);
+    assert_eq!(english["rubric"][3]["label"], "Specular");
+    assert_eq!(japanese["rubric"][3]["label"], "鏡面反射光");
+    assert_eq!(japanese["rubric"][3]["message"], report.rubric[3].message.ja.as_str());
+    assert_eq!(japanese["diagnostics"][0]["message"], report.diagnostics[0].message.ja.as_str());
+}
+
+#[test]
+fn what_is_not_finite_is_null() {
+    let mut report = samples::wrong();
+    report.frames[0].max_difference = f64::NAN;
+    report.frames[0].mean_difference = f64::INFINITY;
+    report.probes.max_difference = Some(f64::NEG_INFINITY);
+    let value = parsed(&report, Language::En);
+    assert_eq!(value["frames"][0]["max_difference"], Value::Null);
+    assert_eq!(value["frames"][0]["mean_difference"], Value::Null);
+    assert_eq!(value["probes"]["max_difference"], Value::Null);
+}
+
+#[test]
+fn an_embedded_view_is_the_same_object() {
+    let report = samples::rejected();
+    let embedded = serde_json::to_value(view(&report, Language::Ja)).expect("a value");
+    assert_eq!(embedded, parsed(&report, Language::Ja));
+}
