@@ -11,7 +11,7 @@ mod staying;
 mod teacher;
 
 use chromium::server::Server;
-use chromium::{Browser, sample};
+use chromium::{Browser, processes, sample};
 
 const RIGHT: &str = "accepted/answers/alpha-two.vert";
 const WRONG: &str = "wrong/specular-half-unnormalized--average.vert";
@@ -45,6 +45,20 @@ async fn hand_in(browser: &Browser) {
     browser.until("document.querySelector('.receipt .permalink')").await;
     let link = browser.js("return document.querySelector('.receipt .permalink').href").await;
     browser.open(link.as_str().expect("a link")).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_test_that_fails_leaves_no_browser_running() {
+    let profile = tokio::spawn(async {
+        let browser = Browser::start().await;
+        let profile = browser.profile();
+        assert!(!processes::of_profile(&profile).is_empty(), "the browser is looked for by its profile");
+        std::panic::panic_any(profile)
+    });
+    let failed = profile.await.expect_err("a panic").into_panic();
+    let profile = failed.downcast::<std::path::PathBuf>().expect("a folder");
+    assert_eq!(processes::of_profile(&profile), []);
+    assert!(!profile.exists());
 }
 
 #[tokio::test(flavor = "multi_thread")]

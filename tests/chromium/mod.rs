@@ -1,8 +1,10 @@
 //! A headless Chromium as the tests of the pages drive it, and the service that it looks at.
 
 mod editor;
+pub mod processes;
 pub mod server;
 
+use self::processes::Processes;
 use axum::http::Method;
 use fantoccini::error::CmdError;
 use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand, WindowHandle};
@@ -11,7 +13,7 @@ use reqwest::Url;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
@@ -23,8 +25,7 @@ const LOOK: Duration = Duration::from_millis(25);
 /// A browser.
 pub struct Browser {
     client: Client,
-    driver: Child,
-    _profile: tempfile::TempDir,
+    processes: Processes,
 }
 
 /// A command of the browser's own protocol, through its WebDriver.
@@ -47,19 +48,19 @@ impl WebDriverCompatibleCommand for Devtools {
 impl Browser {
     /// Starts a driver on a free port, and a browser with an empty profile.
     pub async fn start() -> Self {
-        let mut driver = Command::new("chromedriver")
+        let driver = Command::new("chromedriver")
             .arg("--port=0")
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
             .expect("chromedriver: run script/bootstrap --test");
-        let output = BufReader::new(driver.stdout.take().expect("standard output"));
+        let mut processes = Processes { driver, profile: tempfile::tempdir().expect("a folder") };
+        let output = BufReader::new(processes.driver.stdout.take().expect("standard output"));
         let port = output
             .lines()
             .map_while(Result::ok)
             .find_map(|line| line.rsplit_once("successfully on port ")?.1.trim_end_matches('.').parse::<u16>().ok())
             .expect("chromedriver's port");
-        let profile = tempfile::tempdir().expect("a folder");
         let arguments = [
             "--headless=new",
             // The tests may run as root, where the browser's own sandbox does not start; it meets pages of ours only.
@@ -72,7 +73,7 @@ impl Browser {
             "--disable-sync",
             "--disable-dev-shm-usage",
             "--force-color-profile=srgb",
-            &format!("--user-data-dir={}", profile.path().display()),
+            &format!("--user-data-dir={}", processes.profile.path().display()),
         ];
         let mut capabilities = Capabilities::new();
         capabilities.insert("goog:chromeOptions".into(), json!({ "args": arguments }));
@@ -82,14 +83,17 @@ impl Browser {
             .connect(&format!("http://127.0.0.1:{port}"))
             .await
             .expect("a browser");
-        Self { client, driver, _profile: profile }
+        Self { client, processes }
     }
 
     /// Ends browser and driver.
-    pub async fn end(mut self) {
+    pub async fn end(self) {
         let _ = self.client.clone().close().await;
-        let _ = self.driver.kill();
-        let _ = self.driver.wait();
+    }
+
+    /// The folder of its profile.
+    pub fn profile(&self) -> PathBuf {
+        self.processes.profile.path().to_owned()
     }
 
     /// Goes to an address.
@@ -303,13 +307,6 @@ impl Browser {
         let found = self.client.execute_async(script, Vec::new()).await.expect("axe's answer");
         let found = found.as_array().cloned().unwrap_or_default();
         found.iter().map(|violation| violation.as_str().unwrap_or_default().to_owned()).collect()
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        // A test that failed leaves no driver behind; the driver takes its browser along.
-        let _ = self.driver.kill();
     }
 }
 
