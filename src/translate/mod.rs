@@ -73,6 +73,9 @@ pub struct Translation {
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
     gate::check_text(source)?;
+    if let Some(error) = strict::hidden_version(source) {
+        return Err(Refusal::Rejected(vec![error]));
+    }
     let Accepted { text, renamed, verdict, warnings } = first_pass(source, interface)?;
     let mut overlooked = hints::overlooked_errors(&source.text, interface);
     overlooked.extend(strict::errors(source, interface));

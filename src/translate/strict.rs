@@ -13,7 +13,7 @@ const STRICT_LOCATIONS: i32 = 420;
 /// The errors of `source`, which the compiler accepts.
 pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
     let version = text::version(source.code());
-    let mut errors = Vec::new();
+    let mut errors: Vec<_> = before_version(source, version_line(source.code())).into_iter().collect();
     let code = text::without_directives(source.code());
     for statement in statements(&code) {
         if version < FREE_LAYOUTS {
@@ -25,6 +25,55 @@ pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> 
         errors.extend(qualified_result(source, &statement));
     }
     errors
+}
+
+/// What stands before `#version` in its line, so that no compiler sees a directive there.
+pub(super) fn hidden_version(source: &Source) -> Option<Diagnostic> {
+    let code = source.code();
+    let at = code.match_indices('#').find_map(|(at, _)| {
+        let start = code[..at].rfind('\n').map_or(0, |end| end + 1);
+        let first = code[start..at].chars().find(|&c| !is_blank(c))?;
+        (first != '#' && is_version(&code[at..])).then_some(at)
+    });
+    // One that is a directive as well is what the compiler goes by.
+    before_version(source, at.filter(|_| version_line(code).is_none()))
+}
+
+/// Where the line of `#version` begins.
+fn version_line(code: &str) -> Option<usize> {
+    let mut start = 0;
+    code.split_inclusive('\n').find_map(|line| {
+        let at = start + line.len() - line.trim_start_matches(is_blank).len();
+        start += line.len();
+        is_version(&code[at..]).then_some(at)
+    })
+}
+
+fn is_version(text: &str) -> bool {
+    let name = text.strip_prefix('#').map(|rest| rest.trim_start_matches([' ', '\t']));
+    let rest = name.and_then(|name| name.strip_prefix("version"));
+    rest.is_some_and(|rest| rest.starts_with(is_blank))
+}
+
+/// White space, and the sign that joins lines.
+fn is_blank(c: char) -> bool {
+    matches!(c, ' ' | '\t' | '\n' | '\r' | '\x0b' | '\x0c' | '\\')
+}
+
+/// The first of what stands before the `#version` at `version`, comments aside.
+fn before_version(source: &Source, version: Option<usize>) -> Option<Diagnostic> {
+    let before = &source.code()[..version?];
+    let at = before.find(|c| !is_blank(c))?;
+    let end = before[at..].find(is_blank).map_or(before.len(), |length| at + length);
+    let message = Text::new(
+        "Only comments and blank lines may stand before `#version`.",
+        "`#version` より前に置けるのは、コメントと空行だけです。",
+    );
+    let hint = Text::new(
+        "Delete this, or move it below the line of `#version`.",
+        "ここを削除するか、`#version` の行より下に移してください。",
+    );
+    Some(error(source, Stage::Compile, (at, &before[at..end]), message).hint(hint))
 }
 
 /// A piece of code between `;`, `{` and `}`: its words with the bytes that they stand at.

@@ -1,0 +1,23 @@
+; #version 410 core
+
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+const vec4  pl    = vec4(0, 0, 1, 0);
+const vec4  lamb  = vec4(vec3(0.2), 1);
+const vec4  ldiff = vec4(1, 1, 1, 0);
+const vec4  lspec = vec4(1, 1, 1, 0);
+const vec4  kamb  = vec4(0.6, 0, 0, 1);
+const vec4  kdiff = vec4(0.6, 0, 0, 1);
+const vec4  kspec = vec4(vec3(0.4), 1);
+const float kshi  = 80;
+
+void main()
+{
+  gl_Position = mc * pv;
+  vc = kamb * lamb + max(dot(normalize((mg * cv).xyz), normalize(pl.xyz)), 0) * kdiff * ldiff + pow(max(dot(normalize((mg * cv).xyz), normalize(normalize(pl.xyz) - normalize((mw * pv).xyz))), 0), kshi) * kspec * lspec;
+}
