@@ -2,12 +2,11 @@
 
 use crate::bench::{Bench, Reply};
 use crate::cluster::Database;
-use crate::roster::{archive, file, form, get, request, zip};
+use crate::roster::{archive, file, form, get, made, request, zip};
 use crate::{on_both, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use std::io::{Cursor, Read};
-use std::time::Duration;
 
 on_both!(
     a_student_goes_with_everything_of_theirs,
@@ -138,17 +137,7 @@ async fn an_archive_and_a_submission_go_alone(database: Database) {
 async fn a_download_that_takes_long_is_made_behind_a_page(database: Database) {
     let bench = Bench::new(database).await;
     hand_in(&bench, "s1", sample(WRONG)).await;
-    let begun = form(&bench, "/teacher/downloads", "format=html").await;
-    let address = begun.header("location").to_owned();
-    assert_eq!((begun.status, address.starts_with("/teacher/downloads/")), (StatusCode::SEE_OTHER, true));
-    for _ in 0..1200 {
-        if get(&bench, &address).await.text().contains("/file\"") {
-            break;
-        }
-        tokio::time::sleep(Duration::from_millis(50)).await;
-    }
-    let saved = get(&bench, &format!("{address}/file")).await;
-    assert_eq!(saved.status, StatusCode::OK, "{saved:?}");
+    let (_, saved) = made(&bench, form(&bench, "/teacher/downloads", "format=html").await).await;
     assert!(saved.header("content-disposition").starts_with("attachment;"));
     let mut archive = zip::ZipArchive::new(Cursor::new(saved.body)).expect("an archive");
     let mut page = String::new();

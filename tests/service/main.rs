@@ -2,12 +2,12 @@
 
 mod api;
 mod bench;
-
 mod classes;
 mod cluster;
 mod deletions;
 mod gallery;
 mod handing_in;
+mod hints;
 mod hostile;
 mod idempotency;
 mod identity;
@@ -19,6 +19,7 @@ mod roster;
 mod server;
 mod static_files;
 mod student_page;
+mod worksheets;
 
 use ggrade::sandbox::{Pool, Settings};
 use std::path::PathBuf;

@@ -109,15 +109,15 @@ const TABLE: [Row; 12] = [
         Format::MoodleWorksheet,
         "moodle-worksheet",
         &["moodle-worksheet.csv"],
-        "Moodle's offline grading worksheet with grades and comments filled in (needs --moodle-worksheet)",
-        "Moodle のオフライン評定ワークシートに評定とコメントを記入したもの（--moodle-worksheet が必要です）",
+        "Moodle's offline grading worksheet with grades and comments filled in",
+        "Moodle のオフライン評定ワークシートに評定とコメントを記入したもの",
     ),
     row(
         Format::MoodleFeedback,
         "moodle-feedback",
         &["moodle-feedback.zip"],
-        "Everyone's report for Moodle's \"Upload feedback files in a zip\" (needs --moodle-worksheet where groups hand in)",
-        "Moodle の「複数フィードバックファイルをZIPでアップロードする」に渡す全員の採点結果（グループ提出では --moodle-worksheet が必要です）",
+        "Everyone's report for Moodle's \"Upload feedback files in a zip\"",
+        "Moodle の「複数フィードバックファイルをZIPでアップロードする」に渡す全員の採点結果",
     ),
     row(
         Format::Gradescope,
@@ -221,6 +221,11 @@ impl ValueEnum for Format {
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.id()).help(self.row().en))
+        let needs = match self {
+            Self::MoodleWorksheet => " (needs --moodle-worksheet)",
+            Self::MoodleFeedback => " (needs --moodle-worksheet where groups hand in)",
+            _ => "",
+        };
+        Some(PossibleValue::new(self.id()).help(format!("{}{needs}", self.row().en)))
     }
 }

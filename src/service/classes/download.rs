@@ -6,6 +6,7 @@ use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::{Format, KEY, worksheet};
 use crate::batch::intake::{Content, HandIn};
 use crate::batch::page::Pages;
+use crate::batch::summary::Written;
 use crate::batch::{output, run};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
@@ -46,6 +47,8 @@ pub struct Download {
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
+    /// What a teacher should know of it: whom it leaves out, what could not be filled in.
+    pub notes: Vec<Text>,
 }
 
 /// How far a download is: one step for each picture and each page that is drawn, and one for the rest.
@@ -109,18 +112,26 @@ pub struct Wanted {
     pub with_pages: bool,
 }
 
+impl Wanted {
+    /// Whether it can be made: a worksheet is there where one is needed, and can be read.
+    pub fn check(&self) -> Result<(), Problem> {
+        match &self.sheet {
+            Some(sheet) => {
+                worksheet::check(sheet).map_err(|fault| Problem::unprocessable(fault.message.en, fault.message.ja))
+            }
+            None if self.format == Format::MoodleWorksheet => Err(Problem::unprocessable(
+                "This format fills in the worksheet that Moodle gives: send that CSV file along.",
+                "この形式は Moodle のワークシートに記入するものです。Moodle からダウンロードした CSV を送ってください。",
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
 /// A class in one of the formats. Formats of several files come as a ZIP.
 pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<Steps>) -> Result<Download, Problem> {
+    wanted.check()?;
     let Wanted { format, sheet, language, with_pages } = wanted;
-    if format == Format::MoodleWorksheet && sheet.is_none() {
-        return Err(Problem::unprocessable(
-            "This format fills in the worksheet that Moodle gives: send that CSV file along.",
-            "この形式は Moodle のワークシートに記入するものです。Moodle からダウンロードした CSV を送ってください。",
-        ));
-    }
-    if let Some(sheet) = &sheet {
-        worksheet::check(sheet).map_err(|fault| Problem::unprocessable(fault.message.en, fault.message.ja))?;
-    }
     let (title, refused, members) = members(state, whose).await?;
     let submissions: Vec<_> =
         members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
@@ -293,7 +304,8 @@ fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> 
         Err(NotOpened::Fault(fault)) => return Err(fault),
         Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
     };
-    if let (_, Some(fault)) = output::write(class, &[format], sheet, None, &folder) {
+    let (Written { notes, .. }, fault) = output::write(class, &[format], sheet, None, &folder);
+    if let Some(fault) = fault {
         return Err(fault);
     }
     let pages: Vec<&Entry> = class.entries.iter().filter(|entry| entry.page.is_some()).collect();
@@ -306,16 +318,16 @@ fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> 
             std::fs::copy(entry.page.as_deref().unwrap_or(path), to).map_err(|error| disk(&error))?;
         }
         let bytes = zipped(path).map_err(|error| disk(&error))?;
-        return Ok(Download { name: format!("{}.zip", format.id()), bytes });
+        return Ok(Download { name: format!("{}.zip", format.id()), bytes, notes });
     }
     match format.files() {
         [file] if !file.contains(KEY) => {
             let bytes = std::fs::read(folder.at(file)).map_err(|error| disk(&error))?;
-            Ok(Download { name: (*file).to_owned(), bytes })
+            Ok(Download { name: (*file).to_owned(), bytes, notes })
         }
         _ => {
             let bytes = zipped(path).map_err(|error| disk(&error))?;
-            Ok(Download { name: format!("{}.zip", format.id()), bytes })
+            Ok(Download { name: format!("{}.zip", format.id()), bytes, notes })
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Downloads that take seconds: made in the background, kept on the disk for a while.
 
-use super::download::{Steps, Wanted, Whose, download};
+use super::download::{Download, Steps, Wanted, Whose, download};
 use crate::batch::formats::Format;
-use crate::language::Language;
+use crate::language::Text;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::identity::new_id;
@@ -36,6 +36,8 @@ pub struct Made {
     pub path: TempPath,
     /// Its size in bytes.
     pub bytes: usize,
+    /// What a teacher should know of it.
+    pub notes: Vec<Text>,
 }
 
 impl Job {
@@ -65,16 +67,16 @@ impl Jobs {
     }
 
     /// Begins to make one.
-    pub fn start(&self, state: &State, whose: Whose, format: Format, language: Language, back: String) -> Arc<Job> {
+    pub fn start(&self, state: &State, whose: Whose, wanted: Wanted, back: String) -> Arc<Job> {
         let (id, steps, made) = (new_id(), Arc::default(), OnceLock::new());
-        let job = Arc::new(Job { id, format, back, steps, made });
+        let job = Arc::new(Job { id, format: wanted.format, back, steps, made });
         let mut jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         jobs.truncate(MOST - 1);
         jobs.push_front(Arc::clone(&job));
         drop(jobs);
         let (state, begun) = (state.clone(), Arc::clone(&job));
         tokio::spawn(async move {
-            let made = make(&state, whose, format, language, &begun.steps).await;
+            let made = make(&state, whose, wanted, &begun.steps).await;
             // Nobody else sets it.
             let _ = begun.made.set(made);
         });
@@ -82,20 +84,14 @@ impl Jobs {
     }
 }
 
-async fn make(
-    state: &State,
-    whose: Whose,
-    format: Format,
-    language: Language,
-    steps: &Arc<Steps>,
-) -> Result<Made, Problem> {
-    let file = download(state, whose, Wanted { format, sheet: None, language, with_pages: true }, steps).await?;
-    let bytes = file.bytes.len();
+async fn make(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<Steps>) -> Result<Made, Problem> {
+    let Download { name, bytes: content, notes } = download(state, whose, wanted, steps).await?;
+    let bytes = content.len();
     let path = tokio::task::spawn_blocking(move || {
         let path = tempfile::NamedTempFile::new()?.into_temp_path();
-        std::fs::write(&path, file.bytes)?;
+        std::fs::write(&path, content)?;
         std::io::Result::Ok(path)
     });
     let path = path.await.map_err(|panic| Problem::internal(&panic))?.map_err(|error| Problem::internal(&error))?;
-    Ok(Made { name: file.name, path, bytes })
+    Ok(Made { name, path, bytes, notes })
 }

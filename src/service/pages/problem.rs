@@ -30,7 +30,7 @@ pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String
         status if status >= 500 => frame.say("Our fault", "サーバ側の障害です"),
         _ => frame.say("That did not work", "処理できませんでした"),
     };
-    let detail = problem.detail.get(language).to_owned();
+    let detail = problem.detail.get(language).replace('`', "");
     let status = problem.status.as_u16();
     // A string of a template of ours: there is nothing that could fail.
     Html(View { frame, status, heading, detail, is_teachers }.render().unwrap_or_default())

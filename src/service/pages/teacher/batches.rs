@@ -3,14 +3,14 @@
 use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::shown;
-use super::downloads::{Offer, formats};
+use super::downloads::{Offer, begun, formats};
 use super::table::{Filter, Table};
 use super::{Place, refused};
 use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::api::archive::Archive;
-use crate::service::api::batches::{named, saved};
+use crate::service::api::batches::named;
 use crate::service::api::body::other;
 use crate::service::classes::{self, Person, Wanted, Whose, of_batch};
 use crate::service::errors::Problem;
@@ -22,7 +22,6 @@ use axum::extract::multipart::MultipartRejection;
 use axum::extract::{Multipart, Path, Query, Request, State as Shared};
 use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Redirect, Response};
-use std::sync::Arc;
 
 #[derive(Template)]
 #[template(path = "service/batches.html")]
@@ -113,7 +112,7 @@ pub(in crate::service::pages) async fn upload(
     match stored(&state, &teacher, (&headers, &client), request).await {
         Ok(batch) => Ok(Redirect::to(&format!("/teacher/batches/{}", batch.id)).into_response()),
         Err(problem) if problem.status.is_client_error() => {
-            let detail = problem.detail.get(frame.language).to_owned();
+            let detail = problem.detail.get(frame.language).replace('`', "");
             Ok(refused(view_list(&state, &teacher, frame, Some(detail)).await?, problem.status))
         }
         Err(problem) => Err(problem),
@@ -158,7 +157,7 @@ async fn view_one(
 ) -> Result<Response, Problem> {
     let people = of_batch(state, &batch.id).await?;
     let everyone: Vec<&Person> = people.iter().collect();
-    let said = |text: &crate::language::Text| text.get(frame.language).to_owned();
+    let said = |text: &crate::language::Text| text.get(frame.language).replace('`', "");
     shown(
         One {
             place: Place::Batches,
@@ -180,8 +179,8 @@ async fn view_one(
     )
 }
 
-/// `POST /teacher/batches/{id}/worksheet`: Moodle's worksheet, filled in, or the reports for the participants in it.
-/// One that cannot be read leads back to the form.
+/// `POST /teacher/batches/{id}/worksheet`: Moodle's worksheet, filled in, or the reports for the participants in it, behind
+/// a page that says what could not be filled in. A worksheet that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn worksheet(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
@@ -192,7 +191,7 @@ pub(in crate::service::pages) async fn worksheet(
     let batch = found(&state, &id).await?;
     match filled(&state, &teacher, batch.clone(), frame.course.language, form).await {
         Err(problem) if problem.status.is_client_error() => {
-            let detail = problem.detail.get(frame.language).to_owned();
+            let detail = problem.detail.get(frame.language).replace('`', "");
             let page = view_one(&state, &teacher, frame, batch, &Filter::default(), Some(detail)).await?;
             Ok(refused(page, problem.status))
         }
@@ -219,5 +218,7 @@ async fn filled(
     }
     teacher.check_csrf(state, &csrf)?;
     let wanted = Wanted { format, sheet: Some(sheet), language, with_pages: false };
-    saved(classes::download(state, Whose::Batch(batch), wanted, &Arc::default()).await?)
+    wanted.check()?;
+    let back = format!("/teacher/batches/{}", batch.id);
+    Ok(begun(state, Whose::Batch(batch), wanted, back))
 }

@@ -4,9 +4,10 @@ use super::super::frame::Frame;
 use super::super::shown;
 use super::Place;
 use crate::batch::formats::Format;
+use crate::language::Text;
 use crate::service::State;
 use crate::service::api::batches::{Job as Watched, named, progress, saved};
-use crate::service::classes::{self, Download, Job, Pick, Whose, is_slow};
+use crate::service::classes::{self, Download, Job, Pick, Wanted, Whose, is_slow};
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use crate::service::store::Progress;
@@ -51,6 +52,8 @@ struct View {
     progress: Progress,
     /// Name and size of the file.
     made: Option<(String, String)>,
+    /// What the teacher should know of the file.
+    notes: Vec<String>,
     problem: Option<String>,
 }
 
@@ -81,8 +84,13 @@ pub(in crate::service::pages) async fn start(
         }
     };
     let language = classes::language(&state, format, None, frame.language).await?;
-    let job = state.downloads.start(&state, whose, format, language, back);
-    Ok(Redirect::to(&format!("/teacher/downloads/{}", job.id)).into_response())
+    Ok(begun(&state, whose, Wanted { format, sheet: None, language, with_pages: true }, back))
+}
+
+/// Begins to make it, and leads to its page.
+pub(super) fn begun(state: &State, whose: Whose, wanted: Wanted, back: String) -> Response {
+    let job = state.downloads.start(state, whose, wanted, back);
+    Redirect::to(&format!("/teacher/downloads/{}", job.id)).into_response()
 }
 
 fn found(state: &State, id: &str) -> Result<Arc<Job>, Problem> {
@@ -97,20 +105,22 @@ pub(in crate::service::pages) async fn page(
     frame: Frame,
 ) -> Result<Response, Problem> {
     let job = found(&state, &id)?;
-    let (made, problem) = match job.made() {
-        None => (None, None),
-        Some(Ok(made)) => (Some((made.name.clone(), size(made.bytes))), None),
-        Some(Err(problem)) => (None, Some(problem.detail.get(frame.language).to_owned())),
+    let said = |text: &Text| text.get(frame.language).replace('`', "");
+    let (made, notes, problem) = match job.made() {
+        None => (None, Vec::new(), None),
+        Some(Ok(made)) => (Some((made.name.clone(), size(made.bytes))), made.notes.iter().map(said).collect(), None),
+        Some(Err(problem)) => (None, Vec::new(), Some(said(&problem.detail))),
     };
     shown(
         View {
             place: Place::Class,
             csrf: teacher.csrf(&state),
-            format: job.format.description().get(frame.language).replace('`', ""),
+            format: said(&job.format.description()),
             back: job.back.clone(),
             address: format!("/teacher/downloads/{id}"),
             progress: job.progress(),
             made,
+            notes,
             problem,
             frame: frame.of(&state.assignment.id),
         }
@@ -145,5 +155,5 @@ pub(in crate::service::pages) async fn file(
     let job = found(&state, &id)?;
     let Some(Ok(made)) = job.made() else { return Err(Problem::not_found()) };
     let bytes = tokio::fs::read(&made.path).await.map_err(|error| Problem::internal(&error))?;
-    saved(Download { name: made.name.clone(), bytes })
+    saved(Download { name: made.name.clone(), bytes, notes: Vec::new() })
 }

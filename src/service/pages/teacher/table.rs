@@ -11,7 +11,7 @@ use serde::Deserialize;
 use std::cmp::Reverse;
 
 /// Rows of a page.
-pub(super) const PAGE: usize = 200;
+pub(super) const PAGE: usize = 50;
 
 /// What to show, as an address says it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -327,12 +327,12 @@ mod tests {
     }
 
     #[test]
-    fn two_hundred_rows_are_a_page() {
-        let people: Vec<Person> = (0..450).map(|n| person(&format!("s{n:03}"), &[])).collect();
+    fn fifty_rows_are_a_page() {
+        let people: Vec<Person> = (0..120).map(|n| person(&format!("s{n:03}"), &[])).collect();
         let page = |page: &str| shown(&people, &Filter { page: page.into(), ..Filter::default() });
-        assert_eq!((page("").len(), page("3").len()), (PAGE, 50));
-        assert_eq!((page("2")[0].as_str(), page("9")[0].as_str(), page("x")[0].as_str()), ("s200", "s400", "s000"));
-        let pager = Pager::new(450, "2", |page| format!("?page={page}"));
+        assert_eq!((page("").len(), page("3").len()), (PAGE, 20));
+        assert_eq!((page("2")[0].as_str(), page("9")[0].as_str(), page("x")[0].as_str()), ("s050", "s100", "s000"));
+        let pager = Pager::new(120, "2", |page| format!("?page={page}"));
         assert_eq!(pager.pages[1], (2, "?page=2".to_owned(), true));
         assert!(Pager::new(PAGE, "", |_| String::new()).is_one() && Pager::new(0, "", |_| String::new()).is_one());
     }
