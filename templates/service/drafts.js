@@ -82,7 +82,7 @@ const keepDrafts = (form, editor, { restored }) => {
   editor.changed(() => keep());
 
   // ---- Seeing versions, and going back ----
-  const TIME = new Intl.DateTimeFormat(document.documentElement.lang, { month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", second: "2-digit" });
+  const TIME = new Intl.DateTimeFormat(document.documentElement.lang, { month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", second: "2-digit", hourCycle: "h23" });
   const time = (version) => TIME.format(version.at);
   const tell = (text) => {
     note.querySelector("span").textContent = text;
