@@ -116,7 +116,7 @@ fn each_save_gives_a_report_and_what_it_changed() {
     let second = watching.until("Since the last save 80 → 100 / 100 (+20)");
     assert!(second.contains("#2") && second.contains("Every frame and every probe agrees"), "{second}");
     assert!(!second.contains('\x1b'), "a pipe gets no codes of a terminal");
-    watching.until("mended: specular-half-unnormalized");
+    watching.until("mended: Half vector not normalised");
     fs::write(watching.path(), "#version 410 core\nvoid main() { oops }\n").unwrap();
     watching.until("It no longer runs: 100 → 0 / 100");
     assert_eq!(watching.interrupt(), Some(1), "the last report is no right answer");

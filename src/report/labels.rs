@@ -14,6 +14,16 @@ pub(crate) fn mistake_title<'a>(assignment: &str, id: &'a str, language: Languag
     })
 }
 
+/// The name of a line of the rubric; its id where the assignment does not know it.
+pub(crate) fn rubric_label<'a>(assignment: &str, id: &'a str, language: Language) -> &'a str {
+    let lines = reference::assignment(assignment).map_or(&[][..], |assignment| &assignment.rubric);
+    let known = lines.iter().find(|line| line.id == id);
+    known.map_or(id, |line| match language {
+        Language::En => &line.label.en,
+        Language::Ja => &line.label.ja,
+    })
+}
+
 /// The words of one language.
 #[derive(Debug)]
 pub(crate) struct Labels {

@@ -25,7 +25,7 @@ fn who_gains_and_who_loses_is_told_with_the_reason() {
     place.batch("new").args(["--formats", "csv", "--compare", "old/results.jsonl"]).assert().code(1).stdout(
         predicate::str::contains("better  80 → 100")
             .and(predicate::str::contains("worse  100 → 0  Correct → Not accepted"))
-            .and(predicate::str::contains("specular  20 → 40  specular-half-unnormalized → –")),
+            .and(predicate::str::contains("Specular  20 → 40  Half vector not normalised → –")),
     );
     let changes = changes(&place, "new");
     let keys =
@@ -55,7 +55,9 @@ fn another_judgement_of_the_same_file_is_told_as_such() {
 
     place.batch("new").args(["--formats", "csv", "--compare", "old", "--lang", "ja"]).assert().code(1).stdout(
         predicate::str::contains("60 → 80")
-            .and(predicate::str::contains("unexplained → specular-half-unnormalized"))
+            .and(predicate::str::contains(
+                "鏡面反射光  0 → 20  よくある間違いに当てはまらない → 中間ベクトルが正規化されていない",
+            ))
             .and(predicate::str::contains("0.0.9"))
             .and(predicate::str::contains("別のファイル").not()),
     );

@@ -4,6 +4,7 @@ use super::{BAD, DIM, GOOD, LISTED, ODD, PARTIAL, Writer, number, paint};
 use crate::batch::changes::{Change, Changes, Earned, Grade, LineChange};
 use crate::batch::class::Student;
 use crate::language::Language;
+use crate::report::labels::{mistake_title, rubric_label};
 use crate::report::wrap::{columns, pad, plain};
 use anstyle::Style;
 
@@ -32,7 +33,7 @@ impl Writer {
             (&changes.unclear, "!", ODD),
         ] {
             for change in list.iter().take(LISTED) {
-                self.change(change, &paint(style, sign));
+                self.change(&changes.after.assignment, change, &paint(style, sign));
             }
             self.more(list.len());
         }
@@ -40,7 +41,7 @@ impl Writer {
         self.students(self.text("No longer there", "いなくなった学生"), &changes.gone);
     }
 
-    fn change(&mut self, change: &Change, sign: &str) {
+    fn change(&mut self, assignment: &str, change: &Change, sign: &str) {
         let (before, after) = (&change.before, &change.after);
         let name = plain(&change.student.name).replace('\n', " ");
         let points = |grade: &Grade| grade.score.map_or("–".into(), number);
@@ -53,9 +54,10 @@ impl Writer {
             line += &paint(DIM, self.text("  (another file)", "  (別のファイル)"));
         }
         self.line(&line);
-        let column = change.rubric.iter().map(|line| columns(&line.id)).max().unwrap_or(0);
-        for line in &change.rubric {
-            self.line(&format!("      {}", paint(DIM, &plain(&rubric_line(line, column)))));
+        let lines: Vec<_> = change.rubric.iter().map(|line| self.rubric_line(assignment, line)).collect();
+        let column = lines.iter().map(|(label, _)| columns(label)).max().unwrap_or(0);
+        for (label, change) in lines {
+            self.line(&format!("      {}", paint(DIM, &format!("{}  {change}", pad(&label, column)))));
         }
     }
 
@@ -67,15 +69,17 @@ impl Writer {
         self.paragraph(2, Style::new(), &format!("{what} ({}): {}", students.len(), names.join(", ")));
         self.more(students.len());
     }
-}
 
-/// `specular  20 → 40  specular-phong → –`
-fn rubric_line(line: &LineChange, column: usize) -> String {
-    let points = |earned: &Option<Earned>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
-    let mistake = |earned: &Option<Earned>| {
-        earned.as_ref().and_then(|earned| earned.mistake.clone()).unwrap_or_else(|| "–".into())
-    };
-    let (before, after) = (mistake(&line.before), mistake(&line.after));
-    let why = if before == after { before } else { format!("{before} → {after}") };
-    format!("{}  {} → {}  {why}", pad(&line.id, column), points(&line.before), points(&line.after))
+    /// `Specular` and `20 → 40  Phong's reflection vector → –`: a line of the rubric, and what changed in it.
+    fn rubric_line(&self, assignment: &str, line: &LineChange) -> (String, String) {
+        let points = |earned: &Option<Earned>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
+        let mistake = |earned: &Option<Earned>| {
+            let id = earned.as_ref().and_then(|earned| earned.mistake.as_deref());
+            id.map_or("–".into(), |id| plain(mistake_title(assignment, id, self.language)))
+        };
+        let (before, after) = (mistake(&line.before), mistake(&line.after));
+        let why = if before == after { before } else { format!("{before} → {after}") };
+        let label = plain(rubric_label(assignment, &line.id, self.language));
+        (label, format!("{} → {}  {why}", points(&line.before), points(&line.after)))
+    }
 }

@@ -1,6 +1,7 @@
 //! What a save changed.
 
-use crate::language::Text;
+use crate::language::{Language, Text};
+use crate::report::labels::mistake_title;
 use crate::report::{Report, RubricLine, Verdict};
 
 /// What is different in `after`: the score, the lines of the rubric, the mistakes.
@@ -15,16 +16,16 @@ pub(super) fn between(before: &Report, after: &Report) -> Text {
             ja.push(format!("{} {points}", line.label.ja));
         }
     }
-    let missing_in = |report: &Report, other: &Report| {
-        let missing = other.mistakes.iter().filter(|mistake| !report.mistakes.contains(mistake));
-        missing.cloned().collect::<Vec<_>>().join(", ")
-    };
-    for (mistakes, in_english, in_japanese) in
-        [(missing_in(after, before), "mended", "解消"), (missing_in(before, after), "new", "新規")]
+    for (report, other, in_english, in_japanese) in [(after, before, "mended", "解消"), (before, after, "new", "新規")]
     {
-        if !mistakes.is_empty() {
-            en.push(format!("{in_english}: {mistakes}"));
-            ja.push(format!("{in_japanese}: {mistakes}"));
+        let missing: Vec<_> = other.mistakes.iter().filter(|mistake| !report.mistakes.contains(mistake)).collect();
+        let titled = |language| {
+            let titles = missing.iter().map(|id| mistake_title(&other.assignment, id, language));
+            titles.collect::<Vec<_>>().join(", ")
+        };
+        if !missing.is_empty() {
+            en.push(format!("{in_english}: {}", titled(Language::En)));
+            ja.push(format!("{in_japanese}: {}", titled(Language::Ja)));
         }
     }
     Text::new(en.join(" · "), ja.join(" · "))
@@ -89,11 +90,16 @@ mod tests {
         let change = between(&before, &after);
         assert_eq!(
             change.en,
-            "Since the last save 30.5 → 50 / 50 (+19.5) · Specular 20.5 → 40 · mended: specular-phong"
+            "Since the last save 30.5 → 50 / 50 (+19.5) · Specular 20.5 → 40 · mended: Phong's reflection vector instead \
+             of Blinn's H"
         );
-        assert_eq!(change.ja, "前回の保存から 30.5 → 50 / 50 (+19.5) · 鏡面反射光 20.5 → 40 · 解消: specular-phong");
+        assert!(
+            change.ja.starts_with(
+                "前回の保存から 30.5 → 50 / 50 (+19.5) · 鏡面反射光 20.5 → 40 · 解消: 中間ベクトルではなく"
+            )
+        );
         let back = between(&after, &before).en;
-        assert_eq!(back, "Since the last save 50 → 30.5 / 50 (−19.5) · Specular 40 → 20.5 · new: specular-phong");
+        assert!(back.starts_with("Since the last save 50 → 30.5 / 50 (−19.5) · Specular 40 → 20.5 · new: Phong's"));
     }
 
     #[test]

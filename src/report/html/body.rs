@@ -6,7 +6,7 @@ use super::rich::{Piece, pieces};
 use super::{Lines, Part};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
-use crate::report::labels::Labels;
+use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
 use crate::report::{Advice, Equation, Hints, Report, RubricLine, Verdict};
 use askama::Template;
@@ -73,21 +73,25 @@ struct Rubric {
     label: String,
     points: String,
     max_points: String,
-    mistake: Option<String>,
+    /// Title and id.
+    mistake: Option<(String, String)>,
     message: Vec<Piece>,
     line: Option<u32>,
     place: String,
 }
 
 impl Rubric {
-    fn of(line: &RubricLine, shows_mistake: bool, labels: &Labels, language: Language) -> Self {
+    fn of(report: &Report, line: &RubricLine, language: Language) -> Self {
+        let labels = Labels::of(language);
+        let shown = line.mistake.as_ref().filter(|_| report.hints > Hints::None);
+        let titled = |id: &String| (mistake_title(&report.assignment, id, language).to_owned(), id.clone());
         Self {
             id: line.id.clone(),
             mark: Mark::of(line.points, line.max_points),
             label: line.label.get(language).to_owned(),
             points: number(line.points),
             max_points: number(line.max_points),
-            mistake: line.mistake.clone().filter(|_| shows_mistake),
+            mistake: shown.map(titled),
             message: pieces(line.message.get(language)),
             line: line.line,
             place: line.line.map(|line| labels.line(line)).unwrap_or_default(),
@@ -241,9 +245,7 @@ impl<'a> Body<'a> {
         let labels = Labels::of(language);
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let gallery = part.gallery.filter(|_| is_drawn);
-        let shows_mistakes = report.hints > Hints::None;
-        let rubric = report.rubric.iter().map(|line| Rubric::of(line, shows_mistakes, labels, language));
-        let rubric: Vec<Rubric> = rubric.collect();
+        let rubric: Vec<Rubric> = report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect();
         let messages = report.diagnostics.iter().map(|d| Message::of(d, labels, language));
         let messages: Vec<Message> = messages.collect();
         let agree = report.frames.iter().filter(|frame| frame.agrees()).count();

@@ -1,10 +1,11 @@
 //! The report for a terminal.
 
+mod rubric;
 mod strip;
 
 use super::labels::Labels;
 use super::wrap::{columns, pad, plain, wrap};
-use super::{Report, RubricLine, Verdict};
+use super::{Report, Verdict};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use anstyle::{AnsiColor, Style};
@@ -25,8 +26,6 @@ pub struct Options<'a> {
 /// Narrowest terminal that the tables are laid out for, and the widest line that reads well.
 const NARROWEST: usize = 40;
 const WIDEST: usize = 100;
-/// Columns of a bar of the rubric.
-const BAR: usize = 10;
 
 const BOLD: Style = Style::new().bold();
 const DIM: Style = Style::new().dimmed();
@@ -112,12 +111,6 @@ impl Writer {
         styled
     }
 
-    fn bar(&self, share: f64, width: usize, style: Style) -> String {
-        let filled = filled(share, width);
-        let rest = self.paint(DIM, &"─".repeat(width - filled));
-        format!("{}{rest}", self.paint(style, &"━".repeat(filled)))
-    }
-
     fn head(&mut self, report: &Report) {
         let (mark, style) = verdict_mark(report);
         let verdict = self.labels.verdict(report.verdict);
@@ -136,46 +129,6 @@ impl Writer {
         let score = self.paint(BOLD, &score);
         self.line(&format!("{bar}  {score}"));
         self.paragraph(0, self.labels.headline(report.verdict));
-    }
-
-    fn rubric(&mut self, report: &Report) {
-        let labels = report.rubric.iter().map(|line| columns(line.label.get(self.language)));
-        let column = labels.max().unwrap_or(0);
-        let full = report.verdict == Verdict::Correct;
-        self.gap();
-        for line in &report.rubric {
-            self.rubric_line(line, column);
-            if !full {
-                self.paragraph(2, line.message.get(self.language));
-                self.gap();
-            }
-        }
-        if full {
-            self.gap();
-        }
-    }
-
-    fn rubric_line(&mut self, line: &RubricLine, column: usize) {
-        let (mark, style) = mark(line.points, line.max_points);
-        let label = pad(&plain(line.label.get(self.language)), column);
-        let points = format!("{} / {}", number(line.points), number(line.max_points));
-        let text = format!(
-            "{} {}  {}  {}",
-            self.paint(style, mark),
-            self.paint(BOLD, &label),
-            self.bar(line.points / line.max_points, BAR, style),
-            pad(&points, 7),
-        );
-        let used = 2 + column + 2 + BAR + 2 + columns(&points).max(7) + 2;
-        let mistake = line.mistake.as_deref().map(plain).unwrap_or_default();
-        if used + columns(&mistake) <= self.width {
-            let mistake = self.paint(DIM, &mistake);
-            self.line(&format!("{text}  {mistake}"));
-        } else {
-            self.line(&text);
-            let mistake = self.paint(DIM, &mistake);
-            self.line(&format!("  {mistake}"));
-        }
     }
 
     fn advice(&mut self, report: &Report) {
@@ -269,23 +222,6 @@ impl Writer {
             let line = self.paint(DIM, &line);
             self.line(&line);
         }
-    }
-}
-
-/// Cells of a bar: full only for a full share, empty only for none.
-fn filled(share: f64, width: usize) -> usize {
-    match share {
-        share if share.is_nan() || share <= 0.0 => 0,
-        share if share >= 1.0 => width,
-        share => ((share * width as f64).round() as usize).clamp(1, width - 1),
-    }
-}
-
-fn mark(points: f64, max_points: f64) -> (&'static str, Style) {
-    match points {
-        points if points >= max_points => ("✓", GOOD),
-        points if points > 0.0 => ("△", PARTIAL),
-        _ => ("✗", BAD),
     }
 }
 

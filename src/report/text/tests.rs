@@ -1,3 +1,4 @@
+use super::rubric::filled;
 use super::*;
 use crate::report::samples;
 
@@ -34,7 +35,8 @@ fn wrong_says_what_where_and_how_much() {
                 assert!(text.contains(&unwrapped(line.label.get(language))), "{text}");
             }
             assert!(text.contains("80/100") && text.contains("20/40"), "{text}");
-            assert!(text.contains("specular-half-unnormalized"), "{text}");
+            let title = ["Half vector not normalised", "中間ベクトルが正規化されていない"];
+            assert!(text.contains(&unwrapped(title[usize::from(language == Language::Ja)])), "{text}");
             assert!(text.contains("seed20240613") || text.contains("シード20240613"), "{text}");
             assert!(text.contains("412ms"), "{text}");
         }

@@ -4,7 +4,7 @@ use crate::batch::class::Class;
 use crate::batch::formats::untrusted::one_line;
 use crate::diagnostic::Stage;
 use crate::language::{Language, Text};
-use crate::report::labels::Labels;
+use crate::report::labels::{Labels, mistake_title};
 use reference::mistake::Mistake;
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -44,7 +44,8 @@ impl Rules {
             rules.add(id, "Stage", "error", texts(short, full.get(language), help.get(language)));
         }
         for mistake in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.mistakes) {
-            rules.add(&mistake.id, "Mistake", "warning", described(mistake, language));
+            let title = mistake_title(&class.assignment, &mistake.id, language);
+            rules.add(&mistake.id, "Mistake", "warning", described(title, mistake, language));
         }
         for advice in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.advice) {
             let text = advice.message.fill(&[]);
@@ -113,13 +114,15 @@ fn pascal_case(id: &str) -> String {
     id.split(|c: char| !c.is_ascii_alphanumeric()).map(capital).collect()
 }
 
-/// What the assignment says of the mistake, with the places left out that only a file can fill in.
-fn described(mistake: &Mistake, language: Language) -> Value {
+/// The title of the mistake, and what the assignment says of it, with the places left out that only a file can fill in.
+fn described(title: &str, mistake: &Mistake, language: Language) -> Value {
     let said = |text: &reference::Text| {
         let text = text.fill(&[]);
         Text::new(text.en, text.ja).get(language).to_owned()
     };
-    texts(&said(&mistake.seen), &said(&mistake.equation), &said(&mistake.look))
+    let between = if language == Language::En { " " } else { "" };
+    let full = [said(&mistake.seen), said(&mistake.equation)].join(between);
+    texts(title, full.trim(), &said(&mistake.look))
 }
 
 /// The three texts that GitHub's code scanning wants of every rule; where there is no fuller one, the short one.

@@ -89,6 +89,7 @@ fn the_rules_tell_every_known_mistake_without_open_places() {
     assert!(rules.iter().any(|rule| rule["id"] == "specular-phong" && rule["name"] == "SpecularPhongMistake"));
     for mistake in &reference::assignment("ggsample06").unwrap().mistakes {
         let rule = rules.iter().find(|rule| rule["id"] == mistake.id.as_str()).expect(&mistake.id);
+        assert_eq!(rule["shortDescription"]["text"], mistake.title.en.as_str());
         let text = format!("{rule}");
         assert!(!text.contains("{line}") && !text.contains('⟨'), "{text}");
     }
