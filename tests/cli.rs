@@ -315,7 +315,7 @@ fn without_hints_no_view_names_a_mistake_or_a_line() {
         assert!(!said.contains("on line ") && !said.contains("at line "), "{format}: {said}");
         // These three have points and words, and name no mistake; what people read has the title.
         let is_without = ["classroom-legacy", "vpl", "coderunner"].contains(&format);
-        let name = if format == "text" { TITLE } else { "specular-half-unnormalized" };
+        let name = if ["text", "github"].contains(&format) { TITLE } else { "specular-half-unnormalized" };
         assert!(is_without || run("full").contains(name), "{format}");
     }
     let report = json(&half, &["--hints", "none"]);

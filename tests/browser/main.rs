@@ -7,6 +7,7 @@
 mod chromium;
 mod drafts;
 mod editor;
+mod offline;
 mod staying;
 mod teacher;
 
@@ -69,6 +70,13 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     browser.open(&server.at("/")).await;
     assert_eq!(browser.text("h1").await, "Gouraud shading");
     browser.check("student-first").await;
+    // One line holds all that can be done with the text.
+    for language in ["ja", "en"] {
+        browser.open(&server.at(&format!("/?lang={language}"))).await;
+        let middles = "[...document.querySelectorAll('.bar-of-tools :is(.pick, button.quiet, .primary)')] \
+                       .map(e => e.getBoundingClientRect()).map(box => (box.top + box.bottom) / 2)";
+        browser.until(&format!("Math.max(...{middles}) - Math.min(...{middles}) < 4 && {middles}.length === 4")).await;
+    }
 
     choose(&browser, &sample(WRONG), "partial").await;
     assert_eq!(browser.text(".result .word").await, "Not right yet");
@@ -80,6 +88,9 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     assert_eq!(browser.js("return String(getSelection())").await, "  vec3 h = (l + v) / 2.0;      // 中間ベクトル");
     browser.until("[...document.querySelectorAll('.report img')].every(i => i.complete && i.naturalWidth > 0)").await;
     browser.check("student-wrong-draft").await;
+    browser.size(1265, 1200).await;
+    browser.window("readme-student").await;
+    browser.size(1280, 900).await;
     assert!(!browser.has(".attempts").await, "a draft is no attempt");
 
     hand_in(&browser).await;

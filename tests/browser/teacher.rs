@@ -146,6 +146,14 @@ async fn a_teacher_walks_through_the_class() {
     browser.check("phone-teacher-ja").await;
     browser.open(&server.at("/teacher/settings")).await;
     browser.check("phone-settings-ja").await;
+    browser.open(&server.at("/teacher/batches")).await;
+    browser.check("phone-batches-ja").await;
+    browser.click(".people tbody a").await;
+    browser.until("document.querySelector('.downloads')").await;
+    // Of a student, who it is and the points are in sight without scrolling sideways.
+    let right = "document.querySelector('.people tbody td.number').getBoundingClientRect().right";
+    browser.until(&format!("{right} <= document.documentElement.clientWidth")).await;
+    browser.check("phone-batch-ja").await;
 
     // A student opens the course link, gives a number in full-width letters, and is known by it; a slip is told.
     let link = browser.js("return document.querySelector('.link a').href").await;

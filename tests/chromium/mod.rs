@@ -246,7 +246,16 @@ impl Browser {
         let metrics = self.devtools("Page.getLayoutMetrics", json!({})).await;
         let size = &metrics["cssContentSize"];
         let clip = json!({ "x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1 });
-        let options = json!({ "format": "png", "captureBeyondViewport": true, "clip": clip });
+        self.picture(name, json!({ "format": "png", "captureBeyondViewport": true, "clip": clip })).await;
+    }
+
+    /// The same of what the window shows of the page.
+    pub async fn window(&self, name: &str) {
+        self.drawn().await;
+        self.picture(name, json!({ "format": "png" })).await;
+    }
+
+    async fn picture(&self, name: &str, options: Value) {
         let picture = self.devtools("Page.captureScreenshot", options).await;
         let bytes = base64::Engine::decode(
             &base64::engine::general_purpose::STANDARD,

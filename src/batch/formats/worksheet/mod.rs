@@ -249,7 +249,8 @@ fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
 
 /// A row as a teacher finds it again.
 fn label(person: &Person) -> String {
-    let group = person.group.as_ref().map(|group| format!(" ({group})")).unwrap_or_default();
+    let group = person.group.as_ref().filter(|group| !group.is_empty());
+    let group = group.map(|group| format!(" ({group})")).unwrap_or_default();
     one_line(&format!("{}{group}", person.identifier))
 }
 
