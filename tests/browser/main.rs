@@ -89,6 +89,7 @@ async fn a_student_uploads_right_wrong_broken_and_hostile_files() {
     browser.until("[...document.querySelectorAll('.report img')].every(i => i.complete && i.naturalWidth > 0)").await;
     browser.check("student-wrong-draft").await;
     browser.size(1265, 1200).await;
+    browser.js("getSelection().removeAllRanges(); document.activeElement.blur()").await;
     browser.window("readme-student").await;
     browser.size(1280, 900).await;
     assert!(!browser.has(".attempts").await, "a draft is no attempt");

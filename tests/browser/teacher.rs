@@ -144,8 +144,6 @@ async fn a_teacher_walks_through_the_class() {
     browser.size(320, 640).await;
     browser.open(&server.at("/teacher?lang=ja")).await;
     browser.check("phone-teacher-ja").await;
-    browser.open(&server.at("/teacher/settings")).await;
-    browser.check("phone-settings-ja").await;
     browser.open(&server.at("/teacher/batches")).await;
     browser.check("phone-batches-ja").await;
     browser.click(".people tbody a").await;
@@ -154,6 +152,8 @@ async fn a_teacher_walks_through_the_class() {
     let right = "document.querySelector('.people tbody td.number').getBoundingClientRect().right";
     browser.until(&format!("{right} <= document.documentElement.clientWidth")).await;
     browser.check("phone-batch-ja").await;
+    browser.open(&server.at("/teacher/settings")).await;
+    browser.check("phone-settings-ja").await;
 
     // A student opens the course link, gives a number in full-width letters, and is known by it; a slip is told.
     let link = browser.js("return document.querySelector('.link a').href").await;
