@@ -77,7 +77,9 @@ fn every_message_is_there_in_the_chosen_language() {
             let hint = diagnostic.hint.as_ref().expect("a hint").get(language);
             assert!(text.contains(&hint.replace('`', "")));
         }
-        assert!(text.contains("specular-half-unnormalized") && text.contains("20240613"));
+        let title =
+            ["Half vector not normalised", "中間ベクトルが正規化されていない"][usize::from(language == Language::Ja)];
+        assert!(text.contains(title) && text.contains("20240613"));
     }
 }
 
