@@ -12,12 +12,10 @@ impl Browser {
         self.picture(name, json!({ "format": "png", "captureBeyondViewport": true, "clip": clip })).await;
     }
 
-    /// The same of what the window shows of the page, without its scroll bars.
+    /// The same of what the window shows of the page.
     pub async fn window(&self, name: &str) {
-        self.devtools("Emulation.setScrollbarsHidden", json!({ "hidden": true })).await;
         self.drawn().await;
         self.picture(name, json!({ "format": "png" })).await;
-        self.devtools("Emulation.setScrollbarsHidden", json!({ "hidden": false })).await;
     }
 
     async fn picture(&self, name: &str, options: Value) {
