@@ -16,6 +16,8 @@ use crate::batch::class::{Class, Entry};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::report::Report;
+use crate::report::labels::mistake_title;
 use crate::{excerpt, report, source};
 
 /// What ends a stretch of text in which the runner obeys nothing. Nobody who writes that text can guess it.
@@ -55,7 +57,11 @@ pub fn log(class: &Class, token: &Token) -> String {
 fn line(entry: &Entry, class: &Class) -> String {
     let standing = Standing::of(&entry.outcome);
     let score = entry.report().map(|report| format!(" {}", wording::points(report.score, report.max_score)));
-    let mistakes = entry.report().map(|report| report.mistakes.join(" ")).unwrap_or_default();
+    let titles = |report: &Report| {
+        let titles = report.mistakes.iter().map(|id| mistake_title(&report.assignment, id, class.language));
+        titles.collect::<Vec<_>>().join(" · ")
+    };
+    let mistakes = entry.report().map(titles).unwrap_or_default();
     let detail = match standing {
         Standing::NotGraded => wording::explanation(entry, class.language),
         Standing::Fault => wording::fault(entry, class.language).unwrap_or_default(),
@@ -132,6 +138,15 @@ pub(super) mod tests {
         assert_ne!(a.0, b.0);
         // 128 bits are 32 hexadecimal digits.
         assert!(a.0.len() == 32 && a.0.bytes().all(|byte| byte.is_ascii_hexdigit()));
+    }
+
+    #[test]
+    fn each_of_several_students_has_a_line_with_the_mistakes_by_title() {
+        let entries: Vec<_> =
+            (0..2).map(|number| nasty::entry(number, Outcome::Graded(Box::new(samples::wrong())))).collect();
+        let log = log(&Class { entries, ..nasty::class() }, &Token::random().unwrap());
+        let lines = log.lines().filter(|line| line.ends_with("80 / 100 Half vector not normalised"));
+        assert_eq!(lines.count(), 2, "{log}");
     }
 
     #[test]
