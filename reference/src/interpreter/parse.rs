@@ -2,6 +2,7 @@
 
 mod declaration;
 mod expression;
+mod literal;
 mod statement;
 
 use super::Refusal;

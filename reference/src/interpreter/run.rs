@@ -1,6 +1,7 @@
 //! Runs a compiled program for many samples at once.
 
 mod bits;
+mod indexed;
 mod kernel;
 mod lookup;
 mod machine;
