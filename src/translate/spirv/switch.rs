@@ -36,15 +36,15 @@ fn separate(code: &mut Code, at: usize) -> Result<(), Unworkable> {
     let merge = code.functions[..at].last().filter(|i| i.opcode == op::SELECTION_MERGE);
     let merge = *merge.and_then(|merge| merge.operands.first()).ok_or(Unworkable::Damaged)?;
     let cases = cases(&code.functions, at, &switch, merge).ok_or(Unworkable::Damaged)?;
-    let labels: HashSet<u32> = cases.iter().map(|case| case.label).collect();
-    // From the last case to the first: what a case runs into is whole by then.
+    // What a case runs into is whole by then.
     let mut whole: HashMap<u32, Vec<Instruction>> = HashMap::new();
-    for case in cases.iter().rev() {
+    for index in in_order(&code.functions, &cases) {
+        let case = &cases[index];
         let mut blocks = Vec::new();
         for position in case.blocks.clone() {
             let mut instruction = code.functions[position].clone();
             let next = match (instruction.opcode, instruction.operands.first()) {
-                (op::BRANCH, Some(target)) if labels.contains(target) => whole.get(target),
+                (op::BRANCH, Some(target)) => whole.get(target),
                 _ => None,
             };
             let Some(next) = next else {
@@ -67,7 +67,30 @@ fn separate(code: &mut Code, at: usize) -> Result<(), Unworkable> {
     Ok(())
 }
 
-/// The cases of the switch at `at` in the order of the text, which is that of their blocks.
+/// The numbers of the cases, each behind the one that it runs into, if it does: in the order of the blocks, `default` stands
+/// before all others, wherever it stands in the text.
+fn in_order(functions: &[Instruction], cases: &[Case]) -> Vec<usize> {
+    let numbers: HashMap<u32, usize> = cases.iter().enumerate().map(|(number, case)| (case.label, number)).collect();
+    let next = |number: usize| {
+        let branches = functions[cases[number].blocks.clone()].iter().filter(|i| i.opcode == op::BRANCH);
+        branches.filter_map(|i| numbers.get(i.operands.first()?).copied()).next()
+    };
+    let mut seen = vec![false; cases.len()];
+    let mut order = Vec::with_capacity(cases.len());
+    for first in 0..cases.len() {
+        let unseen = |number: usize, seen: &mut Vec<bool>| !std::mem::replace(&mut seen[number], true);
+        let mut way = Vec::new();
+        let mut at = Some(first);
+        while let Some(number) = at.filter(|&number| unseen(number, &mut seen)) {
+            way.push(number);
+            at = next(number);
+        }
+        order.extend(way.into_iter().rev());
+    }
+    order
+}
+
+/// The cases of the switch at `at` in the order of their blocks.
 fn cases(functions: &[Instruction], at: usize, switch: &[u32], merge: u32) -> Option<Vec<Case>> {
     let targets: HashSet<u32> =
         std::iter::once(switch[1]).chain(switch[2..].chunks_exact(2).map(|pair| pair[1])).collect();
