@@ -101,8 +101,10 @@ pub enum Operation {
     FindHighest,
     /// The upper 32 bits of the product.
     MultiplyHigh,
-    /// To the class, from floating point.
+    /// To the class, from floating point of 32 bits.
     Truncate,
+    /// To the class, from floating point of 64 bits.
+    TruncateDouble,
     /// To the class, from an integer of the other sign.
     Reinterpret,
     /// To floating point of 32 bits, from an integer or 64 bits.

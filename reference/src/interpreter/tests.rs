@@ -88,6 +88,26 @@ fn rounding_to_single_precision_can_be_asked_for() {
     };
     assert_eq!(run(Precision::Exact), [1.000_000_001]);
     assert_eq!(run(Precision::Single), [1.0]);
+    let number = |expression: &str, precision| {
+        let text = format!("in float x; out float y; void main() {{ float one = x; y = {expression}; }}");
+        let program = Program::compile(&text, Stage::Vertex).expect("valid");
+        let run = program.run(1).input("x", &[&[1.0]]).expect("x").precision(precision);
+        run.outputs().expect("an end").get("y").expect("y").sample(0)[0]
+    };
+    for way in 0..4 {
+        // 2^-133 has no leading 1 as a float, and may be 0 for a driver.
+        for small in ["one * 1e-30 * 1e-10", "intBitsToFloat(int(one) << 16)", "one * 1e-40"] {
+            let small = format!("{small} * 1e38 * 100.0");
+            assert!(number(&small, Precision::Exact) > 0.5, "{small}");
+            assert_eq!(number(&small, Precision::Noisy(way)), 0.0, "{small}");
+        }
+        // A large angle, and a large whole number that need not be rounded, are a driver's own.
+        let moved =
+            |expression| (number(expression, Precision::Noisy(way)) - number(expression, Precision::Exact)).abs();
+        assert!(moved("sin(one * 67108864.0)") > 1e-3);
+        assert_eq!(moved("float(int(float(int(one) * 16777217)) - 16777216)"), 1.0);
+        assert_eq!(moved("float(int(float(int(one) * 1000)))"), 0.0);
+    }
     // What is no float becomes one that is near.
     for way in 0..4 {
         let noisy = run(Precision::Noisy(way))[0];

@@ -174,18 +174,21 @@ impl Builder {
                 let zero = self.whole(0.0);
                 self.emit(Operation::NotEqual, class(from), &[slot, zero])
             }
-            (Scalar::Int | Scalar::Uint | Scalar::Double, Scalar::Float) => self.narrow(slot),
+            (Scalar::Int | Scalar::Uint | Scalar::Double, Scalar::Float) | (Scalar::Float, Scalar::Double) => {
+                self.narrow(slot)
+            }
             (Scalar::Bool, Scalar::Float) => match self.known(slot) {
                 Some(value) => self.float(value),
                 None => slot,
             },
             (Scalar::Bool, _) | (_, Scalar::Double) => slot,
-            (Scalar::Float | Scalar::Double, _) => self.emit(Operation::Truncate, class(to), &[slot]),
+            (Scalar::Float, _) => self.emit(Operation::Truncate, class(to), &[slot]),
+            (Scalar::Double, _) => self.emit(Operation::TruncateDouble, class(to), &[slot]),
             _ => self.emit(Operation::Reinterpret, class(to), &[slot]),
         }
     }
 
-    /// Of a whole number, the nearest float: that is exact for all that are not large, and then needs no instruction.
+    /// The nearest float: what a `float` becomes a `double` from, and what any other number becomes as a `float`.
     fn narrow(&mut self, slot: Slot) -> Slot {
         match self.known(slot) {
             Some(value) => self.float(f64::from(value as f32)),

@@ -10,8 +10,8 @@ pub enum Precision {
     Exact,
     /// After each operation to 32 bits, as a driver does that follows IEEE 754.
     Single,
-    /// To a float near by where the result is none, in one of four ways: a value that this moves hangs on how a driver
-    /// rounds, or approximates a sine.
+    /// To a float near by where the result is none, in one of four ways, and to 0 below the least normal float, as a
+    /// driver may: a value that this moves hangs on how a driver rounds, or approximates a sine.
     Noisy(u8),
 }
 
@@ -23,6 +23,16 @@ const OVERFLOW: f64 = 340_282_356_779_733_660_000_000_000_000_000_000_000.0;
 
 trait Rounding {
     fn round(x: f64) -> f64;
+
+    /// What an operation gives that does not compute, as the bits of an integer taken for a float.
+    fn given(x: f64) -> f64 {
+        x
+    }
+
+    /// An angle as a driver has it that takes whole turns off it in its own way.
+    fn angle(x: f64) -> f64 {
+        x
+    }
 }
 
 struct Exact;
@@ -48,6 +58,9 @@ impl<const WAY: u8> Rounding for Noisy<WAY> {
     #[inline(always)]
     fn round(x: f64) -> f64 {
         let near = f64::from(x as f32);
+        if is_subnormal(x) {
+            return 0.0_f64.copysign(x);
+        }
         // Drivers compute exactly what is a float: small whole numbers stay whole.
         if near == x {
             return x;
@@ -57,6 +70,22 @@ impl<const WAY: u8> Rounding for Noisy<WAY> {
         let noise = NOISE * f64::from(1 + WAY);
         f64::from((x * (1.0 + if is_up { noise } else { -noise })) as f32)
     }
+
+    #[inline(always)]
+    fn given(x: f64) -> f64 {
+        if is_subnormal(x) { 0.0_f64.copysign(x) } else { x }
+    }
+
+    #[inline(always)]
+    fn angle(x: f64) -> f64 {
+        x * (1.0 + NOISE * f64::from(1 + WAY))
+    }
+}
+
+/// Whether a float of this size has no leading 1, which many drivers take for 0.
+#[inline(always)]
+pub fn is_subnormal(x: f64) -> bool {
+    x.abs() < f64::from(f32::MIN_POSITIVE)
 }
 
 impl Rounding for Double {
@@ -69,6 +98,13 @@ impl Rounding for Double {
 /// Does one operation for all lanes of the columns, which have one length.
 pub fn run(operation: Operation, class: Class, precision: Precision, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
     match (class, precision) {
+        // A driver need not round a large whole number to a float before it is an integer again.
+        (Class::Int | Class::Uint, Precision::Noisy(_)) if operation == Operation::Truncate => {
+            run(Operation::TruncateDouble, class, Precision::Exact, to, [a, b, c]);
+        }
+        (Class::Float, Precision::Noisy(_)) if operation == Operation::Narrow => {
+            each1(to, a, |a| if a.trunc() == a { a } else { f64::from(a as f32) });
+        }
         (Class::Int, _) => integer(operation, to, [a, b, c], |x| f64::from(x as i32)),
         (Class::Uint, _) => integer(operation, to, [a, b, c], |x| f64::from(x as u32)),
         (Class::Double, _) => floating::<Double>(operation, to, [a, b, c]),
@@ -165,9 +201,9 @@ fn floating<R: Rounding>(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64
         Operation::Log => one(to, f64::ln),
         Operation::Exp2 => one(to, f64::exp2),
         Operation::Log2 => one(to, f64::log2),
-        Operation::Sin => one(to, f64::sin),
-        Operation::Cos => one(to, f64::cos),
-        Operation::Tan => one(to, f64::tan),
+        Operation::Sin => one(to, |a| R::angle(a).sin()),
+        Operation::Cos => one(to, |a| R::angle(a).cos()),
+        Operation::Tan => one(to, |a| R::angle(a).tan()),
         Operation::Asin => one(to, f64::asin),
         Operation::Acos => one(to, f64::acos),
         Operation::Atan => one(to, f64::atan),
@@ -181,8 +217,8 @@ fn floating<R: Rounding>(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64
         Operation::LoadExponent => each2(to, a, b, |a, b| R::round(bits::scaled(a, b))),
         Operation::Significand => each1(to, a, |a| bits::split(a).0),
         Operation::Exponent => each1(to, a, |a| bits::split(a).1),
-        Operation::Narrow => each1(to, a, |a| f64::from(a as f32)),
-        Operation::BitsFloat => each1(to, a, |a| f64::from(f32::from_bits(a as i64 as u32))),
+        Operation::Narrow => each1(to, a, |a| R::given(f64::from(a as f32))),
+        Operation::BitsFloat => each1(to, a, |a| R::given(f64::from(f32::from_bits(a as i64 as u32)))),
         Operation::BitsHalf => each1(to, a, |a| bits::of_half(a as i64 as u16)),
         Operation::BitsDouble => {
             each2(to, a, b, |low, high| f64::from_bits(u64::from(low as u32) | u64::from(high as u32) << 32));
@@ -227,6 +263,7 @@ fn integer(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3], wrap: i
         }),
         // A value that the float of 32 bits would round to a whole number is that number.
         Operation::Truncate => each1(to, a, |a| wrap(f64::from(a as f32).trunc() as i64)),
+        Operation::TruncateDouble => each1(to, a, |a| wrap(a.trunc() as i64)),
         Operation::Reinterpret => each1(to, a, |a| wrap(a as i64)),
         Operation::FloatBits => each1(to, a, |a| wrap(i64::from((a as f32).to_bits()))),
         Operation::HalfBits => each1(to, a, |a| wrap(i64::from(bits::half(a as f32)))),

@@ -36,7 +36,9 @@ impl Memory {
         let column = |constant: &Option<Constant>| {
             let value = match constant {
                 Some(constant) if constant.is_float && precision != Precision::Exact => {
-                    f64::from(constant.value as f32)
+                    let value = f64::from(constant.value as f32);
+                    let is_zero = matches!(precision, Precision::Noisy(_)) && kernel::is_subnormal(value);
+                    if is_zero { 0.0 } else { value }
                 }
                 Some(constant) => constant.value,
                 None => 0.0,

@@ -18,7 +18,8 @@ pub enum Undefined {
     Power,
     /// A function outside of its domain, as the root of a negative number.
     Domain,
-    /// An integer is divided by zero, or the least by −1.
+    /// A division by zero, or of the least integer by −1. Of floats as well: “treatment of conditions such as divide by 0
+    /// may lead to an unspecified result” (GLSL 4.10, section 4.1.4), and drivers have lost the sign of the infinity.
     Division,
     /// `%` of a negative integer.
     Remainder,
@@ -49,7 +50,7 @@ impl fmt::Display for Undefined {
             Self::Index => "an index is out of range",
             Self::Power => "pow of a negative base, or of 0 and an exponent that is not positive",
             Self::Domain => "a function is called outside of its domain",
-            Self::Division => "an integer is divided by zero",
+            Self::Division => "a division by zero",
             Self::Remainder => "the remainder of a negative integer",
             Self::Shift => "a shift by less than 0 or more than 31 bits",
             Self::Bitfield => "a field of bits that is not within 32",
@@ -73,12 +74,14 @@ pub fn lanes(operation: Operation, class: Class, [a, b, c]: [&[f64]; 3]) -> Opti
         Operation::Minimum | Operation::Maximum if floating => {
             found(Undefined::NotANumber, [a, b, c], |a, b, _| a.is_nan() | b.is_nan())
         }
+        Operation::Divide | Operation::Mod if floating => found(Undefined::Division, [a, b, c], |_, b, _| b == 0.0),
         Operation::Sign | Operation::IsNan if floating => found(Undefined::NotANumber, [a, b, c], |a, _, _| a.is_nan()),
         Operation::AtMost => found(Undefined::Bounds, [a, b, c], |a, b, _| a > b),
         Operation::Below => found(Undefined::Bounds, [a, b, c], |a, b, _| a >= b),
         Operation::Reciprocal => found(Undefined::Domain, [a, b, c], |a, _, _| a == 0.0),
         Operation::Power => found(Undefined::Power, [a, b, c], |a, b, _| {
-            (a < 0.0) | ((a == 0.0) & (b <= 0.0)) | a.is_nan() | b.is_nan()
+            // It is `exp2(b * log2(a))`, which has no value for 1 and infinity, nor for infinity and 0.
+            (a < 0.0) | ((a == 0.0) & (b <= 0.0)) | !a.is_finite() | !b.is_finite()
         }),
         Operation::SquareRoot => found(Undefined::Domain, [a, b, c], |a, _, _| a < 0.0),
         Operation::InverseSquareRoot | Operation::Log | Operation::Log2 => {
@@ -91,11 +94,13 @@ pub fn lanes(operation: Operation, class: Class, [a, b, c]: [&[f64]; 3]) -> Opti
         Operation::Round => found(Undefined::Half, [a, b, c], |a, _, _| (a - a.trunc()).abs() == 0.5),
         Operation::LoadExponent => found(Undefined::Domain, [a, b, c], |_, b, _| b > 128.0),
         Operation::Significand | Operation::Exponent => found(Undefined::Domain, [a, b, c], |a, _, _| !a.is_finite()),
-        Operation::Truncate if class == Class::Int => {
+        Operation::Truncate | Operation::TruncateDouble if class == Class::Int => {
             // 2^31 is the first that does not fit; anything above −2^31 − 1 is cut off to fit.
             found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 2_147_483_648.0) & (a > -2_147_483_649.0)))
         }
-        Operation::Truncate => found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 4_294_967_296.0) & (a > -1.0))),
+        Operation::Truncate | Operation::TruncateDouble => {
+            found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 4_294_967_296.0) & (a > -1.0)))
+        }
         Operation::FloatBits | Operation::HalfBits => found(Undefined::NotANumber, [a, b, c], |a, _, _| a.is_nan()),
         Operation::BitsFloat | Operation::BitsHalf | Operation::BitsDouble => None,
         _ if floating => None,

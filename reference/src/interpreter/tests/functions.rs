@@ -39,6 +39,9 @@ fn bits_of_numbers() {
     is("float", "uintBitsToFloat(0x40490FDBu)", &[f64::from(std::f32::consts::PI)]);
     // 0.1 as a float of 32 bits, not of 64.
     is("uint", "floatBitsToUint(0.1)", &[f64::from(0.1_f32.to_bits())]);
+    is("double", "double(0.1)", &[f64::from(0.1_f32)]);
+    // 2^24 + 1 is no float of 32 bits.
+    is("ivec2", "ivec2(int(16777217.0lf), int(float(16777217)))", &[16_777_217.0, 16_777_216.0]);
     is("bvec3", "bvec3(isinf(1e38 * 10.0), isnan(1.0), isinf(-1e38))", &[1.0, 0.0, 0.0]);
 }
 
