@@ -3,14 +3,14 @@
 //! The two share no compiler and no translator. The driver's values are what is judged; where the interpreter has
 //! others, a teacher is told. It meets the student's text, and is called in a worker only.
 
+mod vertices;
+
 use crate::language::Text;
 use crate::render::{Batch, Sample};
-use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stage, Stopped};
+use reference::interpreter::{Outputs, Precision, Program, Stage, Undefined};
 use serde::{Deserialize, Serialize};
+use vertices::Vertices;
 
-/// Steps that one run may take: a tenth of a second or two, so that a second opinion does not make a grading late. That is
-/// 90,000 operations for each vertex of ggsample06, of which a usual answer takes 300.
-const FUEL: u64 = 60_000_000;
 /// Largest difference of a value, relative to it where it is more than 1: x^80 in f32 loses five of seven digits at worst.
 const TOLERANCE: f64 = 1e-3;
 /// A value that rounding to f32 moves may be this many times as far off: drivers round other steps than we do.
@@ -83,23 +83,41 @@ pub fn relation(driver: f32, exact: f64, single: f64) -> Relation {
     Relation::Differs
 }
 
+/// What the driver computed.
+#[derive(Clone, Debug)]
+pub struct Drawn<'a> {
+    /// Outputs of four scalars by name, of every vertex or fragment.
+    pub outputs: Vec<(&'a str, Vec<[f32; 4]>)>,
+    /// Which fragments it threw away; empty for vertices.
+    pub discarded: Vec<bool>,
+}
+
 /// Runs the file's text on the vertices that the driver had, and compares colours and positions.
 pub fn check(text: &str, output: &str, batches: &[&Batch], samples: &[&[Sample]]) -> CrossCheck {
     let program = match Program::compile(text, Stage::Vertex) {
         Ok(program) => program,
         Err(refusal) => return CrossCheck::not_run(&refusal.to_string(), Some(refusal.line)),
     };
-    let vertices = Vertices::new(batches, samples);
-    let run = |precision| vertices.run(&program, precision);
+    let vertices = Vertices::new(batches);
+    let samples = || samples.iter().copied().flatten();
+    let colours = samples().map(|sample| sample.colour).collect();
+    let positions = samples().map(|sample| sample.position).collect();
+    let drawn = Drawn { outputs: vec![(output, colours), (POSITION, positions)], discarded: Vec::new() };
+    compare(&drawn, |precision| vertices.run(&program, precision))
+}
+
+/// Compares what the driver computed with what `run` does, which is asked in as many ways of rounding as it takes to tell
+/// what differs from what hangs on rounding.
+pub fn compare(drawn: &Drawn<'_>, run: impl Fn(Precision) -> Result<Outputs, CrossCheck>) -> CrossCheck {
     match run(Precision::Exact).and_then(|exact| Ok((exact, run(Precision::Single)?))) {
         Ok((exact, single)) => {
-            let mut judged = judge(&vertices, output, &exact, &single);
+            let mut judged = judge(drawn, &exact, &single);
             // What hangs on the last bits of a result, as a sine of a large number does, is no difference.
             for way in 0..4 {
                 if judged.iter().any(|one| one.relation == Relation::Differs)
                     && let Ok(noisy) = run(Precision::Noisy(way))
                 {
-                    settle(&mut judged, output, &exact, &noisy);
+                    settle(&mut judged, drawn, &exact, &noisy);
                 }
             }
             summed_up(judged)
@@ -109,7 +127,8 @@ pub fn check(text: &str, output: &str, batches: &[&Batch], samples: &[&[Sample]]
 }
 
 impl CrossCheck {
-    fn not_run(why: &str, line: Option<u32>) -> Self {
+    /// Nothing was run, for this reason.
+    pub fn not_run(why: &str, line: Option<u32>) -> Self {
         let message = Text::new(
             format!("the interpreter did not run this file: {why}"),
             format!("インタープリターでは実行できませんでした: {why}"),
@@ -126,104 +145,37 @@ impl CrossCheck {
     }
 }
 
-/// All vertices as columns.
-struct Vertices<'a> {
-    /// By name, x, y, z and 1.
-    attributes: Vec<(&'a str, [Vec<f64>; 4])>,
-    /// By name, the scalars of a matrix.
-    uniforms: Vec<(&'a str, Vec<Vec<f64>>)>,
-    /// The number of each vertex in its draw.
-    numbers: Vec<f64>,
-    /// Attributes that nobody sets are 0, 0, 0, 1.
-    zeros: Vec<f64>,
-    ones: Vec<f64>,
-    samples: Vec<&'a Sample>,
-}
-
-impl<'a> Vertices<'a> {
-    fn new(batches: &[&'a Batch], samples: &[&'a [Sample]]) -> Self {
-        let samples: Vec<&Sample> = samples.iter().copied().flatten().collect();
-        let mut vertices = Self {
-            attributes: Vec::new(),
-            uniforms: Vec::new(),
-            numbers: Vec::new(),
-            zeros: vec![0.0; samples.len()],
-            ones: vec![1.0; samples.len()],
-            samples,
-        };
-        let Some(first) = batches.first() else { return vertices };
-        let length = |batch: &Batch| batch.attributes.first().map_or(0, |(_, values)| values.len());
-        for (index, (name, _)) in first.attributes.iter().enumerate() {
-            let values = || batches.iter().flat_map(|batch| &batch.attributes[index].1);
-            let column = |axis: usize| values().map(|xyz| f64::from(xyz[axis])).collect();
-            vertices.attributes.push((name, [column(0), column(1), column(2), vertices.ones.clone()]));
-        }
-        for (index, (name, _)) in first.uniforms.iter().enumerate() {
-            let column = |scalar: usize| {
-                let each =
-                    |batch: &&Batch| std::iter::repeat_n(f64::from(batch.uniforms[index].1[scalar]), length(batch));
-                batches.iter().flat_map(each).collect()
-            };
-            vertices.uniforms.push((name, (0..16).map(column).collect()));
-        }
-        vertices.numbers = batches.iter().flat_map(|batch| (0..length(batch)).map(|number| number as f64)).collect();
-        vertices
-    }
-
-    /// The outputs of all vertices, or why there are none.
-    fn run(&self, program: &Program, precision: Precision) -> Result<Outputs, CrossCheck> {
-        let fed = self.feed(program).map_err(|mismatch| CrossCheck::not_run(&mismatch.to_string(), None))?;
-        let stopped = |at: Stopped| CrossCheck::not_run("the interpreter used up its steps", Some(at.line));
-        fed.precision(precision).fuel(FUEL).outputs().map_err(stopped)
-    }
-
-    fn feed<'b>(&'b self, program: &'b Program) -> Result<Run<'b>, Mismatch> {
-        let mut run = program.run(self.samples.len());
-        for input in program.inputs() {
-            let given = self.attributes.iter().find(|(name, _)| *name == input.name);
-            let count = input.kind.slots().unwrap_or(0);
-            let columns: Vec<&[f64]> = match given {
-                _ if input.name == "gl_VertexID" => vec![&self.numbers],
-                _ if input.name.starts_with("gl_") => continue,
-                Some((_, columns)) => columns.iter().take(count).map(Vec::as_slice).collect(),
-                None => {
-                    [&self.zeros, &self.zeros, &self.zeros, &self.ones].map(Vec::as_slice).repeat(count.div_ceil(4))
-                }
-            };
-            run = run.input(&input.name, &columns[..count.min(columns.len())])?;
-        }
-        for (name, columns) in &self.uniforms {
-            if program.uniforms().iter().any(|uniform| uniform.name == *name) {
-                let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-                run = run.uniform_of_each(name, &columns)?;
-            }
-        }
-        Ok(run)
-    }
-}
-
 /// What is said of one vertex, and its first value that differs.
 struct Judged {
     relation: Relation,
     message: Option<Text>,
 }
 
-fn judge(vertices: &Vertices<'_>, output: &str, exact: &Outputs, single: &Outputs) -> Vec<Judged> {
-    let judge_one = |(index, sample): (usize, &&Sample)| {
+fn judge(drawn: &Drawn<'_>, exact: &Outputs, single: &Outputs) -> Vec<Judged> {
+    let judge_one = |index: usize| {
         let mut judged = Judged { relation: Relation::Agrees, message: None };
-        for (name, values) in [(output, &sample.colour), (POSITION, &sample.position)] {
+        let is_discarded = exact.discarded[index];
+        let agrees = drawn.discarded.get(index).is_none_or(|discarded| *discarded == is_discarded);
+        for (name, values) in &drawn.outputs {
             let (Some(exact), Some(single)) = (exact.get(name), single.get(name)) else { continue };
-            for (scalar, (&driver, column)) in values.iter().zip(&exact.values).enumerate() {
+            for (scalar, (&driver, column)) in values[index].iter().zip(&exact.values).enumerate() {
                 let value = column[index];
-                let relation = match exact.undefined(scalar, index).or(single.undefined(scalar, index)) {
-                    Some(_) => Relation::Undefined,
-                    None => relation(driver, value, single.values[scalar][index]),
+                let cause = exact.undefined(scalar, index).or(single.undefined(scalar, index));
+                let relation = match cause {
+                    // Of what is thrown away nothing is seen.
+                    _ if is_discarded && agrees => Relation::Agrees,
+                    Some(cause) if agrees || cause.what != Undefined::Unwritten => Relation::Undefined,
+                    None if agrees => relation(driver, value, single.values[scalar][index]),
+                    _ => Relation::Differs,
                 };
                 if relation == Relation::Differs && judged.message.is_none() {
-                    let place = format!("{name}[{scalar}]");
                     judged.message = Some(Text::new(
-                        format!("vertex {index}: {place} is {driver} for the driver and {value} for the interpreter"),
-                        format!("頂点 {index}: {place} はドライバーでは {driver}, インタープリターでは {value} です"),
+                        format!(
+                            "vertex {index}: {name}[{scalar}] is {driver} for the driver and {value} for the interpreter"
+                        ),
+                        format!(
+                            "頂点 {index}: {name}[{scalar}] はドライバーでは {driver}, インタープリターでは {value} です"
+                        ),
                     ));
                 }
                 judged.relation = judged.relation.max(relation);
@@ -231,20 +183,23 @@ fn judge(vertices: &Vertices<'_>, output: &str, exact: &Outputs, single: &Output
         }
         judged
     };
-    vertices.samples.iter().enumerate().map(judge_one).collect()
+    (0..exact.discarded.len()).map(judge_one).collect()
 }
 
 /// What noise in the last bits moves is no difference between driver and interpreter.
-fn settle(judged: &mut [Judged], output: &str, exact: &Outputs, noisy: &Outputs) {
+fn settle(judged: &mut [Judged], drawn: &Drawn<'_>, exact: &Outputs, noisy: &Outputs) {
     for (index, one) in judged.iter_mut().enumerate().filter(|(_, one)| one.relation == Relation::Differs) {
-        let moves = |name: &&str| {
+        let moves = |name: &str| {
             let (Some(exact), Some(noisy)) = (exact.get(name), noisy.get(name)) else { return false };
-            exact.values.iter().zip(&noisy.values).any(|(exact, noisy)| {
-                let (exact, moved) = (exact[index], (exact[index] - noisy[index]).abs());
-                moved.is_nan() || moved > TOLERANCE * exact.abs().max(1.0)
+            exact.values.iter().zip(&noisy.values).enumerate().any(|(scalar, (exact, values))| {
+                let (exact, moved) = (exact[index], (exact[index] - values[index]).abs());
+                noisy.undefined(scalar, index).is_some()
+                    || moved.is_nan() && exact.to_bits() != values[index].to_bits()
+                    || moved > TOLERANCE * exact.abs().max(1.0)
             })
         };
-        if [output, POSITION].iter().any(moves) {
+        let is_moved = drawn.outputs.iter().any(|(name, _)| moves(name));
+        if is_moved || exact.discarded[index] != noisy.discarded[index] {
             *one = Judged { relation: Relation::Unsettled, message: None };
         }
     }
@@ -314,6 +269,37 @@ mod tests {
         let text = "in vec4 p; out vec4 c; void main() { c = vec4(sin(p.x * 1e9)); gl_Position = vec4(0.0); }";
         let found = check(text, "c", &[&batch(&[1.7])], &[&[sample([0.25; 4])]]);
         assert_eq!((found.opinion, found.unsettled), (Opinion::Agrees, 1));
+    }
+
+    #[test]
+    fn numbers_below_the_least_normal_float_may_be_zero() {
+        // A driver that keeps them has 1, one that does not has 0; and 2^-149, as bits, over 0 is infinite or no number.
+        for (value, driver) in
+            [("p.x * 1e-30 * 1e-10 * 1e38 * 100.0", 0.0), ("min(intBitsToFloat(int(p.x)) / 0.0, 5.0)", 0.0)]
+        {
+            let text = format!(
+                "#version 330\nin vec4 p; out vec4 c; void main() {{ c = vec4({value}); gl_Position = vec4(0.0); }}"
+            );
+            let found = check(&text, "c", &[&batch(&[1.0])], &[&[sample([driver; 4])]]);
+            assert_eq!((found.opinion, found.unsettled), (Opinion::Agrees, 1), "{value}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_thrown_away_is_compared_by_that_alone() {
+        let text = "in float p; out vec4 c; void main() { if (p > 0.5) discard; c = vec4(p); }";
+        let program = Program::compile(text, Stage::Fragment).unwrap();
+        let column = [0.25, 0.75, 0.25, 0.75];
+        let compared = |discarded: [bool; 4]| {
+            let outputs = vec![("c", vec![[0.25; 4]; 4])];
+            let drawn = Drawn { outputs, discarded: discarded.into() };
+            compare(&drawn, |precision| {
+                Ok(program.run(4).input("p", &[&column]).unwrap().precision(precision).outputs().unwrap())
+            })
+        };
+        assert_eq!(compared([false, true, false, true]).agreeing, 4);
+        let wrong = compared([false, false, true, true]);
+        assert_eq!((wrong.opinion, wrong.differing, wrong.agreeing), (Opinion::Differs, 2, 2));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What ggrade draws and captures, and what the CPU reference computes, against a real OpenGL driver.
 
+#[path = "agreement/fragments.rs"]
+mod fragments;
 mod opengl;
 #[path = "agreement/programs.rs"]
 mod programs;

@@ -1,13 +1,24 @@
-//! Random bytes → a vertex shader that mostly compiles: what lies behind the compiler is not reached by random text.
+//! Random bytes → a shader that mostly compiles: what lies behind the compiler is not reached by random text.
 
 use std::fmt::Write as _;
 
 /// Deepest nesting of statements and of expressions.
 const DEEPEST: usize = 6;
 
-/// Reads a program off `bytes`; where they end, everything becomes as simple as it can.
+/// Reads a vertex shader off `bytes`; where they end, everything becomes as simple as it can.
 pub fn program(bytes: &[u8]) -> String {
-    let mut writer = Writer { bytes: bytes.iter(), text: String::new(), functions: 0, names: 0 };
+    written(bytes, false)
+}
+
+/// The same as a fragment shader: `given_pv` and `given_cv` hold what a vertex shader takes from its attributes, a texel for
+/// each pixel, and `picture` is looked up anywhere.
+#[allow(dead_code, reason = "not everything that includes this module draws fragments")]
+pub fn fragment(bytes: &[u8]) -> String {
+    written(bytes, true)
+}
+
+fn written(bytes: &[u8], is_fragment: bool) -> String {
+    let mut writer = Writer { bytes: bytes.iter(), text: String::new(), functions: 0, names: 0, is_fragment };
     writer.file();
     writer.text
 }
@@ -37,6 +48,7 @@ struct Writer<'a> {
     text: String,
     functions: usize,
     names: usize,
+    is_fragment: bool,
 }
 
 impl Writer<'_> {
@@ -49,7 +61,13 @@ impl Writer<'_> {
     }
 
     fn file(&mut self) {
-        self.text += "#version 410\nin vec4 pv;\nin vec4 cv;\nuniform mat4 mw;\nuniform mat4 mc;\nuniform mat4 mg;\nout vec4 vc;\n";
+        self.text += "#version 410\n";
+        self.text += if self.is_fragment {
+            "uniform sampler2D given_pv;\nuniform sampler2D given_cv;\nuniform sampler2D picture;\nvec4 pv;\nvec4 cv;\n"
+        } else {
+            "in vec4 pv;\nin vec4 cv;\n"
+        };
+        self.text += "uniform mat4 mw;\nuniform mat4 mc;\nuniform mat4 mg;\nout vec4 vc;\n";
         self.text += "struct S { float f; vec3 v; int a[5]; };\nfloat g;\nvec4 field[7];\nint many[9];\nS made;\n";
         for _ in 0..self.byte() % 4 {
             let number = self.functions;
@@ -61,12 +79,17 @@ impl Writer<'_> {
             self.text += "  return u;\n}\n";
             self.functions += 1;
         }
-        self.text += "void main() {\n  float u = pv.x; int i = int(cv.y * 9.0); uint k = uint(i); bool b = u > 0.0; vec2 d = pv.xy; vec3 n = cv.xyz; vec4 q = mw * pv; mat3 m = mat3(mg); ";
+        self.text += "void main() {\n";
+        if self.is_fragment {
+            self.text += "  ivec2 here = ivec2(gl_FragCoord.xy); pv = texelFetch(given_pv, here, 0); cv = texelFetch(given_cv, here, 0);\n";
+        }
+        self.text += "  float u = pv.x; int i = int(cv.y * 9.0); uint k = uint(i); bool b = u > 0.0; vec2 d = pv.xy; vec3 n = cv.xyz; vec4 q = mw * pv; mat3 m = mat3(mg); ";
         self.text += OTHERS;
         self.text += "\n";
         self.block(0, false);
         self.text += "  vc = vec4(q.x + n.y, u + d.x + float(r), float((i ^ int(k ^ e.x)) & 1023), ";
-        self.text += "m[1].z + w[1].y + (b ^^ c.y ? 1.0 : float(j.y & 255)));\n  gl_Position = mc * pv;\n}\n";
+        self.text += "m[1].z + w[1].y + (b ^^ c.y ? 1.0 : float(j.y & 255)));\n";
+        self.text += if self.is_fragment { "}\n" } else { "  gl_Position = mc * pv;\n}\n" };
     }
 
     fn block(&mut self, depth: usize, returns: bool) {
@@ -126,6 +149,11 @@ impl Writer<'_> {
                 self.expression(Type::Float, depth);
                 self.text += ", n, i);\n";
             }
+            15 if self.is_fragment => {
+                self.text += "if (";
+                self.expression(Type::Bool, depth);
+                self.text += ") discard;\n";
+            }
             _ if returns => {
                 self.text += "if (b) return ";
                 self.expression(Type::Float, depth);
@@ -180,8 +208,15 @@ impl Writer<'_> {
             self.text += leaf;
             return;
         }
-        let templates = templates(kind);
-        let template = templates[self.byte() % templates.len()];
+        let (common, more) = (templates(kind), if self.is_fragment { of_fragments(kind) } else { &[] });
+        let choice = self.byte() % (common.len() + more.len());
+        let template = common.get(choice).copied().unwrap_or_else(|| more[choice - common.len()]);
+        // Mesa's OpenGL driver ends the process that divides the least integer by -1; ggrade's own way never does that.
+        let template = match template {
+            "I / I" if self.is_fragment => "I / max(I, 1)",
+            "I % I" if self.is_fragment => "I % max(I, 1)",
+            other => other,
+        };
         // B I U F ² ³ ⁴ M J E C W D that stand alone are an expression of that type.
         let mut before = ' ';
         for (at, part) in template.char_indices() {
@@ -387,5 +422,25 @@ fn templates(kind: Type) -> &'static [&'static str] {
         }
         Type::Double => &["r", "double(F)", "(D * D)", "sqrt(D)", "max(D, D)", "0.1lf", "(D - D)"],
         Type::Mat3 => &["m", "mat3(F)", "(M * M)", "transpose(M)", "inverse(M)", "outerProduct(³, ³)", "mat3(mg)"],
+    }
+}
+
+/// What only fragments have, besides.
+fn of_fragments(kind: Type) -> &'static [&'static str] {
+    match kind {
+        Type::Bool => &["gl_FrontFacing"],
+        Type::Float => &["dFdx(F)", "dFdy(F)", "fwidth(F)", "texture(picture, ²).x", "gl_FragCoord.x"],
+        Type::Vec2 => &["dFdx(²)", "gl_FragCoord.xy", "vec2(textureSize(picture, 0))"],
+        Type::Vec3 => &["dFdy(³)", "textureProj(picture, ³).zyx", "textureOffset(picture, ², ivec2(1, -2)).xyz"],
+        Type::Vec4 => &[
+            "texture(picture, ²)",
+            "textureLod(picture, ², F)",
+            "textureGrad(picture, ², ², ²)",
+            "texelFetch(picture, ivec2(²) & 3, 0)",
+            "textureGather(picture, ², 2)",
+            "gl_FragCoord",
+            "fwidth(⁴)",
+        ],
+        _ => &[],
     }
 }

@@ -12,6 +12,12 @@ use glow::HasContext;
 #[derive(Clone, Copy)]
 pub struct Linked(glow::Program);
 
+impl Linked {
+    pub(super) fn name(self) -> glow::Program {
+        self.0
+    }
+}
+
 /// A framebuffer with one 8-bit RGBA renderbuffer.
 pub struct Frame {
     framebuffer: glow::Framebuffer,
@@ -50,7 +56,8 @@ impl Driver {
     pub fn link(&self, vertex: &str, fragment: &str, varyings: &[&str]) -> Result<Linked, Rejection> {
         let vertex =
             self.shader(glow::VERTEX_SHADER, vertex).map_err(|log| Rejection { stage: Stage::Compile, log })?;
-        let fragment = self.shader(glow::FRAGMENT_SHADER, fragment).expect("the fixed fragment shader compiles");
+        let fragment =
+            self.shader(glow::FRAGMENT_SHADER, fragment).map_err(|log| Rejection { stage: Stage::Compile, log })?;
         let gl = self.context.gl();
         // SAFETY: see the head of this file. A shader that is deleted while attached lives as long as the program.
         unsafe {
@@ -221,7 +228,12 @@ impl Driver {
         }
     }
 
-    fn check(&self, what: &str) {
+    /// The functions of OpenGL.
+    pub(super) fn gl(&self) -> &glow::Context {
+        self.context.gl()
+    }
+
+    pub(super) fn check(&self, what: &str) {
         // SAFETY: see the head of this file.
         let error = unsafe { self.context.gl().get_error() };
         assert_eq!(error, glow::NO_ERROR, "OpenGL error {error:#06x} at {what}");

@@ -7,9 +7,11 @@
 
 mod context;
 mod driver;
+mod fragments;
 
 pub use context::Version;
 use driver::{Driver, Linked};
+pub use fragments::{Given, Texels};
 
 /// One 4 × 4 matrix, column after column.
 pub type Matrix = [f32; 16];
@@ -60,7 +62,7 @@ pub struct Vertex {
 /// Who refused a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// The compiler, while reading the vertex shader.
+    /// The compiler, while reading a shader.
     Compile,
     /// The linker, while joining it with the fragment shader.
     Link,
@@ -142,6 +144,20 @@ impl OpenGl {
         let drawing = self.driver.link(&vertex, fragment, &[])?;
         let recording = self.driver.link(&vertex, fragment, &["vc", "gl_Position"]).map_err(|refused| refused.log);
         Ok(Program { gl: self, drawing, recording })
+    }
+
+    /// Runs a fragment shader with one output for each pixel of a square window; rows from below.
+    ///
+    /// # Errors
+    /// The driver refuses it.
+    pub fn shade(
+        &self,
+        fragment: &str,
+        given: Given<'_>,
+        side: usize,
+        untouched: [f32; 4],
+    ) -> Result<Vec<[f32; 4]>, Rejection> {
+        self.driver.shade(fragment, given, side, untouched)
     }
 
     /// Draws one pose.

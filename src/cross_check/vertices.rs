@@ -1,0 +1,83 @@
+//! What the driver was given, as the interpreter takes it.
+
+use super::CrossCheck;
+use crate::render::Batch;
+use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
+
+/// Steps that one run may take: a tenth of a second or two, so that a second opinion does not make a grading late. That is
+/// 90,000 operations for each vertex of ggsample06, of which a usual answer takes 300.
+const FUEL: u64 = 60_000_000;
+
+/// All vertices as columns.
+pub(super) struct Vertices<'a> {
+    /// By name, x, y, z and 1.
+    attributes: Vec<(&'a str, [Vec<f64>; 4])>,
+    /// By name, the scalars of a matrix.
+    uniforms: Vec<(&'a str, Vec<Vec<f64>>)>,
+    /// The number of each vertex in its draw.
+    numbers: Vec<f64>,
+    /// Attributes that nobody sets are 0, 0, 0, 1.
+    zeros: Vec<f64>,
+    ones: Vec<f64>,
+}
+
+impl<'a> Vertices<'a> {
+    pub fn new(batches: &[&'a Batch]) -> Self {
+        let length = |batch: &Batch| batch.attributes.first().map_or(0, |(_, values)| values.len());
+        let count = batches.iter().map(|batch| length(batch)).sum();
+        let mut vertices = Self {
+            attributes: Vec::new(),
+            uniforms: Vec::new(),
+            numbers: Vec::new(),
+            zeros: vec![0.0; count],
+            ones: vec![1.0; count],
+        };
+        let Some(first) = batches.first() else { return vertices };
+        for (index, (name, _)) in first.attributes.iter().enumerate() {
+            let values = || batches.iter().flat_map(|batch| &batch.attributes[index].1);
+            let column = |axis: usize| values().map(|xyz| f64::from(xyz[axis])).collect();
+            vertices.attributes.push((name, [column(0), column(1), column(2), vertices.ones.clone()]));
+        }
+        for (index, (name, _)) in first.uniforms.iter().enumerate() {
+            let column = |scalar: usize| {
+                let each =
+                    |batch: &&Batch| std::iter::repeat_n(f64::from(batch.uniforms[index].1[scalar]), length(batch));
+                batches.iter().flat_map(each).collect()
+            };
+            vertices.uniforms.push((name, (0..16).map(column).collect()));
+        }
+        vertices.numbers = batches.iter().flat_map(|batch| (0..length(batch)).map(|number| number as f64)).collect();
+        vertices
+    }
+
+    /// The outputs of all vertices, or why there are none.
+    pub fn run(&self, program: &Program, precision: Precision) -> Result<Outputs, CrossCheck> {
+        let fed = self.feed(program).map_err(|mismatch| CrossCheck::not_run(&mismatch.to_string(), None))?;
+        let stopped = |at: Stopped| CrossCheck::not_run("the interpreter used up its steps", Some(at.line));
+        fed.precision(precision).fuel(FUEL).outputs().map_err(stopped)
+    }
+
+    fn feed<'b>(&'b self, program: &'b Program) -> Result<Run<'b>, Mismatch> {
+        let mut run = program.run(self.numbers.len());
+        for input in program.inputs() {
+            let given = self.attributes.iter().find(|(name, _)| *name == input.name);
+            let count = input.kind.slots().unwrap_or(0);
+            let columns: Vec<&[f64]> = match given {
+                _ if input.name == "gl_VertexID" => vec![&self.numbers],
+                _ if input.name.starts_with("gl_") => continue,
+                Some((_, columns)) => columns.iter().take(count).map(Vec::as_slice).collect(),
+                None => {
+                    [&self.zeros, &self.zeros, &self.zeros, &self.ones].map(Vec::as_slice).repeat(count.div_ceil(4))
+                }
+            };
+            run = run.input(&input.name, &columns[..count.min(columns.len())])?;
+        }
+        for (name, columns) in &self.uniforms {
+            if program.uniforms().iter().any(|uniform| uniform.name == *name) {
+                let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+                run = run.uniform_of_each(name, &columns)?;
+            }
+        }
+        Ok(run)
+    }
+}
