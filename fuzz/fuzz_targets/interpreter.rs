@@ -1,33 +1,84 @@
-//! Programs that compile, in the interpreter: whatever they do, it ends and does not panic. Arbitrary text as well, which it
-//! refuses with a line of the file.
+//! The interpreter of `reference`. Whatever bytes it is given, it ends and does not panic, and refuses with a line of the file.
+//! What the compiler accepts it takes too, or says that it is a limit of its own, and where it gives values they are those
+//! of the driver.
 #![no_main]
 
-use ggrade_fuzz::program;
+use ggrade::cross_check::{self, Opinion};
+use ggrade::render::{AdapterKind, Batch, Device, Renderer, Scene};
+use ggrade::source;
+use ggrade::translate;
+use ggrade_fuzz::{INTERFACE, assignment, program};
 use libfuzzer_sys::fuzz_target;
-use reference::interpreter::{Precision, Program, Stage};
+use reference::interpreter::{Program, Stage};
 
 /// Few: a program that loops for ever is found out soon.
 const FUEL: u64 = 3_000_000;
 
+thread_local! {
+    static RENDERER: Renderer = renderer();
+}
+
+fn renderer() -> Renderer {
+    let fixed = translate::fixed_stage(&INTERFACE, &assignment().files[0].starter).expect("the starter links");
+    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), fixed).expect("a renderer")
+}
+
 fuzz_target!(|bytes: &[u8]| {
     if let Ok(text) = std::str::from_utf8(bytes) {
-        for stage in [Stage::Vertex, Stage::Fragment] {
-            match Program::compile(text, stage) {
-                Ok(program) => drop(program.run(4).fuel(FUEL).outputs()),
-                Err(refusal) => assert!(refusal.line as usize <= text.split(['\n', '\r']).count(), "{refusal}"),
-            }
-        }
+        ends(text, Stage::Fragment);
+        ends(text, Stage::Vertex);
+        agrees(text);
     }
     let text = program::program(bytes);
-    let program = Program::compile(&text, Stage::Vertex).unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
-    let column: Vec<f64> = (0..12).map(|n| f64::from(n) / 4.0 - 1.5).collect();
-    let vector = [column.as_slice(); 4];
-    for precision in [Precision::Exact, Precision::Single] {
-        let run = program.run(column.len()).fuel(FUEL).precision(precision);
-        let run = run.input("pv", &vector).expect("a vec4").input("cv", &vector).expect("a vec4");
-        if let Ok(outputs) = run.outputs() {
-            let sound = outputs.outputs.iter().flat_map(|output| &output.values).all(|values| values.len() == 12);
-            assert!(sound, "a value for each sample\n{text}");
-        }
+    if let Err(refusal) = Program::compile(&text, Stage::Vertex) {
+        panic!("{refusal}\n{text}");
     }
+    agrees(&text);
 });
+
+fn ends(text: &str, stage: Stage) {
+    match Program::compile(text, stage) {
+        Ok(program) => drop(program.run(4).fuel(FUEL).outputs()),
+        Err(refusal) => assert!(refusal.line as usize <= text.split(['\n', '\r']).count(), "{refusal}"),
+    }
+}
+
+/// What the compiler accepts as a whole hand-in, through interpreter and driver.
+fn agrees(text: &str) {
+    let Ok(source) = source::read("fuzz.vert", text.as_bytes()) else { return };
+    let Ok(translation) = translate::translate(&source, &INTERFACE) else { return };
+    if let Err(refusal) = Program::compile(&source.text, Stage::Vertex) {
+        assert!(refusal.is_limit(), "{refusal}\n{text}");
+        return;
+    }
+    let scene = scene();
+    let rendering = RENDERER.with(|renderer| renderer.compute(&translation.shader, &scene)).expect("a rendering");
+    if rendering.ran_out.is_some() {
+        return;
+    }
+    let batches: Vec<&Batch> = scene.frames.iter().collect();
+    let samples: Vec<_> = rendering.frame_samples.iter().map(Vec::as_slice).collect();
+    let checked = cross_check::check(&source.text, &INTERFACE.output.name, &batches, &samples);
+    assert_ne!(checked.opinion, Opinion::Differs, "{checked:?}\n{text}");
+}
+
+/// Two draws of six vertices that no assignment has, with matrices whose elements are all different.
+fn scene() -> Scene {
+    let number = |seed: usize| (seed * 37 % 101) as f32 / 25.0 - 2.0;
+    let draw = |draw: usize| Batch {
+        uniforms: ["mw", "mc", "mg"]
+            .into_iter()
+            .enumerate()
+            .map(|(which, name)| (name.into(), std::array::from_fn(|n| number(50 * draw + 17 * which + n))))
+            .collect(),
+        attributes: ["pv", "cv"]
+            .into_iter()
+            .enumerate()
+            .map(|(which, name)| {
+                let vertex = |n: usize| [0, 1, 2].map(|axis| number(90 * draw + 31 * which + 3 * n + axis));
+                (name.into(), (0..6).map(vertex).collect())
+            })
+            .collect(),
+    };
+    Scene { width: 4, height: 4, background: [0; 4], frames: vec![draw(0), draw(1)], probes: Vec::new() }
+}
