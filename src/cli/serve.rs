@@ -85,6 +85,11 @@ pub struct Serve {
     #[arg(long, value_name = "DAYS")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retention_days: Option<u32>,
+    /// Whether the interpreter runs each file again after its grading, while nobody waits, and the teacher sees where it
+    /// disagrees with the driver [default: true]
+    #[arg(long, value_name = "BOOL")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cross_check: Option<bool>,
     /// Secret that lets programs use the teacher's part of the API, and a teacher log in [default: a new one at each
     /// start, shown at the start, unless there is a password]
     #[arg(long, value_name = "SECRET")]

@@ -167,6 +167,10 @@ pub struct Environment {
 /// Everything that a grading found out, in both languages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
+    /// What the interpreter computes for the same vertices, where that was asked for. It stands first, where the service's
+    /// database finds it in a stored report without reading the rest.
+    #[serde(default)]
+    pub cross_check: Option<CrossCheck>,
     /// Id of the assignment.
     pub assignment: String,
     /// What was handed in.
@@ -192,9 +196,6 @@ pub struct Report {
     pub frames: Vec<FrameResult>,
     /// The probes.
     pub probes: ProbeResult,
-    /// What the interpreter computes for the same vertices, where that was asked for.
-    #[serde(default)]
-    pub cross_check: Option<CrossCheck>,
     /// What graded it.
     pub environment: Environment,
     /// How much its messages help.

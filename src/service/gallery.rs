@@ -97,8 +97,7 @@ impl Gallery {
         let run = async {
             let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
             let order = Order { seed: submission.seed, hints: submission.hints, ..Order::default() };
-            let _turn = self.turn.acquire().await;
-            blocking(state, move |state| {
+            self.in_turn(state, move |state| {
                 let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };
                 let frames = state.pool.grade(submission)?.frames;
                 frames.iter().map(pictures::png).collect()
@@ -106,6 +105,16 @@ impl Gallery {
             .await
         };
         self.once(Key { sha256: submission.sha256.clone(), kind: Kind::Frames }, run).await
+    }
+
+    /// Does work that takes a worker and that nobody who hands in waits for: one at a time.
+    pub async fn in_turn<T: Send + 'static>(
+        &self,
+        state: &State,
+        work: impl FnOnce(&State) -> Result<T, Fault> + Send + 'static,
+    ) -> Result<T, Problem> {
+        let _turn = self.turn.acquire().await;
+        blocking(state, work).await
     }
 
     /// What is kept under a key; made where nothing is, once for all who ask meanwhile.

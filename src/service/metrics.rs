@@ -3,6 +3,7 @@
 use super::State;
 use super::grading::Outcome;
 use super::store::{Submission, word};
+use crate::cross_check::Opinion;
 use metrics_exporter_prometheus::{PrometheusBuilder, PrometheusHandle};
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -27,6 +28,10 @@ pub(super) fn install() -> Option<&'static PrometheusHandle> {
 fn describe() {
     use metrics::{describe_counter, describe_gauge, describe_histogram};
     describe_counter!("ggrade_gradings_total", "Gradings by verdict (or fault) and way in");
+    describe_counter!(
+        "ggrade_cross_checks_total",
+        "Files that the interpreter ran after their grading, by what came of it: agrees, differs, not-run"
+    );
     describe_counter!("ggrade_uploads_total", "Files stored, by way in");
     describe_counter!("ggrade_reports_reused_total", "Uploads answered with the report of the very same file");
     describe_counter!("ggrade_requests_total", "Requests by route, method and status");
@@ -47,6 +52,11 @@ pub(super) fn graded(submission: &Submission, outcome: Option<&Outcome>) {
         None => "unstored".into(),
     };
     metrics::counter!("ggrade_gradings_total", "verdict" => verdict, "via" => word(&submission.via)).increment(1);
+}
+
+/// Counts a second opinion.
+pub(super) fn cross_checked(opinion: Opinion) {
+    metrics::counter!("ggrade_cross_checks_total", "opinion" => word(&opinion)).increment(1);
 }
 
 /// Notes how long a stage of a grading took.

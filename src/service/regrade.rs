@@ -36,5 +36,7 @@ pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
             "再採点がまだ終わっていません。終わるまで待ってください。",
         ));
     }
-    Ok(state.store.adopt(&regrading, state.clock.now()).await?)
+    state.store.adopt(&regrading, state.clock.now()).await?;
+    state.cross_checks.look();
+    Ok(())
 }

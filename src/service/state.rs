@@ -4,7 +4,7 @@ use super::Config;
 use super::classes::Jobs;
 use super::clock::Clock;
 use super::gallery::Gallery;
-use super::grading::{Judge, Queue};
+use super::grading::{CrossChecks, Judge, Queue};
 use super::identity::{new_id, new_token};
 use super::limits::{Limits, Proxies};
 use super::store::Store;
@@ -39,6 +39,8 @@ pub struct Shared {
     pub clock: Clock,
     /// The files that wait to be graded, and who waits for them.
     pub queue: Queue,
+    /// The reports that wait for a second opinion.
+    pub cross_checks: CrossChecks,
     /// The pictures of submissions.
     pub gallery: Gallery,
     /// The downloads that take a while to make.
@@ -71,6 +73,7 @@ impl State {
             limits: Limits::new(&config, &clock),
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
+            cross_checks: CrossChecks::default(),
             gallery: Gallery::new(assignment),
             downloads: Jobs::default(),
             teacher_token: config.teacher_token.clone(),

@@ -103,7 +103,7 @@ async fn stored_earlier(state: &State, key: Option<&Key>) -> Result<Option<Recei
     let earlier = idempotency::earlier(state, key).await?;
     let Some(id) = earlier.and_then(|earlier| earlier.submission_id) else { return Ok(None) };
     let mut listener = state.queue.listen(&id);
-    let Some(Stored { submission, report }) = state.store.stored(&id).await? else { return Ok(None) };
+    let Some(Stored { submission, report, .. }) = state.store.stored(&id).await? else { return Ok(None) };
     let outcome = match (report, &submission.fault) {
         (Some(report), _) => Some(Outcome::Graded(Arc::new(report))),
         (None, Some(fault)) => Some(Outcome::Failed(Arc::new(fault.clone()))),
@@ -312,6 +312,9 @@ async fn keep_known(
     metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     metrics::counter!("ggrade_reports_reused_total").increment(1);
     let submission = submission_of(&new, store::State::Graded);
+    if report.cross_check.take().is_none() {
+        state.cross_checks.expect(&submission, &report);
+    }
     Ok(Some(Receipt { submission, outcome: Some(Outcome::Graded(Arc::new(report))) }))
 }
 

@@ -33,6 +33,11 @@ impl Database {
         made.await.expect("a database");
         Self { location, _folder: None }
     }
+
+    /// The same one for another service; what it is kept in goes with the first.
+    pub fn again(&self) -> Self {
+        Self { location: self.location.clone(), _folder: None }
+    }
 }
 
 /// A PostgreSQL server that ends with this process, and takes its files along.

@@ -4,6 +4,7 @@ mod api;
 mod bench;
 mod classes;
 mod cluster;
+mod cross_checks;
 mod deletions;
 mod gallery;
 mod handing_in;

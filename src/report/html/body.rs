@@ -4,6 +4,7 @@ use super::listing::{self, Line};
 use super::player::{self, FrameView, Player, Swatch, TermView};
 use super::rich::{Piece, pieces};
 use super::{Lines, Part};
+use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use crate::report::labels::{Labels, mistake_title};
@@ -146,6 +147,27 @@ impl Message {
     }
 }
 
+/// What the interpreter says of the same vertices.
+struct SecondOpinion {
+    differs: bool,
+    counted: String,
+    message: Option<String>,
+    line: Option<u32>,
+    place: String,
+}
+
+impl SecondOpinion {
+    fn of(checked: &CrossCheck, labels: &Labels, language: Language) -> Self {
+        Self {
+            differs: checked.opinion == Opinion::Differs,
+            counted: labels.cross_check(checked),
+            message: checked.message.as_ref().map(|message| message.get(language).to_owned()),
+            line: checked.line,
+            place: checked.line.map(|line| labels.line(line)).unwrap_or_default(),
+        }
+    }
+}
+
 /// The equation with the marks of its terms.
 struct EquationView {
     source: String,
@@ -231,6 +253,7 @@ pub(super) struct Body<'a> {
     agreeing: String,
     legend: Vec<Swatch>,
     probes_agree: String,
+    second_opinion: Option<SecondOpinion>,
     equation: Option<EquationView>,
     terms: Vec<TermView<'a>>,
     listing: Vec<Line>,
@@ -275,6 +298,7 @@ impl<'a> Body<'a> {
             agreeing,
             legend,
             probes_agree: labels.probes_agree(probes.samples.saturating_sub(probes.mismatched), probes.samples),
+            second_opinion: report.cross_check.as_ref().map(|checked| SecondOpinion::of(checked, labels, language)),
             has_lines: !listing.is_empty() || part.source == Lines::Elsewhere,
             has_footer: part.has_footer,
             listing,

@@ -223,12 +223,16 @@ pub(super) struct LangQuery {
 )]
 pub(super) async fn read(
     Shared(state): Shared<State>,
+    teacher: Option<Teacher>,
     Lang(language): Lang,
     Path(id): Path<String>,
     asked: Result<Query<LangQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     asked.map_err(super::body::other)?;
-    let Stored { submission, report } = find(&state, &id).await?;
+    let Stored { submission, mut report, cross_check } = find(&state, &id).await?;
+    if let Some(report) = report.as_mut().filter(|_| teacher.is_some()) {
+        report.cross_check = cross_check;
+    }
     let position = state.queue.position(&id);
     let body = SubmissionJson::of(&submission, report.as_ref(), submission.fault.as_ref(), position, language);
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response())

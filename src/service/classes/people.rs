@@ -51,6 +51,11 @@ impl Person {
         }
     }
 
+    /// Whether driver and interpreter disagree on something of theirs.
+    pub fn is_disputed(&self) -> bool {
+        self.rows.iter().any(|row| row.differs)
+    }
+
     /// When they handed in last.
     pub fn latest(&self) -> Option<Millis> {
         self.rows.first().map(|row| row.row.submission.received_at)
@@ -224,6 +229,7 @@ pub(in crate::service) mod samples {
     /// Somebody with files of (time, points of 100, mistake), in the order of time.
     pub fn person(key: &str, files: &[(Millis, f64, &str)]) -> Person {
         let row = |(at, score, mistake): &(Millis, f64, &str)| ClassRow {
+            differs: false,
             row: HistoryRow {
                 submission: Submission {
                     id: format!("{key}-{at}"),

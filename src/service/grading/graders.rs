@@ -1,6 +1,6 @@
 //! The graders: one task for each file that is graded at once.
 
-use super::{Job, Outcome};
+use super::{Job, Outcome, cross_checks};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
@@ -45,6 +45,9 @@ impl Graders {
             tasks.spawn(run(state.clone()));
         }
         tasks.spawn(keep_claims(state.clone()));
+        if state.config.cross_check {
+            tasks.spawn(cross_checks::run(state.clone()));
+        }
         Ok(Self { state: state.clone(), tasks })
     }
 
@@ -145,6 +148,9 @@ async fn grade(state: &State, job: Job) {
     let outcome = keep(state, &submission, judged).await;
     metrics::stage("store", stored.elapsed());
     metrics::graded(&submission, outcome.as_ref());
+    if let Some(Outcome::Graded(report)) = &outcome {
+        state.cross_checks.expect(&submission, report);
+    }
     state.queue.done(&submission.id, outcome, start.elapsed());
 }
 

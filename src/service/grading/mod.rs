@@ -3,9 +3,11 @@
 //! An upload is claimed by the process that stores it and waits in its [`Queue`]; what nobody holds (a teacher's batch,
 //! files that a process left behind when it ended) is claimed from the database one by one.
 
+mod cross_checks;
 mod graders;
 mod queue;
 
+pub use cross_checks::CrossChecks;
 pub use graders::Graders;
 pub use queue::{Full, Job, Outcome, Queue};
 

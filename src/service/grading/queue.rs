@@ -56,6 +56,8 @@ struct Inner {
     /// Files that are graded right now.
     running: usize,
     listeners: HashMap<String, broadcast::Sender<Outcome>>,
+    /// When the last grading ended; none before the first.
+    ended: Option<Instant>,
     /// Mean seconds of a grading, lately.
     pace: f64,
     workers: usize,
@@ -103,6 +105,13 @@ impl Queue {
         (inner.waiting.len(), inner.running)
     }
 
+    /// Whether nobody has waited for a grading for so long.
+    pub fn is_quiet(&self, span: Duration) -> bool {
+        let inner = self.lock();
+        let is_idle = inner.waiting.is_empty() && inner.reserved == 0 && inner.running == 0;
+        is_idle && inner.ended.is_none_or(|ended| ended.elapsed() >= span)
+    }
+
     /// The position of a file that waits, from 1.
     pub fn position(&self, id: &str) -> Option<u64> {
         self.lock().waiting.iter().position(|job| job.submission.id == id).map(|index| index as u64 + 1)
@@ -134,6 +143,7 @@ impl Queue {
         const SHARE: f64 = 0.1;
         let mut inner = self.lock();
         inner.running = inner.running.saturating_sub(1);
+        inner.ended = Some(Instant::now());
         inner.pace += SHARE * (took.as_secs_f64() - inner.pace);
         if let (Some(sender), Some(outcome)) = (inner.listeners.remove(id), outcome) {
             // Nobody may be waiting any more.
@@ -164,6 +174,20 @@ impl Drop for Place<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn who_is_graded_or_about_to_be_breaks_the_quiet() {
+        let queue = Queue::new(2);
+        let is_quiet = || queue.is_quiet(Duration::ZERO);
+        assert!(queue.is_quiet(Duration::MAX));
+        let place = queue.reserve().expect("a place");
+        assert!(!is_quiet());
+        drop(place);
+        queue.begin();
+        assert!(!is_quiet());
+        queue.done("", None, Duration::ZERO);
+        assert!(is_quiet() && !queue.is_quiet(Duration::MAX));
+    }
 
     #[test]
     fn the_place_after_the_last_is_refused_with_its_number() {

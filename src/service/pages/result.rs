@@ -9,6 +9,7 @@ use crate::report::text::number;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::gallery::View as Pictured;
+use crate::service::identity::Teacher;
 use crate::service::store::{State as Progress, Stored, Submission, Via};
 use askama::Template;
 use axum::extract::{Path, Query, State as Shared};
@@ -49,11 +50,15 @@ async fn stored(state: &State, id: &str) -> Result<Stored, Problem> {
 pub(super) async fn page(
     Shared(state): Shared<State>,
     Path(id): Path<String>,
+    teacher: Option<Teacher>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let Stored { submission, report } = stored(&state, &id).await?;
+    let Stored { submission, report, cross_check } = stored(&state, &id).await?;
     let frame = frame.of(&submission.assignment);
-    let Some(report) = report else { return waiting(&state, frame, &submission) };
+    let Some(mut report) = report else { return waiting(&state, frame, &submission) };
+    if teacher.is_some() {
+        report.cross_check = cross_check;
+    }
     let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
     let text = readable(&submission.name, &bytes);
     let source = text.as_deref().map_or(Lines::Nowhere, Lines::Here);
@@ -124,7 +129,7 @@ pub(super) async fn part_of(
     frame: Frame,
 ) -> Result<Response, Problem> {
     match stored(&state, &id).await? {
-        Stored { submission, report: Some(report) } => draft_part(&state, &frame, &submission, &report).await,
+        Stored { submission, report: Some(report), .. } => draft_part(&state, &frame, &submission, &report).await,
         Stored { submission, .. } if submission.state == Progress::Failed => {
             Err(Problem::internal(&"grading a draft failed"))
         }
@@ -156,7 +161,7 @@ async fn beside_editor(
 
 /// A report with the bytes of its file.
 pub(super) async fn report_of(state: &State, id: &str) -> Result<(Report, Vec<u8>), Problem> {
-    let Stored { submission, report } = stored(state, id).await?;
+    let Stored { submission, report, .. } = stored(state, id).await?;
     let bytes = state.store.upload(&submission.sha256).await?;
     report.zip(bytes).ok_or_else(Problem::not_found)
 }
@@ -188,7 +193,7 @@ pub(super) async fn receipt_of(
     Path(id): Path<String>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let Stored { submission, report } = stored(&state, &id).await?;
+    let Stored { submission, report, .. } = stored(&state, &id).await?;
     handed_in(&state, &frame, &submission, report.as_ref()).await
 }
 

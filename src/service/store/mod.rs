@@ -6,6 +6,7 @@
 
 mod assignments;
 mod batches;
+mod cross_checks;
 mod deletions;
 mod keys;
 mod open;

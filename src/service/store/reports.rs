@@ -1,7 +1,9 @@
 //! Reports, and the lists that are made of them.
 
+use super::cross_checks::differs;
 use super::rows::{from_word, submission_columns, word};
 use super::{Result, Store, Submission, on};
+use crate::cross_check::CrossCheck;
 use crate::report::{Report, Verdict};
 use crate::service::clock::Millis;
 
@@ -10,8 +12,10 @@ use crate::service::clock::Millis;
 pub struct Stored {
     /// What was handed in.
     pub submission: Submission,
-    /// What came of it.
+    /// What came of it, as students see it.
     pub report: Option<Report>,
+    /// What the interpreter says of it, for the teacher.
+    pub cross_check: Option<CrossCheck>,
 }
 
 /// One line of a student's own history.
@@ -38,6 +42,8 @@ pub struct ClassRow {
     pub number: Option<String>,
     /// name, where they are known.
     pub student_name: Option<String>,
+    /// Whether driver and interpreter disagree on it.
+    pub differs: bool,
 }
 
 /// A report as its row.
@@ -107,6 +113,7 @@ impl<'r, R: sqlx::Row> sqlx::FromRow<'r, R> for ClassRow
 where
     HistoryRow: sqlx::FromRow<'r, R>,
     &'static str: sqlx::ColumnIndex<R>,
+    i64: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
     Option<String>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
 {
     fn from_row(row: &'r R) -> std::result::Result<Self, sqlx::Error> {
@@ -117,6 +124,7 @@ where
             mistakes: mistakes.map_err(|error| sqlx::Error::Decode(Box::new(error)))?.unwrap_or_default(),
             number: row.try_get("number")?,
             student_name: row.try_get("student_name")?,
+            differs: row.try_get::<i64, _>("differs")? > 0,
         })
     }
 }
@@ -132,7 +140,8 @@ impl Store {
             // Reports of 0.1.0 do not say how much they help; their submissions do.
             report.hints = report.hints.min(submission.hints);
         }
-        Ok(Some(Stored { submission, report }))
+        let cross_check = report.as_mut().and_then(|report| report.cross_check.take());
+        Ok(Some(Stored { submission, report, cross_check }))
     }
 
     /// Whether a submission's report has pictures: whether the file could be drawn to the end.
@@ -162,7 +171,9 @@ impl Store {
         const SQL: &str = concat!(
             "SELECT ",
             submission_columns!(),
-            ", r.verdict, r.score, r.max_score, r.mistakes, t.number, t.name AS student_name \
+            ", r.verdict, r.score, r.max_score, r.mistakes, t.number, t.name AS student_name, CAST(CASE WHEN ",
+            differs!("r.report"),
+            " THEN 1 ELSE 0 END AS BIGINT) AS differs \
              FROM submissions s LEFT JOIN reports r ON r.submission_id = s.id \
              LEFT JOIN students t ON t.id = s.student_id \
              WHERE s.assignment = $1 AND s.via <> 'editor' AND ($2 = '' OR s.batch_id = $2) \

@@ -1,5 +1,6 @@
 //! Removing what is old.
 
+use super::cross_checks::differs;
 use super::{Result, Store, on};
 use crate::service::clock::Millis;
 
@@ -22,9 +23,22 @@ pub(super) const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
 
 impl Store {
     /// Removes submissions that came before `before`, drafts that came before `drafts_before`, and what only they had.
+    /// Of a submission on which driver and interpreter disagree the file and the report stay, and nothing of whose it was.
     pub async fn remove_old(&self, before: Option<Millis>, drafts_before: Millis) -> Result<Removed> {
         const DRAFTS: &str = "DELETE FROM submissions WHERE via = 'editor' AND received_at < $1";
-        const SUBMISSIONS: &str = "DELETE FROM submissions WHERE received_at < $1";
+        const NAMELESS: &str = concat!(
+            "UPDATE submissions SET owner_id = NULL, student_id = NULL, batch_id = NULL, via = 'api' \
+             WHERE received_at < $1 AND (owner_id IS NOT NULL OR student_id IS NOT NULL OR batch_id IS NOT NULL) \
+             AND EXISTS (SELECT 1 FROM reports r WHERE r.submission_id = submissions.id AND ",
+            differs!("r.report"),
+            ")"
+        );
+        const SUBMISSIONS: &str = concat!(
+            "DELETE FROM submissions WHERE received_at < $1 \
+             AND NOT EXISTS (SELECT 1 FROM reports r WHERE r.submission_id = submissions.id AND ",
+            differs!("r.report"),
+            ")"
+        );
         const BATCHES: &str = "DELETE FROM batches WHERE created_at < $1";
         const REGRADINGS: &str = "DELETE FROM regradings WHERE created_at < $1";
         const OWNERS: &str = "DELETE FROM owners WHERE created_at < $1 AND NOT EXISTS \
@@ -35,7 +49,7 @@ impl Store {
             let gone = sqlx::query(DRAFTS).bind(drafts_before).execute(&mut *transaction).await?;
             removed.submissions += gone.rows_affected();
             if let Some(before) = before {
-                for sql in [REGRADINGS, SUBMISSIONS, BATCHES] {
+                for sql in [REGRADINGS, NAMELESS, SUBMISSIONS, BATCHES] {
                     let gone = sqlx::query(sql).bind(before).execute(&mut *transaction).await?;
                     if sql == SUBMISSIONS {
                         removed.submissions += gone.rows_affected();

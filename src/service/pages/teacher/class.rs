@@ -32,6 +32,8 @@ struct View {
     handed_in: usize,
     /// How many files are of nobody in the class.
     strangers: usize,
+    /// On how many files of the class driver and interpreter disagree.
+    disputed: usize,
     has_roster: bool,
     histogram: Histogram,
     course: Option<(Course, String, String)>,
@@ -100,6 +102,7 @@ pub(in crate::service::pages) async fn page(
             everyone: everyone.len(),
             handed_in: everyone.iter().filter(|person| !person.rows.is_empty()).count(),
             strangers: strangers.iter().map(|person| person.rows.len().max(1)).sum(),
+            disputed: everyone.iter().flat_map(|person| &person.rows).filter(|row| row.differs).count(),
             has_roster: state.store.has_roster().await?,
             histogram: charts::histogram(&everyone),
             course,

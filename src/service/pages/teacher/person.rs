@@ -47,6 +47,7 @@ struct Attempt {
     portrait: Option<String>,
     /// Title and id.
     mistakes: Vec<(String, String)>,
+    is_disputed: bool,
     file: String,
     at: Moment,
 }
@@ -93,6 +94,7 @@ fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> A
         is_best: best == Some(submission.id.as_str()),
         portrait: student::draws(row.row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
         mistakes: titled(frame, &submission.assignment, &row.mistakes),
+        is_disputed: row.differs,
         file: if hidden { String::new() } else { submission.name.clone() },
         at: frame.moment(submission.received_at),
     }

@@ -26,6 +26,8 @@ pub(in crate::service::pages) struct Filter {
     pub anonymous: String,
     /// `on`: the files of nobody in the class.
     pub apart: String,
+    /// `on`: who has handed in something on which driver and interpreter disagree.
+    pub disputed: String,
     /// What has just been done.
     pub done: String,
 }
@@ -39,11 +41,16 @@ impl Filter {
         self.apart == "on"
     }
 
+    pub fn is_disputed(&self) -> bool {
+        self.disputed == "on"
+    }
+
     fn takes(&self, person: &Person) -> bool {
         let best = person.best();
         let q = self.q.trim().to_lowercase();
         let has = |text: &str| text.to_lowercase().contains(&q);
         (self.verdict.is_empty() || person.standing().id() == self.verdict)
+            && (!self.is_disputed() || person.is_disputed())
             && (self.mistake.is_empty() || best.is_some_and(|best| best.mistakes.contains(&self.mistake)))
             && (q.is_empty() || (!self.is_anonymous() && (has(&person.number) || has(&person.name))))
     }
@@ -57,6 +64,7 @@ impl Filter {
             ("sort", &self.sort),
             ("anonymous", &self.anonymous),
             ("apart", &self.apart),
+            ("disputed", &self.disputed),
         ];
         let kept = fields.into_iter().filter(|(field, kept)| *field != name && !kept.is_empty());
         let pairs = kept.map(|(field, kept)| (field, kept.as_str())).chain([(name, value)]);
@@ -192,6 +200,7 @@ pub(super) struct Row {
     /// Title and id.
     pub mistakes: Vec<(String, String)>,
     pub note: String,
+    pub is_disputed: bool,
     pub attempts: usize,
     pub at: Option<Moment>,
 }
@@ -261,6 +270,7 @@ fn row(frame: &Frame, assignment: &str, filter: &Filter, index: usize, person: &
         score: part::points(best.and_then(|best| best.row.score)),
         max_score: part::points(best.and_then(|best| best.row.max_score)),
         mistakes: shown.map(|row| titled(frame, assignment, &row.mistakes)).unwrap_or_default(),
+        is_disputed: person.is_disputed(),
         note: note.map(|note| note.get(frame.language).replace('`', "")).unwrap_or_default(),
         attempts: person.rows.len(),
         at: person.latest().map(|at| frame.moment(at)),
