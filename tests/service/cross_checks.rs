@@ -25,6 +25,9 @@ on_both!(
     what_an_earlier_service_left_is_checked,
 );
 
+/// What opens the figures.
+const FIGURES: &str = "the-figures-of-the-tests";
+
 /// How often a test asks for what comes in the background, and how long it sleeps in between.
 const ASKED: u32 = 600;
 const BETWEEN: Duration = Duration::from_millis(100);
@@ -55,7 +58,9 @@ async fn opinion(bench: &Bench, id: &str) -> Value {
 }
 
 async fn with(database: Database, judge: Arc<dyn Judge>, clock: Clock) -> Bench {
-    Bench::with(database, Config { cross_check: true, retention_days: 30, workers: 1, ..config() }, judge, clock).await
+    let config =
+        Config { cross_check: true, retention_days: 30, workers: 1, metrics_token: Some(FIGURES.into()), ..config() };
+    Bench::with(database, config, judge, clock).await
 }
 
 async fn the_opinion_comes_after_the_report_and_is_the_teachers(database: Database) {
@@ -111,6 +116,12 @@ async fn a_file_that_differs_is_shown_and_kept(database: Database) {
     let clock = Clock::fixed(1_700_000_000_000);
     let judge = Mistaken { pool: pool(), text: "// disputed" };
     let bench = with(database, Arc::new(judge), clock.clone()).await;
+    let figures = async || {
+        let request = Request::get("/metrics").header(header::AUTHORIZATION, format!("Bearer {FIGURES}"));
+        bench.send(request.body(Body::empty()).expect("a request")).await
+    };
+    // Nothing is counted before somebody has asked.
+    assert_eq!(figures().await.status, StatusCode::OK);
     let mut bytes = right_and_new();
     let plain = hand_in(&bench, "s1", bytes.clone()).await.id();
     bytes.extend(b"// disputed\n");
@@ -129,7 +140,7 @@ async fn a_file_that_differs_is_shown_and_kept(database: Database) {
     assert_eq!(class.matches("<em class=\"disputed\">").count(), 1, "{class}");
     let chosen = text("/teacher?disputed=on").await;
     assert!(chosen.contains("<small id=\"live-count\" data-live>1 shown"), "{chosen}");
-    let figures = text("/metrics").await;
+    let figures = String::from_utf8_lossy(&figures().await.body).into_owned();
     assert!(figures.contains("ggrade_cross_checks_total{opinion=\"differs\"}"), "{figures}");
 
     // When all else of the time goes, the file and the report stay, and nothing of whose they were.
