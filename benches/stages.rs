@@ -29,7 +29,7 @@ fn text() -> String {
     use std::sync::atomic::{AtomicU32, Ordering};
     static NUMBER: AtomicU32 = AtomicU32::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let answer = reference::glsl::answer(assignment(), &[]).expect("the table has a right answer");
+    let answer = &assignment().files[0].solution.text;
     answer
         .replacen("void main", &format!("float nothing(float x) {{ return x * {number}.5; }}\nvoid main"), 1)
         .replacen("gl_Position =", "if (nothing(pv.w) < -1.0) vc *= 0.5;\n  gl_Position =", 1)

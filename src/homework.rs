@@ -11,6 +11,7 @@ use crate::render::{Batch, Scene};
 use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
 use reference::Assignment;
+use reference::interpreter::Type;
 use reference::probes::ProbeSet;
 use reference::rasteriser::{Coverage, Frame};
 use reference::scene::{Matrices, Vertex};
@@ -31,14 +32,14 @@ pub fn assignment(id: &str) -> Result<&'static Assignment, Fault> {
 /// The interface of the assignment's only file.
 pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
     let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
-    let variable = |name: &str, kind: reference::Type| Variable { name: name.into(), ty: kind.glsl().into() };
+    let variable = |name: &str, kind: &Type| Variable { name: name.into(), ty: kind.to_string() };
     let file = assignment.files.first().ok_or_else(|| broken("no file is handed in"))?;
     let fixed = file.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
     let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
     Ok(Interface {
-        inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, input.kind)).collect(),
-        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.name, uniform.kind)).collect(),
-        output: variable(&output.name, output.kind),
+        inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
+        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.name, &uniform.kind)).collect(),
+        output: variable(&output.name, &output.kind),
         constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
         fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
     })

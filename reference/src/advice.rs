@@ -1,9 +1,8 @@
 //! What a right answer is asked beyond the homework: where it would break, that is worth a word and costs nothing.
 
-use crate::expression::Value;
 use crate::probes::{Probe, ProbeSet};
 use crate::scene::Matrices;
-use crate::{Assignment, Text};
+use crate::{Assignment, Text, Value};
 use glam::{DMat4, DVec3};
 
 /// A circumstance that the homework does not have, and what to say of an answer that is right only without it.
@@ -61,10 +60,8 @@ impl Assignment {
         let matrices = when.stretched.map_or(matrices, |by| stretched(&matrices, by));
         let mut attributes = probe.attributes.clone();
         for (input, value) in self.interface.inputs.iter().zip(&mut attributes) {
-            if let (Some((_, by)), Value::Vec4(vector)) =
-                (when.scaled.iter().find(|(name, _)| *name == input.name), value)
-            {
-                *vector *= glam::DVec4::from_array(*by);
+            if let Some((_, by)) = when.scaled.iter().find(|(name, _)| *name == input.name) {
+                *value = value.scaled(by);
             }
         }
         Variation { uniforms: self.uniform_values(&matrices), attributes }

@@ -4,11 +4,11 @@ mod check;
 
 use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
-use crate::expression::Value;
+use crate::interpreter::Type;
 pub use crate::manifest::{Attribute, Matrix, RubricLine, Stage};
 use crate::mistake::{Form, Found, Mistake};
 use crate::scene::{Matrices, Scene, Vertex};
-use crate::{Text, Type, manifest};
+use crate::{Text, Value, manifest};
 use glam::DMat4;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -49,8 +49,21 @@ pub struct HandedIn {
     pub stage: Stage,
     /// The text of the file that is handed out.
     pub starter: String,
+    /// The name of that file.
+    pub starter_name: String,
+    /// A file that computes what is right.
+    pub solution: Solution,
     /// The stages that it is linked with, each with its text.
     pub fixed: Vec<(Stage, String)>,
+}
+
+/// A shader that is right.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// Its name in the folder.
+    pub name: String,
+    /// Its text.
+    pub text: String,
 }
 
 /// What the handed-in stage is given and what it writes, by name.
@@ -93,8 +106,6 @@ pub struct Output {
     pub name: String,
     /// Its type.
     pub kind: Type,
-    /// The definition that it must hold.
-    pub carries: String,
 }
 
 /// A constant of the handed-out file.
@@ -102,8 +113,6 @@ pub struct Output {
 pub struct Constant {
     /// Its name in the shader.
     pub name: String,
-    /// Its type.
-    pub kind: Type,
     /// Its value.
     pub value: Value,
     /// What it means.
@@ -137,6 +146,7 @@ type Folder = &'static [(&'static str, &'static str)];
 
 const BUILT_IN: &[Folder] = &[&[
     (MANIFEST, include_str!("../assignments/ggsample06/assignment.toml")),
+    ("solution.vert", include_str!("../assignments/ggsample06/solution.vert")),
     ("starter.vert", include_str!("../assignments/ggsample06/starter.vert")),
     ("fixed.frag", include_str!("../assignments/ggsample06/fixed.frag")),
 ]];
@@ -179,9 +189,10 @@ impl Assignment {
     /// See [`Assignment::from_folder`].
     pub fn load(read: impl Fn(&str) -> Result<String, String>) -> Result<Self, AssignmentError> {
         let read = |name: &str| read(name).map_err(|message| error(name, message));
-        let manifest: manifest::Manifest =
-            toml::from_str(&read(MANIFEST)?).map_err(|e| error(MANIFEST, e.to_string()))?;
-        check::assignment(manifest, read)
+        let text = read(MANIFEST)?;
+        let manifest: manifest::Manifest = toml::from_str(&text).map_err(|e| error(MANIFEST, e.to_string()))?;
+        let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
+        check::assignment(manifest, line_at, read)
     }
 
     /// The mistake with this id.
@@ -216,14 +227,12 @@ impl Assignment {
 
     /// The values of the uniforms, in the interface's order.
     pub fn uniform_values(&self, matrices: &Matrices) -> Vec<Value> {
-        let value = |u: &Uniform| Value::Mat4(Box::new(u.carries.of(matrices)));
-        self.interface.uniforms.iter().map(value).collect()
+        self.interface.uniforms.iter().map(|uniform| Value::from(uniform.carries.of(matrices))).collect()
     }
 
     /// The values of the vertex attributes, in the interface's order.
     pub fn attribute_values(&self, vertex: &Vertex) -> Vec<Value> {
-        let value = |i: &Input| Value::Vec4(i.carries.of(vertex));
-        self.interface.inputs.iter().map(value).collect()
+        self.interface.inputs.iter().map(|input| Value::from(input.carries.of(vertex))).collect()
     }
 
     /// The equation with these mistakes in it; `None` if one is not known or has no such form.
@@ -232,7 +241,7 @@ impl Assignment {
         for found in mistakes {
             let form = self.mistake(&found.id)?.forms.get(found.form)?;
             for replaced in &form.overrides {
-                *variant.expressions.get_mut(replaced.definition)? = &replaced.expression;
+                *variant.formulas.get_mut(replaced.definition)? = &replaced.formula;
                 *variant.parameters.get_mut(replaced.definition)? = found.parameter.unwrap_or(f64::NAN);
             }
         }
@@ -248,11 +257,11 @@ impl Assignment {
         for (name, value) in changed {
             let found = other.constants.iter().position(|c| c.name == *name);
             let place = found.ok_or_else(|| error(*name, "is not a constant of the assignment"))?;
-            if other.constants[place].kind != value.kind() {
+            if other.constants[place].value.kind() != value.kind() {
                 return Err(error(*name, "has another type"));
             }
             other.constants[place].value = value.clone();
-            other.equation.constants[place] = value.clone();
+            other.equation.constants[place].1 = value.clone();
         }
         Ok(other)
     }

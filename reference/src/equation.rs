@@ -1,13 +1,11 @@
-//! The illumination equation as an ordered list of definitions.
+//! What a right answer computes: the definitions of the solution, in their order, with any of them replaced.
 
-use crate::expression::{Expression, Scope, Type, Value};
+use crate::Value;
+use crate::interpreter::{Formula, Registers, Sheet, Type};
+use crate::value;
 use glam::{DVec3, DVec4};
-
-/// Definition that holds the vertex colour. The one fixed name, beside [`POSITION`].
-pub const COLOUR: &str = "colour";
-
-/// Definition that holds the position in clip space.
-pub const POSITION: &str = "position";
+use std::cell::RefCell;
+use std::sync::Arc;
 
 /// Number of definitions that one expression may use.
 pub(crate) const MAX_INPUTS: usize = 8;
@@ -15,24 +13,33 @@ pub(crate) const MAX_INPUTS: usize = 8;
 /// A name and what it is.
 #[derive(Clone, Debug)]
 pub struct Definition {
-    /// Its name in later definitions.
+    /// Its name in the solution.
     pub name: String,
-    /// What it is in a right answer.
-    pub expression: Expression,
+    /// Its type.
+    pub kind: Type,
+    /// How a right answer computes it.
+    pub formula: Formula,
     /// The slide of the lecture that defines it.
     pub slide: Option<u32>,
     /// What the lecture calls it.
     pub symbol: Option<String>,
 }
 
-/// Constants, uniforms, vertex attributes, and what is computed from them, in slots of that order.
+/// Constants, uniforms, vertex attributes, and what is computed from them, each in a cell of the solution's sheet.
 #[derive(Clone, Debug)]
 pub struct Equation {
-    pub(crate) scope: Scope,
-    pub(crate) constants: Vec<Value>,
-    pub(crate) uniforms: usize,
-    pub(crate) attributes: usize,
+    pub(crate) sheet: Arc<Sheet>,
+    /// The cells of the assignment's constants, in its order, and their values.
+    pub(crate) constants: Vec<(usize, Value)>,
+    /// The cells of the uniforms, in the interface's order.
+    pub(crate) uniforms: Vec<usize>,
+    /// Those of the vertex attributes.
+    pub(crate) attributes: Vec<usize>,
+    /// The cell of the first definition; the others follow, and then what is free in a form.
+    pub(crate) first: usize,
     pub(crate) definitions: Vec<Definition>,
+    /// How many numbers all definitions have.
+    pub(crate) numbers: usize,
     pub(crate) colour: usize,
     pub(crate) position: usize,
 }
@@ -41,16 +48,19 @@ pub struct Equation {
 #[derive(Clone, Debug)]
 pub struct Variant<'a> {
     pub(crate) equation: &'a Equation,
-    pub(crate) expressions: Vec<&'a Expression>,
+    pub(crate) formulas: Vec<&'a Formula>,
     /// For each definition the free parameter of what replaces it; NaN if there is none.
     pub(crate) parameters: Vec<f64>,
+    /// Used again for each vertex.
+    registers: RefCell<Registers>,
 }
 
 /// What a variant computes for one vertex.
 #[derive(Clone, Debug)]
 pub struct Outcome<'a> {
     equation: &'a Equation,
-    values: Vec<Value>,
+    /// The numbers of all definitions, one after the other.
+    numbers: Vec<f64>,
 }
 
 impl Equation {
@@ -64,99 +74,111 @@ impl Equation {
         self.definitions.iter().position(|d| d.name == name)
     }
 
+    /// The place of the definition that is the vertex colour.
+    pub fn colour(&self) -> usize {
+        self.colour
+    }
+
+    /// The place of the definition that is the position in clip space.
+    pub fn position(&self) -> usize {
+        self.position
+    }
+
     /// Whether the value of the definition `of` depends on that of `on`, or is it.
     pub(crate) fn depends(&self, of: usize, on: usize) -> bool {
-        let slots = self.definitions[of].expression.slots();
-        of == on || slots.iter().filter_map(|slot| self.definition_in(*slot)).any(|used| self.depends(used, on))
+        let used = || self.used(&self.definitions[of].formula);
+        of == on || used().any(|used| self.depends(used, on))
     }
 
-    /// The slot of a definition's value.
-    pub(crate) fn slot(&self, definition: usize) -> usize {
-        self.constants.len() + self.uniforms + self.attributes + definition
+    /// The definitions that a formula uses.
+    pub(crate) fn used<'f>(&'f self, formula: &'f Formula) -> impl Iterator<Item = usize> + 'f {
+        formula.uses().iter().filter_map(|cell| self.definition_in(*cell))
     }
 
-    /// The definition whose value is in `slot`, if it is one.
-    pub(crate) fn definition_in(&self, slot: usize) -> Option<usize> {
-        let definition = slot.checked_sub(self.slot(0))?;
+    /// The cell of a definition.
+    pub(crate) fn cell(&self, definition: usize) -> usize {
+        self.first + definition
+    }
+
+    /// The definition in a cell, if there is one.
+    pub(crate) fn definition_in(&self, cell: usize) -> Option<usize> {
+        let definition = cell.checked_sub(self.first)?;
         (definition < self.definitions.len()).then_some(definition)
     }
 
-    /// The slot of a form's free parameter.
-    pub(crate) fn parameter_slot(&self) -> usize {
-        self.slot(self.definitions.len())
-    }
-
-    /// The value in a slot that is not a definition's.
-    pub(crate) fn given(&self, slot: usize, uniforms: &[Value], attributes: &[Value]) -> Option<Value> {
-        if let Some(constant) = self.constants.get(slot) {
-            return Some(constant.clone());
-        }
-        let slot = slot - self.constants.len();
-        uniforms.get(slot).or_else(|| attributes.get(slot.checked_sub(self.uniforms)?)).cloned()
+    /// The cell of a form's free parameter.
+    pub(crate) fn parameter_cell(&self) -> usize {
+        self.cell(self.definitions.len())
     }
 
     /// The names of the constants in the expression of a definition.
     pub fn constants_in(&self, definition: usize) -> Vec<&str> {
-        let slots = self.definitions.get(definition).map_or(&[][..], |d| d.expression.slots());
-        let constants = slots.iter().filter(|slot| **slot < self.constants.len());
-        constants.filter_map(|slot| self.scope.get(*slot)).map(|(name, _)| name).collect()
+        let uses = self.definitions.get(definition).map_or(&[][..], |d| d.formula.uses());
+        let constants = uses.iter().filter(|cell| self.constants.iter().any(|(constant, _)| constant == *cell));
+        constants.map(|cell| self.sheet.cells()[*cell].name.as_str()).collect()
+    }
+
+    /// Registers that hold the constants.
+    pub(crate) fn registers(&self) -> Registers {
+        let mut registers = self.sheet.registers();
+        for (cell, value) in &self.constants {
+            self.sheet.set(*cell, value.numbers(), &mut registers);
+        }
+        registers
     }
 
     /// The equation as it stands.
     pub fn right(&self) -> Variant<'_> {
         Variant {
             equation: self,
-            expressions: self.definitions.iter().map(|d| &d.expression).collect(),
+            formulas: self.definitions.iter().map(|d| &d.formula).collect(),
             parameters: vec![f64::NAN; self.definitions.len()],
+            registers: RefCell::new(self.registers()),
         }
     }
 }
 
 impl<'a> Variant<'a> {
-    /// The expression of each definition, in the equation's order.
-    pub fn expressions(&self) -> &[&'a Expression] {
-        &self.expressions
-    }
-
-    /// The value of the free parameter in each of them; NaN if there is none.
-    pub fn parameters(&self) -> &[f64] {
-        &self.parameters
-    }
-
     /// Computes every definition for one vertex. `uniforms` and `attributes` stand in the interface's order.
     pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Outcome<'a> {
-        let mut values: Vec<Value> = Vec::with_capacity(self.expressions.len());
-        for (expression, parameter) in self.expressions.iter().zip(&self.parameters) {
-            let value = expression.evaluate(&|slot| match self.equation.definition_in(slot) {
-                Some(d) => values.get(d).cloned().unwrap_or(Value::Float(f64::NAN)),
-                None => self.equation.given(slot, uniforms, attributes).unwrap_or(Value::Float(*parameter)),
-            });
-            values.push(value);
+        let Equation { sheet, .. } = self.equation;
+        let mut registers = self.registers.borrow_mut();
+        let given = self.equation.uniforms.iter().zip(uniforms);
+        for (cell, value) in given.chain(self.equation.attributes.iter().zip(attributes)) {
+            sheet.set(*cell, value.numbers(), &mut registers);
         }
-        Outcome { equation: self.equation, values }
+        let mut numbers = Vec::with_capacity(self.equation.numbers);
+        for (formula, parameter) in self.formulas.iter().zip(&self.parameters) {
+            if !parameter.is_nan() {
+                sheet.set(self.equation.parameter_cell(), &[*parameter], &mut registers);
+            }
+            sheet.compute(formula, &mut registers);
+            numbers.extend_from_slice(sheet.get(formula.cell(), &registers));
+        }
+        Outcome { equation: self.equation, numbers }
     }
 }
 
 impl Outcome<'_> {
     /// Value of the definition called `name`.
     pub fn get(&self, name: &str) -> Option<Value> {
-        self.values.get(self.equation.index(name)?).cloned()
+        let definition = self.equation.index(name)?;
+        Value::new(self.equation.definitions[definition].kind.clone(), self.numbers(definition).to_vec())
+    }
+
+    fn numbers(&self, definition: usize) -> &[f64] {
+        let count = |d: &Definition| d.kind.slots().unwrap_or(0);
+        let first = self.equation.definitions[..definition].iter().map(count).sum();
+        &self.numbers[first..first + count(&self.equation.definitions[definition])]
     }
 
     /// Red, green and blue of the vertex colour, not clamped; alpha is not seen.
     pub fn colour(&self) -> DVec3 {
-        self.values[self.equation.colour].vec3()
+        value::vec3(self.numbers(self.equation.colour))
     }
 
     /// Position in clip space.
     pub fn position(&self) -> DVec4 {
-        self.values[self.equation.position].vec4()
-    }
-}
-
-impl Definition {
-    /// The type of the definition's value.
-    pub const fn kind(&self) -> Type {
-        self.expression.kind()
+        value::vec4(self.numbers(self.equation.position))
     }
 }

@@ -8,7 +8,7 @@ use crate::scene::Pose;
 impl Assignment {
     /// The picture that `variant` of the equation draws at `pose`.
     pub fn frame(&self, pose: &Pose, variant: &Variant<'_>) -> Frame {
-        self.picture(pose, variant, crate::equation::COLOUR)
+        self.picture(pose, variant, &self.equation.definitions[self.equation.colour].name)
     }
 
     /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition.

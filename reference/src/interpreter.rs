@@ -8,6 +8,7 @@
 //! - `compile`: syntax → `code`: names and `types` are resolved, constants are folded, `builtin` functions become
 //!   instructions
 //! - `run`: code → outputs, for columns of samples, with `texture`s read by OpenGL's rules
+//! - [`Sheet`]: a program whose `main` is a list of definitions, each to be computed by itself, one sample at a time
 //!
 //! ```
 //! use reference::interpreter::{Program, Stage};
@@ -40,6 +41,7 @@ mod code;
 mod compile;
 mod parse;
 mod run;
+mod sheet;
 mod syntax;
 mod text;
 mod texture;
@@ -49,10 +51,13 @@ mod types;
 mod tests;
 
 pub use code::Variable;
+pub use compile::Draft;
 pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Run, Stopped, Undefined};
+pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
 pub use texture::{Compare, Filter, Level, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 
+use std::collections::HashSet;
 use std::fmt;
 
 /// The stage that a program is for.
@@ -82,6 +87,11 @@ impl Refusal {
         Self { line, what: what.into(), is_limit: true }
     }
 
+    /// What is wrong, or not supported.
+    pub fn what(&self) -> &str {
+        &self.what
+    }
+
     /// Whether the program may be valid, and this interpreter does not know what it uses.
     pub fn is_limit(&self) -> bool {
         self.is_limit
@@ -94,6 +104,19 @@ impl fmt::Display for Refusal {
         write!(f, "line {}: {kind}: {}", self.line, self.what)
     }
 }
+
+/// The scalars of an expression that stands by itself, as a value of a type.
+///
+/// # Errors
+/// It is no expression, or not constant, or not of the type.
+pub fn constant(text: &str, kind: &Type) -> Result<Vec<f64>, Refusal> {
+    let preprocessed = text::preprocess(text)?;
+    let expression = parse::parse_expression(&preprocessed.tokens, HashSet::new())?;
+    compile::constant(&expression, NEWEST, kind)
+}
+
+/// The version of an expression that stands by itself.
+const NEWEST: u32 = 460;
 
 /// A program that can be run, as often as one likes and in any thread.
 #[derive(Clone, Debug)]

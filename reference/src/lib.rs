@@ -1,16 +1,15 @@
 //! What a right answer to a shading homework is, in f64, without a GPU.
 //!
-//! An assignment is data (`assignments/<id>/assignment.toml`): interface, constants, scene, the illumination equation, the
-//! rubric and the known mistakes. From it come, in this order:
+//! An assignment is a folder: a solution, which is a shader, and data (`assignments/<id>/assignment.toml`): the interface,
+//! the scene, the rubric and the known mistakes. From it come, in this order:
 //!
-//! - [`expression`]: the small exact subset of GLSL in which equations are written
-//! - [`equation`]: definitions evaluated in order, with any of them replaced
+//! - [`interpreter`]: GLSL in f64; it knows nothing of the others
+//! - [`equation`]: the solution's definitions, evaluated in order, with any of them replaced
 //! - [`scene`]: poses and matrices of the course program
 //! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
 //! - [`fit`]: which mistakes explain what a shader computed
-//! - [`glsl`]: a shader for any of those hypotheses
 //!
 //! ```
 //! let assignment = reference::assignment("ggsample06").expect("built in");
@@ -23,10 +22,8 @@
 pub mod advice;
 pub mod assignment;
 pub mod equation;
-pub mod expression;
 pub mod fit;
 pub mod frames;
-pub mod glsl;
 pub mod interpreter;
 pub mod manifest;
 pub mod mistake;
@@ -34,7 +31,8 @@ pub mod probes;
 pub mod rasteriser;
 pub mod scene;
 mod text;
+mod value;
 
 pub use assignment::{Assignment, assignment, assignments};
-pub use expression::{Type, Value};
 pub use text::Text;
+pub use value::Value;

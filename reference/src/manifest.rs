@@ -1,5 +1,9 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
+mod mistake;
+
+pub use mistake::{Alternative, Fit, Mistake, TermState, When};
+
 use crate::Text;
 use crate::probes::Region;
 use serde::Deserialize;
@@ -19,14 +23,13 @@ pub struct Manifest {
     pub input: Vec<Input>,
     /// Uniforms of the default block.
     pub uniform: Vec<Uniform>,
-    /// What the handed-in stage writes.
-    pub output: Vec<Output>,
-    /// What the handed-out file defines.
+    /// What the handed-out file defines, as the solution does.
     pub constant: Vec<Constant>,
     /// Geometry, camera, animation.
     pub scene: Scene,
-    /// The illumination equation, in order.
-    pub definition: Vec<Definition>,
+    /// What the lecture says of the solution's definitions, by their names.
+    #[serde(default)]
+    pub definition: BTreeMap<String, Definition>,
     /// How probes are chosen.
     pub probes: Probes,
     /// Lines of the rubric.
@@ -79,6 +82,11 @@ pub struct File {
     pub stage: Stage,
     /// The file that is handed out, in the assignment's folder.
     pub starter: String,
+    /// The file that computes what is right, in the same folder.
+    pub solution: String,
+    /// Other files that compute what is right as well.
+    #[serde(default)]
+    pub accepted: Vec<String>,
     /// The stages that are not handed in.
     pub fixed: Vec<Fixed>,
 }
@@ -109,8 +117,6 @@ pub enum Stage {
 pub struct Input {
     /// Its name in the shader.
     pub name: String,
-    /// Its GLSL type.
-    pub r#type: String,
     /// What it holds.
     pub carries: Attribute,
 }
@@ -131,8 +137,6 @@ pub enum Attribute {
 pub struct Uniform {
     /// Its name in the shader.
     pub name: String,
-    /// Its GLSL type.
-    pub r#type: String,
     /// Which matrix it holds.
     pub carries: Matrix,
 }
@@ -149,28 +153,12 @@ pub enum Matrix {
     NormalMatrix,
 }
 
-/// An output of the handed-in stage.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Output {
-    /// Its name in the shader.
-    pub name: String,
-    /// Its GLSL type.
-    pub r#type: String,
-    /// The definition that it must hold.
-    pub carries: String,
-}
-
 /// A constant of the handed-out file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Constant {
     /// Its name in the shader.
     pub name: String,
-    /// Its GLSL type.
-    pub r#type: String,
-    /// Its value, component by component.
-    pub value: Vec<f64>,
     /// What it means.
     pub means: Text,
     /// The rubric line that suffers when it is changed.
@@ -209,14 +197,10 @@ pub struct Scene {
     pub poses: u32,
 }
 
-/// A definition of the equation.
+/// What the lecture says of a definition.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
-    /// Its name.
-    pub name: String,
-    /// Its expression.
-    pub is: String,
     /// The slide of the lecture that defines it.
     pub slide: Option<u32>,
     /// What the lecture calls it.
@@ -255,97 +239,4 @@ pub struct RubricLine {
     /// Where it can be judged if all earlier lines are right.
     #[serde(default)]
     pub also_in: Vec<Region>,
-}
-
-/// A known mistake.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mistake {
-    /// Its id in reports.
-    pub id: String,
-    /// The mistake in a few words.
-    pub title: Text,
-    /// Fraction of the points that is kept, by rubric line.
-    pub keeps: BTreeMap<String, f64>,
-    /// The ways in which it is written: definition → expression.
-    #[serde(default)]
-    pub forms: Vec<BTreeMap<String, String>>,
-    /// The free parameter of its forms.
-    pub fit: Option<Fit>,
-    /// Whether the handed-out file itself has the mistake.
-    #[serde(default)]
-    pub handed_out: bool,
-    /// Whether something is left out where a right value is used.
-    #[serde(default)]
-    pub at_use: bool,
-    /// Of these the text contains one, parentheses and swizzles aside, where a free parameter explains as much.
-    #[serde(default)]
-    pub needs: Vec<String>,
-    /// Of these constants the statements use none, where a free parameter explains as much.
-    #[serde(default)]
-    pub lacks: Vec<String>,
-    /// What is seen in the picture.
-    pub seen: Text,
-    /// Which equation of the lecture it breaks.
-    pub equation: Text,
-    /// Where to look.
-    pub look: Text,
-    /// Texts for files of which these would not be true.
-    #[serde(default)]
-    pub instead: Vec<Alternative>,
-}
-
-/// Texts in place of a mistake's own.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Alternative {
-    /// When they are said: where all of it holds.
-    pub when: When,
-    /// What is seen in the picture.
-    pub seen: Option<Text>,
-    /// Which equation of the lecture it breaks.
-    pub equation: Option<Text>,
-    /// Where to look.
-    pub look: Option<Text>,
-}
-
-/// What must hold for an [`Alternative`].
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct When {
-    /// The mistake is found in one of these of its forms, from 0.
-    #[serde(default)]
-    pub forms: Vec<usize>,
-    /// None of these words is in the statement that is named; in the file, where none is named.
-    #[serde(default)]
-    pub lacks: Vec<String>,
-    /// How the student's file has the term.
-    pub term: Option<TermState>,
-}
-
-/// How a file has a term that does not show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum TermState {
-    /// It is computed, and it is 0.
-    Zero,
-    /// Nothing stands for it.
-    Absent,
-}
-
-/// A free parameter.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Fit {
-    /// Its name.
-    pub name: String,
-    /// Least value.
-    pub from: f64,
-    /// Greatest value.
-    pub to: f64,
-    /// A likely value.
-    pub example: f64,
-    /// Whether the colour at a place may rise and fall again while it grows.
-    #[serde(default)]
-    pub turns: bool,
 }

@@ -1,7 +1,7 @@
 //! The known mistakes: what the equation becomes, what it costs, and what is said about it.
 
 use crate::Text;
-use crate::expression::Expression;
+use crate::interpreter::Formula;
 
 /// A mistake that students make, as one hypothesis about the equation.
 #[derive(Clone, Debug)]
@@ -81,13 +81,15 @@ pub struct Form {
     pub free: bool,
 }
 
-/// A definition with another expression.
+/// Another expression in place of a definition.
 #[derive(Clone, Debug)]
 pub struct Override {
     /// The definition's place in the equation.
     pub definition: usize,
-    /// What it is here.
-    pub expression: Expression,
+    /// The expression as it is written.
+    pub text: String,
+    /// How it is computed.
+    pub formula: Formula,
 }
 
 /// A number that is found from the samples.

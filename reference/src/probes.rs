@@ -5,9 +5,8 @@
 
 mod design;
 
-use crate::Assignment;
-use crate::expression::Value;
 use crate::scene::{Matrices, Vertex, perspective};
+use crate::{Assignment, Value};
 use design::Light;
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;

@@ -46,7 +46,7 @@ impl Columns {
             let count = samples[0][index].numbers().len();
             let mut columns = vec![Vec::new(); count];
             for sample in samples {
-                columns.iter_mut().zip(sample[index].numbers()).for_each(|(column, number)| column.push(number));
+                columns.iter_mut().zip(sample[index].numbers()).for_each(|(column, number)| column.push(*number));
             }
             (name.clone(), columns)
         };

@@ -1,8 +1,7 @@
 //! Constants of the handed-out file that the student changed, read from their own text.
 
 use crate::source::Source;
-use reference::expression::{Expression, Scope};
-use reference::{Assignment, Value};
+use reference::{Assignment, Value, interpreter};
 
 /// A constant with another value than the handed-out one.
 #[derive(Clone, Debug)]
@@ -27,9 +26,9 @@ pub fn changed(source: &Source, assignment: &Assignment) -> Vec<ChangedConstant>
         .iter()
         .filter_map(|constant| {
             let (at, text) = initialiser(code, &constant.name).or_else(|| defined(code, &constant.name))?;
-            let expression = Expression::parse(text, &Scope::default()).ok()?;
-            let found = expression.evaluate(&|_| Value::Float(f64::NAN));
-            (found.kind() == constant.kind && !same(&found, &constant.value)).then(|| ChangedConstant {
+            let kind = constant.value.kind();
+            let found = Value::new(kind.clone(), interpreter::constant(text, kind).ok()?)?;
+            (!same(&found, &constant.value)).then(|| ChangedConstant {
                 name: constant.name.clone(),
                 expected: constant.value.clone(),
                 found,
@@ -44,7 +43,7 @@ fn same(a: &Value, b: &Value) -> bool {
     // Literals are read in f32 by a compiler; a change that small is none.
     const RELATIVE: f64 = 1e-6;
     let close = |(x, y): (f64, f64)| (x - y).abs() <= RELATIVE * y.abs().max(1e-3);
-    a.numbers().into_iter().zip(b.numbers()).all(close)
+    a.numbers().iter().copied().zip(b.numbers().iter().copied()).all(close)
 }
 
 /// The text after `name =` up to the comma or semicolon that ends it, and where the name stands.

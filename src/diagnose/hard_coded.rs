@@ -2,10 +2,10 @@
 
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
+use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
-use reference::{Assignment, Value};
 use std::ops::Range;
 
 /// Whether the colour depends on nothing but the matrices and the vertex number, as a table does: it stays the same, number
@@ -50,7 +50,7 @@ fn varies(assignment: &Assignment, probes: &ProbeSet, definition: &str) -> bool 
     let right = assignment.equation.right();
     let mut values = probes.iter().filter_map(|probe| {
         let outcome = right.evaluate(&probes.groups.get(probe.group)?.uniforms, &probe.attributes);
-        outcome.get(definition).as_ref().map(Value::numbers)
+        outcome.get(definition).map(|value| value.numbers().to_vec())
     });
     let Some(first) = values.next() else { return false };
     values.any(|other| first.iter().zip(&other).any(|(a, b)| (a - b).abs() > COLOUR_TOLERANCE))

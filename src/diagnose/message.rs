@@ -11,6 +11,7 @@ use crate::source::Source;
 use crate::translate::{Interpreter, NO_LINE};
 use reference::assignment::RubricLine;
 use reference::fit::Worst;
+use reference::interpreter::Type;
 use reference::mistake::{Condition, Found, Mistake};
 use reference::probes::Region;
 
@@ -198,15 +199,15 @@ impl<'f> Blanks<'f> {
         self.line = Some(changed.line);
         self.values.push(("line", changed.line.to_string()));
         self.values.push(("name", changed.name.clone()));
-        self.values.push(("expected", numbers(&changed.expected.numbers())));
-        self.values.push(("found", numbers(&changed.found.numbers())));
+        self.values.push(("expected", numbers(changed.expected.numbers())));
+        self.values.push(("found", numbers(changed.found.numbers())));
     }
 
     fn parameter(&mut self, parameter: Option<f64>, evidence: &Evidence<'_>) {
         let Some(parameter) = parameter else { return };
         self.values.push(("found", number(parameter)));
         // The only scalar among the constants is what the exponent should be.
-        let scalar = evidence.assignment.constants.iter().find(|constant| constant.kind == reference::Type::Float);
+        let scalar = evidence.assignment.constants.iter().find(|constant| *constant.value.kind() == Type::FLOAT);
         self.values.extend(scalar.map(|constant| ("expected", number(constant.value.float()))));
     }
 

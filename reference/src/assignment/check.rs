@@ -2,43 +2,39 @@
 
 mod advice;
 mod mistakes;
+mod solution;
 
-use super::{Assignment, AssignmentError, Constant, HandedIn, Input, Interface, Output, Uniform, error};
-use crate::equation::{COLOUR, Definition, Equation, MAX_INPUTS, POSITION};
-use crate::expression::{Expression, Scope, Type, Value};
+use super::{Assignment, AssignmentError, Constant, HandedIn, error};
+use crate::interpreter::Type;
 use crate::manifest::{self, Manifest};
 use crate::scene::{Scene, Vertex};
 use glam::DVec3;
+use solution::Solution;
 use std::collections::HashSet;
 
-/// Definitions and rubric lines are held as the bits of a u64.
-const MAX_DEFINITIONS: usize = 64;
+/// Rubric lines are held as the bits of a u64.
+const MAX_LINES: usize = 64;
 
 type Checked<T> = Result<T, AssignmentError>;
 
-pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) -> Checked<Assignment> {
-    let interface = interface(&m)?;
-    let constants = constants(&m)?;
-    let equation = equation(&interface, &constants, &m.definition)?;
-    for output in &interface.outputs {
-        let place = format!("output `{}`", output.name);
-        let definition = named(&equation, &output.carries, &place)?;
-        if equation.definitions[definition].kind() != output.kind {
-            return Err(error(place, format!("`{}` is not a {}", output.carries, output.kind.glsl())));
-        }
-    }
-    for definition in &equation.definitions {
-        let place = format!("definition `{}`", definition.name);
-        definition_uses(&definition.expression, &equation, &place)?;
-    }
-    let lines = rubric(&m.rubric, &equation)?;
+/// `line_at`: the line of `assignment.toml` in which a byte of it stands.
+pub(super) fn assignment(
+    mut m: Manifest,
+    line_at: impl Fn(usize) -> u32,
+    read: impl Fn(&str) -> Checked<String>,
+) -> Checked<Assignment> {
+    let files = files(std::mem::take(&mut m.file), read)?;
+    let mut solution = Solution::read(&files[0], &m.constant)?;
+    let interface = solution.interface(&m)?;
+    let constants = solution.constants(std::mem::take(&mut m.constant))?;
+    let lines = rubric(&m.rubric, &solution)?;
     for constant in &constants {
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let mut ids = HashSet::new();
     let mut titles = HashSet::new();
     let mut mistakes = Vec::new();
-    for entry in m.mistake {
+    for entry in std::mem::take(&mut m.mistake) {
         if !ids.insert(entry.id.clone()) {
             return Err(error(format!("mistake `{}`", entry.id), "stands twice"));
         }
@@ -46,14 +42,16 @@ pub(super) fn assignment(m: Manifest, read: impl Fn(&str) -> Checked<String>) ->
         if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
             return Err(error(format!("mistake `{}`", entry.id), "another mistake has the same title"));
         }
-        mistakes.push(mistakes::mistake(entry, &equation, &lines)?);
+        mistakes.push(mistakes::mistake(entry, &mut solution, &lines, &line_at)?);
     }
     probing(&m.probes, &constants)?;
-    let advice = m.advice.into_iter().map(|entry| advice::advice(entry, &interface, &constants, &equation));
+    let advice = std::mem::take(&mut m.advice).into_iter();
+    let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<Checked<Vec<_>>>()?;
+    let equation = solution.finish(&m, &interface, &constants)?;
     Ok(Assignment {
-        files: files(m.file, read)?,
         scene: scene(&m.scene)?,
+        files,
         id: m.id,
         title: m.title,
         interface,
@@ -71,121 +69,25 @@ fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> 
         return Err(error("file", "nothing is handed in"));
     }
     let handed_in = |file: manifest::File| {
+        if file.stage != manifest::Stage::Vertex {
+            return Err(error(format!("file `{}`", file.name), "only vertex shaders can be handed in"));
+        }
         let fixed = file.fixed.iter().map(|f| Ok((f.stage, read(&f.file)?))).collect::<Checked<_>>()?;
-        Ok(HandedIn { starter: read(&file.starter)?, name: file.name, stage: file.stage, fixed })
+        let solution = super::Solution { text: read(&file.solution)?, name: file.solution };
+        let starter = read(&file.starter)?;
+        Ok(HandedIn { starter, starter_name: file.starter, solution, name: file.name, stage: file.stage, fixed })
     };
     files.into_iter().map(handed_in).collect()
 }
 
-fn kind(name: &str, place: &str) -> Checked<Type> {
-    Type::from_glsl(name).ok_or_else(|| error(place, format!("`{name}` is not a type known here")))
-}
-
-fn exactly(wanted: Type, name: &str, place: &str) -> Checked<Type> {
-    match kind(name, place)? {
-        t if t == wanted => Ok(t),
-        _ => Err(error(place, format!("must be a {}", wanted.glsl()))),
-    }
-}
-
-fn interface(m: &Manifest) -> Checked<Interface> {
-    let input = |i: &manifest::Input| {
-        Ok(Input {
-            name: i.name.clone(),
-            kind: exactly(Type::Vec4, &i.r#type, &format!("input `{}`", i.name))?,
-            carries: i.carries,
-        })
-    };
-    let uniform = |u: &manifest::Uniform| {
-        Ok(Uniform {
-            name: u.name.clone(),
-            kind: exactly(Type::Mat4, &u.r#type, &format!("uniform `{}`", u.name))?,
-            carries: u.carries,
-        })
-    };
-    let output = |o: &manifest::Output| {
-        Ok(Output {
-            name: o.name.clone(),
-            kind: kind(&o.r#type, &format!("output `{}`", o.name))?,
-            carries: o.carries.clone(),
-        })
-    };
-    Ok(Interface {
-        inputs: m.input.iter().map(input).collect::<Checked<_>>()?,
-        uniforms: m.uniform.iter().map(uniform).collect::<Checked<_>>()?,
-        outputs: m.output.iter().map(output).collect::<Checked<_>>()?,
-    })
-}
-
-fn constants(m: &Manifest) -> Checked<Vec<Constant>> {
-    let constant = |c: &manifest::Constant| {
-        let place = format!("constant `{}`", c.name);
-        let kind = kind(&c.r#type, &place)?;
-        let value = Value::from_numbers(kind, &c.value)
-            .ok_or_else(|| error(&place, format!("a {} has {} numbers", kind.glsl(), kind.numbers())))?;
-        Ok(Constant { name: c.name.clone(), kind, value, means: c.means.clone(), line: c.line.clone() })
-    };
-    m.constant.iter().map(constant).collect()
-}
-
-fn declare(scope: &mut Scope, name: &str, kind: Type) -> Checked<()> {
-    scope
-        .declare(name, kind)
-        .map(|_| ())
-        .ok_or_else(|| error(format!("`{name}`"), "is taken, means something in GLSL, or is not a name"))
-}
-
-fn equation(interface: &Interface, constants: &[Constant], entries: &[manifest::Definition]) -> Checked<Equation> {
-    let mut scope = Scope::default();
-    for c in constants {
-        declare(&mut scope, &c.name, c.kind)?;
-    }
-    for u in &interface.uniforms {
-        declare(&mut scope, &u.name, u.kind)?;
-    }
-    for i in &interface.inputs {
-        declare(&mut scope, &i.name, i.kind)?;
-    }
-    let mut definitions = Vec::new();
-    for d in entries {
-        let place = format!("definition `{}`", d.name);
-        let expression = Expression::parse(&d.is, &scope).map_err(|e| error(place, e.to_string()))?;
-        declare(&mut scope, &d.name, expression.kind())?;
-        let symbol = d.symbol.clone();
-        definitions.push(Definition { name: d.name.clone(), expression, slide: d.slide, symbol });
-    }
-    if definitions.len() > MAX_DEFINITIONS {
-        let message = format!("more than {MAX_DEFINITIONS} of them");
-        return Err(error("definition", message));
-    }
-    let find = |name: &str| {
-        let place = definitions.iter().position(|d| d.name == name);
-        let place = place.filter(|i| definitions[*i].kind() == Type::Vec4);
-        place.ok_or_else(|| error(format!("definition `{name}`"), "is missing or not a vec4"))
-    };
-    Ok(Equation {
-        colour: find(COLOUR)?,
-        position: find(POSITION)?,
-        scope,
-        constants: constants.iter().map(|c| c.value.clone()).collect(),
-        uniforms: interface.uniforms.len(),
-        attributes: interface.inputs.len(),
-        definitions,
-    })
-}
-
-fn named(equation: &Equation, name: &str, place: &str) -> Checked<usize> {
-    equation.index(name).ok_or_else(|| error(place, format!("there is no definition `{name}`")))
-}
-
-fn rubric(lines: &[manifest::RubricLine], equation: &Equation) -> Checked<HashSet<String>> {
-    if lines.len() > MAX_DEFINITIONS {
+fn rubric(lines: &[manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {
+    if lines.len() > MAX_LINES {
         return Err(error("rubric", "has too many lines"));
     }
     let mut ids = HashSet::new();
     for line in lines {
         let place = format!("rubric line `{}`", line.id);
-        named(equation, &line.judges, &place)?;
+        solution.definition(&line.judges, &|| place.clone())?;
         if !line.points.is_finite() || line.points <= 0.0 {
             return Err(error(place, "is worth nothing"));
         }
@@ -196,28 +98,22 @@ fn rubric(lines: &[manifest::RubricLine], equation: &Equation) -> Checked<HashSe
     Ok(ids)
 }
 
+/// Names as a sentence has them.
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
 fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> Checked<()> {
     if lines.contains(line) { Ok(()) } else { Err(error(place, format!("there is no rubric line `{line}`"))) }
 }
 
-/// A search keeps what a definition uses in a few places.
-fn definition_uses(expression: &Expression, equation: &Equation, place: &str) -> Checked<()> {
-    let slots = expression.slots().iter();
-    let used = slots.filter(|slot| equation.definition_in(**slot).is_some());
-    if used.count() > MAX_INPUTS {
-        let message = format!("uses more than {MAX_INPUTS} definitions");
-        return Err(error(place, message));
-    }
-    Ok(())
-}
-
 fn probing(probes: &manifest::Probes, constants: &[Constant]) -> Checked<()> {
     let find = |name: &str, kind: Type| {
-        let found = constants.iter().any(|c| c.name == name && c.kind == kind);
-        found.then_some(()).ok_or_else(|| error("probes", format!("there is no {} constant `{name}`", kind.glsl())))
+        let found = constants.iter().any(|c| c.name == name && *c.value.kind() == kind);
+        found.then_some(()).ok_or_else(|| error("probes", format!("there is no {kind} constant `{name}`")))
     };
-    find(&probes.light, Type::Vec4)?;
-    find(&probes.shininess, Type::Float)?;
+    find(&probes.light, Type::VEC4)?;
+    find(&probes.shininess, Type::FLOAT)?;
     if probes.groups == 0 || probes.per_group == 0 {
         return Err(error("probes", "there are none"));
     }

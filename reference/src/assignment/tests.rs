@@ -1,20 +1,31 @@
 use super::*;
 
-fn loaded(change: impl Fn(&str) -> String) -> Result<Assignment, AssignmentError> {
+/// The assignment with a change in one of its files.
+fn loaded(changed: &str, change: impl Fn(&str) -> String) -> Result<Assignment, AssignmentError> {
     Assignment::load(|name| {
         let file = BUILT_IN[0].iter().find(|(n, _)| *n == name);
         let (_, text) = file.ok_or("is not in the folder")?;
-        Ok(if name == MANIFEST { change(text) } else { (*text).to_owned() })
+        Ok(if name == changed { change(text) } else { (*text).to_owned() })
     })
 }
 
-/// The error that replacing `from` by `to` in `assignment.toml` leads to.
-fn broken(from: &str, to: &str) -> String {
+/// The error that replacing `from` by `to` in a file leads to.
+fn broken_in(file: &str, from: &str, to: &str) -> String {
     let change = |text: &str| {
         assert!(text.contains(from), "{from}");
         text.replacen(from, to, 1)
     };
-    loaded(change).expect_err(to).to_string()
+    loaded(file, change).expect_err(to).to_string()
+}
+
+/// The same in `assignment.toml`.
+fn broken(from: &str, to: &str) -> String {
+    broken_in(MANIFEST, from, to)
+}
+
+/// Where a text stands in `assignment.toml`.
+fn line_of(text: &str) -> usize {
+    BUILT_IN[0][0].1.lines().position(|line| line.contains(text)).expect(text) + 1
 }
 
 #[test]
@@ -28,21 +39,15 @@ fn the_built_in_assignment_is_what_the_homework_says() {
 }
 
 #[test]
-fn constants_of_the_starter_are_those_of_the_manifest() {
+fn constants_are_read_from_the_solution() {
     let a = assignment("ggsample06").expect("built in");
-    let starter = &a.files[0].starter;
-    for constant in &a.constants {
-        let start = format!("const {} {} = ", constant.kind.glsl(), constant.name);
-        let line = starter.lines().find_map(|l| l.strip_prefix(&start));
-        let text = line.expect(&constant.name).split(';').next().expect("value");
-        let numbers: Vec<f64> = text
-            .trim_start_matches("vec4(")
-            .trim_end_matches(')')
-            .split(',')
-            .map(|n| n.trim().parse().expect("a number"))
-            .collect();
-        assert_eq!(numbers, constant.value.numbers(), "{}", constant.name);
-    }
+    let constant = |name: &str| a.constants.iter().find(|c| c.name == name).expect(name).value.clone();
+    assert_eq!(constant("lamb"), Value::from(glam::DVec4::new(0.2, 0.2, 0.2, 1.0)));
+    assert_eq!(constant("kshi"), Value::from(80.0));
+    assert_eq!(
+        broken_in("starter.vert", "float kshi = 80.0", "float kshi = 8.0"),
+        "starter.vert, line 17: `kshi` is not what it is in solution.vert, line 16: write the same in both"
+    );
 }
 
 #[test]
@@ -58,19 +63,6 @@ fn a_folder_loads_as_the_built_in_one() {
 fn what_contradicts_itself_is_refused_with_its_place() {
     assert!(broken("cycle = 5", "cycles = 5").contains("unknown field `cycles`"));
     assert_eq!(
-        broken("is = \"normalize(l + v)\"", "is = \"normalize(l + vv)\""),
-        "definition `h`: column 15: `vv` is not known here"
-    );
-    assert_eq!(broken("is = \"total\"", "is = \"total.rgb\""), "definition `colour`: is missing or not a vec4");
-    assert_eq!(
-        broken("forms = [{ ambient = \"kamb + lamb\" }]", "forms = [{ ambient = \"specular\" }]"),
-        "mistake `ambient-added`, form 0, `ambient`: uses `specular`, which is defined later"
-    );
-    assert_eq!(
-        broken("{ facing = \"nh\" }", "{ facings = \"nh\" }"),
-        "mistake `specular-unclamped`, form 0, `facings`: there is no definition `facings`"
-    );
-    assert_eq!(
         broken("keeps = { ambient = 0.5 }", "keeps = { ambient = 1.5 }"),
         "mistake `ambient-added`: keeps 1.5 of `ambient`: not a fraction"
     );
@@ -83,7 +75,10 @@ fn what_contradicts_itself_is_refused_with_its_place() {
         broken("en = \"No ambient term\"", "en = \"Handed in unchanged\""),
         "mistake `ambient-missing`: another mistake has the same title"
     );
-    assert_eq!(broken("value = [80]", "value = [80, 1]"), "constant `kshi`: a float has 1 numbers");
+    assert_eq!(
+        broken("name = \"kshi\"", "name = \"shininess\""),
+        "constant `shininess`: solution.vert has no `const type shininess = …;`"
+    );
     assert_eq!(broken("id = \"ambient-added\"", "id = \"ambient-missing\""), "mistake `ambient-missing`: stands twice");
     assert_eq!(
         broken("far = 15", "far = 0.5"),
@@ -93,17 +88,86 @@ fn what_contradicts_itself_is_refused_with_its_place() {
 }
 
 #[test]
+fn an_expression_of_a_mistake_is_refused_with_its_line_and_what_to_write() {
+    let (form, place) = ("forms = [{ ambient = \"kamb + lamb\" }]", "mistake `ambient-added`, form 0, `ambient`");
+    let error = |expression: &str| broken(form, &format!("forms = [{{ ambient = \"{expression}\" }}]"));
+    let start = format!("assignment.toml, line {}, {place}: ", line_of(form));
+    let known = "`pl`, `lamb`, `ldiff`, `lspec`, `kamb`, `kdiff`, `kspec`, `kshi`, `mw`, `mc`, `mg`, `pv`, `cv`, `p`, \
+                 `v`, `l`, `n`, `h`, `nl`, `lambert`, `nh`, `facing`, `highlight`";
+    let wanted = format!("write an expression of type vec4 with {known}");
+    assert_eq!(error("kamb + lam"), format!("{start}there is no variable lam: {wanted}"));
+    assert_eq!(error("nl"), format!("{start}float is not vec4: {wanted}"));
+    assert_eq!(error("kamb +"), format!("{start}an expression is expected before the end of the file: {wanted}"));
+    assert_eq!(error("kamb; lamb"), format!("{start}the end of the expression is expected before `;`: {wanted}"));
+    assert_eq!(error("specular"), format!("{start}uses `specular`, which is defined later: use only {known}"));
+    let changed = error("(p = lamb)");
+    assert!(changed.starts_with(&format!("{start}this changes `p`, which has a value already")), "{changed}");
+    let unknown = broken("{ facing = \"nh\" }", "{ facings = \"nh\" }");
+    let line = line_of("{ facing = \"nh\" }");
+    let start = format!("assignment.toml, line {line}, mistake `specular-unclamped`, form 0, `facings`: there is no");
+    assert!(
+        unknown.starts_with(&format!("{start} definition `facings` in solution.vert, which has `p`, ")),
+        "{unknown}"
+    );
+    let taken = broken("fit = { name = \"x\", from = 0.1, to = 5", "fit = { name = \"nl\", from = 0.1, to = 5");
+    assert!(taken.ends_with("`nl` is taken, means something in GLSL, or is not a name"), "{taken}");
+}
+
+#[test]
+fn a_solution_is_refused_with_its_line_and_what_to_write() {
+    let error = |from: &str, to: &str| broken_in("solution.vert", from, to);
+    let half = "vec3 h = normalize(l + v);";
+    assert_eq!(error(half, "vec3 h = normalize(l + vv);"), "solution.vert, line 34: there is no variable vv");
+    assert_eq!(error(half, "vec3 h;"), "solution.vert, line 34: `h` has no value: write `h = …` where it is declared");
+    let only = "solution.vert, line 34: `main` has only definitions `type name = expression;`, and then \
+                `output = name;`: put this into a function";
+    assert_eq!(error(half, &format!("{half} if (true) discard;")), only);
+    assert_eq!(
+        error(half, &format!("{half} n = h;")),
+        "solution.vert, line 34: `n` has a value already: give the new one a name of its own"
+    );
+    assert_eq!(
+        error("vc = colour;", "vc = total * 1.0;"),
+        "solution.vert, line 52: name the value first: `vec4 a_name = …; vc = a_name;`"
+    );
+    assert_eq!(error("vc = colour;", ""), "solution.vert: the output has no value: write `the output = name;`");
+    assert_eq!(
+        error("uniform mat4 mw;", "uniform mat3 mw;"),
+        "solution.vert, line 21: `mw` is a mat3: write `uniform mat4 mw;`"
+    );
+    assert_eq!(
+        error("out vec4 vc;", "out vec4 vc; uniform float gain;"),
+        "solution.vert, line 25: `gain` is neither [[input]] nor [[uniform]] in assignment.toml: add it, or remove it here"
+    );
+    assert_eq!(
+        error("out vec4 vc;", "out vec4 vc; float gain = 1.0;"),
+        "solution.vert, line 25: `gain` is not known before `main`: write `const` before it, or move it there"
+    );
+}
+
+#[test]
+fn a_solution_may_have_functions_with_branches() {
+    let helper = "vec3 unit(vec3 x) { if (length(x) == 0.0) return x; return normalize(x); }\nvoid main()";
+    let change = |text: &str| text.replace("void main()", helper).replace("normalize(l + v)", "unit(l + v)");
+    let (other, known) = (loaded("solution.vert", change).expect("valid"), assignment("ggsample06").expect("built in"));
+    let probes = known.probes(1);
+    for (a, b) in other.probes(1).iter().zip(&probes) {
+        assert_eq!((a.colour, a.position), (b.colour, b.position));
+    }
+}
+
+#[test]
 fn a_changed_constant_changes_the_equation() {
     let a = assignment("ggsample06").expect("built in");
-    let changed = a.with_constants(&[("kshi", Value::Float(20.0))]).expect("a constant");
+    let changed = a.with_constants(&[("kshi", Value::from(20.0))]).expect("a constant");
     let probes = a.probes(1);
     let differs = probes.iter().any(|p| {
         let outcome = changed.equation.right().evaluate(probes.uniforms(p), &p.attributes);
         (outcome.colour() - p.colour).abs().max_element() > 0.05
     });
     assert!(differs);
-    assert!(a.with_constants(&[("kshi", Value::Bool(true))]).is_err());
-    assert!(a.with_constants(&[("shininess", Value::Float(1.0))]).is_err());
+    assert!(a.with_constants(&[("kshi", Value::from(glam::DVec4::ONE))]).is_err());
+    assert!(a.with_constants(&[("shininess", Value::from(1.0))]).is_err());
 }
 
 /// What is said must be said in both languages, and a placeholder must not be left over when its value is not known.

@@ -3,10 +3,10 @@
 //! A search tries thousands of combinations that share most of their terms, and gives most of them up after a few probes. So
 //! a definition with given inputs is one column, shared by all combinations, and filled only as far as somebody asks.
 
-use crate::Assignment;
-use crate::equation::MAX_INPUTS;
-use crate::expression::{Expression, Value};
+use crate::equation::{Equation, MAX_INPUTS};
+use crate::interpreter::{Formula, Registers};
 use crate::probes::{Probe, ProbeSet};
+use crate::{Assignment, Value, value};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -14,7 +14,7 @@ use std::hash::{BuildHasherDefault, Hasher};
 /// Definitions as a set of bits.
 pub(super) type Set = u64;
 
-/// An expression, known to [`Columns`].
+/// A formula, known to [`Columns`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Rule(u32);
 
@@ -40,64 +40,92 @@ pub(super) struct Replaced {
 
 struct Column {
     key: Key,
-    values: Vec<Value>,
+    /// The numbers of all probes that are computed, one probe after the other.
+    numbers: Vec<f64>,
+    /// How many are one probe's.
+    width: usize,
+}
+
+impl Column {
+    fn has(&self, probe: usize) -> bool {
+        self.numbers.len() > probe * self.width
+    }
+
+    fn at(&self, probe: usize) -> &[f64] {
+        &self.numbers[probe * self.width..(probe + 1) * self.width]
+    }
 }
 
 struct RuleBody<'a> {
-    expression: &'a Expression,
+    formula: &'a Formula,
     /// The definitions that it uses.
     uses: Vec<usize>,
     /// The same as a set.
     used: Set,
+    /// The uniforms and the attributes that it uses, with their cells.
+    uniforms: Vec<(usize, usize)>,
+    attributes: Vec<(usize, usize)>,
+    /// The cell that it computes, and the cell of the number that is free in it.
+    cell: usize,
+    free: Option<usize>,
 }
 
 pub(super) struct Columns<'a> {
-    assignment: &'a Assignment,
+    equation: &'a Equation,
     /// The probes in the order in which they are tried.
     probes: Vec<&'a Probe>,
     uniforms: Vec<&'a [Value]>,
     rules: Vec<RuleBody<'a>>,
-    rules_by_text: HashMap<&'a str, Rule>,
     columns: Vec<Column>,
     known: HashMap<Key, u32, BuildHasherDefault<Mixer>>,
-    /// One value for each definition, for combinations that are not worth a column.
-    scratch: Vec<Value>,
+    /// Where columns are computed.
+    registers: Registers,
+    /// Where combinations are computed that are not worth a column.
+    scratch: Registers,
 }
 
 impl<'a> Columns<'a> {
     /// `order`: the places of the probes in the set, in the order in which they are tried.
     pub(super) fn new(assignment: &'a Assignment, probes: &'a ProbeSet, order: &[usize]) -> Self {
         let tried = || order.iter().map(|place| &probes.probes[*place]);
-        let definitions = assignment.equation.definitions.len();
+        let equation = &assignment.equation;
         Self {
-            assignment,
+            equation,
             uniforms: tried().map(|p| probes.uniforms(p)).collect(),
             probes: tried().collect(),
             rules: Vec::new(),
-            rules_by_text: HashMap::new(),
             columns: Vec::new(),
             known: HashMap::default(),
-            scratch: vec![Value::Float(f64::NAN); definitions],
+            registers: equation.registers(),
+            scratch: equation.registers(),
         }
     }
 
-    /// Makes an expression known. The same text is the same rule.
-    pub(super) fn rule(&mut self, expression: &'a Expression) -> Rule {
-        *self.rules_by_text.entry(expression.text()).or_insert_with(|| {
-            let equation = &self.assignment.equation;
-            let slots = expression.slots().iter();
-            let uses: Vec<usize> = slots.filter_map(|s| equation.definition_in(*s)).collect();
-            self.rules.push(RuleBody { expression, used: uses.iter().map(|d| 1 << d).sum(), uses });
-            Rule(u32::try_from(self.rules.len() - 1).unwrap_or(u32::MAX))
-        })
+    /// Makes a formula known.
+    pub(super) fn rule(&mut self, formula: &'a Formula) -> Rule {
+        let equation = self.equation;
+        let uses: Vec<usize> = equation.used(formula).collect();
+        let given = |cells: &[usize]| {
+            let all = cells.iter().copied().enumerate();
+            all.filter(|(_, cell)| formula.uses().contains(cell)).collect()
+        };
+        self.rules.push(RuleBody {
+            formula,
+            used: uses.iter().map(|d| 1 << d).sum(),
+            uses,
+            uniforms: given(&equation.uniforms),
+            attributes: given(&equation.attributes),
+            cell: formula.cell(),
+            free: Some(equation.parameter_cell()).filter(|cell| formula.uses().contains(cell)),
+        });
+        Rule(u32::try_from(self.rules.len() - 1).unwrap_or(u32::MAX))
     }
 
     /// The right equation.
     pub(super) fn right(&mut self) -> Resolved {
-        let definitions = &self.assignment.equation.definitions;
-        let mut resolved = Vec::with_capacity(definitions.len());
-        for definition in definitions {
-            let rule = self.rule(&definition.expression);
+        let mut resolved = Vec::with_capacity(self.equation.definitions.len());
+        for definition in &self.equation.definitions {
+            let rule = self.rule(&definition.formula);
             let column = self.column(rule, f64::NAN, &resolved);
             resolved.push(column);
         }
@@ -142,86 +170,106 @@ impl<'a> Columns<'a> {
         let next = u32::try_from(self.columns.len()).unwrap_or(u32::MAX);
         let column = *self.known.entry(key).or_insert(next);
         if column == next {
-            self.columns.push(Column { key, values: Vec::new() });
+            let definition = self.rules[rule.0 as usize].formula.cell() - self.equation.first;
+            let width = self.equation.definitions[definition].kind.slots().unwrap_or(1);
+            self.columns.push(Column { key, numbers: Vec::new(), width });
         }
         column
     }
 
     /// The column of the vertex colour.
     pub(super) fn colour_column(&self, resolved: &Resolved) -> u32 {
-        resolved[self.assignment.equation.colour]
+        resolved[self.equation.colour]
     }
 
     /// The vertex colour at a probe.
     pub(super) fn colour(&mut self, column: u32, probe: usize) -> DVec3 {
         self.fill(column, probe);
-        self.columns[column as usize].values[probe].vec3()
+        value::vec3(self.columns[column as usize].at(probe))
     }
 
     /// The vertex colour at a probe for `base` with some definitions replaced, without making columns of them.
     pub(super) fn colour_with(&mut self, base: &Resolved, replaced: &[Replaced], probe: usize) -> DVec3 {
-        let equation = &self.assignment.equation;
+        let Equation { sheet, colour, first, .. } = self.equation;
         let mut changed: Set = 0;
-        let first = replaced.first().map_or(base.len(), |r| r.definition);
-        for definition in first..=equation.colour {
+        let from = replaced.first().map_or(base.len(), |r| r.definition);
+        for definition in from..=*colour {
             let Some((rule, parameter)) = self.changed_rule(base, replaced, changed, definition) else {
                 continue;
             };
-            for place in 0..self.rules[rule.0 as usize].uses.len() {
-                let used = self.rules[rule.0 as usize].uses[place];
-                if changed & (1 << used) == 0 {
-                    self.fill(base[used], probe);
-                }
+            let mut unchanged = self.rules[rule.0 as usize].used & !changed;
+            while unchanged != 0 {
+                let used = unchanged.trailing_zeros() as usize;
+                unchanged &= unchanged - 1;
+                self.fill(base[used], probe);
+                let numbers = self.columns[base[used] as usize].at(probe);
+                sheet.set(first + used, numbers, &mut self.scratch);
             }
-            let sample = self.probes[probe];
-            let uniforms = self.uniforms[probe];
-            let expression = self.rules[rule.0 as usize].expression;
-            let value = expression.evaluate(&|slot| match equation.definition_in(slot) {
-                Some(d) if changed & (1 << d) != 0 => self.scratch[d].clone(),
-                Some(d) => self.columns[base[d] as usize].values[probe].clone(),
-                None => equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(parameter)),
-            });
-            self.scratch[definition] = value;
+            let rule = &self.rules[rule.0 as usize];
+            rule.give(
+                self.equation,
+                self.uniforms[probe],
+                &self.probes[probe].attributes,
+                parameter,
+                &mut self.scratch,
+            );
+            sheet.compute(rule.formula, &mut self.scratch);
             changed |= 1 << definition;
         }
-        if changed & (1 << equation.colour) == 0 {
+        if changed & (1 << *colour) == 0 {
             return self.colour(self.colour_column(base), probe);
         }
-        self.scratch[equation.colour].vec3()
+        value::vec3(sheet.get(first + colour, &self.scratch))
     }
 
     fn fill(&mut self, column: u32, probe: usize) {
-        let filled = self.columns[column as usize].values.len();
-        if filled > probe {
+        if self.columns[column as usize].has(probe) {
             return;
         }
         let inputs = self.columns[column as usize].key.inputs;
         for input in inputs.into_iter().filter(|i| *i != u32::MAX) {
             self.fill(input, probe);
         }
-        for at in filled..=probe {
-            let value = self.compute(column, at);
-            self.columns[column as usize].values.push(value);
+        let Column { numbers, width, .. } = &self.columns[column as usize];
+        for at in numbers.len() / width..=probe {
+            self.compute(column, at);
         }
     }
 
-    fn compute(&self, column: u32, probe: usize) -> Value {
-        let key = &self.columns[column as usize].key;
-        let rule = &self.rules[key.rule.0 as usize];
-        let equation = &self.assignment.equation;
-        let sample = self.probes[probe];
-        let uniforms = self.uniforms[probe];
-        rule.expression.evaluate(&|slot| match equation.definition_in(slot) {
-            Some(definition) => {
-                let input = rule.uses.iter().position(|d| *d == definition);
-                let input = input.map_or(u32::MAX, |i| key.inputs[i]);
-                self.columns[input as usize].values[probe].clone()
-            }
-            None => {
-                let parameter = f64::from_bits(key.parameter);
-                equation.given(slot, uniforms, &sample.attributes).unwrap_or(Value::Float(parameter))
-            }
-        })
+    fn compute(&mut self, column: u32, probe: usize) {
+        let Key { rule, inputs, parameter } = self.columns[column as usize].key;
+        let rule = &self.rules[rule.0 as usize];
+        let Equation { sheet, first, .. } = self.equation;
+        let registers = &mut self.registers;
+        for (used, input) in rule.uses.iter().zip(inputs) {
+            sheet.set(first + used, self.columns[input as usize].at(probe), registers);
+        }
+        let parameter = f64::from_bits(parameter);
+        rule.give(self.equation, self.uniforms[probe], &self.probes[probe].attributes, parameter, registers);
+        sheet.compute(rule.formula, registers);
+        self.columns[column as usize].numbers.extend_from_slice(sheet.get(rule.cell, registers));
+    }
+}
+
+impl RuleBody<'_> {
+    /// Gives the formula what it uses beside definitions.
+    fn give(
+        &self,
+        equation: &Equation,
+        uniforms: &[Value],
+        attributes: &[Value],
+        parameter: f64,
+        registers: &mut Registers,
+    ) {
+        for (place, cell) in &self.uniforms {
+            equation.sheet.set(*cell, uniforms[*place].numbers(), registers);
+        }
+        for (place, cell) in &self.attributes {
+            equation.sheet.set(*cell, attributes[*place].numbers(), registers);
+        }
+        if let Some(cell) = self.free {
+            equation.sheet.set(cell, &[parameter], registers);
+        }
     }
 }
 

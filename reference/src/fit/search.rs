@@ -133,7 +133,7 @@ fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<
 fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form) -> Vec<Replaced> {
     let overrides = form.overrides.iter();
     overrides
-        .map(|o| Replaced { definition: o.definition, rule: columns.rule(&o.expression), parameter: f64::NAN })
+        .map(|o| Replaced { definition: o.definition, rule: columns.rule(&o.formula), parameter: f64::NAN })
         .collect()
 }
 
@@ -190,9 +190,8 @@ fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
             return false;
         }
         let replaced = form.overrides.iter().find(|o| o.definition == definition);
-        let right = &equation.definitions[definition].expression;
-        let slots = replaced.map_or(right, |o| &o.expression).slots();
-        open.extend(slots.iter().filter_map(|s| equation.definition_in(*s)));
+        let right = &equation.definitions[definition].formula;
+        open.extend(equation.used(replaced.map_or(right, |o| &o.formula)));
     }
     true
 }

@@ -7,7 +7,6 @@
 
 use crate::Assignment;
 use crate::assignment::RubricLine;
-use crate::equation::COLOUR;
 use crate::probes::{ProbeSet, Region};
 use glam::DVec3;
 
@@ -73,7 +72,9 @@ impl<'a> Views<'a> {
         let right = assignment.equation.right();
         let outcomes: Vec<_> = probes.iter().map(|p| right.evaluate(probes.uniforms(p), &p.attributes)).collect();
         let lines = assignment.rubric.iter().enumerate();
-        let lines = lines.filter(|(_, line)| !line.alone_in.is_empty() && line.judges != COLOUR);
+        let colour = assignment.equation.colour();
+        let is_term = |line: &RubricLine| assignment.equation.index(&line.judges) != Some(colour);
+        let lines = lines.filter(|(_, line)| !line.alone_in.is_empty() && is_term(line));
         let values = |line: &RubricLine| -> Vec<DVec3> {
             outcomes.iter().map(|o| o.get(&line.judges).map_or(DVec3::NAN, |value| value.vec3())).collect()
         };

@@ -11,12 +11,14 @@ mod interface;
 mod operator;
 mod place;
 mod scope;
+mod sheet;
 
 pub use builder::{Builder, class};
 pub use conversion::{Direction, Signature};
+pub use sheet::Draft;
 
 use super::code::{Code, Node, Slot, Variable};
-use super::syntax::{Function, Item, Name};
+use super::syntax::{Expression, Function, Item, Name};
 use super::types::Type;
 use super::{Refusal, Stage};
 use scope::Scopes;
@@ -70,36 +72,54 @@ struct Compiler {
 /// # Errors
 /// It is not valid, or something in it is not supported.
 pub fn compile(items: &[Item], version: u32, stage: Stage) -> Result<Code, Refusal> {
-    let mut compiler = Compiler {
-        version,
-        stage,
-        builder: Builder::default(),
-        scopes: Scopes::default(),
-        functions: Vec::new(),
-        by_name: HashMap::new(),
-        current: None,
-        depth: 0,
-        structures: 0,
-        uniforms: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        locals: Vec::new(),
-        defaults: Vec::new(),
-    };
-    for item in items {
-        let mark = compiler.builder.mark();
-        match item {
-            Item::Function(function) => compiler.function(function)?,
-            Item::Declaration(declaration) => compiler.global(declaration)?,
-            Item::Block(block) => compiler.interface_block(block)?,
-            Item::Requalification => {}
-        }
-        compiler.end_statement(mark)?;
-    }
+    let mut compiler = Compiler::new(version, stage);
+    items.iter().try_for_each(|item| compiler.item(item))?;
     compiler.finish()
 }
 
+/// The scalars of an expression that needs nothing around it, as a value of this type.
+///
+/// # Errors
+/// It is not valid, or not of the type, or not known before a program runs.
+pub fn constant(expression: &Expression, version: u32, kind: &Type) -> Result<Vec<f64>, Refusal> {
+    let mut compiler = Compiler::new(version, Stage::Vertex);
+    let value = compiler.initial_value(expression, kind)?;
+    let known = value.slots.iter().map(|&slot| compiler.builder.known(slot)).collect::<Option<Vec<f64>>>();
+    known.ok_or_else(|| compiler.invalid("this is not constant"))
+}
+
 impl Compiler {
+    fn new(version: u32, stage: Stage) -> Self {
+        Self {
+            version,
+            stage,
+            builder: Builder::default(),
+            scopes: Scopes::default(),
+            functions: Vec::new(),
+            by_name: HashMap::new(),
+            current: None,
+            depth: 0,
+            structures: 0,
+            uniforms: Vec::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            locals: Vec::new(),
+            defaults: Vec::new(),
+        }
+    }
+
+    /// What stands outside of functions.
+    fn item(&mut self, item: &Item) -> Result<(), Refusal> {
+        let mark = self.builder.mark();
+        match item {
+            Item::Function(function) => self.function(function)?,
+            Item::Declaration(declaration) => self.global(declaration)?,
+            Item::Block(block) => self.interface_block(block)?,
+            Item::Requalification => {}
+        }
+        self.end_statement(mark)
+    }
+
     fn invalid(&self, what: impl Into<String>) -> Refusal {
         Refusal::invalid(self.builder.line, what)
     }

@@ -6,7 +6,7 @@ mod literal;
 mod statement;
 
 use super::Refusal;
-use super::syntax::{Item, Name};
+use super::syntax::{Expression, Item, Name};
 use super::text::{Kind, Token};
 use std::collections::HashSet;
 
@@ -26,6 +26,16 @@ pub fn parse(tokens: &[Token]) -> Result<Vec<Item>, Refusal> {
         }
     }
     Ok(items)
+}
+
+/// Parses a single expression, with these functions of the program around it.
+///
+/// # Errors
+/// It is not an expression, or more than one.
+pub fn parse_expression(tokens: &[Token], functions: HashSet<Name>) -> Result<Expression, Refusal> {
+    let mut parser = Parser { tokens, at: 0, depth: 0, functions };
+    let expression = parser.initialiser()?;
+    if parser.at < tokens.len() { Err(parser.unexpected("the end of the expression")) } else { Ok(expression) }
 }
 
 struct Parser<'a> {

@@ -7,11 +7,13 @@ mod lookup;
 mod machine;
 mod mask;
 mod memory;
+mod single;
 mod undefined;
 
 pub use kernel::Precision;
-pub(super) use kernel::scalar;
+pub(super) use kernel::{defined, scalar};
 pub use memory::Cause;
+pub(super) use single::Single;
 pub use undefined::Undefined;
 pub(super) use undefined::lanes as undefined_lanes;
 

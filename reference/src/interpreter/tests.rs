@@ -3,6 +3,7 @@
 mod functions;
 mod language;
 mod limits;
+mod sheet;
 mod stages;
 mod undefined;
 

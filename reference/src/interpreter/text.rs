@@ -60,6 +60,11 @@ impl Token {
         Self { kind, text: text.into(), line, touches: false, hidden: None }
     }
 
+    /// Whether it is a name or keyword.
+    pub fn is_name(&self) -> bool {
+        self.kind == Kind::Name
+    }
+
     fn is(&self, symbol: &str) -> bool {
         self.kind == Kind::Symbol && &*self.text == symbol
     }

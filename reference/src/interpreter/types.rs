@@ -129,6 +129,10 @@ impl Type {
     pub const FLOAT: Self = Self::Vector(Scalar::Float, 1);
     /// `double`
     pub const DOUBLE: Self = Self::Vector(Scalar::Double, 1);
+    /// `vec4`
+    pub const VEC4: Self = Self::Vector(Scalar::Float, 4);
+    /// `mat4`
+    pub const MAT4: Self = Self::Matrix(Scalar::Float, 4, 4);
 
     /// An array of it.
     pub fn array(self, length: Option<usize>) -> Self {

@@ -1,9 +1,8 @@
 //! Where a probe lies and how its normal stands, by the angles that matter to the equation.
 
 use super::{Random, Region};
-use crate::Assignment;
-use crate::expression::Value;
 use crate::scene::{Matrices, Vertex};
+use crate::{Assignment, Value};
 use glam::{DVec3, DVec4};
 
 /// A cosine this far from 0 is on one side of a clamp, beyond the noise of f32.
@@ -106,7 +105,7 @@ impl Light {
     pub(super) fn of(assignment: &Assignment) -> Self {
         let value = |name: &str| {
             let found = assignment.constants.iter().find(|c| c.name == name);
-            found.map_or(Value::Float(f64::NAN), |c| c.value.clone())
+            found.map_or(Value::from(f64::NAN), |c| c.value.clone())
         };
         Self {
             position: value(&assignment.probing.light).vec4(),

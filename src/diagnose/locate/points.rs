@@ -8,6 +8,7 @@ use crate::source::Source;
 use crate::translate::{Given, Interpreter, Place, Value, Written};
 use reference::advice::Variation;
 use reference::equation::Variant;
+use reference::interpreter::Type;
 use reference::probes::Probe;
 use reference::{Assignment, Value as Reference};
 use std::cell::Cell;
@@ -102,7 +103,10 @@ impl<'a> Points<'a> {
         let names = self.assignment.equation.definitions();
         let at = |point: &Point<'_>| {
             let outcome = variant.evaluate(point.uniforms, point.attributes);
-            names.iter().map(|d| outcome.get(&d.name).map(|value| value.numbers()).unwrap_or_default()).collect()
+            names
+                .iter()
+                .map(|d| outcome.get(&d.name).map(|value| value.numbers().to_vec()).unwrap_or_default())
+                .collect()
         };
         self.points.iter().map(at).collect()
     }
@@ -179,11 +183,9 @@ pub(in crate::diagnose) fn given<'a>(
 
 /// A value of the reference as the interpreter has it.
 pub(in crate::diagnose) fn of(value: &Reference) -> Value {
-    let numbers = value.numbers();
-    match value {
-        Reference::Mat3(_) => Value::of_columns(&numbers, 3),
-        Reference::Mat4(_) => Value::of_columns(&numbers, 4),
-        _ => Value::of_floats(&numbers),
+    match *value.kind() {
+        Type::Matrix(_, _, rows) => Value::of_columns(value.numbers(), usize::from(rows)),
+        _ => Value::of_floats(value.numbers()),
     }
 }
 

@@ -4,7 +4,6 @@ use super::points::{Points, fits, is_close, is_same};
 use super::{Located, Role};
 use crate::translate::{Place, Value};
 use reference::Assignment;
-use reference::equation::COLOUR;
 use reference::mistake::{Found, Mistake};
 
 /// What is searched for: one mistake among those that were found.
@@ -51,7 +50,7 @@ impl Points<'_> {
 }
 
 fn colours(assignment: &Assignment, definitions: &[Vec<Vec<f64>>]) -> Option<Vec<[f64; 3]>> {
-    let colour = assignment.equation.index(COLOUR)?;
+    let colour = assignment.equation.colour();
     definitions.iter().map(|d| d[colour].get(..3)?.try_into().ok()).collect()
 }
 
@@ -69,7 +68,7 @@ impl<'s, 'a> Search<'s, 'a> {
             return None;
         }
         let replaced = Self::replaced(points, mistake, found_one, &others, &colours(assignment, &wrong)?)?;
-        let colour = assignment.equation.index(COLOUR)?;
+        let colour = assignment.equation.colour();
         let judged = assignment.rubric.iter().filter_map(|line| assignment.equation.index(&line.judges));
         let last = judged.filter(|d| *d < colour).max()?;
         let differs = |d: usize| right.iter().zip(&wrong).any(|(right, wrong)| !is_same(&right[d], &wrong[d]));

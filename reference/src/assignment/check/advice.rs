@@ -1,22 +1,21 @@
 //! What is said of right answers that would break elsewhere.
 
-use super::{Checked, named};
+use super::Checked;
+use super::solution::Solution;
 use crate::advice::{Advice, Circumstance};
 use crate::assignment::{Constant, Interface, error};
-use crate::equation::Equation;
-use crate::expression::Value;
-use crate::manifest;
+use crate::{Value, manifest};
 
 /// An entry whose names are known.
 pub(super) fn advice(
     entry: manifest::Advice,
     interface: &Interface,
     constants: &[Constant],
-    equation: &Equation,
+    solution: &Solution<'_>,
 ) -> Checked<Advice> {
     let place = format!("advice `{}`", entry.id);
     for definition in &entry.about {
-        named(equation, definition, &place)?;
+        solution.definition(definition, &|| place.clone())?;
     }
     let manifest::Circumstance { scaled, stretched, constants: changed } = entry.when;
     if let Some(name) = scaled.keys().find(|name| !interface.inputs.iter().any(|input| input.name == **name)) {
@@ -24,7 +23,7 @@ pub(super) fn advice(
     }
     let value = |(name, numbers): (String, Vec<f64>)| {
         let constant = constants.iter().find(|constant| constant.name == name);
-        let value = constant.and_then(|constant| Value::from_numbers(constant.kind, &numbers));
+        let value = constant.and_then(|constant| Value::new(constant.value.kind().clone(), numbers.clone()));
         let wrong = || error(&place, format!("there is no constant `{name}` with {} numbers", numbers.len()));
         value.map(|value| (name.clone(), value)).ok_or_else(wrong)
     };

@@ -1,16 +1,21 @@
 //! The known mistakes of an assignment.
 
-use super::{Checked, declare, definition_uses, known_line, named};
+use super::solution::{self, Solution};
+use super::{Checked, known_line};
 use crate::Text;
-use crate::assignment::error;
-use crate::equation::Equation;
-use crate::expression::{Expression, Scope, Type};
+use crate::assignment::{MANIFEST, error};
 use crate::manifest::{self, TermState};
 use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
 use std::collections::{BTreeMap, HashSet};
+use toml::Spanned;
 
-/// A mistake whose forms fit the equation.
-pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &HashSet<String>) -> Checked<Mistake> {
+/// A mistake whose forms fit the solution. `line_at`: the line of the manifest in which a byte of it stands.
+pub(super) fn mistake(
+    entry: manifest::Mistake,
+    solution: &mut Solution<'_>,
+    lines: &HashSet<String>,
+    line_at: &dyn Fn(usize) -> u32,
+) -> Checked<Mistake> {
     let place = format!("mistake `{}`", entry.id);
     title(&entry.title, &place)?;
     for (line, fraction) in &entry.keeps {
@@ -19,23 +24,25 @@ pub(super) fn mistake(entry: manifest::Mistake, equation: &Equation, lines: &Has
             return Err(error(place, format!("keeps {fraction} of `{line}`: not a fraction")));
         }
     }
-    let mut scope = equation.scope.clone();
     let fit = match entry.fit {
         None => None,
         Some(f) => {
-            declare(&mut scope, &f.name, Type::Float)?;
+            solution.parameter(&f.name, &place)?;
             if !(f.from > 0.0 && f.from < f.example && f.example < f.to && f.to.is_finite()) {
                 return Err(error(place, "`fit` needs 0 < from < example < to"));
             }
             Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example, turns: f.turns })
         }
     };
-    let forms = entry
-        .forms
-        .iter()
-        .enumerate()
-        .map(|(i, f)| form(f, equation, &scope, &format!("{place}, form {i}")))
-        .collect::<Checked<Vec<_>>>()?;
+    let free = fit.as_ref().map(|fit| fit.name.as_str());
+    let mut forms = Vec::new();
+    for (number, texts) in entry.forms.iter().enumerate() {
+        let at = |at: usize| {
+            let first = solution::place(MANIFEST, line_at(at));
+            format!("{first}, {place}, form {number}")
+        };
+        forms.push(form(texts, solution, free, &at, &format!("{place}, form {number}"))?);
+    }
     if fit.is_some() && !forms.iter().any(|f| f.free) {
         return Err(error(place, "no form uses the name in `fit`"));
     }
@@ -99,26 +106,23 @@ fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> Check
     Ok(Alternative { when, seen: entry.seen, equation: entry.equation, look: entry.look })
 }
 
-fn form(texts: &BTreeMap<String, String>, equation: &Equation, scope: &Scope, place: &str) -> Checked<Form> {
+fn form(
+    texts: &BTreeMap<String, Spanned<String>>,
+    solution: &mut Solution<'_>,
+    free_name: Option<&str>,
+    at: &dyn Fn(usize) -> String,
+    place: &str,
+) -> Checked<Form> {
     let mut overrides = Vec::new();
     let mut free = false;
     for (name, text) in texts {
-        let place = format!("{place}, `{name}`");
-        let definition = named(equation, name, &place)?;
-        let expression = Expression::parse(text, scope).map_err(|e| error(&place, e.to_string()))?;
-        let wanted = equation.definitions[definition].kind();
-        if expression.kind() != wanted {
-            return Err(error(place, format!("is a {}, not a {}", expression.kind().glsl(), wanted.glsl())));
-        }
-        let parameter = equation.parameter_slot();
-        let later = |slot: &&usize| **slot >= equation.slot(definition) && **slot != parameter;
-        if let Some(slot) = expression.slots().iter().find(later) {
-            let used = scope.get(*slot).map_or("", |(n, _)| n);
-            return Err(error(place, format!("uses `{used}`, which is defined later")));
-        }
-        definition_uses(&expression, equation, &place)?;
-        free |= expression.slots().contains(&parameter);
-        overrides.push(Override { definition, expression });
+        // Lines are counted where something is wrong.
+        let place = || format!("{}, `{name}`", at(text.span().start));
+        let definition = solution.definition(name, &place)?;
+        let text = text.get_ref();
+        let (formula, is_free) = solution.replacement(definition, text, free_name, &place)?;
+        free |= is_free;
+        overrides.push(Override { definition, text: text.clone(), formula });
     }
     if overrides.is_empty() {
         return Err(error(place, "replaces nothing"));

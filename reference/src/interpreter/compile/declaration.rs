@@ -6,7 +6,9 @@ use super::{Compiler, Declared, Value};
 use crate::interpreter::Refusal;
 use crate::interpreter::code::{Constant, Slot};
 use crate::interpreter::run::Undefined;
-use crate::interpreter::syntax::{Base, Declaration, Expression, ExpressionKind, Function, Name, Storage, TypeName};
+use crate::interpreter::syntax::{
+    Base, Declaration, Expression, ExpressionKind, Function, Name, Storage, TypeName, Variable,
+};
 use crate::interpreter::types::{Scalar, Struct, Type};
 use std::sync::Arc;
 
@@ -80,19 +82,24 @@ impl Compiler {
     /// Declares variables without qualifiers, or constants.
     pub(super) fn plain_variables(&mut self, declaration: &Declaration) -> Result<(), Refusal> {
         let base = self.type_of(&declaration.kind)?;
-        for variable in &declaration.variables {
-            self.builder.line = variable.line;
-            let kind = self.arrays_of(base.clone(), &variable.lengths)?;
-            let Some(value) = &variable.value else {
-                self.without_value(&variable.name, kind)?;
-                continue;
-            };
-            let value = self.initial_value(value, &kind)?;
-            let is_constant = declaration.qualifiers.storage == Storage::Constant;
-            let slot = self.with_value(value.clone(), is_constant)?;
-            self.scopes.declare(Name::clone(&variable.name), Symbol::variable(value.kind.clone(), slot));
-            self.remember_local(&variable.name, &value.kind, slot);
-        }
+        let is_constant = declaration.qualifiers.storage == Storage::Constant;
+        declaration.variables.iter().try_for_each(|variable| self.plain_variable(&base, variable, is_constant))
+    }
+
+    /// Declares one of them.
+    pub(super) fn plain_variable(
+        &mut self,
+        base: &Type,
+        variable: &Variable,
+        is_constant: bool,
+    ) -> Result<(), Refusal> {
+        self.builder.line = variable.line;
+        let kind = self.arrays_of(base.clone(), &variable.lengths)?;
+        let Some(value) = &variable.value else { return self.without_value(&variable.name, kind) };
+        let value = self.initial_value(value, &kind)?;
+        let slot = self.with_value(value.clone(), is_constant)?;
+        self.scopes.declare(Name::clone(&variable.name), Symbol::variable(value.kind.clone(), slot));
+        self.remember_local(&variable.name, &value.kind, slot);
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! The scalar operations, over columns.
 
 use crate::interpreter::code::{Class, Operation};
-use crate::interpreter::run::bits;
+use crate::interpreter::run::{bits, undefined};
 
 /// How values of type `float` are rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,10 +118,40 @@ pub fn run(operation: Operation, class: Class, precision: Precision, to: &mut [f
 }
 
 /// One operation on three numbers.
+#[inline(always)]
 pub fn scalar(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
     let mut to = [0.0];
-    run(operation, class, Precision::Exact, &mut to, [&[a], &[b], &[c]]);
+    let of: [&[f64]; 3] = [&[a], &[b], &[c]];
+    match class {
+        Class::Int => integer(operation, &mut to, of, |x| f64::from(x as i32)),
+        Class::Uint => integer(operation, &mut to, of, |x| f64::from(x as u32)),
+        Class::Double => floating::<Double>(operation, &mut to, of),
+        Class::Float => floating::<Exact>(operation, &mut to, of),
+    }
     to[0]
+}
+
+/// One operation on three numbers, where what GLSL leaves undefined is not a number, and so is what is computed from it.
+#[inline(always)]
+pub fn defined(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
+    match operation {
+        // What is not a number stays that by itself.
+        Operation::Add if class == Class::Float => Exact::round(a + b),
+        Operation::Subtract if class == Class::Float => Exact::round(a - b),
+        Operation::Multiply if class == Class::Float => Exact::round(a * b),
+        Operation::Divide if class == Class::Float => Exact::round(a / b),
+        Operation::MultiplyAdd if class == Class::Float => Exact::round(Exact::round(a * b) + c),
+        // The operand that is not chosen, or does not decide, does not count.
+        Operation::Select => match a {
+            _ if a.is_nan() => a,
+            0.0 => c,
+            _ => b,
+        },
+        Operation::And if a == 0.0 => 0.0,
+        Operation::Or if a != 0.0 && !a.is_nan() => 1.0,
+        _ if a.is_nan() || b.is_nan() || c.is_nan() || undefined::is(operation, class, [a, b, c]) => f64::NAN,
+        _ => scalar(operation, class, [a, b, c]),
+    }
 }
 
 #[inline(always)]
@@ -151,6 +181,7 @@ fn truth(yes: bool) -> f64 {
 }
 
 /// Operations that mean the same for all classes.
+#[inline(always)]
 fn common(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
     match operation {
         Operation::Less => each2(to, a, b, |a, b| truth(a < b)),
@@ -174,6 +205,7 @@ fn common(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
 }
 
 #[allow(clippy::too_many_lines, reason = "a table")]
+#[inline(always)]
 fn floating<R: Rounding>(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
     let one = |to: &mut [f64], f: fn(f64) -> f64| each1(to, a, |x| R::round(f(x)));
     match operation {
@@ -228,6 +260,7 @@ fn floating<R: Rounding>(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64
 }
 
 #[allow(clippy::too_many_lines, reason = "a table")]
+#[inline(always)]
 fn integer(operation: Operation, to: &mut [f64], [a, b, c]: [&[f64]; 3], wrap: impl Fn(i64) -> f64 + Copy) {
     let one = |to: &mut [f64], f: fn(u32) -> i64| each1(to, a, |x| wrap(f(x as i64 as u32)));
     let two = |to: &mut [f64], f: fn(i64, i64) -> i64| each2(to, a, b, |x, y| wrap(f(x as i64, y as i64)));

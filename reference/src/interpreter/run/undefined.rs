@@ -64,70 +64,102 @@ impl fmt::Display for Undefined {
     }
 }
 
+/// Whether the operation's result is undefined for these operands.
+#[inline(always)]
+pub fn is(operation: Operation, class: Class, operands: [f64; 3]) -> bool {
+    table(operation, class, One(operands))
+}
+
 /// In which lanes the operation's result is undefined, and why; none where it is defined in all of them.
-pub fn lanes(operation: Operation, class: Class, [a, b, c]: [&[f64]; 3]) -> Option<(Undefined, Vec<bool>)> {
-    let floating = matches!(class, Class::Float | Class::Double);
-    match operation {
-        Operation::Less | Operation::LessEqual | Operation::Equal | Operation::NotEqual if floating => {
-            found(Undefined::NotANumber, [a, b, c], |a, b, _| a.is_nan() | b.is_nan())
-        }
-        Operation::Minimum | Operation::Maximum if floating => {
-            found(Undefined::NotANumber, [a, b, c], |a, b, _| a.is_nan() | b.is_nan())
-        }
-        Operation::Divide | Operation::Mod if floating => found(Undefined::Division, [a, b, c], |_, b, _| b == 0.0),
-        Operation::Sign | Operation::IsNan if floating => found(Undefined::NotANumber, [a, b, c], |a, _, _| a.is_nan()),
-        Operation::AtMost => found(Undefined::Bounds, [a, b, c], |a, b, _| a > b),
-        Operation::Below => found(Undefined::Bounds, [a, b, c], |a, b, _| a >= b),
-        Operation::Reciprocal => found(Undefined::Domain, [a, b, c], |a, _, _| a == 0.0),
-        Operation::Power => found(Undefined::Power, [a, b, c], |a, b, _| {
-            // It is `exp2(b * log2(a))`, which has no value for 1 and infinity, nor for infinity and 0.
-            (a < 0.0) | ((a == 0.0) & (b <= 0.0)) | !a.is_finite() | !b.is_finite()
-        }),
-        Operation::SquareRoot => found(Undefined::Domain, [a, b, c], |a, _, _| a < 0.0),
-        Operation::InverseSquareRoot | Operation::Log | Operation::Log2 => {
-            found(Undefined::Domain, [a, b, c], |a, _, _| a <= 0.0)
-        }
-        Operation::Asin | Operation::Acos => found(Undefined::Domain, [a, b, c], |a, _, _| a.abs() > 1.0),
-        Operation::Acosh => found(Undefined::Domain, [a, b, c], |a, _, _| a < 1.0),
-        Operation::Atanh => found(Undefined::Domain, [a, b, c], |a, _, _| a.abs() >= 1.0),
-        Operation::Atan2 => found(Undefined::Domain, [a, b, c], |a, b, _| (a == 0.0) & (b == 0.0)),
-        Operation::Round => found(Undefined::Half, [a, b, c], |a, _, _| (a - a.trunc()).abs() == 0.5),
-        Operation::LoadExponent => found(Undefined::Domain, [a, b, c], |_, b, _| b > 128.0),
-        Operation::Significand | Operation::Exponent => found(Undefined::Domain, [a, b, c], |a, _, _| !a.is_finite()),
-        Operation::Truncate | Operation::TruncateDouble if class == Class::Int => {
-            // 2^31 is the first that does not fit; anything above −2^31 − 1 is cut off to fit.
-            found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 2_147_483_648.0) & (a > -2_147_483_649.0)))
-        }
-        Operation::Truncate | Operation::TruncateDouble => {
-            found(Undefined::Conversion, [a, b, c], |a, _, _| !((a < 4_294_967_296.0) & (a > -1.0)))
-        }
-        Operation::FloatBits | Operation::HalfBits => found(Undefined::NotANumber, [a, b, c], |a, _, _| a.is_nan()),
-        Operation::BitsFloat | Operation::BitsHalf | Operation::BitsDouble => None,
-        _ if floating => None,
-        Operation::Divide => {
-            found(Undefined::Division, [a, b, c], |a, b, _| (b == 0.0) | ((a == -2_147_483_648.0) & (b == -1.0)))
-        }
-        Operation::Remainder => found(Undefined::Remainder, [a, b, c], |a, b, _| (b <= 0.0) | (a < 0.0)),
-        Operation::ShiftLeft | Operation::ShiftRight => {
-            found(Undefined::Shift, [a, b, c], |_, b, _| !(0.0..=31.0).contains(&b))
-        }
-        Operation::BitfieldExtract => {
-            found(Undefined::Bitfield, [a, b, c], |_, b, c| (b < 0.0) | (c < 0.0) | (b + c > 32.0))
-        }
-        Operation::BitfieldMask => {
-            found(Undefined::Bitfield, [a, b, c], |a, b, _| (a < 0.0) | (b < 0.0) | (a + b > 32.0))
-        }
-        _ => None,
+pub fn lanes(operation: Operation, class: Class, operands: [&[f64]; 3]) -> Option<(Undefined, Vec<bool>)> {
+    table(operation, class, Lanes(operands))
+}
+
+/// What is asked where an operation may be undefined.
+trait Ask {
+    type Answer;
+    /// The operation is always defined.
+    const NONE: Self::Answer;
+    fn found(self, why: Undefined, is_undefined: impl Fn(f64, f64, f64) -> bool) -> Self::Answer;
+}
+
+struct One([f64; 3]);
+struct Lanes<'a>([&'a [f64]; 3]);
+
+impl Ask for One {
+    type Answer = bool;
+    const NONE: bool = false;
+
+    #[inline(always)]
+    fn found(self, _: Undefined, is_undefined: impl Fn(f64, f64, f64) -> bool) -> bool {
+        let [a, b, c] = self.0;
+        is_undefined(a, b, c)
     }
 }
 
-/// Asks all lanes at once first: hardly ever is there one.
+impl Ask for Lanes<'_> {
+    type Answer = Option<(Undefined, Vec<bool>)>;
+    const NONE: Self::Answer = None;
+
+    /// Asks all lanes at once first: hardly ever is there one.
+    #[inline(always)]
+    fn found(self, why: Undefined, is_undefined: impl Fn(f64, f64, f64) -> bool) -> Self::Answer {
+        let [a, b, c] = self.0;
+        let each = || a.iter().zip(b).zip(c).map(|((&a, &b), &c)| is_undefined(a, b, c));
+        each().fold(false, |any, one| any | one).then(|| (why, each().collect()))
+    }
+}
+
+/// When which operation is undefined.
 #[inline(always)]
-fn found(
-    why: Undefined,
-    [a, b, c]: [&[f64]; 3],
-    is_undefined: impl Fn(f64, f64, f64) -> bool,
-) -> Option<(Undefined, Vec<bool>)> {
-    let each = || a.iter().zip(b).zip(c).map(|((&a, &b), &c)| is_undefined(a, b, c));
-    each().fold(false, |any, one| any | one).then(|| (why, each().collect()))
+fn table<A: Ask>(operation: Operation, class: Class, ask: A) -> A::Answer {
+    let floating = matches!(class, Class::Float | Class::Double);
+    match operation {
+        Operation::Less | Operation::LessEqual | Operation::Equal | Operation::NotEqual if floating => {
+            ask.found(Undefined::NotANumber, |a, b, _| a.is_nan() | b.is_nan())
+        }
+        Operation::Minimum | Operation::Maximum if floating => {
+            ask.found(Undefined::NotANumber, |a, b, _| a.is_nan() | b.is_nan())
+        }
+        Operation::Divide | Operation::Mod if floating => ask.found(Undefined::Division, |_, b, _| b == 0.0),
+        Operation::Sign | Operation::IsNan if floating => ask.found(Undefined::NotANumber, |a, _, _| a.is_nan()),
+        Operation::AtMost => ask.found(Undefined::Bounds, |a, b, _| a > b),
+        Operation::Below => ask.found(Undefined::Bounds, |a, b, _| a >= b),
+        Operation::Reciprocal => ask.found(Undefined::Domain, |a, _, _| a == 0.0),
+        Operation::Power => ask.found(Undefined::Power, |a, b, _| {
+            // It is `exp2(b * log2(a))`, which has no value for 1 and infinity, nor for infinity and 0.
+            (a < 0.0) | ((a == 0.0) & (b <= 0.0)) | !a.is_finite() | !b.is_finite()
+        }),
+        Operation::SquareRoot => ask.found(Undefined::Domain, |a, _, _| a < 0.0),
+        Operation::InverseSquareRoot | Operation::Log | Operation::Log2 => {
+            ask.found(Undefined::Domain, |a, _, _| a <= 0.0)
+        }
+        Operation::Asin | Operation::Acos => ask.found(Undefined::Domain, |a, _, _| a.abs() > 1.0),
+        Operation::Acosh => ask.found(Undefined::Domain, |a, _, _| a < 1.0),
+        Operation::Atanh => ask.found(Undefined::Domain, |a, _, _| a.abs() >= 1.0),
+        Operation::Atan2 => ask.found(Undefined::Domain, |a, b, _| (a == 0.0) & (b == 0.0)),
+        Operation::Round => ask.found(Undefined::Half, |a, _, _| (a - a.trunc()).abs() == 0.5),
+        Operation::LoadExponent => ask.found(Undefined::Domain, |_, b, _| b > 128.0),
+        Operation::Significand | Operation::Exponent => ask.found(Undefined::Domain, |a, _, _| !a.is_finite()),
+        Operation::Truncate | Operation::TruncateDouble if class == Class::Int => {
+            // 2^31 is the first that does not fit; anything above −2^31 − 1 is cut off to fit.
+            ask.found(Undefined::Conversion, |a, _, _| !((a < 2_147_483_648.0) & (a > -2_147_483_649.0)))
+        }
+        Operation::Truncate | Operation::TruncateDouble => {
+            ask.found(Undefined::Conversion, |a, _, _| !((a < 4_294_967_296.0) & (a > -1.0)))
+        }
+        Operation::FloatBits | Operation::HalfBits => ask.found(Undefined::NotANumber, |a, _, _| a.is_nan()),
+        Operation::BitsFloat | Operation::BitsHalf | Operation::BitsDouble => A::NONE,
+        _ if floating => A::NONE,
+        Operation::Divide => {
+            ask.found(Undefined::Division, |a, b, _| (b == 0.0) | ((a == -2_147_483_648.0) & (b == -1.0)))
+        }
+        Operation::Remainder => ask.found(Undefined::Remainder, |a, b, _| (b <= 0.0) | (a < 0.0)),
+        Operation::ShiftLeft | Operation::ShiftRight => {
+            ask.found(Undefined::Shift, |_, b, _| !(0.0..=31.0).contains(&b))
+        }
+        Operation::BitfieldExtract => ask.found(Undefined::Bitfield, |_, b, c| (b < 0.0) | (c < 0.0) | (b + c > 32.0)),
+        Operation::BitfieldMask => ask.found(Undefined::Bitfield, |a, b, _| (a < 0.0) | (b < 0.0) | (a + b > 32.0)),
+        _ => A::NONE,
+    }
 }

@@ -1,0 +1,239 @@
+//! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
+
+use super::{Checked, listed};
+use crate::Value;
+use crate::assignment::{AssignmentError, Constant, HandedIn, Input, Interface, MANIFEST, Output, Uniform, error};
+use crate::equation::{Definition, Equation, MAX_INPUTS};
+use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Type};
+use crate::manifest::{self, Manifest};
+use std::sync::Arc;
+
+/// Definitions are held as the bits of a u64.
+const MAX_DEFINITIONS: usize = 64;
+
+/// What `gl_Position` is given is the position.
+const POSITION: &str = "gl_Position";
+
+/// The solution, as long as forms of mistakes are read beside it.
+pub(super) struct Solution<'a> {
+    file: &'a HandedIn,
+    draft: Draft,
+    /// The cell of the first definition.
+    first: usize,
+}
+
+impl<'a> Solution<'a> {
+    /// Reads the solution of a file.
+    pub(super) fn read(file: &'a HandedIn, constants: &[manifest::Constant]) -> Checked<Self> {
+        let names: Vec<&str> = constants.iter().map(|constant| constant.name.as_str()).collect();
+        let draft = Draft::read(&file.solution.text, Stage::Vertex, &names);
+        let draft = draft.map_err(|refusal| refused(&file.solution.name, &refusal))?;
+        let first = draft.formulas().first().map(Formula::cell);
+        let first =
+            first.ok_or_else(|| error(&file.solution.name, "`main` defines nothing: write `type name = …;`"))?;
+        let solution = Self { file, draft, first };
+        if solution.draft.formulas().len() > MAX_DEFINITIONS {
+            return Err(solution.wrong(0, format!("there are more than {MAX_DEFINITIONS} definitions")));
+        }
+        for formula in solution.draft.formulas() {
+            let line = solution.draft.cells()[formula.cell()].line;
+            solution.few_enough(formula, &|| place(&file.solution.name, line))?;
+        }
+        Ok(solution)
+    }
+
+    fn wrong(&self, line: u32, message: impl Into<String>) -> AssignmentError {
+        error(place(&self.file.solution.name, line), message)
+    }
+
+    fn cell(&self, name: &str) -> Option<&Cell> {
+        self.draft.cells()[..self.first].iter().find(|cell| cell.name == name)
+    }
+
+    fn definitions(&self) -> &[Cell] {
+        &self.draft.cells()[self.first..][..self.draft.formulas().len()]
+    }
+
+    /// The place of a definition.
+    pub(super) fn definition(&self, name: &str, place: &dyn Fn() -> String) -> Checked<usize> {
+        let found = self.definitions().iter().position(|cell| cell.name == name);
+        found.ok_or_else(|| {
+            let known = listed(self.definitions().iter().map(|cell| cell.name.as_str()));
+            error(place(), format!("there is no definition `{name}` in {}, which has {known}", self.file.solution.name))
+        })
+    }
+
+    /// A name for what is free in a mistake's forms.
+    pub(super) fn parameter(&self, name: &str, place: &str) -> Checked<()> {
+        let taken = || error(place, format!("`{name}` is taken, means something in GLSL, or is not a name"));
+        self.draft.is_free(name).then_some(()).ok_or_else(taken)
+    }
+
+    /// An expression in place of a definition, and whether what is free occurs in it.
+    pub(super) fn replacement(
+        &mut self,
+        definition: usize,
+        text: &str,
+        free: Option<&str>,
+        place: &dyn Fn() -> String,
+    ) -> Checked<(Formula, bool)> {
+        let cell = self.first + definition;
+        let allowed = |solution: &Self| {
+            let names = solution.draft.cells()[..cell].iter().map(|cell| cell.name.as_str());
+            listed(names.chain(free))
+        };
+        let formula = self.draft.replacement(cell, text, free).map_err(|refusal| {
+            let kind = &self.draft.cells()[cell].kind;
+            error(place(), format!("{}: write an expression of type {kind} with {}", refusal.what(), allowed(self)))
+        })?;
+        let parameter = self.draft.cells().len() - 1;
+        if let Some(used) = formula.uses().iter().find(|used| **used >= cell && **used != parameter) {
+            let used = &self.draft.cells()[*used].name;
+            return Err(error(place(), format!("uses `{used}`, which is defined later: use only {}", allowed(self))));
+        }
+        self.few_enough(&formula, place)?;
+        let is_free = formula.uses().contains(&parameter);
+        Ok((formula, is_free))
+    }
+
+    /// A search keeps what a definition uses in a few places.
+    fn few_enough(&self, formula: &Formula, place: &dyn Fn() -> String) -> Checked<()> {
+        let used = formula.uses().iter().filter(|cell| **cell >= self.first);
+        if used.count() > MAX_INPUTS {
+            let message = format!("uses more than {MAX_INPUTS} definitions: name a part of it first");
+            return Err(error(place(), message));
+        }
+        Ok(())
+    }
+
+    /// What the shader is given and what it writes.
+    pub(super) fn interface(&self, m: &Manifest) -> Checked<Interface> {
+        let said = |name: &str| {
+            let mut names =
+                m.input.iter().map(|input| &input.name).chain(m.uniform.iter().map(|uniform| &uniform.name));
+            names.any(|known| known == name) || m.constant.iter().any(|constant| constant.name == name)
+        };
+        if let Some(cell) = self.draft.cells()[..self.first].iter().find(|cell| !said(&cell.name)) {
+            let message = format!(
+                "`{}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here",
+                cell.name
+            );
+            return Err(self.wrong(cell.line, message));
+        }
+        let input = |i: &manifest::Input| {
+            let kind = self.declared("in", &i.name, Type::VEC4)?;
+            Ok(Input { name: i.name.clone(), kind, carries: i.carries })
+        };
+        let uniform = |u: &manifest::Uniform| {
+            let kind = self.declared("uniform", &u.name, Type::MAT4)?;
+            Ok(Uniform { name: u.name.clone(), kind, carries: u.carries })
+        };
+        let stored = self.draft.stored().iter().filter(|stored| stored.output != POSITION);
+        let output = |stored: &Stored| Output {
+            name: stored.output.clone(),
+            kind: self.draft.cells()[stored.cell].kind.clone(),
+        };
+        Ok(Interface {
+            inputs: m.input.iter().map(input).collect::<Checked<_>>()?,
+            uniforms: m.uniform.iter().map(uniform).collect::<Checked<_>>()?,
+            outputs: stored.map(output).collect(),
+        })
+    }
+
+    fn declared(&self, storage: &str, name: &str, kind: Type) -> Checked<Type> {
+        match self.cell(name) {
+            Some(cell) if cell.kind == kind => Ok(kind),
+            Some(cell) => {
+                Err(self.wrong(cell.line, format!("`{name}` is a {}: write `{storage} {kind} {name};`", cell.kind)))
+            }
+            None => Err(self.wrong(0, format!("`{name}` is not there: write `{storage} {kind} {name};`"))),
+        }
+    }
+
+    /// The constants with the values that they have in the solution, which are those of the handed-out file.
+    pub(super) fn constants(&self, entries: Vec<manifest::Constant>) -> Checked<Vec<Constant>> {
+        let names: Vec<&str> = entries.iter().map(|constant| constant.name.as_str()).collect();
+        let read = |name: &str, text: &str| {
+            Draft::constants(text, Stage::Vertex, &names).map_err(|refusal| refused(name, &refusal))
+        };
+        let ours = read(&self.file.solution.name, &self.file.solution.text)?;
+        let starters = read(&self.file.starter_name, &self.file.starter)?;
+        let constant = |entry: &manifest::Constant| {
+            let (name, file) = (&entry.name, &self.file.solution.name);
+            let missing = || error(format!("constant `{name}`"), format!("{file} has no `const type {name} = …;`"));
+            let (cell, numbers) = ours.iter().find(|(cell, _)| cell.name == *name).ok_or_else(missing)?;
+            if let Some((other, theirs)) = starters.iter().find(|(cell, _)| cell.name == *name)
+                && (theirs != numbers || other.kind != cell.kind)
+            {
+                let message =
+                    format!("`{name}` is not what it is in {file}, line {}: write the same in both", cell.line);
+                return Err(error(place(&self.file.starter_name, other.line), message));
+            }
+            let value = Value::new(cell.kind.clone(), numbers.clone()).ok_or_else(missing)?;
+            Ok(Constant { name: name.clone(), value, means: entry.means.clone(), line: entry.line.clone() })
+        };
+        entries.iter().map(constant).collect()
+    }
+
+    /// The equation that the solution is, with what the lecture calls its definitions.
+    pub(super) fn finish(self, m: &Manifest, interface: &Interface, constants: &[Constant]) -> Checked<Equation> {
+        for name in m.definition.keys() {
+            self.definition(name, &|| format!("definition `{name}`"))?;
+        }
+        let [colour, position] = [self.output(None)?, self.output(Some(POSITION))?];
+        let cells = self.draft.cells();
+        let find = |name: &String| cells.iter().position(|cell| cell.name == *name).unwrap_or(usize::MAX);
+        let definition = |formula: &Formula| {
+            let Cell { name, kind, .. } = cells[formula.cell()].clone();
+            let said = m.definition.get(&name);
+            let (slide, symbol) = said.map_or((None, None), |said| (said.slide, said.symbol.clone()));
+            Definition { name, kind, formula: formula.clone(), slide, symbol }
+        };
+        let definitions: Vec<Definition> = self.draft.formulas().iter().map(definition).collect();
+        let constants = constants.iter().map(|constant| (find(&constant.name), constant.value.clone())).collect();
+        let uniforms = interface.uniforms.iter().map(|uniform| find(&uniform.name)).collect();
+        let attributes = interface.inputs.iter().map(|input| find(&input.name)).collect();
+        let name = &self.file.solution.name;
+        let sheet = self.draft.finish().map_err(|refusal| refused(name, &refusal))?;
+        let sheet = Arc::new(sheet);
+        let numbers = definitions.iter().filter_map(|definition| definition.kind.slots()).sum();
+        Ok(Equation {
+            sheet,
+            constants,
+            uniforms,
+            attributes,
+            first: self.first,
+            definitions,
+            numbers,
+            colour,
+            position,
+        })
+    }
+
+    /// The place of the definition that an output is given; without a name, of the only output beside the position.
+    fn output(&self, name: Option<&str>) -> Checked<usize> {
+        let is_it = |output: &str| name.map_or(output != POSITION, |name| output == name);
+        let mut stored = self.draft.stored().iter().filter(|stored| is_it(&stored.output));
+        let shown = name.unwrap_or("the output");
+        let one =
+            stored.next().ok_or_else(|| self.wrong(0, format!("{shown} has no value: write `{shown} = name;`")))?;
+        if let Some(other) = stored.next() {
+            return Err(self.wrong(other.line, "this is one output too many: only one beside gl_Position is compared"));
+        }
+        let kind = &self.draft.cells()[one.cell].kind;
+        if *kind != Type::VEC4 {
+            return Err(self.wrong(one.line, format!("`{}` is a {kind}, and has to be a vec4", one.output)));
+        }
+        Ok(one.cell - self.first)
+    }
+}
+
+/// A place in a file.
+pub(super) fn place(file: &str, line: u32) -> String {
+    if line == 0 { file.to_owned() } else { format!("{file}, line {line}") }
+}
+
+/// What the interpreter has to say of a file.
+pub(super) fn refused(file: &str, refusal: &Refusal) -> AssignmentError {
+    error(place(file, refusal.line), refusal.what())
+}

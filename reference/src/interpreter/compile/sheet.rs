@@ -1,0 +1,308 @@
+//! A program's `main` as a list of definitions, each of which is compiled by itself.
+
+use super::Compiler;
+use super::scope::Symbol;
+use crate::interpreter::code::{Node, Slot, Variable as Outside};
+use crate::interpreter::sheet::{Cell, Formula, Sheet, Stored};
+use crate::interpreter::syntax::{
+    Declaration, Expression, ExpressionKind, Function, Item, Name, Statement, StatementKind, Storage, Variable,
+};
+use crate::interpreter::types::Type;
+use crate::interpreter::{Refusal, Stage, builtin, parse, text};
+use std::collections::HashSet;
+
+/// A [`Sheet`] as long as formulas are added to it.
+pub struct Draft {
+    compiler: Compiler,
+    /// Names of the functions, which the parser has to know.
+    functions: HashSet<Name>,
+    cells: Vec<Cell>,
+    /// Values of the constants that may have others.
+    values: Vec<(Slot, f64)>,
+    formulas: Vec<Formula>,
+    stored: Vec<Stored>,
+    /// How many inputs the file declares.
+    declared: usize,
+    /// What outside of `main` keeps it from being computed a part at a time.
+    hindrance: Option<Refusal>,
+    /// Slots that all formulas use on their way.
+    temporaries: Slot,
+    /// `main` among the functions, which calls what the definitions call.
+    main: usize,
+}
+
+/// As many as usual formulas need.
+const TEMPORARIES: Slot = 128;
+
+const ONLY_DEFINITIONS: &str =
+    "`main` has only definitions `type name = expression;`, and then `output = name;`: put this into a function";
+
+impl Draft {
+    /// Reads a program. The constants in `open` keep their slots, so that they can be given other values.
+    ///
+    /// # Errors
+    /// It is not GLSL, its `main` is no list of definitions, or it uses something that is not supported.
+    pub fn read(source: &str, stage: Stage, open: &[&str]) -> Result<Self, Refusal> {
+        let (mut draft, main) = Self::outside(source, stage, open)?;
+        if let Some(hindrance) = draft.hindrance.take() {
+            return Err(hindrance);
+        }
+        let main = main.ok_or_else(|| Refusal::invalid(0, "there is no function main"))?;
+        draft.main(&main)?;
+        Ok(draft)
+    }
+
+    /// The values of those constants of a program that have these names; what its `main` does makes no difference.
+    ///
+    /// # Errors
+    /// What stands outside of `main` is not GLSL.
+    pub fn constants(source: &str, stage: Stage, names: &[&str]) -> Result<Vec<(Cell, Vec<f64>)>, Refusal> {
+        let (draft, _) = Self::outside(source, stage, names)?;
+        let value = |cell: Cell| {
+            let values = draft.values.iter().filter(|(slot, _)| cell.slots.contains(slot));
+            (cell.clone(), values.map(|(_, value)| *value).collect())
+        };
+        Ok(draft.cells.iter().cloned().map(value).collect())
+    }
+
+    /// Everything but `main`, and that.
+    fn outside(source: &str, stage: Stage, open: &[&str]) -> Result<(Self, Option<Function>), Refusal> {
+        let preprocessed = text::preprocess(source)?;
+        let items = parse::parse(&preprocessed.tokens)?;
+        let functions = items.iter().filter_map(|item| match item {
+            Item::Function(function) => Some(Name::clone(&function.name)),
+            _ => None,
+        });
+        let mut draft = Self {
+            compiler: Compiler::new(preprocessed.version, stage),
+            functions: functions.collect(),
+            cells: Vec::new(),
+            values: Vec::new(),
+            formulas: Vec::new(),
+            stored: Vec::new(),
+            declared: 0,
+            hindrance: None,
+            temporaries: 0,
+            main: 0,
+        };
+        let mut main = None;
+        for item in items {
+            match item {
+                Item::Function(function) if &*function.name == "main" && function.body.is_some() => {
+                    main = Some(function);
+                }
+                Item::Declaration(declaration)
+                    if matches!(declaration.qualifiers.storage, Storage::Plain | Storage::Constant) =>
+                {
+                    draft.global(&declaration, open)?;
+                }
+                other => draft.compiler.item(&other)?,
+            }
+        }
+        Ok((draft, main))
+    }
+
+    /// Variables outside of functions, which should be constant and known.
+    fn global(&mut self, declaration: &Declaration, open: &[&str]) -> Result<(), Refusal> {
+        let is_constant = declaration.qualifiers.storage == Storage::Constant;
+        let compiler = &mut self.compiler;
+        let mark = compiler.builder.mark();
+        compiler.builder.line = declaration.line;
+        let base = compiler.type_of(&declaration.kind)?;
+        for variable in &declaration.variables {
+            let name = &variable.name;
+            compiler.plain_variable(&base, variable, is_constant)?;
+            let Some(Symbol::Variable { kind, slot }) = compiler.scopes.get(name).cloned() else { continue };
+            let slots = slot..slot + kind.slots().unwrap_or(0) as Slot;
+            let known = slots.clone().map(|slot| compiler.builder.known(slot)).collect::<Option<Vec<f64>>>();
+            match known.filter(|_| is_constant) {
+                Some(known) if open.contains(&&**name) => {
+                    slots.clone().for_each(|slot| compiler.builder.constants[slot as usize] = None);
+                    self.values.extend(slots.zip(known));
+                    self.cells.push(Cell::new(name, kind, slot, variable.line));
+                }
+                Some(_) => {}
+                None => {
+                    let what =
+                        format!("`{name}` is not known before `main`: write `const` before it, or move it there");
+                    self.hindrance.get_or_insert(Refusal::limit(variable.line, what));
+                }
+            }
+        }
+        compiler.end_statement(mark)
+    }
+
+    fn main(&mut self, main: &Function) -> Result<(), Refusal> {
+        let compiler = &mut self.compiler;
+        let outside = compiler.uniforms.iter().chain(&compiler.inputs);
+        let cell = |one: &Outside| Cell::new(&one.name, one.kind.clone(), one.slot, one.line);
+        self.cells.extend(outside.map(cell));
+        self.declared = compiler.inputs.len();
+        self.temporaries = compiler.builder.allocate(TEMPORARIES as usize)?;
+        self.main = compiler.declare_function(main)?;
+        compiler.functions[self.main].body = Some(Vec::new());
+        compiler.current = Some(self.main);
+        compiler.scopes.push();
+        compiler.builder.begin_function();
+        for statement in main.body.iter().flatten() {
+            self.statement(statement)?;
+        }
+        // What is free in a formula has one place for all of them.
+        let slot = self.compiler.builder.allocate(1)?;
+        self.cells.push(Cell::new("", Type::FLOAT, slot, 0));
+        self.check_calls()
+    }
+
+    fn statement(&mut self, statement: &Statement) -> Result<(), Refusal> {
+        match &statement.kind {
+            StatementKind::Empty => Ok(()),
+            StatementKind::Declaration(declaration)
+                if matches!(declaration.qualifiers.storage, Storage::Plain | Storage::Constant) =>
+            {
+                declaration.variables.iter().try_for_each(|variable| self.define(declaration, variable))
+            }
+            StatementKind::Expression(Expression { kind: ExpressionKind::Assign(None, to, from), .. }) => {
+                self.output(to, from, statement.line)
+            }
+            _ => Err(Refusal::invalid(statement.line, ONLY_DEFINITIONS)),
+        }
+    }
+
+    fn define(&mut self, declaration: &Declaration, variable: &Variable) -> Result<(), Refusal> {
+        let name = &variable.name;
+        let refused = |what: String| Err(Refusal::invalid(variable.line, what));
+        let Some(value) = &variable.value else {
+            return refused(format!("`{name}` has no value: write `{name} = …` where it is declared"));
+        };
+        if self.compiler.scopes.get(name).is_some() {
+            return refused(format!("`{name}` is the name of something else already: choose another"));
+        }
+        let base = self.compiler.type_of(&declaration.kind)?;
+        let kind = self.compiler.arrays_of(base, &variable.lengths)?;
+        let (nodes, (slot, kind)) = self.compiled(value, &kind, None)?;
+        self.cells.push(Cell::new(name, kind.clone(), slot, variable.line));
+        self.compiler.scopes.declare(Name::clone(name), Symbol::variable(kind, slot));
+        let formula = self.formula(self.cells.len() - 1, nodes, variable.line)?;
+        self.formulas.push(formula);
+        Ok(())
+    }
+
+    /// `output = name;`
+    fn output(&mut self, to: &Expression, from: &Expression, line: u32) -> Result<(), Refusal> {
+        let ExpressionKind::Name(output) = &to.kind else { return Err(Refusal::invalid(line, ONLY_DEFINITIONS)) };
+        if self.defined(output).is_some() {
+            let what = format!("`{output}` has a value already: give the new one a name of its own");
+            return Err(Refusal::invalid(line, what));
+        }
+        self.compiler.place(to)?;
+        let Some(known) = self.compiler.outputs.iter().find(|known| known.name == **output) else {
+            return Err(Refusal::invalid(line, format!("`{output}` is no output of this stage")));
+        };
+        let cell = match &from.kind {
+            ExpressionKind::Name(name) => self.defined(name),
+            _ => None,
+        };
+        let Some(cell) = cell.filter(|&cell| self.cells[cell].kind == known.kind) else {
+            let kind = &known.kind;
+            let what = format!("name the value first: `{kind} a_name = …; {output} = a_name;`");
+            return Err(Refusal::invalid(line, what));
+        };
+        self.stored.push(Stored { output: output.to_string(), cell, line });
+        Ok(())
+    }
+
+    fn defined(&self, name: &str) -> Option<usize> {
+        self.formulas.iter().map(Formula::cell).find(|&cell| self.cells[cell].name == name)
+    }
+
+    /// An expression that may stand in place of a definition, in which the name of a number may stand that is free.
+    ///
+    /// # Errors
+    /// It is not an expression, or not of the definition's type, or uses what is not there.
+    pub fn replacement(&mut self, cell: usize, text: &str, free: Option<&str>) -> Result<Formula, Refusal> {
+        let tokens = text::preprocess(text)?.tokens;
+        let expression = parse::parse_expression(&tokens, self.functions.clone())?;
+        self.compiler.scopes.push();
+        if let (Some(name), Some(cell)) = (free, self.cells.last()) {
+            self.compiler.scopes.declare(Name::from(name), Symbol::variable(Type::FLOAT, cell.slots.start));
+        }
+        let Cell { kind, slots, .. } = self.cells[cell].clone();
+        let compiled = self.compiled(&expression, &kind, Some(slots.start));
+        self.compiler.scopes.pop();
+        let (nodes, _) = compiled?;
+        self.formula(cell, nodes, 1)
+    }
+
+    /// Whether a name can be that of something new.
+    pub fn is_free(&self, name: &str) -> bool {
+        let is_word = text::preprocess(name).is_ok_and(|read| matches!(&*read.tokens, [one] if one.is_name()));
+        let is_known = self.compiler.scopes.get(name).is_some() || self.functions.contains(name);
+        is_word && !is_known && builtin::signatures(name).is_empty() && Type::named(name).is_none()
+    }
+
+    /// What can be named in an expression, see [`Sheet::cells`].
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// What the definitions are, in their order.
+    pub fn formulas(&self) -> &[Formula] {
+        &self.formulas
+    }
+
+    /// What the outputs are given.
+    pub fn stored(&self) -> &[Stored] {
+        &self.stored
+    }
+
+    /// Writes the value of an expression to a place, or to a new one.
+    fn compiled(
+        &mut self,
+        value: &Expression,
+        kind: &Type,
+        to: Option<Slot>,
+    ) -> Result<(Vec<Node>, (Slot, Type)), Refusal> {
+        let compiler = &mut self.compiler;
+        let mark = compiler.builder.mark();
+        let compiled = compiler.nodes(|compiler| {
+            let value = compiler.initial_value(value, kind)?;
+            let slot = to.map_or_else(|| compiler.builder.allocate(value.slots.len()), Ok)?;
+            compiler.store(slot, &value.slots);
+            Ok((slot, value.kind))
+        })?;
+        compiler.end_statement(mark)?;
+        Ok(compiled)
+    }
+
+    fn formula(&self, cell: usize, nodes: Vec<Node>, line: u32) -> Result<Formula, Refusal> {
+        if let Some(input) = self.compiler.inputs.get(self.declared) {
+            let what = format!("a definition does not know `{}`: use only what is declared", input.name);
+            return Err(Refusal::limit(line, what));
+        }
+        let bodies = self.compiler.functions.iter().map(|declared| declared.body.as_deref().unwrap_or_default());
+        let temporaries = self.temporaries..self.temporaries + TEMPORARIES;
+        Formula::new(cell, nodes, &self.cells, &bodies.collect::<Vec<_>>(), temporaries)
+            .map_err(|(what, at)| Refusal::invalid(if at == 0 { line } else { at }, what))
+    }
+
+    fn check_calls(&self) -> Result<(), Refusal> {
+        let mut depths = vec![None; self.compiler.functions.len()];
+        self.compiler.check_calls(self.main, &mut depths, 0).map(drop)
+    }
+
+    /// The sheet, to which no formula is added any more.
+    ///
+    /// # Errors
+    /// Functions call one another in a circle.
+    pub fn finish(self) -> Result<Sheet, Refusal> {
+        self.check_calls()?;
+        let builder = self.compiler.builder;
+        let mut first: Vec<f64> =
+            builder.constants.iter().map(|constant| constant.map_or(0.0, |constant| constant.value)).collect();
+        for (slot, value) in self.compiler.defaults.into_iter().chain(self.values) {
+            first[slot as usize] = value;
+        }
+        let functions = self.compiler.functions.into_iter().map(|declared| declared.body.unwrap_or_default());
+        Ok(Sheet::new(self.cells, functions.collect(), first, self.formulas))
+    }
+}
