@@ -3,16 +3,17 @@
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
-use crate::diagnose::{self, Evidence, Hints};
+use crate::diagnose::{self, Diagnosis, Evidence, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::homework;
 use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
-use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use crate::report::{Environment, FrameResult, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::source::{self, Facts, Source};
 use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
+use reference::accepted::Answer;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -47,6 +48,8 @@ pub struct Grader {
     interface: Interface,
     renderer: Renderer,
     expected: Vec<ExpectedFrame>,
+    /// The same of every answer that is right beside the solution.
+    accepted: Vec<(&'static Answer, Vec<ExpectedFrame>)>,
     environment: Environment,
     /// What advice comes from; the same for every seed.
     beyond: Vec<Beyond>,
@@ -81,8 +84,10 @@ impl Grader {
         };
         let renderer = Renderer::new(device, fixed?)?;
         let expected = expected.map_err(panicked)?;
+        let frames = |answer| (answer, homework::accepted_frames(assignment, answer));
+        let accepted = assignment.accepted().iter().map(frames).collect();
         let beyond = advice::beyond(assignment);
-        Ok(Self { assignment, interface, renderer, expected, environment, beyond, last: None })
+        Ok(Self { assignment, interface, renderer, expected, accepted, environment, beyond, last: None })
     }
 
     /// What grades.
@@ -200,12 +205,11 @@ impl Grader {
         diagnostics: Vec<Diagnostic>,
         hints: Hints,
     ) -> Report {
-        let frames: Vec<_> = self
-            .expected
-            .iter()
-            .zip(0..)
-            .map(|(expected, index)| compare::frame(expected, &rendering.frames, index))
-            .collect();
+        let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
+            let frames = expected.iter().zip(0..);
+            frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
+        };
+        let mut frames = compared(&self.expected);
         let samples: Vec<_> = rendering.probe_samples.concat();
         let evidence = Evidence {
             assignment: self.assignment,
@@ -218,7 +222,20 @@ impl Grader {
             beyond: &self.beyond,
             hints,
         };
-        let diagnosis = diagnose::diagnose(&evidence);
+        let mut diagnosis = diagnose::diagnose(&evidence);
+        if !diagnosis.is_right {
+            // Advice and the explanation are about the solution, which this answer is not.
+            let accepted = self.accepted.iter().find_map(|(answer, expected)| {
+                let frames = compared(expected);
+                let probes = self.assignment.probes_of(answer, probes);
+                let evidence = Evidence { frames: &frames, probes: &probes, beyond: &[], ..evidence };
+                let diagnosis = diagnose::agreement(&evidence)?;
+                Some((frames, Diagnosis { explanation: None, ..diagnosis }))
+            });
+            if let Some(accepted) = accepted {
+                (frames, diagnosis) = accepted;
+            }
+        }
         let score = diagnosis.rubric.iter().map(|line| line.points).sum();
         let max_score = self.assignment.max_score();
         Report {

@@ -11,6 +11,7 @@ use crate::render::{Batch, Scene};
 use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
 use reference::Assignment;
+use reference::accepted::Answer;
 use reference::interpreter::Type;
 use reference::probes::ProbeSet;
 use reference::rasteriser::{Coverage, Frame};
@@ -52,6 +53,13 @@ pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
     let right = assignment.equation.right();
     // One at a time: all of them together are larger than what is kept.
     poses.iter().map(|pose| ExpectedFrame::new(pose.t, &assignment.frame(pose, &right), background)).collect()
+}
+
+/// The frames of an answer that is right beside the solution.
+pub fn accepted_frames(assignment: &Assignment, answer: &Answer) -> Vec<ExpectedFrame> {
+    let background = assignment.scene.background;
+    let poses = assignment.scene.all_poses();
+    poses.iter().map(|pose| ExpectedFrame::new(pose.t, &assignment.frame_of(answer, pose), background)).collect()
 }
 
 /// What is drawn for a submission: the course's animation and the probes.

@@ -1,6 +1,11 @@
 //! Every sample of `submissions/` gets the report that stands beside it. `BLESS=1` writes the reports anew, and is red.
 
 use assert_cmd::Command;
+use ggrade::grade::{Grader, Order};
+use ggrade::render::AdapterKind;
+use ggrade::report::Verdict;
+use reference::Assignment;
+use std::path::Path;
 
 #[test]
 fn every_sample_gets_its_expected_report() {
@@ -39,4 +44,36 @@ fn a_sample_without_an_expectation_is_a_difference() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("new.vert"), "void main() {}").unwrap();
     Command::cargo_bin("ggrade").unwrap().arg("corpus").arg(folder.path()).assert().code(1);
+}
+
+/// The homework, with the reflection vector as right as the half vector where `accepted` says so.
+fn homework(accepted: &str) -> &'static Assignment {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments/ggsample06");
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string());
+    let line = "solution = \"solution.vert\"\n";
+    let assignment = Assignment::load(|name| match name {
+        "phong.vert" => Ok(read("solution.vert")?.replace("dot(n, h)", "dot(reflect(-l, n), v)")),
+        "assignment.toml" => Ok(read(name)?.replace(line, &format!("{line}{accepted}"))),
+        _ => read(name),
+    });
+    Box::leak(Box::new(assignment.unwrap()))
+}
+
+/// A shader that agrees with an accepted answer everywhere is right; one that agrees with none is judged by the solution.
+#[test]
+fn what_agrees_with_an_accepted_answer_is_right() {
+    let sample = |name: &str| std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name)).unwrap();
+    let [right, phong, both] =
+        ["accepted/answers/all-in-one-expression.vert", "wrong/specular-phong--reflect.vert", "wrong/ambient-missing+specular-phong--reflection-vector.vert"]
+            .map(sample);
+    let mut judged = Vec::new();
+    for accepted in ["", "accepted = [\"phong.vert\"]\n"] {
+        let mut grader = Grader::new(homework(accepted), AdapterKind::Software).unwrap();
+        for bytes in [&right, &phong, &both] {
+            let report = grader.grade("ggsample06.vert", bytes, Order { seed: 1, ..Order::default() }).unwrap().report;
+            judged.push((report.verdict, report.mistakes.len(), report.score == report.max_score, report.advice.len()));
+        }
+    }
+    let (correct, wrong) = ((Verdict::Correct, 0, true, 0), |mistakes| (Verdict::Wrong, mistakes, false, 0));
+    assert_eq!(judged, [correct, wrong(1), wrong(2), correct, correct, wrong(2)]);
 }

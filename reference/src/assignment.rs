@@ -2,6 +2,7 @@
 
 mod check;
 
+use crate::accepted::Answer;
 use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
 use crate::interpreter::Type;
@@ -53,6 +54,8 @@ pub struct HandedIn {
     pub starter_name: String,
     /// A file that computes what is right.
     pub solution: Solution,
+    /// Other answers that are right as well.
+    pub accepted: Vec<Answer>,
     /// The stages that it is linked with, each with its text.
     pub fixed: Vec<(Stage, String)>,
 }

@@ -166,6 +166,11 @@ impl Outcome<'_> {
         Value::new(self.equation.definitions[definition].kind.clone(), self.numbers(definition).to_vec())
     }
 
+    /// Three components of a definition by its place.
+    pub(crate) fn vec3(&self, definition: usize) -> DVec3 {
+        value::vec3(self.numbers(definition))
+    }
+
     fn numbers(&self, definition: usize) -> &[f64] {
         let count = |d: &Definition| d.kind.slots().unwrap_or(0);
         let first = self.equation.definitions[..definition].iter().map(count).sum();
@@ -174,7 +179,7 @@ impl Outcome<'_> {
 
     /// Red, green and blue of the vertex colour, not clamped; alpha is not seen.
     pub fn colour(&self) -> DVec3 {
-        value::vec3(self.numbers(self.equation.colour))
+        self.vec3(self.equation.colour)
     }
 
     /// Position in clip space.

@@ -8,13 +8,12 @@ use crate::scene::Pose;
 impl Assignment {
     /// The picture that `variant` of the equation draws at `pose`.
     pub fn frame(&self, pose: &Pose, variant: &Variant<'_>) -> Frame {
-        self.picture(pose, variant, &self.equation.definitions[self.equation.colour].name)
+        self.picture(&self.corners(pose, variant, self.equation.colour))
     }
 
     /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition.
     pub fn term_frame(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Frame> {
-        self.equation.index(term)?;
-        Some(self.picture(pose, variant, term))
+        Some(self.picture(&self.term_corners(pose, variant, term)?))
     }
 
     /// The right pictures of all poses.
@@ -26,25 +25,23 @@ impl Assignment {
 
     /// The vertices of that picture, with the term in place of the colour.
     pub fn term_corners(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<[ClipVertex; 3]> {
-        self.equation.index(term)?;
-        Some(self.corners(pose, variant, term))
+        Some(self.corners(pose, variant, self.equation.index(term)?))
     }
 
-    fn picture(&self, pose: &Pose, variant: &Variant<'_>, shown: &str) -> Frame {
+    /// The picture of a triangle.
+    pub(crate) fn picture(&self, corners: &[ClipVertex; 3]) -> Frame {
         let scene = &self.scene;
         let mut frame = Frame::cleared(scene.width, scene.height, scene.background);
-        frame.draw(&self.corners(pose, variant, shown));
+        frame.draw(corners);
         frame
     }
 
-    fn corners(&self, pose: &Pose, variant: &Variant<'_>, shown: &str) -> [ClipVertex; 3] {
+    /// The vertices of the triangle, with the value of a definition as the colour.
+    pub(crate) fn corners(&self, pose: &Pose, variant: &Variant<'_>, shown: usize) -> [ClipVertex; 3] {
         let uniforms = self.uniform_values(&pose.matrices);
         self.scene.triangle.map(|vertex| {
             let outcome = variant.evaluate(&uniforms, &self.attribute_values(&vertex));
-            ClipVertex {
-                position: outcome.position(),
-                colour: outcome.get(shown).map_or(glam::DVec3::NAN, |v| v.vec3()),
-            }
+            ClipVertex { position: outcome.position(), colour: outcome.vec3(shown) }
         })
     }
 }

@@ -5,6 +5,7 @@
 //!
 //! - [`interpreter`]: GLSL in f64; it knows nothing of the others
 //! - [`equation`]: the solution's definitions, evaluated in order, with any of them replaced
+//! - [`accepted`]: other shaders that are right as well
 //! - [`scene`]: poses and matrices of the course program
 //! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
 //! - [`rasteriser`], [`frames`]: the pictures
@@ -19,6 +20,7 @@
 //! assert!(fit.is_right());
 //! ```
 
+pub mod accepted;
 pub mod advice;
 pub mod assignment;
 pub mod equation;

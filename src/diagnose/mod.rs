@@ -118,6 +118,14 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     }
 }
 
+/// The diagnosis of an answer that agrees everywhere; none of any other, without a search for mistakes.
+pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
+    let agrees = frames_agree && is_right(evidence.probes, &samples, COLOUR_TOLERANCE);
+    agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)
+}
+
 fn costs(assignment: &Assignment, id: &str, line: &str) -> bool {
     assignment.mistake(id).is_some_and(|mistake| mistake.keeps(line) < 1.0)
 }

@@ -4,13 +4,16 @@ mod advice;
 mod mistakes;
 mod solution;
 
-use super::{Assignment, AssignmentError, Constant, HandedIn, error};
-use crate::interpreter::Type;
+use super::{Assignment, AssignmentError, Constant, HandedIn, MANIFEST, error};
+use crate::accepted::Answer;
+use crate::interpreter::{Program, Stage, Type};
 use crate::manifest::{self, Manifest};
+use crate::rasteriser::ClipVertex;
 use crate::scene::{Scene, Vertex};
 use glam::DVec3;
 use solution::Solution;
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// Rubric lines are held as the bits of a u64.
 const MAX_LINES: usize = 64;
@@ -49,7 +52,7 @@ pub(super) fn assignment(
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<Checked<Vec<_>>>()?;
     let equation = solution.finish(&m, &interface, &constants)?;
-    Ok(Assignment {
+    let assignment = Assignment {
         scene: scene(&m.scene)?,
         files,
         id: m.id,
@@ -61,7 +64,42 @@ pub(super) fn assignment(
         mistakes,
         advice,
         probing: m.probes,
-    })
+    };
+    answers_are_defined(&assignment)?;
+    Ok(assignment)
+}
+
+/// What is right must be a number in every picture: what GLSL leaves undefined is another thing on another machine.
+fn answers_are_defined(assignment: &Assignment) -> Checked<()> {
+    let right = assignment.equation.right();
+    let file = &assignment.files[0];
+    let mut known: HashSet<&str> = HashSet::new();
+    known.extend(assignment.interface.uniforms.iter().map(|uniform| uniform.name.as_str()));
+    known.extend(assignment.interface.inputs.iter().map(|input| input.name.as_str()));
+    for answer in &file.accepted {
+        let mut given = answer.program.uniforms().iter().chain(answer.program.inputs());
+        if let Some(other) = given.find(|one| !known.contains(one.name.as_str())) {
+            let message = format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name);
+            return Err(error(solution::place(&answer.name, other.line), message));
+        }
+    }
+    let is_number = |corners: [ClipVertex; 3]| {
+        corners.iter().all(|corner| corner.colour.is_finite() && corner.position.is_finite())
+    };
+    for pose in assignment.scene.all_poses() {
+        let undefined = |name: &str| {
+            let message =
+                "the colour or the position is undefined, or no number: look at divisions, roots, powers and branches";
+            Err(error(format!("{name}, at t = {}", pose.t), message))
+        };
+        if !is_number(assignment.corners(&pose, &right, assignment.equation.colour)) {
+            return undefined(&file.solution.name);
+        }
+        if let Some(answer) = file.accepted.iter().find(|answer| !is_number(assignment.corners_of(answer, &pose))) {
+            return undefined(&answer.name);
+        }
+    }
+    Ok(())
 }
 
 fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> Checked<Vec<HandedIn>> {
@@ -74,8 +112,20 @@ fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> 
         }
         let fixed = file.fixed.iter().map(|f| Ok((f.stage, read(&f.file)?))).collect::<Checked<_>>()?;
         let solution = super::Solution { text: read(&file.solution)?, name: file.solution };
-        let starter = read(&file.starter)?;
-        Ok(HandedIn { starter, starter_name: file.starter, solution, name: file.name, stage: file.stage, fixed })
+        let accepted = file.accepted.into_iter().map(|name| {
+            let program = Program::compile(&read(&name)?, Stage::Vertex);
+            let program = Arc::new(program.map_err(|refusal| solution::refused(&name, &refusal))?);
+            Ok(Answer { name, program })
+        });
+        Ok(HandedIn {
+            accepted: accepted.collect::<Checked<_>>()?,
+            starter: read(&file.starter)?,
+            starter_name: file.starter,
+            solution,
+            name: file.name,
+            stage: file.stage,
+            fixed,
+        })
     };
     files.into_iter().map(handed_in).collect()
 }

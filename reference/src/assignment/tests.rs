@@ -130,10 +130,13 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
         error("vc = colour;", "vc = total * 1.0;"),
         "solution.vert, line 52: name the value first: `vec4 a_name = …; vc = a_name;`"
     );
-    assert_eq!(error("vc = colour;", ""), "solution.vert: the output has no value: write `the output = name;`");
     assert_eq!(
-        error("uniform mat4 mw;", "uniform mat3 mw;"),
-        "solution.vert, line 21: `mw` is a mat3: write `uniform mat4 mw;`"
+        error("vc = colour;", ""),
+        "solution.vert: no output has a value: declare `out vec4 a_name;`, and write `a_name = …;` at the end of `main`"
+    );
+    assert_eq!(
+        error("uniform mat4 mw;", "const mat4 mw = mat4(1.0);"),
+        "solution.vert: `mw` is not there: write `uniform mat4 mw;`"
     );
     assert_eq!(
         error("out vec4 vc;", "out vec4 vc; uniform float gain;"),
@@ -143,6 +146,59 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
         error("out vec4 vc;", "out vec4 vc; float gain = 1.0;"),
         "solution.vert, line 25: `gain` is not known before `main`: write `const` before it, or move it there"
     );
+}
+
+#[test]
+fn a_solution_that_is_undefined_is_refused() {
+    // N·L is negative in some of the pictures.
+    let error = broken_in("solution.vert", "float lambert = max(nl, 0.0);", "float lambert = pow(nl, 2.0);");
+    assert!(error.starts_with("solution.vert, at t = 0.") && error.contains("is undefined, or no number"), "{error}");
+}
+
+/// The homework with another answer that is right as well.
+fn with_accepted(answer: &str) -> Result<Assignment, AssignmentError> {
+    Assignment::load(|name| {
+        let file = BUILT_IN[0].iter().find(|(n, _)| *n == name).map(|(_, text)| (*text).to_owned());
+        let line = "solution = \"solution.vert\"\n";
+        match name {
+            "other.vert" => Ok(answer.to_owned()),
+            MANIFEST => Ok(file.ok_or("")?.replace(line, &format!("{line}accepted = [\"other.vert\"]\n"))),
+            _ => file.ok_or("is not in the folder".into()),
+        }
+    })
+}
+
+#[test]
+fn an_accepted_answer_is_a_shader_of_any_form() {
+    // The reflection vector in place of the half vector, and a loop that GLSL does not need.
+    let solution = BUILT_IN[0].iter().find(|(name, _)| *name == "solution.vert").expect("there").1;
+    let answer = solution
+        .replace("dot(n, h)", "dot(reflect(-l, n), v)")
+        .replace("vc = colour;", "for (int i = 0; i < 4; ++i) vc[i] = colour[i];");
+    let other = with_accepted(&answer).expect("valid");
+    let phong = [Found { id: "specular-phong".into(), form: 0, parameter: None }];
+    let variant = other.variant(&phong).expect("a known mistake");
+    let (probes, right) = (other.probes(1), other.accepted().first().expect("one"));
+    for (probe, theirs) in probes.iter().zip(&other.probes_of(right, &probes)) {
+        let expected = variant.evaluate(probes.uniforms(probe), &probe.attributes);
+        assert!((theirs.colour - expected.colour()).abs().max_element() < 1e-9);
+        assert!((theirs.position - expected.position()).abs().max_element() < 1e-9);
+    }
+    let pose = other.scene.pose(0.2);
+    assert_eq!(other.frame_of(right, &pose).pixels, other.frame(&pose, &variant).pixels);
+}
+
+#[test]
+fn an_accepted_answer_that_cannot_be_right_is_refused() {
+    let error = |answer: &str| with_accepted(answer).expect_err(answer).to_string();
+    assert_eq!(error("in vec4 pv;\nvoid main() { vc = pv; }"), "other.vert, line 2: there is no variable vc");
+    assert_eq!(
+        error("uniform float gain;\nout vec4 vc; void main() { vc = vec4(gain); gl_Position = vc; }"),
+        "other.vert, line 1: `gain` is not among the inputs and uniforms of assignment.toml: remove it"
+    );
+    let undefined = "other.vert, at t = 0: the colour or the position is undefined, or no number: look at divisions, \
+                     roots, powers and branches";
+    assert_eq!(error("out vec4 vc; void main() { vc = vec4(1.0); }"), undefined);
 }
 
 #[test]

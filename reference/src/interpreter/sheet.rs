@@ -4,7 +4,8 @@
 //! in its place; what depends on it is computed anew, and nothing else. One sample is computed at a time, in registers that
 //! are used again: what has to be computed thousands of times costs a few nanoseconds for each operation.
 //!
-//! What GLSL leaves undefined is not a number here, and so is all that is computed from it.
+//! What GLSL leaves undefined is not a number here, and so is all that is computed from it. What is too large for a float
+//! stays the number that it is.
 //!
 //! ```
 //! use reference::interpreter::{Draft, Stage};

@@ -214,9 +214,14 @@ impl<'a> Solution<'a> {
     fn output(&self, name: Option<&str>) -> Checked<usize> {
         let is_it = |output: &str| name.map_or(output != POSITION, |name| output == name);
         let mut stored = self.draft.stored().iter().filter(|stored| is_it(&stored.output));
-        let shown = name.unwrap_or("the output");
-        let one =
-            stored.next().ok_or_else(|| self.wrong(0, format!("{shown} has no value: write `{shown} = name;`")))?;
+        let missing = || match name {
+            Some(name) => self.wrong(0, format!("`{name}` has no value: write `{name} = …;` at the end of `main`")),
+            None => self.wrong(
+                0,
+                "no output has a value: declare `out vec4 a_name;`, and write `a_name = …;` at the end of `main`",
+            ),
+        };
+        let one = stored.next().ok_or_else(missing)?;
         if let Some(other) = stored.next() {
             return Err(self.wrong(other.line, "this is one output too many: only one beside gl_Position is compared"));
         }

@@ -132,15 +132,16 @@ pub fn scalar(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
 }
 
 /// One operation on three numbers, where what GLSL leaves undefined is not a number, and so is what is computed from it.
+/// What no float holds stays a number: how large it is tells more than that it is infinite.
 #[inline(always)]
 pub fn defined(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
     match operation {
         // What is not a number stays that by itself.
-        Operation::Add if class == Class::Float => Exact::round(a + b),
-        Operation::Subtract if class == Class::Float => Exact::round(a - b),
-        Operation::Multiply if class == Class::Float => Exact::round(a * b),
-        Operation::Divide if class == Class::Float => Exact::round(a / b),
-        Operation::MultiplyAdd if class == Class::Float => Exact::round(Exact::round(a * b) + c),
+        Operation::Add if class == Class::Float => a + b,
+        Operation::Subtract if class == Class::Float => a - b,
+        Operation::Multiply if class == Class::Float => a * b,
+        Operation::Divide if class == Class::Float => a / b,
+        Operation::MultiplyAdd if class == Class::Float => a * b + c,
         // The operand that is not chosen, or does not decide, does not count.
         Operation::Select => match a {
             _ if a.is_nan() => a,
@@ -150,7 +151,7 @@ pub fn defined(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
         Operation::And if a == 0.0 => 0.0,
         Operation::Or if a != 0.0 && !a.is_nan() => 1.0,
         _ if a.is_nan() || b.is_nan() || c.is_nan() || undefined::is(operation, class, [a, b, c]) => f64::NAN,
-        _ => scalar(operation, class, [a, b, c]),
+        _ => scalar(operation, if class == Class::Float { Class::Double } else { class }, [a, b, c]),
     }
 }
 

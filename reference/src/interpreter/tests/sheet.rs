@@ -88,7 +88,8 @@ fn definitions_are_what_the_program_computes() {
     for x in [-3.25, -1.0, -0.3, 0.0, 0.75, 1.5, 2.0, 7.9] {
         let found = computed(&sheet, &[("x", &[x]), ("u", &[0.5, -2.0])]);
         let names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
-        let run = program.run(1).input("x", &[&[x]]).expect("x").uniform("u", &[0.5, -2.0]).expect("u");
+        let columns: [&[f64]; 1] = [&[x]];
+        let run = program.run(1).input("x", &columns).expect("x").uniform("u", &[0.5, -2.0]).expect("u");
         let expected = run.outputs_and_locals(&names).expect("an end");
         assert_eq!(expected.locals.len(), found.len());
         for ((name, found), expected) in found.iter().zip(&expected.locals) {
@@ -113,6 +114,14 @@ fn what_is_undefined_is_not_a_number() {
     let causes: Vec<bool> = run.locals.iter().map(|local| local.undefined(0, 0).is_some()).collect();
     // One question that is undefined makes all of the program's values so, which a definition by itself does not know.
     assert_eq!(causes, [true; 6]);
+}
+
+#[test]
+fn what_is_too_large_for_a_float_stays_a_number() {
+    let text =
+        "in float x; out vec4 r; void main() { float a = pow(x, 80.0); float b = a * x; vec4 c = vec4(b); r = c; }";
+    let found = computed(&draft(text).finish().expect("a sheet"), &[("x", &[20.0])]);
+    assert!((found[1].1[0] / 20f64.powi(81) - 1.0).abs() < 1e-12, "{found:?}");
 }
 
 #[test]

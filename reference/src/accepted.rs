@@ -1,0 +1,112 @@
+//! Other answers that are right as well: shaders of their own, which are run as they are.
+
+use crate::Assignment;
+use crate::Value;
+use crate::interpreter::{Column, Program, Variable};
+use crate::probes::ProbeSet;
+use crate::rasteriser::{ClipVertex, Frame};
+use crate::scene::Pose;
+use glam::{DVec3, DVec4};
+use std::sync::Arc;
+
+/// A shader that is right beside the solution.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The name of its file.
+    pub name: String,
+    pub(crate) program: Arc<Program>,
+}
+
+/// What a shader computes for a vertex.
+type Computed = (DVec3, DVec4);
+
+impl Assignment {
+    /// The answers that are right beside the solution.
+    pub fn accepted(&self) -> &[Answer] {
+        &self.files[0].accepted
+    }
+
+    /// The same probes with what an answer computes there.
+    pub fn probes_of(&self, answer: &Answer, probes: &ProbeSet) -> ProbeSet {
+        let given: Vec<_> = probes.iter().map(|probe| (probes.uniforms(probe), probe.attributes.as_slice())).collect();
+        let computed = self.run(answer, &given);
+        let mut theirs = probes.clone();
+        for (probe, (colour, position)) in theirs.probes.iter_mut().zip(computed) {
+            (probe.colour, probe.position) = (colour, position);
+        }
+        theirs
+    }
+
+    /// The picture that an answer draws at a pose.
+    pub fn frame_of(&self, answer: &Answer, pose: &Pose) -> Frame {
+        self.picture(&self.corners_of(answer, pose))
+    }
+
+    pub(crate) fn corners_of(&self, answer: &Answer, pose: &Pose) -> [ClipVertex; 3] {
+        let uniforms = self.uniform_values(&pose.matrices);
+        let attributes = self.scene.triangle.map(|vertex| self.attribute_values(&vertex));
+        let given = attributes.each_ref().map(|attributes| (uniforms.as_slice(), attributes.as_slice()));
+        let computed = self.run(answer, &given);
+        std::array::from_fn(|corner| {
+            let (colour, position) = computed[corner];
+            ClipVertex { position, colour }
+        })
+    }
+
+    /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.
+    fn run(&self, answer: &Answer, given: &[(&[Value], &[Value])]) -> Vec<Computed> {
+        self.computed(&answer.program, given).unwrap_or_else(|| vec![(DVec3::NAN, DVec4::NAN); given.len()])
+    }
+
+    fn computed(&self, program: &Program, given: &[(&[Value], &[Value])]) -> Option<Vec<Computed>> {
+        let names = self.interface.uniforms.iter().map(|uniform| &uniform.name).enumerate();
+        let uniforms: Vec<_> = names
+            .filter_map(|(place, name)| {
+                let own = program.uniforms().iter().find(|own| own.name == *name)?;
+                Some((name, columns(own, given.iter().map(|(uniforms, _)| &uniforms[place]))))
+            })
+            .collect();
+        let names = self.interface.inputs.iter().map(|input| &input.name).enumerate();
+        let attributes: Vec<_> = names
+            .filter_map(|(place, name)| {
+                let own = program.inputs().iter().find(|own| own.name == *name)?;
+                Some((name, columns(own, given.iter().map(|(_, attributes)| &attributes[place]))))
+            })
+            .collect();
+        let mut run = program.run(given.len());
+        for (name, columns) in &uniforms {
+            run = run.uniform_of_each(name, &slices(columns)).ok()?;
+        }
+        for (name, columns) in &attributes {
+            run = run.input(name, &slices(columns)).ok()?;
+        }
+        let outputs = run.outputs().ok()?;
+        let colour = outputs.get(&self.interface.outputs.first()?.name)?;
+        let position = outputs.get("gl_Position")?;
+        Some((0..given.len()).map(|at| (vector(colour, at).truncate(), vector(position, at))).collect())
+    }
+}
+
+/// A column of all vertices for each scalar of a variable.
+fn columns<'v>(variable: &Variable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {
+    let mut columns = vec![Vec::new(); variable.kind.slots().unwrap_or(0)];
+    for value in values {
+        for (scalar, column) in columns.iter_mut().enumerate() {
+            column.push(value.numbers().get(scalar).copied().unwrap_or(f64::NAN));
+        }
+    }
+    columns
+}
+
+fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
+    columns.iter().map(Vec::as_slice).collect()
+}
+
+/// What a shader wrote for a vertex; not a number where that is undefined.
+fn vector(column: &Column, vertex: usize) -> DVec4 {
+    let scalar = |at: usize| match column.values.get(at) {
+        Some(values) if column.undefined(at, vertex).is_none() => values[vertex],
+        _ => f64::NAN,
+    };
+    DVec4::from_array(std::array::from_fn(scalar))
+}
