@@ -62,10 +62,14 @@ fn homework(accepted: &str) -> &'static Assignment {
 /// A shader that agrees with an accepted answer everywhere is right; one that agrees with none is judged by the solution.
 #[test]
 fn what_agrees_with_an_accepted_answer_is_right() {
-    let sample = |name: &str| std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name)).unwrap();
-    let [right, phong, both] =
-        ["accepted/answers/all-in-one-expression.vert", "wrong/specular-phong--reflect.vert", "wrong/ambient-missing+specular-phong--reflection-vector.vert"]
-            .map(sample);
+    let sample =
+        |name: &str| std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name)).unwrap();
+    let [right, phong, both] = [
+        "accepted/answers/all-in-one-expression.vert",
+        "wrong/specular-phong--reflect.vert",
+        "wrong/ambient-missing+specular-phong--reflection-vector.vert",
+    ]
+    .map(sample);
     let mut judged = Vec::new();
     for accepted in ["", "accepted = [\"phong.vert\"]\n"] {
         let mut grader = Grader::new(homework(accepted), AdapterKind::Software).unwrap();

@@ -257,7 +257,7 @@ fn samples_that_are_no_numbers_or_missing_are_never_right() {
 fn an_answer_with_other_constants_is_right_for_those_constants() {
     let assignment = ggsample06();
     let probes = assignment.probes(8);
-    let changed = assignment.with_constants(&[("kshi", Value::Float(20.0))]).expect("a constant");
+    let changed = assignment.with_constants(&[("kshi", Value::from(20.0))]).expect("a constant");
     let given = samples(&changed, &probes, &[]);
     assert!(explain(&changed, &changed.reprobe(&probes), &given, TOLERANCE).is_right());
     match explain(assignment, &probes, &given, TOLERANCE) {
