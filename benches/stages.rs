@@ -66,7 +66,7 @@ fn translate_source(bencher: Bencher<'_, '_>) {
 fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
     let interface = interface();
     let renderer = RefCell::new(renderer());
-    let scene = homework::scene(assignment(), &assignment().probes(1));
+    let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
     bencher
         .with_inputs(|| shader(&read(&text()), &interface))
         .bench_local_refs(|shader| renderer.borrow_mut().render(shader, &scene).expect("a rendering"));
@@ -76,7 +76,7 @@ fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
 fn compare_25_frames(bencher: Bencher<'_, '_>) {
     let expected = homework::expected_frames(assignment());
     let mut renderer = renderer();
-    let scene = homework::scene(assignment(), &assignment().probes(1));
+    let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
     let rendering = renderer.render(&shader(&read(&text()), &interface()), &scene).expect("a rendering");
     bencher.bench_local(|| {
         expected
@@ -107,7 +107,7 @@ fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn interpret_frames_and_probes(bencher: Bencher<'_, '_>) {
     let mut renderer = renderer();
-    let scene = homework::scene(assignment(), &assignment().probes(1));
+    let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
     let text = text();
     let rendering = renderer.render(&shader(&read(&text), &interface()), &scene).expect("a rendering");
     let batches: Vec<_> = scene.frames.iter().chain(&scene.probes).collect();

@@ -1,15 +1,19 @@
 //! The pipeline: the only module that knows all the stages.
 
+mod unfinished;
+
+pub use unfinished::{source_info, unfinished};
+
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
-use crate::diagnose::{self, Diagnosis, Evidence, Hints};
+use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::homework;
 use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
-use crate::report::{Environment, FrameResult, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use crate::report::{Environment, FrameResult, Report, Verdict};
 use crate::source::{self, Facts, Source};
 use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
@@ -19,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
 use std::time::Instant;
+use unfinished::info;
 
 /// How a file is to be graded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,17 +55,19 @@ pub struct Grader {
     expected: Vec<ExpectedFrame>,
     /// The same of every answer that is right beside the solution.
     accepted: Vec<(&'static Answer, Vec<ExpectedFrame>)>,
+    /// The probes that judge.
+    probes: ProbeSet,
     environment: Environment,
-    /// What advice comes from; the same for every seed.
+    /// What advice comes from.
     beyond: Vec<Beyond>,
     /// The last seed's: a class is graded with one seed.
     last: Option<Rc<Probing>>,
 }
 
-/// What is drawn for one seed; it hangs on nothing else.
+/// What is drawn for one seed.
 #[derive(Debug)]
 struct Probing {
-    probes: ProbeSet,
+    fresh: ProbeSet,
     scene: Scene,
 }
 
@@ -86,8 +93,9 @@ impl Grader {
         let expected = expected.map_err(panicked)?;
         let frames = |answer| (answer, homework::accepted_frames(assignment, answer));
         let accepted = assignment.accepted().iter().map(frames).collect();
-        let beyond = advice::beyond(assignment);
-        Ok(Self { assignment, interface, renderer, expected, accepted, environment, beyond, last: None })
+        let probes = assignment.judging_probes();
+        let beyond = advice::beyond(assignment, &probes);
+        Ok(Self { assignment, interface, renderer, expected, accepted, probes, environment, beyond, last: None })
     }
 
     /// What grades.
@@ -133,7 +141,7 @@ impl Grader {
         let shader = &translation.shader;
         diagnostics.extend(source.notes.iter().cloned());
         let probing = self.probing(order.seed);
-        let Probing { probes, scene } = &*probing;
+        let Probing { fresh, scene } = &*probing;
         let mut rendering = self.renderer.render(shader, scene)?;
         if let Some(ran_out) = rendering.ran_out {
             diagnostics.insert(0, shader.out_of_fuel(ran_out));
@@ -143,7 +151,7 @@ impl Grader {
             rendering.undefined = None;
         }
         let interpreter = translation.interpreter(&source);
-        let mut report = self.report(&source, probes, &rendering, interpreter.as_ref(), diagnostics, order.hints);
+        let mut report = self.report(&source, fresh, &rendering, interpreter.as_ref(), diagnostics, order.hints);
         report.cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
         Ok(Graded { report, frames: Some(rendering.frames) })
     }
@@ -157,12 +165,12 @@ impl Grader {
     }
 
     fn probing(&mut self, seed: u64) -> Rc<Probing> {
-        if let Some(last) = self.last.as_ref().filter(|last| last.probes.seed == seed) {
+        if let Some(last) = self.last.as_ref().filter(|last| last.fresh.seed == seed) {
             return Rc::clone(last);
         }
-        let probes = self.assignment.probes(seed);
-        let scene = homework::scene(self.assignment, &probes);
-        Rc::clone(self.last.insert(Rc::new(Probing { probes, scene })))
+        let fresh = self.assignment.fresh_probes(seed);
+        let scene = homework::scene(self.assignment, &[&self.probes, &fresh]);
+        Rc::clone(self.last.insert(Rc::new(Probing { fresh, scene })))
     }
 
     fn rejected(&self, facts: &Facts, diagnostics: Vec<Diagnostic>) -> Graded {
@@ -199,7 +207,7 @@ impl Grader {
     fn report(
         &self,
         source: &Source,
-        probes: &ProbeSet,
+        fresh: &ProbeSet,
         rendering: &Rendering,
         interpreter: Option<&Interpreter>,
         diagnostics: Vec<Diagnostic>,
@@ -211,12 +219,14 @@ impl Grader {
         };
         let mut frames = compared(&self.expected);
         let samples: Vec<_> = rendering.probe_samples.concat();
+        let (samples, fresh_samples) = samples.split_at(self.probes.probes.len().min(samples.len()));
         let evidence = Evidence {
             assignment: self.assignment,
             source,
             frames: &frames,
-            probes,
-            samples: &samples,
+            probes: &self.probes,
+            samples,
+            fresh: Fresh { probes: fresh, samples: fresh_samples },
             undefined: rendering.undefined,
             interpreter,
             beyond: &self.beyond,
@@ -227,8 +237,10 @@ impl Grader {
             // Advice and the explanation are about the solution, which this answer is not.
             let accepted = self.accepted.iter().find_map(|(answer, expected)| {
                 let frames = compared(expected);
-                let probes = self.assignment.probes_of(answer, probes);
-                let evidence = Evidence { frames: &frames, probes: &probes, beyond: &[], ..evidence };
+                let probes = self.assignment.probes_of(answer, &self.probes);
+                let of_answer = self.assignment.probes_of(answer, fresh);
+                let fresh = Fresh { probes: &of_answer, samples: fresh_samples };
+                let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], ..evidence };
                 let diagnosis = diagnose::agreement(&evidence)?;
                 Some((frames, Diagnosis { explanation: None, ..diagnosis }))
             });
@@ -263,68 +275,6 @@ impl Grader {
 fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     text.unwrap_or("internal error").to_owned()
-}
-
-/// The report of a file that was not rendered to the end: no points, and the diagnostics say why.
-pub fn unfinished(
-    assignment: &Assignment,
-    source: SourceInfo,
-    verdict: Verdict,
-    diagnostics: Vec<Diagnostic>,
-    environment: Environment,
-) -> Report {
-    let message = match verdict {
-        Verdict::Stopped => Text::new("not judged: the shader was stopped", "処理が打ち切られたため、採点していません"),
-        _ => Text::new("not judged: the file was rejected", "ファイルを受け付けられなかったため、採点していません"),
-    };
-    let rubric = assignment
-        .rubric
-        .iter()
-        .map(|line| RubricLine {
-            id: line.id.clone(),
-            label: Text::new(&line.label.en, &line.label.ja),
-            points: 0.0,
-            max_points: line.points,
-            mistake: None,
-            message: message.clone(),
-            line: None,
-        })
-        .collect();
-    Report {
-        assignment: assignment.id.clone(),
-        source,
-        verdict,
-        score: 0.0,
-        max_score: assignment.max_score(),
-        rubric,
-        mistakes: Vec::new(),
-        advice: Vec::new(),
-        explanation: None,
-        diagnostics,
-        frames: Vec::new(),
-        probes: ProbeResult::default(),
-        cross_check: None,
-        environment,
-        hints: Hints::default(),
-        elapsed_ms: 0.0,
-    }
-}
-
-/// What is known of a file without reading it as text.
-pub fn source_info(name: &str, bytes: &[u8]) -> SourceInfo {
-    match source::read(name, bytes) {
-        Ok(source) => info(&source.facts),
-        Err(refusal) => info(&refusal.facts),
-    }
-}
-
-fn info(facts: &Facts) -> SourceInfo {
-    SourceInfo {
-        name: facts.name.clone(),
-        sha256: facts.sha256.clone(),
-        bytes: facts.bytes,
-        encoding: facts.encoding.map_or_else(|| "binary".into(), |encoding| encoding.label().to_owned()),
-    }
 }
 
 /// A seed that nobody knows beforehand, small enough to be typed and to be exact in every JSON reader.

@@ -62,16 +62,16 @@ pub fn accepted_frames(assignment: &Assignment, answer: &Answer) -> Vec<Expected
     poses.iter().map(|pose| ExpectedFrame::new(pose.t, &assignment.frame_of(answer, pose), background)).collect()
 }
 
-/// What is drawn for a submission: the course's animation and the probes.
-pub fn scene(assignment: &Assignment, probes: &ProbeSet) -> Scene {
+/// What is drawn for a submission: the course's animation and the probes, set after set.
+pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
     let scene = &assignment.scene;
     let frames = scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
-    let probes = (0..probes.groups.len())
-        .map(|group| {
-            let vertices: Vec<Vertex> = probes.of_group(group).iter().map(|probe| probe.vertex).collect();
-            batch(assignment, &probes.groups[group].matrices, &vertices)
-        })
-        .collect();
+    let drawn = |probes: &&ProbeSet| -> Vec<Batch> {
+        let vertices = |group| -> Vec<Vertex> { probes.of_group(group).iter().map(|probe| probe.vertex).collect() };
+        let groups = probes.groups.iter().enumerate();
+        groups.map(|(place, group)| batch(assignment, &group.matrices, &vertices(place))).collect()
+    };
+    let probes = probes.iter().flat_map(drawn).collect();
     Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes }
 }
 

@@ -1,5 +1,8 @@
 //! Every sample of `submissions/` gets the report that stands beside it. `BLESS=1` writes the reports anew, and is red.
 
+#[path = "corpus/seed.rs"]
+mod seed;
+
 use assert_cmd::Command;
 use ggrade::grade::{Grader, Order};
 use ggrade::render::AdapterKind;

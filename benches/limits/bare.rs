@@ -79,7 +79,7 @@ impl Bare {
         let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
         let assignment = homework::assignment("ggsample06").expect("the assignment");
-        let scene = homework::scene(assignment, &assignment.probes(1));
+        let scene = homework::scene(assignment, &[&assignment.probes(1)]);
         let interface = homework::interface(assignment).expect("the assignment is whole");
         let fragment = translate::fixed_stage(&interface, &assignment.files[0].starter).expect("the fixed stage");
         let fragment = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -40,19 +40,11 @@ pub struct Variation {
     pub attributes: Vec<Value>,
 }
 
-/// The seed of the probes that are varied: advice depends on no other.
-const SEED: u64 = 1;
-
 impl Assignment {
     /// `count` probes under a circumstance, spread over all that there are.
     pub fn variations(&self, when: &Circumstance, probes: &ProbeSet, count: usize) -> Vec<Variation> {
         let all = &probes.probes;
         (0..count.min(all.len())).map(|at| self.variation(when, probes, &all[at * all.len() / count])).collect()
-    }
-
-    /// The probes that are varied.
-    pub fn advice_probes(&self) -> ProbeSet {
-        self.probes(SEED)
     }
 
     fn variation(&self, when: &Circumstance, probes: &ProbeSet, probe: &Probe) -> Variation {

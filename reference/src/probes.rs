@@ -17,6 +17,12 @@ use std::ops::Range;
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.
 const TWINS: usize = 3;
 
+/// The seed of the probes that judge.
+const JUDGING: u64 = 1;
+
+/// So many cameras of the probes that are fresh in every grading: 80 vertices.
+const FRESH_GROUPS: usize = 4;
+
 /// Which terms of a right answer show at a probe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -61,7 +67,7 @@ pub struct Group {
     pub uniforms: Vec<Value>,
 }
 
-/// All probes of one grading.
+/// Probes under several cameras.
 #[derive(Clone, Debug)]
 pub struct ProbeSet {
     /// What they were chosen from; the same seed gives the same probes.
@@ -70,6 +76,8 @@ pub struct ProbeSet {
     pub groups: Vec<Group>,
     /// The vertices, group after group, the same number for each.
     pub probes: Vec<Probe>,
+    /// How many of the last groups have one camera.
+    twins: usize,
 }
 
 impl ProbeSet {
@@ -94,7 +102,7 @@ impl ProbeSet {
     }
 
     fn twins(&self, other: usize) -> Option<[Range<usize>; 2]> {
-        let first = self.groups.len().checked_sub(TWINS)?;
+        let first = self.groups.len().checked_sub(self.twins).filter(|_| self.twins == TWINS)?;
         let each = self.probes.len() / self.groups.len();
         Some([first, first + other].map(|group| group * each..(group + 1) * each))
     }
@@ -116,15 +124,30 @@ impl<'a> IntoIterator for &'a ProbeSet {
 }
 
 impl Assignment {
-    /// The probes for a seed.
+    /// The probes that judge: the same in every grading, so that no score and no message depends on a seed.
+    pub fn judging_probes(&self) -> ProbeSet {
+        self.probes(JUDGING)
+    }
+
+    /// Probes that nobody knows beforehand. They only show whether a shader treats the known ones apart.
+    pub fn fresh_probes(&self, seed: u64) -> ProbeSet {
+        self.draw(seed, FRESH_GROUPS, 0)
+    }
+
+    /// As many probes as judge, for a seed.
     pub fn probes(&self, seed: u64) -> ProbeSet {
+        self.draw(seed, self.probing.groups, TWINS)
+    }
+
+    /// Probes under `count` cameras, of which the last `twins` are the same.
+    fn draw(&self, seed: u64, count: usize, twins: usize) -> ProbeSet {
         let mut random = Random(ChaCha8Rng::seed_from_u64(seed));
         let light = Light::of(self);
         let right = self.equation.right();
         let mut groups = Vec::new();
         let mut probes = Vec::new();
-        for group in 0..self.probing.groups {
-            let twin = (group + TWINS).checked_sub(self.probing.groups + 1);
+        for group in 0..count {
+            let twin = (group + twins).checked_sub(count + 1);
             let matrices = match (twin, groups.last()) {
                 (Some(_), Some(Group { matrices, .. })) => *matrices,
                 _ => random_camera(&mut random),
@@ -147,7 +170,7 @@ impl Assignment {
             }
             groups.push(Group { matrices, uniforms });
         }
-        ProbeSet { seed, groups, probes }
+        ProbeSet { seed, groups, probes, twins }
     }
 
     /// Probes of another assignment with what is right by this one's equation, which may have other constants.

@@ -11,6 +11,7 @@ use crate::translate::{Given, Interpreter};
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::advice::Variation;
+use reference::probes::ProbeSet;
 
 /// How many probes are varied for each piece of advice. A run takes some 20 µs, so that all of them cost a hundredth of
 /// a grading.
@@ -29,14 +30,13 @@ pub struct Beyond {
     expected: Vec<(DVec3, DVec4)>,
 }
 
-/// What advice comes from; it depends on the assignment alone.
-pub fn beyond(assignment: &Assignment) -> Vec<Beyond> {
-    let probes = assignment.advice_probes();
+/// What advice comes from. `probes`: those that judge.
+pub fn beyond(assignment: &Assignment, probes: &ProbeSet) -> Vec<Beyond> {
     let of_advice = |advice: &reference::advice::Advice| {
         let constants: Vec<_> =
             advice.when.constants.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
         let assignment = assignment.with_constants(&constants).ok()?;
-        let variations = assignment.variations(&advice.when, &probes, PROBES);
+        let variations = assignment.variations(&advice.when, probes, PROBES);
         let right = assignment.equation.right();
         let expected = variations.iter().map(|variation| {
             let outcome = right.evaluate(&variation.uniforms, &variation.attributes);

@@ -2,16 +2,44 @@
 
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
+use crate::source::Source;
 use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
 use std::ops::Range;
 
-/// Whether the colour depends on nothing but the matrices and the vertex number, as a table does: it stays the same, number
-/// by number, when all attributes change.
-pub fn is_lookup(probes: &ProbeSet, samples: &[Sample]) -> bool {
+/// A table has few entries: it gives one vertex at most so many colours under the 26 cameras. Black and white alone, or a few
+/// poses and a default, are fewer; what is computed from the matrices and clamped differs under a third of them or more.
+const MOST_ENTRIES: usize = 8;
+
+/// Whether the colour comes from a table: it stays the same, number by number, when all attributes change; and it has few
+/// values when the matrices do, or the text looks something up by a number.
+pub fn is_lookup(source: &Source, probes: &ProbeSet, samples: &[Sample]) -> bool {
     probes.with_other_vertices().is_some_and(|groups| stays_the_same(groups, samples))
+        && (entries(probes, samples) <= MOST_ENTRIES || has_a_table(source))
+}
+
+/// Whether the text takes something by a number that is computed, or by the vertex's.
+fn has_a_table(source: &Source) -> bool {
+    let code = source.code();
+    let index = |after: &str| {
+        let index = after.split(']').next().unwrap_or_default().trim();
+        !index.is_empty() && !index.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    code.contains("gl_VertexID") || code.split('[').skip(1).any(index)
+}
+
+/// How many colours the first vertex has under all cameras.
+fn entries(probes: &ProbeSet, samples: &[Sample]) -> usize {
+    let each = samples.len() / probes.groups.len().max(1);
+    let mut entries: Vec<&Sample> = Vec::new();
+    for sample in samples.iter().step_by(each.max(1)) {
+        if !entries.iter().any(|known| same(known, sample)) {
+            entries.push(sample);
+        }
+    }
+    entries.len()
 }
 
 /// Whether the colour stays the same, vertex by vertex, when only the normals change.

@@ -10,7 +10,7 @@ mod points;
 mod search;
 
 pub(super) use lines::{Words, is_handed_out};
-pub(super) use points::{Points, given, is_close, of};
+pub(super) use points::{Points, given, is_close, is_same, of};
 
 /// A place in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -144,7 +144,7 @@ impl<'f> Blanks<'f> {
                 blanks.worst(worst);
             }
             (Cause::Known { found, .. }, id) => {
-                let met = evidence.undefined.filter(|line| id == super::UNDEFINED_POWER && *line != NO_LINE);
+                let met = evidence.undefined.filter(|line| id == super::cause::UNDEFINED_POWER && *line != NO_LINE);
                 let met = met.map(Located::at);
                 blanks.place(evidence, mistake, facts.place(id).cloned().or(met));
                 let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);

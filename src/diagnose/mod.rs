@@ -1,7 +1,10 @@
 //! Samples → which terms are right, which known mistakes explain the rest, and what that is worth. Pure.
 
+mod addends;
 pub mod advice;
+mod cause;
 pub mod constants;
+mod fresh;
 mod hard_coded;
 mod locate;
 mod message;
@@ -15,28 +18,17 @@ use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
 use crate::translate::Interpreter;
 use advice::Beyond;
-use constants::ChangedConstant;
+use cause::{Cause, belongs, cause, kept};
+pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
-use reference::fit::{Fit, TermJudgement, is_right};
-use reference::mistake::Found;
-use reference::probes::ProbeSet;
+use reference::probes::{Probe, ProbeSet};
 
 /// The rubric line that is judged by where things are drawn, not by their colour.
 const SHAPE: &str = "shape";
 /// Mistakes that are told from other things than the colours alone.
 const POSITION_CHANGED: &str = "position-changed";
 const CONSTANTS_CHANGED: &str = "constants-changed";
-const HARD_CODED: &str = "hard-coded";
-const UNEXPLAINED: &str = "unexplained";
-const NEARLY_RIGHT: &str = "nearly-right";
-/// What a negative base of a power is called, also where this driver hides that its result is undefined.
-const UNDEFINED_POWER: &str = "specular-unclamped";
-
-/// Colours that are off by no more than this everywhere are nearly right: each of three terms is off by one step of 8 bits.
-///
-/// Noise: [`COLOUR_TOLERANCE`]. Defect to catch: the faintest known mistake differs by more than 2e-2 at some probe.
-const NEARLY: f64 = 3.0 / 255.0;
 
 /// What a rendering showed.
 #[derive(Clone, Copy, Debug)]
@@ -47,10 +39,12 @@ pub struct Evidence<'a> {
     pub source: &'a Source,
     /// The frames, compared.
     pub frames: &'a [FrameResult],
-    /// The probes.
+    /// The probes that judge.
     pub probes: &'a ProbeSet,
-    /// What the shader computed at each probe, in their order.
+    /// What the shader computed at each of them, in their order.
     pub samples: &'a [Sample],
+    /// Those that nobody knows beforehand.
+    pub fresh: Fresh<'a>,
     /// The line where a negative number was raised to a power, where one was.
     pub undefined: Option<u32>,
     /// The shader, to be run step by step; none where it has something that the interpreter does not know.
@@ -78,27 +72,11 @@ pub struct Diagnosis {
     pub probes: ProbeResult,
 }
 
-/// Why the colours are as they are.
-enum Cause {
-    Right,
-    /// Known mistakes explain every sample, perhaps on top of changed constants.
-    Known {
-        constants: Vec<ChangedConstant>,
-        found: Vec<Found>,
-    },
-    /// The colour does not come from the equation at all.
-    HardCoded,
-    /// Nothing known explains it, but it is never off by much.
-    NearlyRight,
-    /// Nothing known explains it; each term as far as it stands alone.
-    Unexplained(Vec<TermJudgement>),
-}
-
 /// Judges the evidence.
 pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let probes = compare_probes(evidence);
     let shape = shape_agrees(evidence, &probes);
-    let cause = cause(evidence, shape);
+    let cause = cause(evidence, shape).unless_refuted(evidence);
     let mut mistakes = cause.ids();
     if !shape && !mistakes.iter().any(|id| costs(evidence.assignment, id, SHAPE)) {
         mistakes.insert(0, POSITION_CHANGED.into());
@@ -122,7 +100,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
 pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
     let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
-    let agrees = frames_agree && is_right(evidence.probes, &samples, COLOUR_TOLERANCE);
+    let agrees = frames_agree && reference::fit::is_right(evidence.probes, &samples, COLOUR_TOLERANCE);
     agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)
 }
 
@@ -148,7 +126,7 @@ fn compare_probes(evidence: &Evidence<'_>) -> ComparedProbes {
         mismatched += u32::from(colour > COLOUR_TOLERANCE || position > POSITION_TOLERANCE);
     }
     let result = ProbeResult {
-        seed: evidence.probes.seed,
+        seed: evidence.fresh.probes.seed,
         samples: evidence.probes.probes.len() as u32,
         mismatched,
         max_difference: largest.is_finite().then_some(largest),
@@ -168,84 +146,12 @@ fn position_scale(evidence: &Evidence<'_>) -> f64 {
 
 /// Whether everything stands where it should, in the pictures and at the probes.
 fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
-    probes.positions_agree && evidence.frames.iter().all(FrameResult::shape_agrees)
-}
-
-fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
-    let Evidence { assignment, probes, .. } = *evidence;
-    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
-    let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
-    let is_right = is_right(probes, &samples, COLOUR_TOLERANCE);
-    if is_right && evidence.undefined.is_some() {
-        let found = vec![Found { id: UNDEFINED_POWER.into(), form: 0, parameter: None }];
-        return Cause::Known { constants: Vec::new(), found };
-    }
-    if is_right {
-        // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
-        return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
-    }
-    let constants = constants::changed(evidence.source, assignment);
-    if let Some(found) = explained_by(&constants, evidence, &samples) {
-        return Cause::Known { constants, found };
-    }
-    let is_lookup = hard_coded::is_lookup(probes, evidence.samples);
-    // Without the normals the course's own poses can only be right if they are treated apart.
-    let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
-    match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
-        Fit::Explained(found)
-            if is_lookup && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
-        {
-            Cause::HardCoded
-        }
-        // The course's own poses are treated apart from what explains all others.
-        Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
-        Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
-        Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
-        Fit::Unexplained(_) if reference::fit::is_right(probes, &samples, NEARLY) => Cause::NearlyRight,
-        Fit::Unexplained(terms) => Cause::Unexplained(terms),
-    }
-}
-
-/// The mistakes that explain the samples when the equation has the student's own constants.
-fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Vec<Found>> {
-    if constants.is_empty() {
-        return None;
-    }
-    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
-    let changed = evidence.assignment.with_constants(&changes).ok()?;
-    let probes = changed.reprobe(evidence.probes);
-    match plain::explained(&changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
-        Fit::Explained(found) => Some(found),
-        Fit::Unexplained(_) => None,
-    }
-}
-
-impl Cause {
-    fn explanation(&self) -> Option<Vec<Hypothesis>> {
-        match self {
-            Self::Right => Some(Vec::new()),
-            Self::Known { found, .. } => Some(
-                found
-                    .iter()
-                    .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
-                    .collect(),
-            ),
-            Self::HardCoded | Self::NearlyRight | Self::Unexplained(_) => None,
-        }
-    }
-
-    fn ids(&self) -> Vec<String> {
-        match self {
-            Self::Right => Vec::new(),
-            Self::Known { constants, found } => {
-                let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
-                changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
-            }
-            Self::HardCoded => vec![HARD_CODED.into()],
-            Self::NearlyRight => vec![NEARLY_RIGHT.into()],
-            Self::Unexplained(_) => vec![UNEXPLAINED.into()],
-        }
-    }
+    let scale = position_scale(evidence);
+    let is_elsewhere =
+        |probe: &Probe, sample: &Sample| position_difference(probe.position, sample, scale) > POSITION_TOLERANCE;
+    probes.positions_agree
+        && evidence.frames.iter().all(FrameResult::shape_agrees)
+        && !evidence.fresh.refutes_each(is_elsewhere)
 }
 
 /// Judges one line of the rubric.
@@ -275,31 +181,4 @@ fn judge(
         message: told.text,
         line: told.line,
     }
-}
-
-/// Fraction of the line's points that the mistake leaves in this answer.
-fn kept(
-    assignment: &Assignment,
-    line: &reference::assignment::RubricLine,
-    shape: bool,
-    cause: &Cause,
-    id: &str,
-) -> f64 {
-    let is_touched = match (cause, id) {
-        (_, POSITION_CHANGED) => !shape && line.id == SHAPE,
-        (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
-        (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
-            constants.iter().any(|changed| belongs(assignment, &changed.name, line))
-        }
-        (Cause::Known { found, .. }, _) if let Some(found) = found.iter().find(|found| found.id == id) => {
-            return assignment.keeps(found, line);
-        }
-        _ => true,
-    };
-    if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
-}
-
-/// Whether the constant is one of the line's.
-fn belongs(assignment: &Assignment, constant: &str, line: &reference::assignment::RubricLine) -> bool {
-    assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
 }

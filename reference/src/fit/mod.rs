@@ -14,7 +14,7 @@ pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;
 use crate::mistake::Found;
-use crate::probes::ProbeSet;
+use crate::probes::{Probe, ProbeSet};
 use glam::DVec3;
 
 /// How many mistakes are looked for at once.
@@ -62,10 +62,41 @@ pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]],
     }
 }
 
+/// The rubric's terms, judged where they stand alone; for samples that are not all right. The arguments are those of
+/// [`explain`].
+pub fn judge_terms(
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    samples: &[[f64; 3]],
+    tolerance: f64,
+) -> Vec<TermJudgement> {
+    terms::judge(assignment, probes, &padded(probes, samples), tolerance)
+}
+
 /// Whether every sample is what is right at its probe, see [`explain`].
 pub fn is_right(probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> bool {
     let samples = padded(probes, samples);
     probes.iter().zip(samples).all(|(probe, sample)| agrees(probe.colour, sample, tolerance))
+}
+
+/// Which samples are not reproduced: by what is right at the probes where `found` is empty, else by the equation with these
+/// mistakes in it, see [`explain`].
+pub fn contradicted(
+    assignment: &Assignment,
+    found: &[Found],
+    probes: &ProbeSet,
+    samples: &[[f64; 3]],
+    tolerance: f64,
+) -> Vec<bool> {
+    let variant = assignment.variant(found);
+    let expected = |probe: &Probe| match &variant {
+        _ if found.is_empty() => Some(probe.colour),
+        Some(variant) => Some(variant.evaluate(probes.uniforms(probe), &probe.attributes).colour()),
+        None => None,
+    };
+    let samples = padded(probes, samples);
+    let pairs = probes.iter().zip(samples);
+    pairs.map(|(probe, sample)| !expected(probe).is_some_and(|expected| agrees(expected, sample, tolerance))).collect()
 }
 
 /// A sample for each probe.

@@ -21,7 +21,8 @@ pub struct TermJudgement {
 }
 
 impl TermJudgement {
-    fn right(line: &str, judged: usize) -> Self {
+    /// A term that is right at so many probes.
+    pub fn right(line: &str, judged: usize) -> Self {
         Self { line: line.to_owned(), judged, matched: judged, worst: None }
     }
 

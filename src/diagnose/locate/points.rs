@@ -207,7 +207,7 @@ pub(in crate::diagnose) fn is_close(wanted: [f64; 3], found: &[f64]) -> bool {
 }
 
 /// Whether two values are the same in the components that both have.
-pub(super) fn is_same(a: &[f64], b: &[f64]) -> bool {
+pub(in crate::diagnose) fn is_same(a: &[f64], b: &[f64]) -> bool {
     // What is computed in another order differs by rounding, and constants are f32.
     const RELATIVE: f64 = 1e-4;
     fits(a, b) && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= RELATIVE * a.abs().max(b.abs()).max(1e-3))

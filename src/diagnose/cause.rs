@@ -1,0 +1,191 @@
+//! Why the colours are as they are, and what that leaves of each line's points.
+
+use super::constants::{self, ChangedConstant};
+use super::locate::Points;
+use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, SHAPE, addends, hard_coded, plain};
+use crate::compare::COLOUR_TOLERANCE;
+use crate::render::Sample;
+use crate::report::{FrameResult, Hypothesis};
+use reference::Assignment;
+use reference::assignment::RubricLine;
+use reference::fit::{Fit, MOST_MISTAKES, TermJudgement, is_right, judge_terms};
+use reference::mistake::Found;
+
+const HARD_CODED: &str = "hard-coded";
+const UNEXPLAINED: &str = "unexplained";
+const NEARLY_RIGHT: &str = "nearly-right";
+/// What a negative base of a power is called, also where this driver hides that its result is undefined.
+pub(super) const UNDEFINED_POWER: &str = "specular-unclamped";
+
+/// Colours that are off by no more than this everywhere are nearly right: each of three terms is off by one step of 8 bits.
+///
+/// Noise: [`COLOUR_TOLERANCE`]. Defect to catch: the faintest known mistake differs by more than 2e-2 at some probe.
+const NEARLY: f64 = 3.0 / 255.0;
+
+/// Why the colours are as they are.
+pub(super) enum Cause {
+    Right,
+    /// Known mistakes explain every sample, perhaps on top of changed constants.
+    Known {
+        constants: Vec<ChangedConstant>,
+        found: Vec<Found>,
+    },
+    /// The colour does not come from the equation at all.
+    HardCoded,
+    /// Nothing known explains it, but it is never off by much.
+    NearlyRight,
+    /// Nothing known explains it; each term as far as it stands alone.
+    Unexplained(Vec<TermJudgement>),
+}
+
+/// Finds it. `shape`: whether everything stands where it should.
+pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
+    let Evidence { assignment, probes, .. } = *evidence;
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
+    let all_right = is_right(probes, &samples, COLOUR_TOLERANCE);
+    if all_right && evidence.undefined.is_some() {
+        let found = vec![Found { id: UNDEFINED_POWER.into(), form: 0, parameter: None }];
+        return Cause::Known { constants: Vec::new(), found };
+    }
+    if all_right {
+        // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
+        return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
+    }
+    let constants = constants::changed(evidence.source, assignment);
+    if let Some(found) = explained_by(&constants, evidence, &samples) {
+        return Cause::Known { constants, found };
+    }
+    let is_lookup = hard_coded::is_lookup(evidence.source, probes, evidence.samples);
+    let by_term = || {
+        let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
+        Cause::Unexplained(addends::credit(evidence, terms))
+    };
+    if is_lookup && addends::is_finite_nowhere(evidence) {
+        return by_term();
+    }
+    // Without the normals the course's own poses can only be right if they are treated apart.
+    let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
+    match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
+        Fit::Explained(found)
+            if is_lookup && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
+        {
+            Cause::HardCoded
+        }
+        // The course's own poses are treated apart from what explains all others.
+        Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
+        Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
+        Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
+        Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
+        Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) => Cause::NearlyRight,
+        Fit::Unexplained(terms) => Cause::Unexplained(addends::credit(evidence, terms)),
+    }
+}
+
+/// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So
+/// many mistakes together explain much by chance.
+fn is_borne_out(evidence: &Evidence<'_>, found: &[Found]) -> bool {
+    let assignment = evidence.assignment;
+    let Some(points) = Points::new(evidence, assignment) else { return true };
+    let places: Vec<_> = (0..found.len()).map(|index| points.locate(found, index).map(|place| place.line)).collect();
+    let touches = |a: &Found, line: &RubricLine| assignment.keeps(a, line) < 1.0;
+    let share = |a: &Found, b: &Found| assignment.rubric.iter().any(|line| touches(a, line) && touches(b, line));
+    let clash = |a: usize, b: usize| share(&found[a], &found[b]) && places[a] == places[b];
+    places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
+}
+
+/// The homework with the student's own constants.
+fn with_constants(assignment: &Assignment, constants: &[ChangedConstant]) -> Option<Assignment> {
+    let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
+    assignment.with_constants(&changes).ok()
+}
+
+/// The mistakes that explain the samples when the equation has the student's own constants.
+fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Vec<Found>> {
+    if constants.is_empty() {
+        return None;
+    }
+    let changed = with_constants(evidence.assignment, constants)?;
+    let probes = changed.reprobe(evidence.probes);
+    match plain::explained(&changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
+        Fit::Explained(found) => Some(found),
+        Fit::Unexplained(_) => None,
+    }
+}
+
+impl Cause {
+    /// The cause; a lookup where the shader does something else at probes that nobody knows beforehand.
+    pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
+        let Evidence { assignment, fresh, .. } = *evidence;
+        let is_refuted = match &self {
+            // What an undefined power gives depends on the driver.
+            Self::Known { .. } if evidence.undefined.is_some() => false,
+            Self::Known { constants, found } if constants.is_empty() => {
+                fresh.refutes(assignment, found, COLOUR_TOLERANCE)
+            }
+            Self::Known { constants, found } => with_constants(assignment, constants).is_some_and(|assignment| {
+                let probes = assignment.reprobe(fresh.probes);
+                Fresh { probes: &probes, ..fresh }.refutes(&assignment, found, COLOUR_TOLERANCE)
+            }),
+            Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
+            Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
+            Self::HardCoded | Self::Unexplained(_) => false,
+        };
+        if is_refuted { Self::HardCoded } else { self }
+    }
+
+    /// The equation that computes what the shader computes, where one is known.
+    pub(super) fn explanation(&self) -> Option<Vec<Hypothesis>> {
+        match self {
+            Self::Right => Some(Vec::new()),
+            Self::Known { found, .. } => Some(
+                found
+                    .iter()
+                    .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
+                    .collect(),
+            ),
+            Self::HardCoded | Self::NearlyRight | Self::Unexplained(_) => None,
+        }
+    }
+
+    /// Ids of the mistakes.
+    pub(super) fn ids(&self) -> Vec<String> {
+        match self {
+            Self::Right => Vec::new(),
+            Self::Known { constants, found } => {
+                let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
+                changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
+            }
+            Self::HardCoded => vec![HARD_CODED.into()],
+            Self::NearlyRight => vec![NEARLY_RIGHT.into()],
+            Self::Unexplained(_) => vec![UNEXPLAINED.into()],
+        }
+    }
+}
+
+/// Fraction of the line's points that the mistake leaves in this answer.
+pub(super) fn kept(
+    assignment: &Assignment,
+    line: &reference::assignment::RubricLine,
+    shape: bool,
+    cause: &Cause,
+    id: &str,
+) -> f64 {
+    let is_touched = match (cause, id) {
+        (_, POSITION_CHANGED) => !shape && line.id == SHAPE,
+        (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
+        (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
+            constants.iter().any(|changed| belongs(assignment, &changed.name, line))
+        }
+        (Cause::Known { found, .. }, _) if let Some(found) = found.iter().find(|found| found.id == id) => {
+            return assignment.keeps(found, line);
+        }
+        _ => true,
+    };
+    if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
+}
+
+/// Whether the constant is one of the line's.
+pub(super) fn belongs(assignment: &Assignment, constant: &str, line: &reference::assignment::RubricLine) -> bool {
+    assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
+}
