@@ -81,6 +81,8 @@ fn what_agrees_with_an_accepted_answer_is_right() {
             judged.push((report.verdict, report.mistakes.len(), report.score == report.max_score, report.advice.len()));
         }
     }
-    let (correct, wrong) = ((Verdict::Correct, 0, true, 0), |mistakes| (Verdict::Wrong, mistakes, false, 0));
-    assert_eq!(judged, [correct, wrong(1), wrong(2), correct, correct, wrong(2)]);
+    // The first has a piece of advice, which is about the solution.
+    let correct = |advice| (Verdict::Correct, 0, true, advice);
+    let wrong = |mistakes| (Verdict::Wrong, mistakes, false, 0);
+    assert_eq!(judged, [correct(1), wrong(1), wrong(2), correct(1), correct(0), wrong(2)]);
 }
