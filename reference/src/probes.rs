@@ -131,17 +131,20 @@ impl Assignment {
 
     /// Probes that nobody knows beforehand. They only show whether a shader treats the known ones apart.
     pub fn fresh_probes(&self, seed: u64) -> ProbeSet {
-        self.draw(seed, FRESH_GROUPS, 0)
+        // Another stream: under no seed are they the known ones.
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(1);
+        self.draw(seed, random, FRESH_GROUPS, 0)
     }
 
     /// As many probes as judge, for a seed.
     pub fn probes(&self, seed: u64) -> ProbeSet {
-        self.draw(seed, self.probing.groups, TWINS)
+        self.draw(seed, ChaCha8Rng::seed_from_u64(seed), self.probing.groups, TWINS)
     }
 
     /// Probes under `count` cameras, of which the last `twins` are the same.
-    fn draw(&self, seed: u64, count: usize, twins: usize) -> ProbeSet {
-        let mut random = Random(ChaCha8Rng::seed_from_u64(seed));
+    fn draw(&self, seed: u64, random: ChaCha8Rng, count: usize, twins: usize) -> ProbeSet {
+        let mut random = Random(random);
         let light = Light::of(self);
         let right = self.equation.right();
         let mut groups = Vec::new();
