@@ -18,7 +18,10 @@ fn header(response: &Response, name: header::HeaderName) -> &str {
 async fn styles_and_scripts_come_compressed_and_pictures_as_they_are() {
     let server = Server::start(&Database::sqlite());
     let client = Client::new();
-    let page = client.get(&server.address).send().await.expect("an answer").text().await.expect("text");
+    let page = client.get(&server.address).send().await.expect("an answer");
+    let status = page.status();
+    let page = page.text().await.expect("text");
+    assert!(status.is_success(), "{status} {page} {}", server.said.lock().expect("a lock"));
     let html = scraper::Html::parse_document(&page);
     let selector = scraper::Selector::parse("script[src], link[href]").expect("a selector");
     let of_page =
