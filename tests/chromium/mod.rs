@@ -12,9 +12,7 @@ use fantoccini::wd::{Capabilities, WebDriverCompatibleCommand, WindowHandle};
 use fantoccini::{Client, ClientBuilder, Locator};
 use reqwest::Url;
 use serde_json::{Value, json};
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
@@ -49,19 +47,7 @@ impl WebDriverCompatibleCommand for Devtools {
 impl Browser {
     /// Starts a driver on a free port, and a browser with an empty profile.
     pub async fn start() -> Self {
-        let driver = Command::new("chromedriver")
-            .arg("--port=0")
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("chromedriver: run script/bootstrap --test");
-        let mut processes = Processes { driver, profile: tempfile::tempdir().expect("a folder") };
-        let output = BufReader::new(processes.driver.stdout.take().expect("standard output"));
-        let port = output
-            .lines()
-            .map_while(Result::ok)
-            .find_map(|line| line.rsplit_once("successfully on port ")?.1.trim_end_matches('.').parse::<u16>().ok())
-            .expect("chromedriver's port");
+        let (processes, port) = Processes::start();
         let arguments = [
             "--headless=new",
             // The tests may run as root, where the browser's own sandbox does not start; it meets pages of ours only.
