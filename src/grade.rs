@@ -28,7 +28,7 @@ use unfinished::info;
 /// How a file is to be graded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Order {
-    /// Seed of the probes; the same seed gives the same probes.
+    /// Seed of the fresh probes; the same seed gives the same ones.
     pub seed: u64,
     /// How much the messages help.
     pub hints: Hints,

@@ -33,7 +33,7 @@ pub struct Header {
     pub assignment: String,
     /// Version of ggrade.
     pub ggrade: String,
-    /// Seed of the probes, one for the whole class.
+    /// Seed of the fresh probes, one for the whole class.
     pub seed: u64,
     /// How much the messages help.
     pub hints: Hints,

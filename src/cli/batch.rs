@@ -53,7 +53,7 @@ pub struct Batch {
     /// How much the messages help: only what is seen, also the equation it breaks, or also where to look
     #[arg(long, value_enum, default_value_t)]
     pub hints: Hints,
-    /// Seed of the probes, one for the whole class: that of an earlier run repeats it exactly [default: random]
+    /// Seed of the fresh probes, one for the whole class: that of an earlier run repeats it exactly [default: random]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
     /// Seconds that a grading may take

@@ -103,7 +103,7 @@ pub struct Grade {
     /// Write the report to this file instead of standard output
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Seed of the probes: the one of an earlier report repeats that grading exactly [default: random]
+    /// Seed of the fresh probes: the one of an earlier report repeats that grading exactly [default: random]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
     /// How much the messages help: only what is seen, also the equation it breaks, or also where to look

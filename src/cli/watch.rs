@@ -21,7 +21,7 @@ pub struct Watch {
     /// Language of the reports [default: from LC_ALL, LC_MESSAGES or LANG]
     #[arg(long, value_enum, env = "GGRADE_LANG")]
     pub lang: Option<Language>,
-    /// Seed of the probes, the same for every save [default: random]
+    /// Seed of the fresh probes, the same for every save [default: random]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
     /// How much the messages help: only what is seen, also the equation it breaks, or also where to look

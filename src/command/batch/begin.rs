@@ -77,7 +77,7 @@ pub(super) fn tell_empty(intake: &Intake, language: Language) {
 }
 
 /// What this run grades with. A run that goes on keeps what was not asked for otherwise, and one that compares takes the
-/// seed: then no difference comes from other probes.
+/// seed: then the fresh probes are the same ones.
 pub(super) fn header(arguments: &Batch, found: Option<&Found>, before: Option<&Found>) -> Header {
     let earlier = found.map(|found| &found.header);
     let seed = earlier.or(before.map(|before| &before.header)).map(|header| header.seed);

@@ -22,8 +22,8 @@ pub enum Audience {
 pub struct Assignment {
     /// Its id.
     pub id: String,
-    /// Seed of the probes of every grading: the same for all, so that all are measured alike and the same file always
-    /// gets the same answer. It is drawn at random, and the teacher can draw another.
+    /// Seed of the fresh probes of every grading: the same for all, so that the same file always gets the same report. It
+    /// is drawn at random, and the teacher can draw another.
     pub seed: u64,
     /// The most that messages may help.
     pub hints: Hints,

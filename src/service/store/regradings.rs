@@ -13,7 +13,7 @@ pub struct Regrading {
     pub id: String,
     /// Id of the assignment.
     pub assignment: String,
-    /// Seed of the probes.
+    /// Seed of the fresh probes.
     pub seed: u64,
     /// How much the messages help.
     pub hints: Hints,

@@ -50,7 +50,7 @@ pub struct Submission {
     pub batch_id: Option<String>,
     /// The way by which it came.
     pub via: Via,
-    /// Seed of its probes.
+    /// Seed of its fresh probes.
     pub seed: u64,
     /// How much its messages help.
     pub hints: Hints,
