@@ -329,7 +329,10 @@ macro_rules! old_database {
         let pool = $pool.await.expect("a database");
         let folder = tempfile::tempdir().expect("a folder");
         let name = "0001_service.sql";
-        let from = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("migrations").join($kind).join(name);
+        let from = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("src/service/store/migrations")
+            .join($kind)
+            .join(name);
         std::fs::copy(from, folder.path().join(name)).expect("the first migration");
         let migrator = sqlx::migrate::Migrator::new(folder.path()).await.expect("a migration");
         migrator.run(&pool).await.expect("the tables of 0.1.0");
