@@ -231,7 +231,7 @@ fn bar(report: &Report) -> Vec<Stretch> {
 
 /// The report as its template shows it.
 #[derive(Template)]
-#[template(path = "report/body.html")]
+#[template(path = "report/html/templates/body.html")]
 pub(super) struct Body<'a> {
     pub labels: &'static Labels,
     pub report: &'a Report,

@@ -182,7 +182,7 @@ impl Motion {
 }
 
 #[derive(Template)]
-#[template(path = "report/motion.css", escape = "none")]
+#[template(path = "report/html/templates/motion.css", escape = "none")]
 struct MotionStyle {
     columns: usize,
     cycle: f64,

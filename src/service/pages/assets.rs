@@ -45,20 +45,20 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("base.css", BASE_STYLE),
         Asset::text("report.css", REPORT_STYLE),
         Asset::text("report.js", SCRIPT),
-        Asset::text("pages.css", include_str!("../../../templates/service/pages.css")),
-        Asset::text("teacher.css", include_str!("../../../templates/service/teacher.css")),
-        Asset::text("editor.css", include_str!("../../../templates/service/editor.css")),
-        Asset::text("editor.js", include_str!("../../../templates/service/editor.js")),
-        Asset::text("drafts.js", include_str!("../../../templates/service/drafts.js")),
-        Asset::text("picker.js", include_str!("../../../templates/service/picker.js")),
-        Asset::text("connection.js", include_str!("../../../templates/service/connection.js")),
-        Asset::text("grading.js", include_str!("../../../templates/service/grading.js")),
-        Asset::text("standing.js", include_str!("../../../templates/service/standing.js")),
-        Asset::text("permalink.js", include_str!("../../../templates/service/permalink.js")),
-        Asset::text("receipt.js", include_str!("../../../templates/service/receipt.js")),
-        Asset::text("student.js", include_str!("../../../templates/service/student.js")),
-        Asset::text("live.js", include_str!("../../../templates/service/live.js")),
-        Asset::text("icon.svg", include_str!("../../../templates/service/icon.svg")),
+        Asset::text("pages.css", include_str!("assets/pages.css")),
+        Asset::text("teacher.css", include_str!("assets/teacher.css")),
+        Asset::text("editor.css", include_str!("assets/editor.css")),
+        Asset::text("editor.js", include_str!("assets/editor.js")),
+        Asset::text("drafts.js", include_str!("assets/drafts.js")),
+        Asset::text("picker.js", include_str!("assets/picker.js")),
+        Asset::text("connection.js", include_str!("assets/connection.js")),
+        Asset::text("grading.js", include_str!("assets/grading.js")),
+        Asset::text("standing.js", include_str!("assets/standing.js")),
+        Asset::text("permalink.js", include_str!("assets/permalink.js")),
+        Asset::text("receipt.js", include_str!("assets/receipt.js")),
+        Asset::text("student.js", include_str!("assets/student.js")),
+        Asset::text("live.js", include_str!("assets/live.js")),
+        Asset::text("icon.svg", include_str!("assets/icon.svg")),
     ];
     assets.extend(reference::assignments().iter().flat_map(of_assignment));
     assets
@@ -154,7 +154,7 @@ mod tests {
     /// sources without it.
     #[test]
     fn the_editor_is_what_its_sources_build() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates/service/editor");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/service/pages/assets/editor");
         let read = |name: &str| std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let sha256 = |bytes: &[u8]| Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>();
         let build = String::from_utf8(read("build.js")).expect("a text");
@@ -171,10 +171,13 @@ mod tests {
         assert_eq!(listed, files, "build.js lists its sources");
 
         let sources: Vec<u8> = names.iter().flat_map(|name| read(name)).collect();
-        let built = include_str!("../../../templates/service/editor.js");
+        let built = include_str!("assets/editor.js");
         let (head, body) = built.split_once('\n').expect("a first line");
         let expected = format!("// sources {} body {}", sha256(&sources), sha256(body.as_bytes()));
-        assert_eq!(head, expected, "templates/service/editor.js is not what its sources build: run script/editor");
+        assert_eq!(
+            head, expected,
+            "src/service/pages/assets/editor.js is not what its sources build: run script/editor"
+        );
         assert!(body.contains("Permission is hereby granted"), "without its licence");
     }
 }

@@ -13,7 +13,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
 #[derive(Template)]
-#[template(path = "service/join.html")]
+#[template(path = "service/pages/templates/join.html")]
 struct View {
     frame: Frame,
     title: String,

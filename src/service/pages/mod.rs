@@ -1,4 +1,4 @@
-//! The pages that people see: templates of `templates/service/` filled with what the rest of the service knows.
+//! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
 //! [`hand_in`] is the student's page with its forms, [`student`] what that page says, [`result`] the page of a report
 //! and its pictures, [`join`] the course link, [`teacher`] everything behind the login. [`frame`] is around each page,

@@ -14,7 +14,7 @@ use askama::Template;
 use serde::Serialize;
 
 #[derive(Template)]
-#[template(path = "service/part.html")]
+#[template(path = "service/pages/templates/part.html")]
 struct View {
     label: &'static str,
     mark: Mark,

@@ -9,7 +9,7 @@ use axum::http::Uri;
 use axum::response::Html;
 
 #[derive(Template)]
-#[template(path = "service/problem.html")]
+#[template(path = "service/pages/templates/problem.html")]
 struct View {
     frame: Frame,
     status: u16,

@@ -10,7 +10,7 @@ use crate::service::store::{State as Progress, Submission};
 use askama::Template;
 
 #[derive(Template)]
-#[template(path = "service/receipt.html")]
+#[template(path = "service/pages/templates/receipt.html")]
 struct View<'a> {
     frame: &'a Frame,
     at: Moment,

@@ -18,7 +18,7 @@ use axum::response::{Html, IntoResponse, Response};
 use serde::Deserialize;
 
 #[derive(Template)]
-#[template(path = "service/report.html")]
+#[template(path = "service/pages/templates/report.html")]
 struct View {
     frame: Frame,
     title: String,
@@ -33,7 +33,7 @@ struct View {
 }
 
 #[derive(Template)]
-#[template(path = "service/waiting.html")]
+#[template(path = "service/pages/templates/waiting.html")]
 struct Waiting {
     frame: Frame,
     heading: &'static str,

@@ -33,7 +33,7 @@ pub(super) struct Desk<'a> {
 }
 
 #[derive(Template)]
-#[template(path = "service/student.html")]
+#[template(path = "service/pages/templates/student.html")]
 struct View {
     frame: Frame,
     title: String,

@@ -24,7 +24,7 @@ use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Redirect, Response};
 
 #[derive(Template)]
-#[template(path = "service/batches.html")]
+#[template(path = "service/pages/templates/batches.html")]
 struct List {
     frame: Frame,
     place: Place,
@@ -45,7 +45,7 @@ struct Line {
 }
 
 #[derive(Template)]
-#[template(path = "service/batch.html")]
+#[template(path = "service/pages/templates/batch.html")]
 struct One {
     frame: Frame,
     place: Place,

@@ -17,7 +17,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 #[derive(Template)]
-#[template(path = "service/class.html")]
+#[template(path = "service/pages/templates/class.html")]
 struct View {
     frame: Frame,
     place: Place,

@@ -16,7 +16,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
 #[derive(Template)]
-#[template(path = "service/delete.html")]
+#[template(path = "service/pages/templates/delete.html")]
 struct View {
     frame: Frame,
     place: Place,

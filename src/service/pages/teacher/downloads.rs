@@ -41,7 +41,7 @@ pub(super) fn formats(frame: &Frame) -> Vec<Offer> {
 }
 
 #[derive(Template)]
-#[template(path = "service/download.html")]
+#[template(path = "service/pages/templates/download.html")]
 struct View {
     frame: Frame,
     place: Place,

@@ -13,7 +13,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
 #[derive(Template)]
-#[template(path = "service/login.html")]
+#[template(path = "service/pages/templates/login.html")]
 struct View {
     frame: Frame,
     csrf: String,

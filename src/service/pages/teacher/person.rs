@@ -25,7 +25,7 @@ pub(in crate::service::pages) struct Whom {
 }
 
 #[derive(Template)]
-#[template(path = "service/person.html")]
+#[template(path = "service/pages/templates/person.html")]
 struct View {
     frame: Frame,
     place: Place,

@@ -25,7 +25,7 @@ use serde::Deserialize;
 const SAME_POINTS: f64 = 1e-6;
 
 #[derive(Template)]
-#[template(path = "service/regrading.html")]
+#[template(path = "service/pages/templates/regrading.html")]
 struct View {
     frame: Frame,
     place: Place,

@@ -21,7 +21,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
 #[derive(Template)]
-#[template(path = "service/settings.html")]
+#[template(path = "service/pages/templates/settings.html")]
 struct View {
     frame: Frame,
     place: Place,

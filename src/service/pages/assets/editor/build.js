@@ -19,6 +19,6 @@ const { outputFiles } = await build({
   write: false,
 });
 const licence = readFileSync("node_modules/@codemirror/view/LICENSE", "utf8").trim();
-const body = `"use strict";\n/* Built by script/editor from templates/service/editor/ and CodeMirror (codemirror.net):\n\n${licence}\n*/\n${outputFiles[0].text}`;
+const body = `"use strict";\n/* Built by script/editor from src/service/pages/assets/editor/ and CodeMirror (codemirror.net):\n\n${licence}\n*/\n${outputFiles[0].text}`;
 const sources = sha256(SOURCES.map((name) => readFileSync(name)));
 writeFileSync("../editor.js", `// sources ${sources} body ${sha256([body])}\n${body}`);
