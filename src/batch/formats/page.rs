@@ -31,8 +31,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
 
-const STYLE: &str = include_str!("templates/class.css");
-const SCRIPT: &str = include_str!("templates/class.js");
+const STYLE: &str = include_str!("page/templates/class.css");
+const SCRIPT: &str = include_str!("page/templates/class.js");
 
 /// The page, in the class's language. A student with a page of their own is linked as `students/KEY.html`.
 pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {

@@ -20,13 +20,13 @@ use crate::language::{Language, Text};
 use askama::Template;
 
 /// The script of the moving pictures, for a `Content-Security-Policy` that names it by its hash.
-pub const SCRIPT: &str = include_str!("templates/report.js");
+pub const SCRIPT: &str = include_str!("html/templates/report.js");
 /// Colours, type and the elements that every page shares.
-pub const BASE_STYLE: &str = include_str!("templates/base.css");
+pub const BASE_STYLE: &str = include_str!("html/templates/base.css");
 /// The look of a report.
-pub const REPORT_STYLE: &str = include_str!("templates/report.css");
+pub const REPORT_STYLE: &str = include_str!("html/templates/report.css");
 /// The signs that a page with a report refers to by id; they stand once in a page, before the report.
-pub const SYMBOLS: &str = include_str!("templates/symbols.html");
+pub const SYMBOLS: &str = include_str!("html/templates/symbols.html");
 
 /// What goes into a page; what is not there is left out of it.
 #[derive(Clone, Copy, Debug)]
