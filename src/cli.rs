@@ -71,6 +71,13 @@ pub struct Sandbox {
     pub single_use_workers: bool,
 }
 
+impl Corpus {
+    /// The folder of the samples: those of the assignment where none is named.
+    pub fn folder(&self) -> PathBuf {
+        self.folder.clone().unwrap_or_else(|| PathBuf::from("submissions").join(&self.machine.assignment))
+    }
+}
+
 impl Sandbox {
     /// The settings with these wishes.
     pub fn apply(self, settings: Settings) -> Settings {
@@ -120,9 +127,9 @@ pub struct Grade {
 /// Grade a folder of samples.
 #[derive(Debug, Args)]
 pub struct Corpus {
-    /// The folder: each `NAME.vert` stands beside its expected report `NAME.json`
-    #[arg(value_name = "DIR", default_value = "submissions")]
-    pub folder: PathBuf,
+    /// The folder: each `NAME.vert` stands beside its expected report `NAME.json` [default: submissions/ASSIGNMENT]
+    #[arg(value_name = "DIR")]
+    pub folder: Option<PathBuf>,
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,

@@ -11,7 +11,7 @@ fn ggrade() -> Command {
 }
 
 fn sample(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(name)
 }
 
 /// Some sample of a folder whose name begins so.

@@ -15,7 +15,7 @@ fn every_sample_gets_its_expected_report() {
     let output = Command::cargo_bin("ggrade")
         .unwrap()
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(["corpus", "submissions"])
+        .args(["corpus"])
         .output()
         .unwrap();
     let found = String::from_utf8_lossy(&output.stdout);
@@ -65,8 +65,9 @@ fn homework(accepted: &str) -> &'static Assignment {
 /// A shader that agrees with an accepted answer everywhere is right; one that agrees with none is judged by the solution.
 #[test]
 fn what_agrees_with_an_accepted_answer_is_right() {
-    let sample =
-        |name: &str| std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(name)).unwrap();
+    let sample = |name: &str| {
+        std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(name)).unwrap()
+    };
     let [right, phong, both] = [
         "accepted/answers/all-in-one-expression.vert",
         "wrong/specular-phong--reflect.vert",

@@ -50,7 +50,7 @@ fn the_tables_of_mistakes_and_advice_are_the_assignments_own() {
 
 #[test]
 fn every_piece_of_advice_has_two_samples() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/accepted/advice");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06/accepted/advice");
     let names: Vec<String> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
@@ -65,7 +65,7 @@ fn every_piece_of_advice_has_two_samples() {
 
 #[test]
 fn every_mistake_of_the_table_has_two_samples() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/wrong");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06/wrong");
     let names: Vec<String> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())

@@ -23,7 +23,7 @@ fn right() -> String {
 }
 
 fn sample(folder: &str, start: &str) -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(folder);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(folder);
     let mut found: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     found.sort();
     let is_wanted = |path: &&PathBuf| {

@@ -1,4 +1,4 @@
-//! A class that no cache has seen: the samples of `submissions/`, each with a number of its own in its code.
+//! A class that no cache has seen: the samples of `submissions/ggsample06/`, each with a number of its own in its code.
 
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ pub fn submissions(count: usize) -> Vec<Submission> {
 
 /// Texts of the samples in a folder, in order of name.
 fn samples(folder: &str) -> Vec<(String, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(folder);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(folder);
     let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "vert"));

@@ -27,7 +27,7 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
     let workers = parallel::processors();
     let pool = Pool::start(arguments.sandbox.apply(settings), workers)?;
     warn(&pool, language(None));
-    let results = corpus::check(&arguments.folder, &pool, arguments.cross_check)?;
+    let results = corpus::check(&arguments.folder(), &pool, arguments.cross_check)?;
     let disputed = cross_checked(&results, arguments.all);
     let mut differing = 0;
     for checked in &results {

@@ -13,13 +13,13 @@ pub const REJECTED: &str = "rejected/brace-missing-at-end.vert";
 
 /// The bytes of a sample.
 pub fn sample(path: &str) -> Vec<u8> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(path);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(path);
     fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// The samples of a folder, in order of name.
 pub fn samples(folder: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(folder);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(folder);
     let mut found: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     found.retain(|path| path.extension().is_some_and(|extension| extension == "vert"));
     found.sort();

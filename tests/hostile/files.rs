@@ -1,4 +1,5 @@
-//! Hostile files, and what is promised of each: those of `submissions/hostile`, and the big ones, which are made here.
+//! Hostile files, and what is promised of each: those of `submissions/ggsample06/hostile`, and the big ones, which are
+//! made here.
 //!
 //! A test of another surface (`ggrade batch`, the service) includes this file with
 //! `#[path = "hostile/files.rs"] mod files;`, hands in [`all`], and holds each answer against [`Hostile::check`].
@@ -91,7 +92,7 @@ pub fn all() -> Vec<Hostile> {
 
 /// The samples, with what stands beside them.
 pub fn samples() -> Vec<Hostile> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/hostile");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06/hostile");
     let mut files = Vec::new();
     for folder in entries(&root) {
         for path in entries(&folder) {

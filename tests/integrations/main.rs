@@ -14,11 +14,11 @@ fn repository() -> PathBuf {
 }
 
 fn correct() -> PathBuf {
-    repository().join("submissions/accepted/answers/plain-int-zero.vert")
+    repository().join("submissions/ggsample06/accepted/answers/plain-int-zero.vert")
 }
 
 fn wrong() -> PathBuf {
-    repository().join("submissions/wrong/specular-half-unnormalized--average.vert")
+    repository().join("submissions/ggsample06/wrong/specular-half-unnormalized--average.vert")
 }
 
 /// A shader whose only mistake is its second line.

@@ -94,7 +94,7 @@ fn a_driver_that_is_not_there_is_a_fault_that_says_what_to_do() {
     for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
         let mut command = Command::new(workers::GGRADE);
         command.env_remove("VK_DRIVER_FILES").env_remove("VK_ICD_FILENAMES").env(name, &lost);
-        command.args(["grade", "submissions/accepted/answers/alpha-two.vert", "--format", "json"]);
+        command.args(["grade", "submissions/ggsample06/accepted/answers/alpha-two.vert", "--format", "json"]);
         let output = command.env("LC_ALL", "C").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(3), "{told}");
@@ -107,7 +107,7 @@ fn a_driver_that_is_not_there_is_a_fault_that_says_what_to_do() {
 fn workers_die_with_their_parent() {
     let _alone = alone();
     let mut corpus = Command::new(workers::GGRADE)
-        .args(["corpus", "submissions/accepted"])
+        .args(["corpus", "submissions/ggsample06/accepted"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stdout(std::process::Stdio::null())
         .spawn()

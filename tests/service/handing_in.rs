@@ -273,7 +273,7 @@ const HOSTILE: [&str; 8] =
 async fn hostile_files_are_answered_as_any_other(database: Database) {
     let bench = Bench::new(database).await;
     for kind in HOSTILE {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/hostile").join(kind);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06/hostile").join(kind);
         let mut names: Vec<_> = std::fs::read_dir(&folder)
             .expect("a folder")
             .map(|entry| entry.expect("an entry").path())

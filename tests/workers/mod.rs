@@ -31,7 +31,7 @@ pub fn settings() -> Settings {
 
 /// The bytes of a sample.
 pub fn sample(path: &str) -> Vec<u8> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions").join(path);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06").join(path);
     fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
