@@ -11,13 +11,14 @@ use ggrade::translate::{self, Interface, Shader};
 use reference::Assignment;
 use reference::interpreter::{Program, Stage};
 use std::cell::RefCell;
+use std::sync::Arc;
 
 fn main() {
     divan::main();
 }
 
-fn assignment() -> &'static Assignment {
-    homework::assignment("ggsample06").expect("the assignment is built in")
+fn assignment() -> &'static Arc<Assignment> {
+    reference::assignment("ggsample06").expect("the assignment is built in")
 }
 
 fn interface() -> Interface {
@@ -94,7 +95,7 @@ fn make_probes(bencher: Bencher<'_, '_>) {
 
 #[divan::bench(sample_count = 30)]
 fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
-    let grader = RefCell::new(Grader::new(assignment(), AdapterKind::Software).expect("a grader"));
+    let grader = RefCell::new(Grader::new(assignment().clone(), AdapterKind::Software).expect("a grader"));
     bencher.with_inputs(text).bench_local_refs(|text| {
         grader
             .borrow_mut()
@@ -141,5 +142,5 @@ void main() {
 
 #[divan::bench(sample_count = 5)]
 fn start_a_grader() -> Grader {
-    Grader::new(assignment(), AdapterKind::Software).expect("a grader")
+    Grader::new(assignment().clone(), AdapterKind::Software).expect("a grader")
 }

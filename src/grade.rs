@@ -22,6 +22,7 @@ use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::Instant;
 use unfinished::info;
 
@@ -49,12 +50,12 @@ pub struct Graded {
 /// Grades files for one assignment on one device. It meets untrusted bytes: run it in a worker process.
 #[derive(Debug)]
 pub struct Grader {
-    assignment: &'static Assignment,
+    assignment: Arc<Assignment>,
     interface: Interface,
     renderer: Renderer,
     expected: Vec<ExpectedFrame>,
     /// The same of every answer that is right beside the solution.
-    accepted: Vec<(&'static Answer, Vec<ExpectedFrame>)>,
+    accepted: Vec<(Answer, Vec<ExpectedFrame>)>,
     /// The probes that judge.
     probes: ProbeSet,
     environment: Environment,
@@ -73,12 +74,12 @@ struct Probing {
 
 impl Grader {
     /// Opens the device, and warms the compiler and the reference meanwhile.
-    pub fn new(assignment: &'static Assignment, adapter: AdapterKind) -> Result<Self, Fault> {
-        let interface = homework::interface(assignment)?;
+    pub fn new(assignment: Arc<Assignment>, adapter: AdapterKind) -> Result<Self, Fault> {
+        let interface = homework::interface(&assignment)?;
         let starter = &assignment.files[0].starter;
         let (device, fixed, expected) = std::thread::scope(|scope| {
             let device = scope.spawn(|| Device::open(adapter));
-            let expected = scope.spawn(|| homework::expected_frames(assignment));
+            let expected = scope.spawn(|| homework::expected_frames(&assignment));
             let fixed = translate::fixed_stage(&interface, starter);
             (device.join(), fixed, expected.join())
         });
@@ -91,10 +92,10 @@ impl Grader {
         };
         let renderer = Renderer::new(device, fixed?)?;
         let expected = expected.map_err(panicked)?;
-        let frames = |answer| (answer, homework::accepted_frames(assignment, answer));
+        let frames = |answer: &Answer| (answer.clone(), homework::accepted_frames(&assignment, answer));
         let accepted = assignment.accepted().iter().map(frames).collect();
         let probes = assignment.judging_probes();
-        let beyond = advice::beyond(assignment, &probes);
+        let beyond = advice::beyond(&assignment, &probes);
         Ok(Self { assignment, interface, renderer, expected, accepted, probes, environment, beyond, last: None })
     }
 
@@ -169,7 +170,7 @@ impl Grader {
             return Rc::clone(last);
         }
         let fresh = self.assignment.fresh_probes(seed);
-        let scene = homework::scene(self.assignment, &[&self.probes, &fresh]);
+        let scene = homework::scene(&self.assignment, &[&self.probes, &fresh]);
         Rc::clone(self.last.insert(Rc::new(Probing { fresh, scene })))
     }
 
@@ -179,7 +180,7 @@ impl Grader {
 
     fn refused(&self, facts: &Facts, verdict: Verdict, diagnostics: Vec<Diagnostic>) -> Graded {
         let environment = self.environment.clone();
-        let report = unfinished(self.assignment, info(facts), verdict, diagnostics, environment);
+        let report = unfinished(&self.assignment, info(facts), verdict, diagnostics, environment);
         Graded { report, frames: None }
     }
 
@@ -221,7 +222,7 @@ impl Grader {
         let samples: Vec<_> = rendering.probe_samples.concat();
         let (samples, fresh_samples) = samples.split_at(self.probes.probes.len().min(samples.len()));
         let evidence = Evidence {
-            assignment: self.assignment,
+            assignment: &self.assignment,
             source,
             frames: &frames,
             probes: &self.probes,

@@ -20,9 +20,9 @@ use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The built-in assignment with this id.
-pub fn assignment(id: &str) -> Result<&'static Assignment, Fault> {
-    reference::assignment(id).ok_or_else(|| {
-        let known: Vec<_> = reference::assignments().iter().map(|assignment| assignment.id.as_str()).collect();
+pub fn assignment(id: &str) -> Result<Arc<Assignment>, Fault> {
+    reference::assignment(id).cloned().ok_or_else(|| {
+        let known: Vec<_> = reference::assignment::names().collect();
         Fault::new(Text::new(
             format!("there is no assignment `{id}` (there is: {})", known.join(", ")),
             format!("課題 `{id}` はありません (あるもの: {})", known.join(", ")),

@@ -35,7 +35,7 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
-        let assignment = ggrade::homework::assignment("ggsample06").unwrap();
+        let assignment = reference::assignment("ggsample06").unwrap();
         let interface = ggrade::homework::interface(assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));

@@ -7,8 +7,10 @@ use assert_cmd::Command;
 use ggrade::grade::{Grader, Order};
 use ggrade::render::AdapterKind;
 use ggrade::report::Verdict;
-use reference::Assignment;
+use reference::assignment::MANIFEST;
+use reference::{Assignment, Folder};
 use std::path::Path;
+use std::sync::Arc;
 
 #[test]
 fn every_sample_gets_its_expected_report() {
@@ -50,16 +52,13 @@ fn a_sample_without_an_expectation_is_a_difference() {
 }
 
 /// The homework, with the reflection vector as right as the half vector where `accepted` says so.
-fn homework(accepted: &str) -> &'static Assignment {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments/ggsample06");
-    let read = |name: &str| std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string());
+fn homework(accepted: &str) -> Arc<Assignment> {
+    let mut folder = Folder::clone(&reference::assignment("ggsample06").unwrap().folder);
     let line = "solution = \"solution.vert\"\n";
-    let assignment = Assignment::load(|name| match name {
-        "phong.vert" => Ok(read("solution.vert")?.replace("dot(n, h)", "dot(reflect(-l, n), v)")),
-        "assignment.toml" => Ok(read(name)?.replace(line, &format!("{line}{accepted}"))),
-        _ => read(name),
-    });
-    Box::leak(Box::new(assignment.unwrap()))
+    let phong = folder.text("solution.vert").unwrap().replace("dot(n, h)", "dot(reflect(-l, n), v)");
+    let manifest = folder.text(MANIFEST).unwrap().replace(line, &format!("{line}{accepted}"));
+    folder.files.extend([("phong.vert".into(), phong.into()), (MANIFEST.into(), manifest.into())]);
+    Arc::new(Assignment::load(folder).unwrap())
 }
 
 /// A shader that agrees with an accepted answer everywhere is right; one that agrees with none is judged by the solution.

@@ -37,7 +37,7 @@ pub struct Stage {
 impl Stage {
     /// None where it has uniforms beside the homework's, or needs what devices lack.
     pub fn of(submission: &Submission) -> Option<Self> {
-        let interface = homework::interface(homework::assignment("ggsample06").ok()?).ok()?;
+        let interface = homework::interface(reference::assignment("ggsample06")?).ok()?;
         let source = source::read(&submission.name, submission.text.as_bytes()).ok()?;
         let shader = translate::translate(&source, &interface).ok()?.shader;
         let [uniforms] = shader.uniforms.as_slice() else { return None };
@@ -78,7 +78,7 @@ impl Bare {
         let required_features = adapter.features() & wgpu::Features::SHADER_F64;
         let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
-        let assignment = homework::assignment("ggsample06").expect("the assignment");
+        let assignment = reference::assignment("ggsample06").expect("the assignment");
         let scene = homework::scene(assignment, &[&assignment.probes(1)]);
         let interface = homework::interface(assignment).expect("the assignment is whole");
         let fragment = translate::fixed_stage(&interface, &assignment.files[0].starter).expect("the fixed stage");

@@ -4,7 +4,6 @@
 use crate::bare::{Bare, Stage};
 use crate::class::Submission;
 use ggrade::grade::{Grader, Order};
-use ggrade::homework;
 use ggrade::render::AdapterKind;
 use ggrade::sandbox::{self, Pool, Settings};
 use nix::sys::resource::{UsageWho, getrusage};
@@ -55,8 +54,8 @@ fn cost<T>(work: impl FnOnce() -> T) -> f64 {
 
 /// Medians of a whole grading and of the bare driver's part of it, in CPU milliseconds, taken in turns.
 pub fn grade_and_bare(shaders: &[Submission]) -> (f64, f64) {
-    let assignment = homework::assignment("ggsample06").expect("the assignment");
-    let mut grader = Grader::new(assignment, AdapterKind::Software).expect("a grader");
+    let assignment = reference::assignment("ggsample06").expect("the assignment");
+    let mut grader = Grader::new(assignment.clone(), AdapterKind::Software).expect("a grader");
     let bare = Bare::open();
     let (mut grades, mut bares) = (Vec::new(), Vec::new());
     // The first two of each warm the device.

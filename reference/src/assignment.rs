@@ -9,17 +9,20 @@ use crate::interpreter::Type;
 pub use crate::manifest::{Attribute, Matrix, RubricLine, Stage};
 use crate::mistake::{Form, Found, Mistake};
 use crate::scene::{Matrices, Scene, Vertex};
-use crate::{Text, Value, manifest};
+use crate::{Folder, Text, Value, manifest};
 use glam::DMat4;
-use std::path::Path;
-use std::sync::OnceLock;
-use std::{fmt, fs};
+use std::fmt;
+use std::sync::{Arc, OnceLock};
 
 /// A homework as data.
 #[derive(Clone, Debug)]
 pub struct Assignment {
     /// Its name, as in `ggsample06`.
     pub id: String,
+    /// The digest of its folder: an assignment that was changed has another.
+    pub digest: String,
+    /// The files that it was read from.
+    pub folder: Arc<Folder>,
     /// Its title.
     pub title: Text,
     /// The files that are handed in.
@@ -144,58 +147,51 @@ impl std::error::Error for AssignmentError {}
 /// Name of the file that describes an assignment.
 pub const MANIFEST: &str = "assignment.toml";
 
-/// A built-in folder: its files by name.
-type Folder = &'static [(&'static str, &'static str)];
+/// A built-in folder: its name, and its files by name.
+type BuiltIn = (&'static str, &'static [(&'static str, &'static [u8])]);
 
-const BUILT_IN: &[Folder] = &[&[
-    (MANIFEST, include_str!("../assignments/ggsample06/assignment.toml")),
-    ("solution.vert", include_str!("../assignments/ggsample06/solution.vert")),
-    ("starter.vert", include_str!("../assignments/ggsample06/starter.vert")),
-    ("fixed.frag", include_str!("../assignments/ggsample06/fixed.frag")),
-]];
+/// Every folder below `reference/assignments`.
+const BUILT_IN: &[BuiltIn] = include!(concat!(env!("OUT_DIR"), "/built_in.rs"));
+
+/// The names of the assignments that are built in, in order.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    BUILT_IN.iter().map(|(name, _)| *name)
+}
+
+/// The built-in assignment of this name, which is its id.
+///
+/// # Panics
+/// If the built-in folder is not an assignment, which the tests of this crate rule out.
+pub fn assignment(name: &str) -> Option<&'static Arc<Assignment>> {
+    static LOADED: [OnceLock<Arc<Assignment>>; BUILT_IN.len()] = [const { OnceLock::new() }; BUILT_IN.len()];
+    let place = names().position(|known| known == name)?;
+    Some(LOADED[place].get_or_init(|| {
+        let folder = Folder::of(BUILT_IN[place].1.iter().copied());
+        Arc::new(Assignment::load(folder).expect("a built-in assignment is broken"))
+    }))
+}
 
 /// The assignments that are built in.
 ///
 /// # Panics
-/// If a built-in folder is not an assignment, which the tests of this crate rule out.
-pub fn assignments() -> &'static [Assignment] {
-    static ALL: OnceLock<Vec<Assignment>> = OnceLock::new();
-    ALL.get_or_init(|| {
-        let load = |folder: &Folder| {
-            Assignment::load(|name| {
-                let file = folder.iter().find(|(n, _)| *n == name);
-                file.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "is not in the folder".to_owned())
-            })
-        };
-        let all: Result<Vec<_>, _> = BUILT_IN.iter().map(load).collect();
-        all.expect("a built-in assignment is broken")
-    })
-}
-
-/// The built-in assignment with this id.
-pub fn assignment(id: &str) -> Option<&'static Assignment> {
-    assignments().iter().find(|a| a.id == id)
+/// See [`assignment`].
+pub fn assignments() -> impl Iterator<Item = &'static Arc<Assignment>> {
+    names().filter_map(assignment)
 }
 
 impl Assignment {
     /// Reads and checks the assignment in a folder.
     ///
     /// # Errors
-    /// A file that cannot be read, or whatever in it contradicts itself, with its place.
-    pub fn from_folder(folder: &Path) -> Result<Self, AssignmentError> {
-        Self::load(|name| fs::read_to_string(folder.join(name)).map_err(|e| e.to_string()))
-    }
-
-    /// Reads and checks an assignment whose files `read` gives by name.
-    ///
-    /// # Errors
-    /// See [`Assignment::from_folder`].
-    pub fn load(read: impl Fn(&str) -> Result<String, String>) -> Result<Self, AssignmentError> {
-        let read = |name: &str| read(name).map_err(|message| error(name, message));
-        let text = read(MANIFEST)?;
-        let manifest: manifest::Manifest = toml::from_str(&text).map_err(|e| error(MANIFEST, e.to_string()))?;
+    /// Whatever in a file contradicts itself or the others, with its place.
+    pub fn load(folder: Folder) -> Result<Self, AssignmentError> {
+        let text = folder.text(MANIFEST)?;
+        let manifest: manifest::Manifest = toml::from_str(text).map_err(|e| error(MANIFEST, e.to_string()))?;
         let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
-        check::assignment(manifest, line_at, read)
+        let mut assignment = check::assignment(manifest, line_at, |name| folder.text(name).map(str::to_owned))?;
+        assignment.digest = folder.digest();
+        assignment.folder = Arc::new(folder);
+        Ok(assignment)
     }
 
     /// The mistake with this id.
@@ -291,7 +287,7 @@ impl Attribute {
     }
 }
 
-fn error(place: impl Into<String>, message: impl Into<String>) -> AssignmentError {
+pub(crate) fn error(place: impl Into<String>, message: impl Into<String>) -> AssignmentError {
     AssignmentError { place: place.into(), message: message.into() }
 }
 

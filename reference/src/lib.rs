@@ -25,6 +25,7 @@ pub mod advice;
 pub mod assignment;
 pub mod equation;
 pub mod fit;
+mod folder;
 pub mod frames;
 pub mod interpreter;
 pub mod manifest;
@@ -35,6 +36,7 @@ pub mod scene;
 mod text;
 mod value;
 
-pub use assignment::{Assignment, assignment, assignments};
+pub use assignment::{Assignment, AssignmentError, assignment, assignments};
+pub use folder::Folder;
 pub use text::Text;
 pub use value::Value;

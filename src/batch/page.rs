@@ -7,17 +7,18 @@ use crate::report::html::Page;
 use crate::report::{Equation, Picture, Pictures, Report};
 use crate::source;
 use reference::Assignment;
+use std::sync::Arc;
 
 /// Makes the pages of a class.
 pub struct Pages {
-    assignment: &'static Assignment,
+    assignment: Arc<Assignment>,
     equation: Equation,
     language: Language,
 }
 
 impl Pages {
     /// The pages for an assignment.
-    pub fn new(assignment: &'static Assignment, language: Language) -> Self {
+    pub fn new(assignment: Arc<Assignment>, language: Language) -> Self {
         Self { assignment, equation: Equation::illumination(), language }
     }
 
@@ -33,8 +34,8 @@ impl Pages {
         if is_drawn {
             pictures = Pictures {
                 yours: std::mem::take(frames),
-                expected: homework::expected_pictures(self.assignment),
-                terms: homework::term_pictures(self.assignment, report.explanation.as_deref(), source.as_ref()),
+                expected: homework::expected_pictures(&self.assignment),
+                terms: homework::term_pictures(&self.assignment, report.explanation.as_deref(), source.as_ref()),
             };
         }
         let page = Page {

@@ -37,7 +37,7 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
     begin::outside(arguments)?;
     let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
     let before = arguments.compare.as_deref().map(begin::read_earlier).transpose()?;
-    let options = intake::Options::new(assignment)?;
+    let options = intake::Options::new(&assignment)?;
     let intake = intake::read(&arguments.inputs, &options)?;
     if intake.hand_ins.is_empty() {
         begin::tell_empty(&intake, language(arguments.lang));
@@ -63,9 +63,9 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
     let intake =
         if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.file_name)? } else { intake };
     let title = arguments.title.clone().unwrap_or(intake.title);
-    let candidates = run::candidates(intake.hand_ins, assignment);
-    let portraits = Portraits::new(assignment)?;
-    let session = Session { arguments, assignment, interrupt, deadline, folder: &folder, header: &header };
+    let candidates = run::candidates(intake.hand_ins, &assignment);
+    let portraits = Portraits::new(&assignment)?;
+    let session = Session { arguments, assignment: &assignment, interrupt, deadline, folder: &folder, header: &header };
     let wants = output::wants(&formats);
     let mut entries = session.reuse(&candidates, found, wants)?;
     if !session.fill(&candidates, &mut entries, wants, &portraits)? {

@@ -17,18 +17,17 @@ pub fn run(arguments: &Doctor) -> Result<Outcome, Fault> {
     for assignment in reference::assignments() {
         healthy &= check_assignment(assignment, language);
     }
-    let gpu = Settings { adapter: AdapterKind::Gpu, ..settings(&reference::assignments()[0]) };
-    let gpu = match Pool::start(gpu, 1) {
-        Ok(pool) => {
+    let first = reference::assignments().next();
+    let gpu = first.map(|first| Settings { adapter: AdapterKind::Gpu, ..settings(first) });
+    let gpu = match gpu.map(|gpu| Pool::start(gpu, 1)) {
+        Some(Ok(pool)) => {
             let Environment { renderer, driver, .. } = pool.environment();
             Text::new(
                 format!("graphics card: {renderer} ({driver}), used with --adapter gpu"),
                 format!("グラフィックスカード: {renderer} ({driver})。--adapter gpu で使えます"),
             )
         }
-        Err(_) => {
-            Text::new("graphics card: none (none is needed)", "グラフィックスカード: なし (なくても採点できます)")
-        }
+        _ => Text::new("graphics card: none (none is needed)", "グラフィックスカード: なし (なくても採点できます)"),
     };
     say(true, &gpu, language);
     Ok(if healthy { Outcome::FullMarks } else { Outcome::Fault })
@@ -41,7 +40,7 @@ fn settings(assignment: &reference::Assignment) -> Settings {
 
 /// Says of each layer of the sandbox whether it holds, and what a worker could do in spite of all.
 fn check_sandbox(language: Language) -> bool {
-    let Some(assignment) = reference::assignments().first() else { return true };
+    let Some(assignment) = reference::assignments().next() else { return true };
     let protection = match Pool::start(settings(assignment), 1) {
         Ok(pool) => pool.protection().clone(),
         Err(fault) => return complain(&fault, language),

@@ -87,7 +87,7 @@ fn fill(
     let source = readable(name, &bytes);
     if wants_portrait && !answer.frames.is_empty() {
         let assignment = crate::homework::assignment(&answer.report.assignment).map_err(Became::Fault)?;
-        let portraits = Portraits::new(assignment).map_err(Became::Fault)?;
+        let portraits = Portraits::new(&assignment).map_err(Became::Fault)?;
         entry.portrait = portraits.of(&answer.frames).map_err(Became::Fault)?;
         class.expected_portrait = portraits.expected;
     }

@@ -83,8 +83,8 @@ pub(super) fn pictures(
     let assignment = crate::homework::assignment(&report.assignment)?;
     let pictures = Pictures {
         yours: frames,
-        expected: crate::homework::expected_pictures(assignment),
-        terms: crate::homework::term_pictures(assignment, report.explanation.as_deref(), source),
+        expected: crate::homework::expected_pictures(&assignment),
+        terms: crate::homework::term_pictures(&assignment, report.explanation.as_deref(), source),
     };
     if let Some(folder) = &arguments.frames {
         pictures::write(&pictures, folder)?;

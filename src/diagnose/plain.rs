@@ -68,7 +68,6 @@ fn squeezed(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::homework;
     use crate::source;
 
     fn refuted(statement: &str, id: &str) -> bool {
@@ -76,7 +75,7 @@ mod tests {
             format!("const vec4 kspec = vec4(0.4);\nconst vec4 lspec = vec4(1);\nvoid main() {{\n  {statement}\n}}\n");
         let source = source::read("a.vert", code.as_bytes()).expect("a vertex shader");
         let found = [Found { id: id.into(), form: 0, parameter: None }];
-        without_refuted(homework::assignment("ggsample06").unwrap(), &source, &found).is_some()
+        without_refuted(reference::assignment("ggsample06").unwrap(), &source, &found).is_some()
     }
 
     #[test]

@@ -11,6 +11,7 @@ use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -48,7 +49,7 @@ pub struct Answer {
 #[derive(Debug)]
 pub struct Pool {
     settings: Settings,
-    assignment: &'static reference::Assignment,
+    assignment: Arc<reference::Assignment>,
     roster: Roster,
     next_id: AtomicU64,
     environment: Environment,
@@ -132,7 +133,7 @@ impl Pool {
     fn stopped(&self, submission: Submission<'_>, ending: &Ending, environment: Environment) -> Report {
         let message = ending.message(self.settings.deadline, self.settings.memory);
         crate::grade::unfinished(
-            self.assignment,
+            &self.assignment,
             crate::grade::source_info(submission.name, submission.bytes),
             Verdict::Stopped,
             vec![Diagnostic::error(Stage::Run, message)],

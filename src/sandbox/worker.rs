@@ -12,15 +12,16 @@ use nix::sys::resource::Resource;
 use reference::Assignment;
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::sync::Arc;
 
 /// Stack of the thread that grades: translators recurse over the student's nesting.
 const STACK_BYTES: usize = 256 << 20;
 
 /// What a worker is started for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Job {
     /// The homework.
-    pub assignment: &'static Assignment,
+    pub assignment: Arc<Assignment>,
     /// What renders.
     pub adapter: AdapterKind,
     /// What one submission may take.
@@ -32,7 +33,7 @@ pub struct Job {
 /// Serves the parent on standard input and output until it closes them.
 pub fn run(job: Job) -> io::Result<()> {
     let confined = confine::enter(job.limits, job.adapter)?;
-    on_large_stack(move || serve(job, confined))
+    on_large_stack(move || serve(&job, confined))
 }
 
 /// Enters the sandbox as [`run`] does, tries one forbidden thing there, and gives what came of it.
@@ -40,7 +41,7 @@ pub fn attempt(job: Job, attempt: Attempt) -> io::Result<io::Result<()>> {
     let confined = confine::enter(job.limits, job.adapter)?;
     on_large_stack(move || {
         let Confined { layers, meter, .. } = confined;
-        let _ready = prepare(job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
+        let _ready = prepare(&job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
         meter.next(job.adapter)?;
         Ok(attempt.make())
     })
@@ -51,7 +52,7 @@ fn on_large_stack<T: Send + 'static>(work: impl FnOnce() -> io::Result<T> + Send
     thread.spawn(work)?.join().map_err(|_| io::Error::other("the grader panicked"))?
 }
 
-fn serve(job: Job, confined: Confined) -> io::Result<()> {
+fn serve(job: &Job, confined: Confined) -> io::Result<()> {
     let Confined { mut output, layers, meter } = confined;
     let (mut grader, protection) = match prepare(job, layers) {
         Ok(ready) => ready,
@@ -66,8 +67,8 @@ fn serve(job: Job, confined: Confined) -> io::Result<()> {
 }
 
 /// Makes the device warm, and closes the sandbox around it.
-fn prepare(job: Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Protection), Fault> {
-    let mut grader = Grader::new(job.assignment, job.adapter)?;
+fn prepare(job: &Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Protection), Fault> {
+    let mut grader = Grader::new(Arc::clone(&job.assignment), job.adapter)?;
     if let Some(file) = job.assignment.files.first().filter(|_| job.warm_up) {
         grader.grade(&file.name, file.starter.as_bytes(), Order::default())?;
     }
@@ -87,7 +88,7 @@ fn answer(
     input: &mut impl Read,
     output: &mut File,
     grader: &mut Grader,
-    job: Job,
+    job: &Job,
     meter: &Meter,
     start: u64,
 ) -> io::Result<bool> {

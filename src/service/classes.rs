@@ -22,6 +22,7 @@ use crate::batch::intake::{self, Content, Intake};
 use crate::fault::Fault;
 use crate::language::Text;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Behind every student who hands in.
 const PRIORITY: i64 = 10;
@@ -32,13 +33,13 @@ const NAMELESS: &str = "archive";
 /// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with,
 /// `key` that with which it may come again.
 pub async fn submit(state: &State, path: PathBuf, title: &str, key: Option<Key>) -> Result<Batch, Problem> {
-    let assignment = state.assignment;
+    let assignment = Arc::clone(&state.assignment);
     if let Some(batch) = stored_earlier(state, key.as_ref()).await? {
         return Ok(batch);
     }
     let title = if title.is_empty() { NAMELESS } else { title }.to_owned();
     let read = tokio::task::spawn_blocking(move || {
-        let options = intake::Options::new(assignment)?;
+        let options = intake::Options::new(&assignment)?;
         Ok::<_, Fault>(intake::read_archive(&path, &title, &options))
     });
     let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::of_fault(&fault))?;
@@ -102,7 +103,7 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
                     assignment: settings.id.clone(),
                     sha256: sha256(&bytes),
                     bytes,
-                    name: file_name(&name, state.assignment),
+                    name: file_name(&name, &state.assignment),
                     owner_id: None,
                     student_id: entry.student_id.clone(),
                     batch_id: Some(batch.id.clone()),

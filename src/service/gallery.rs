@@ -67,7 +67,7 @@ enum Kind {
 /// The pictures made lately.
 #[derive(Debug)]
 pub struct Gallery {
-    assignment: &'static Assignment,
+    assignment: Arc<Assignment>,
     expected: OnceLock<Vec<Vec<u8>>>,
     portraits: OnceLock<Portraits>,
     kept: Cache<Key, Arc<Pngs>>,
@@ -77,7 +77,7 @@ pub struct Gallery {
 
 impl Gallery {
     /// An empty gallery.
-    pub fn new(assignment: &'static Assignment) -> Self {
+    pub fn new(assignment: Arc<Assignment>) -> Self {
         let weight =
             |_: &Key, pngs: &Arc<Pngs>| u32::try_from(pngs.iter().map(Vec::len).sum::<usize>()).unwrap_or(u32::MAX);
         Self {
@@ -135,7 +135,7 @@ impl Gallery {
         if frames.is_empty() {
             return Ok(frames);
         }
-        let make = blocking(state, move |state| make(decoded(&frames)?, &expected_pictures(state.gallery.assignment)));
+        let make = blocking(state, move |state| make(decoded(&frames)?, &expected_pictures(&state.gallery.assignment)));
         self.once(Key { sha256: submission.sha256.clone(), kind }, make).await
     }
 
@@ -162,7 +162,7 @@ impl Gallery {
         }
         blocking(state, move |state| {
             let Some(yours) = all.get(index) else { return Ok(None) };
-            let expected = expected_pictures(state.gallery.assignment).get(index).cloned();
+            let expected = expected_pictures(&state.gallery.assignment).get(index).cloned();
             let (yours, expected) = (vec![pictures::decode(yours)?], expected.into_iter().collect());
             pictures::animation(&Pictures { yours, expected, terms: Arc::default() }).map(Some)
         })
@@ -179,7 +179,7 @@ impl Gallery {
         let kind = Kind::Animation(view);
         let drawn = if view == View::Expected {
             let make =
-                blocking(state, |state| Ok(vec![pictures::animated(&expected_pictures(state.gallery.assignment))?]));
+                blocking(state, |state| Ok(vec![pictures::animated(&expected_pictures(&state.gallery.assignment))?]));
             self.once(Key { sha256: String::new(), kind }, make).await?
         } else {
             let make = move |yours, expected: &Arc<[Picture]>| {
@@ -253,7 +253,7 @@ impl Gallery {
         if let Some(portraits) = self.portraits.get() {
             return Ok(portraits);
         }
-        let portraits = Portraits::new(self.assignment)?;
+        let portraits = Portraits::new(&self.assignment)?;
         Ok(self.portraits.get_or_init(|| portraits))
     }
 
@@ -261,7 +261,7 @@ impl Gallery {
         if let Some(expected) = self.expected.get() {
             return Ok(expected.get(index).cloned());
         }
-        let all = expected_pictures(self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
+        let all = expected_pictures(&self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
         Ok(self.expected.get_or_init(|| all).get(index).cloned())
     }
 }

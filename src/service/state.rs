@@ -48,7 +48,7 @@ pub struct Shared {
     /// Rates.
     pub limits: Limits,
     /// The homework that is served.
-    pub assignment: &'static Assignment,
+    pub assignment: Arc<Assignment>,
     /// The teacher's token, where there is one.
     pub teacher_token: Option<String>,
     pub(super) proxies: Proxies,
@@ -74,7 +74,7 @@ impl State {
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
             cross_checks: CrossChecks::default(),
-            gallery: Gallery::new(assignment),
+            gallery: Gallery::new(Arc::clone(&assignment)),
             downloads: Jobs::default(),
             teacher_token: config.teacher_token.clone(),
             key: key.into_bytes(),

@@ -274,7 +274,7 @@ fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload
         assignment: upload.assignment.clone(),
         sha256: sha256(&upload.bytes),
         bytes: upload.bytes.clone(),
-        name: file_name(&upload.name, state.assignment),
+        name: file_name(&upload.name, &state.assignment),
         owner_id: upload.identity.owner_id().map(str::to_owned),
         student_id: upload.identity.student().map(|student| student.id.clone()),
         batch_id: None,

@@ -5,7 +5,7 @@ use crate::diagnostic::Severity;
 use crate::{homework, source};
 
 fn interface() -> Interface {
-    homework::interface(homework::assignment("ggsample06").expect("it is built in")).expect("it is whole")
+    homework::interface(reference::assignment("ggsample06").expect("it is built in")).expect("it is whole")
 }
 
 /// Translates a right shader at this version, with these globals, from line 5 on, and this body.

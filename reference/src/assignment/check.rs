@@ -56,6 +56,8 @@ pub(super) fn assignment(
         scene: scene(&m.scene)?,
         files,
         id: m.id,
+        digest: String::new(),
+        folder: Arc::default(),
         title: m.title,
         interface,
         constants,

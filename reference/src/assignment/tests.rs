@@ -1,12 +1,16 @@
 use super::*;
+use std::path::Path;
 
 /// The assignment with a change in one of its files.
 fn loaded(changed: &str, change: impl Fn(&str) -> String) -> Result<Assignment, AssignmentError> {
-    Assignment::load(|name| {
-        let file = BUILT_IN[0].iter().find(|(n, _)| *n == name);
-        let (_, text) = file.ok_or("is not in the folder")?;
-        Ok(if name == changed { change(text) } else { (*text).to_owned() })
-    })
+    let mut folder = ggsample06();
+    let text = change(folder.text(changed)?);
+    folder.files.insert(changed.into(), text.into());
+    Assignment::load(folder)
+}
+
+fn ggsample06() -> Folder {
+    Folder::clone(&assignment("ggsample06").expect("built in").folder)
 }
 
 /// The error that replacing `from` by `to` in a file leads to.
@@ -25,7 +29,7 @@ fn broken(from: &str, to: &str) -> String {
 
 /// Where a text stands in `assignment.toml`.
 fn line_of(text: &str) -> usize {
-    BUILT_IN[0][0].1.lines().position(|line| line.contains(text)).expect(text) + 1
+    ggsample06().text(MANIFEST).expect("text").lines().position(|line| line.contains(text)).expect(text) + 1
 }
 
 #[test]
@@ -53,10 +57,25 @@ fn constants_are_read_from_the_solution() {
 #[test]
 fn a_folder_loads_as_the_built_in_one() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assignments/ggsample06");
-    let loaded = Assignment::from_folder(&folder).expect("the same files");
-    assert_eq!(loaded.id, "ggsample06");
-    let error = Assignment::from_folder(Path::new("/nonexistent")).expect_err("no folder");
+    let folder = Folder::read(&folder).expect("a folder");
+    assert_eq!(folder, ggsample06());
+    let loaded = Assignment::load(folder).expect("the same files");
+    assert_eq!((loaded.id.as_str(), loaded.digest), ("ggsample06", ggsample06().digest()));
+    let error = Folder::read(Path::new("/nonexistent")).expect_err("no folder");
     assert_eq!(error.place, MANIFEST);
+}
+
+#[test]
+fn every_built_in_folder_is_an_assignment_of_its_name() {
+    let ids: Vec<_> = assignments().map(|assignment| assignment.id.clone()).collect();
+    assert_eq!(ids, names().collect::<Vec<_>>());
+    assert!(ids.contains(&"ggsample06".to_owned()));
+}
+
+#[test]
+fn a_changed_file_makes_another_assignment() {
+    let changed = loaded("starter.vert", |text| format!("{text}\n")).expect("valid");
+    assert_ne!(changed.digest, assignment("ggsample06").expect("built in").digest);
 }
 
 #[test]
@@ -157,22 +176,20 @@ fn a_solution_that_is_undefined_is_refused() {
 
 /// The homework with another answer that is right as well.
 fn with_accepted(answer: &str) -> Result<Assignment, AssignmentError> {
-    Assignment::load(|name| {
-        let file = BUILT_IN[0].iter().find(|(n, _)| *n == name).map(|(_, text)| (*text).to_owned());
-        let line = "solution = \"solution.vert\"\n";
-        match name {
-            "other.vert" => Ok(answer.to_owned()),
-            MANIFEST => Ok(file.ok_or("")?.replace(line, &format!("{line}accepted = [\"other.vert\"]\n"))),
-            _ => file.ok_or("is not in the folder".into()),
-        }
-    })
+    let line = "solution = \"solution.vert\"\n";
+    let mut folder = ggsample06();
+    let manifest = folder.text(MANIFEST)?.replace(line, &format!("{line}accepted = [\"other.vert\"]\n"));
+    folder.files.extend([("other.vert".into(), answer.into()), (MANIFEST.into(), manifest.into())]);
+    Assignment::load(folder)
 }
 
 #[test]
 fn an_accepted_answer_is_a_shader_of_any_form() {
     // The reflection vector in place of the half vector, and a loop that GLSL does not need.
-    let solution = BUILT_IN[0].iter().find(|(name, _)| *name == "solution.vert").expect("there").1;
-    let answer = solution
+    let folder = ggsample06();
+    let answer = folder
+        .text("solution.vert")
+        .expect("there")
         .replace("dot(n, h)", "dot(reflect(-l, n), v)")
         .replace("vc = colour;", "for (int i = 0; i < 4; ++i) vc[i] = colour[i];");
     let other = with_accepted(&answer).expect("valid");

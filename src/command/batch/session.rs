@@ -22,12 +22,13 @@ use crate::sandbox::{Pool, Settings};
 use reference::Assignment;
 use std::collections::{HashMap, HashSet};
 use std::io::{IsTerminal, Write};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// A run on its way.
 pub(super) struct Session<'a> {
     pub arguments: &'a Batch,
-    pub assignment: &'static Assignment,
+    pub assignment: &'a Arc<Assignment>,
     pub interrupt: &'a Interrupt,
     pub deadline: Duration,
     pub folder: &'a Folder,
@@ -95,7 +96,7 @@ impl Session<'_> {
         // Where there is nobody to grade, the folder is left as it was.
         let journal = Journal::start(self.folder, self.header, &kept(candidates, entries))?;
         entries.iter().flatten().for_each(|entry| self.tell(entry));
-        let pages = Pages::new(self.assignment, self.header.language);
+        let pages = Pages::new(Arc::clone(self.assignment), self.header.language);
         let progress = Progress::new(candidates.len(), entries.iter().flatten(), self.header.language);
         self.defer_interrupt(&progress);
         let finished = |entry: &Entry| {

@@ -72,7 +72,7 @@ mod tests {
         };
         let rubric =
             vec![line("shape", "Shape", "形", 10.0, 10.0), line("specular", "Specular", "鏡面反射光", specular, 40.0)];
-        let assignment = crate::homework::assignment("ggsample06").unwrap();
+        let assignment = reference::assignment("ggsample06").unwrap();
         let source = crate::grade::source_info("x.vert", b"");
         Report {
             score: 10.0 + specular,

@@ -256,7 +256,7 @@ fn class(
         outcomes.push(stored.map(outcome));
         hand_ins.push(HandIn { student, path, local: None, content });
     }
-    let candidates = run::candidates(hand_ins, state.assignment);
+    let candidates = run::candidates(hand_ins, &state.assignment);
     let entries = candidates.iter().zip(outcomes).zip(portraits).map(|((candidate, outcome), portrait)| {
         candidate.entry(outcome.unwrap_or_else(|| candidate.nothing()), portrait, None)
     });
@@ -290,7 +290,7 @@ async fn page(
     let mut frames = state.gallery.decoded(state, submission).await?;
     let report = report.clone();
     let write = move |state: &State| {
-        let page = Pages::new(state.assignment, language).page(&report, source.as_bytes(), &mut frames)?;
+        let page = Pages::new(Arc::clone(&state.assignment), language).page(&report, source.as_bytes(), &mut frames)?;
         std::fs::write(&path, page).map_err(|error| disk(&error))?;
         Ok(path)
     };

@@ -60,7 +60,7 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("live.js", include_str!("assets/live.js")),
         Asset::text("icon.svg", include_str!("assets/icon.svg")),
     ];
-    assets.extend(reference::assignments().iter().flat_map(of_assignment));
+    assets.extend(reference::assignments().flat_map(|assignment| of_assignment(assignment)));
     assets
 });
 

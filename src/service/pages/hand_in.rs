@@ -76,7 +76,7 @@ pub(super) async fn desk(
     });
     let desk = Desk {
         frame: frame.of(&id),
-        homework: state.assignment,
+        homework: std::sync::Arc::clone(&state.assignment),
         standing: Standing {
             settings: &settings,
             now: state.clock.now(),

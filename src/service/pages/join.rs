@@ -37,7 +37,7 @@ pub(super) struct Given {
 fn view(state: &State, frame: Frame, secret: &str, visitor: &Visitor, number: String, problem: Option<String>) -> View {
     let who = visitor.identity.student().map(|student| student.number.clone());
     View {
-        title: student::title(state.assignment, frame.language),
+        title: student::title(&state.assignment, frame.language),
         problem,
         action: format!("/join/{secret}"),
         leave: "/leave",

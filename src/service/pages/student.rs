@@ -18,7 +18,7 @@ use askama::Template;
 pub(super) struct Desk<'a> {
     pub frame: Frame,
     /// The homework.
-    pub homework: &'static reference::Assignment,
+    pub homework: std::sync::Arc<reference::Assignment>,
     /// What may still be handed in.
     pub standing: Standing<'a>,
     /// Student number.
@@ -101,7 +101,7 @@ impl Desk<'_> {
         };
         let (own, text) = self.own.take().unzip();
         View {
-            title: title(self.homework, language),
+            title: title(&self.homework, language),
             file: file_name,
             facts: self.facts(),
             now: standing.now,

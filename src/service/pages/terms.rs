@@ -18,7 +18,7 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, bytes: &[u8]) 
         return Arc::default();
     }
     let source = source::read(&report.source.name, bytes).ok();
-    let terms = Terms::of(state.assignment, report.explanation.as_deref(), source.as_ref());
+    let terms = Terms::of(&state.assignment, report.explanation.as_deref(), source.as_ref());
     // Another seed may explain the file in another way: a browser does not keep these pictures for those.
     let seed = report.probes.seed;
     let address = |term: &str, whose| format!("/r/{id}/terms/{term}-{whose}.png?seed={seed}");
@@ -54,7 +54,7 @@ fn draw(state: &State, report: &Report, bytes: &[u8], term: &str, is_theirs: boo
         return Ok(None);
     }
     let source = source::read(&report.source.name, bytes).ok();
-    let terms = Terms::of(state.assignment, report.explanation.as_deref(), source.as_ref());
+    let terms = Terms::of(&state.assignment, report.explanation.as_deref(), source.as_ref());
     let scenes = terms.scenes();
     let Some(scene) = scenes.iter().find(|scene| scene.id() == term) else { return Ok(None) };
     let picture = if is_theirs { terms.yours(scene) } else { terms.expected(scene) };

@@ -9,7 +9,7 @@ fn read(text: &str) -> Source {
 }
 
 fn assignment() -> &'static Assignment {
-    homework::assignment("ggsample06").expect("it is built in")
+    reference::assignment("ggsample06").expect("it is built in")
 }
 
 fn interpreter(source: &Source) -> Interpreter {

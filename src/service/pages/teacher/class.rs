@@ -94,7 +94,7 @@ pub(in crate::service::pages) async fn page(
         View {
             place: Place::Class,
             csrf: teacher.csrf(&state),
-            title: student::title(state.assignment, frame.language),
+            title: student::title(&state.assignment, frame.language),
             file: id.clone(),
             notice: (filter.done == "deleted").then_some(deleted),
             tallies: tallies(&frame, listed),

@@ -1,0 +1,164 @@
+//! The folder of an assignment: its files, read once, wherever they come from.
+
+use crate::assignment::{AssignmentError, MANIFEST, error};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::{fmt, fs, io};
+
+/// Most files of a folder, and most bytes of all of them: who names the wrong folder is told so, not kept waiting.
+const MAX_FILES: usize = 1000;
+const MAX_BYTES: u64 = 64 << 20;
+
+/// How many folders may stand in one another.
+const MAX_DEPTH: usize = 8;
+
+/// All files of an assignment, by their names relative to its folder, with `/` between folders.
+#[derive(Clone, Default, PartialEq, Eq)]
+pub struct Folder {
+    /// The bytes of each file by its name.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Folder {
+    /// Reads a folder. Hidden files and an editor's backups (`NAME~`) are no part of it.
+    ///
+    /// # Errors
+    /// It is no folder, has no `assignment.toml`, is too large, or a file cannot be read, or leads out of it.
+    pub fn read(folder: &Path) -> Result<Self, AssignmentError> {
+        let shown = folder.display();
+        let unreadable = |e: io::Error| error(MANIFEST, format!("the folder {shown} cannot be read: {e}"));
+        let root = fs::canonicalize(folder).map_err(unreadable)?;
+        if !root.is_dir() {
+            return Err(error(MANIFEST, format!("{shown} is no folder: name the folder that {MANIFEST} is in")));
+        }
+        if fs::symlink_metadata(root.join(MANIFEST)).is_err() {
+            return Err(error(MANIFEST, format!("is not in the folder {shown}: every assignment has one")));
+        }
+        let mut reading = Reading { root: &root, bytes: 0, files: BTreeMap::new() };
+        reading.folder(&root, "", 0)?;
+        Ok(Self { files: reading.files })
+    }
+
+    /// A folder of these files.
+    pub fn of<N: Into<String>, B: Into<Vec<u8>>>(files: impl IntoIterator<Item = (N, B)>) -> Self {
+        Self { files: files.into_iter().map(|(name, bytes)| (name.into(), bytes.into())).collect() }
+    }
+
+    /// The bytes of a file.
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn bytes(&self, name: &str) -> Result<&[u8], AssignmentError> {
+        self.files.get(name).map(Vec::as_slice).ok_or_else(|| error(name, "is not in the folder"))
+    }
+
+    /// A file as text.
+    ///
+    /// # Errors
+    /// There is no such file, or it is not UTF-8, or has a NUL, with the line.
+    pub fn text(&self, name: &str) -> Result<&str, AssignmentError> {
+        let bytes = self.bytes(name)?;
+        let line = |at: usize| bytes[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let place = |at: usize| format!("{name}, line {}", line(at));
+        let text = std::str::from_utf8(bytes)
+            .map_err(|e| error(place(e.valid_up_to()), "is not UTF-8: save the file in that encoding"))?;
+        match text.find('\0') {
+            Some(at) => Err(error(place(at), "has a NUL, which no text has: remove it")),
+            None => Ok(text),
+        }
+    }
+
+    /// SHA-256 over names and bytes of all files, in hexadecimal: folders of the same digest are the same assignment.
+    pub fn digest(&self) -> String {
+        let mut hash = Sha256::new();
+        for (name, bytes) in &self.files {
+            for part in [name.as_bytes(), bytes] {
+                // The length first: nothing moves from a name into a file unseen.
+                hash.update((part.len() as u64).to_le_bytes());
+                hash.update(part);
+            }
+        }
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl fmt::Debug for Folder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_map().entries(self.files.iter().map(|(name, bytes)| (name, bytes.len()))).finish()
+    }
+}
+
+/// A folder that is being read.
+struct Reading<'a> {
+    root: &'a Path,
+    bytes: u64,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Reading<'_> {
+    fn folder(&mut self, folder: &Path, before: &str, depth: usize) -> Result<(), AssignmentError> {
+        let unreadable = |e: io::Error| error(before.trim_end_matches('/'), e.to_string());
+        for entry in fs::read_dir(folder).map_err(unreadable)? {
+            let entry = entry.map_err(unreadable)?;
+            let Ok(name) = entry.file_name().into_string() else {
+                let shown = format!("{before}{}", entry.file_name().to_string_lossy());
+                return Err(error(shown, "has a name that is not UTF-8: rename it"));
+            };
+            if name.starts_with('.') || name.ends_with('~') {
+                continue;
+            }
+            self.entry(&entry.path(), format!("{before}{name}"), depth)?;
+        }
+        Ok(())
+    }
+
+    fn entry(&mut self, path: &Path, name: String, depth: usize) -> Result<(), AssignmentError> {
+        let unreadable = |e: io::Error| error(&name, format!("cannot be read: {e}"));
+        // A link is followed, but not out of the folder: what is outside is not handed on with it.
+        let target = fs::canonicalize(path).map_err(unreadable)?;
+        if !target.starts_with(self.root) {
+            return Err(error(&name, "is a link that leads out of the folder: put the file itself here"));
+        }
+        let metadata = fs::metadata(&target).map_err(unreadable)?;
+        if metadata.is_dir() {
+            if depth == MAX_DEPTH {
+                return Err(error(&name, format!("folders stand in one another more than {MAX_DEPTH} deep")));
+            }
+            return self.folder(path, &format!("{name}/"), depth + 1);
+        }
+        if !metadata.is_file() {
+            return Err(error(&name, "is no file: remove it"));
+        }
+        self.bytes += metadata.len();
+        if self.bytes > MAX_BYTES || self.files.len() == MAX_FILES {
+            let message = format!(
+                "the folder has more than {MAX_FILES} files or {} MiB: is it the folder of an assignment?",
+                MAX_BYTES >> 20
+            );
+            return Err(error(&name, message));
+        }
+        let bytes = fs::read(&target).map_err(unreadable)?;
+        self.files.insert(name, bytes);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_digest_is_of_names_and_bytes_and_their_borders() {
+        let digest = |files: &[(&str, &str)]| Folder::of(files.iter().copied()).digest();
+        let one = digest(&[("a", "bc"), ("d", "")]);
+        assert_eq!(one, digest(&[("d", ""), ("a", "bc")]));
+        for other in
+            [&[("a", "bc")][..], &[("ab", "c"), ("d", "")], &[("a", "bc"), ("e", "")], &[("a", "bd"), ("d", "")]]
+        {
+            assert_ne!(one, digest(other), "{other:?}");
+        }
+        // SHA-256 of nothing.
+        assert_eq!(digest(&[]), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    }
+}
