@@ -4,7 +4,6 @@ use divan::Bencher;
 use ggrade::compare;
 use ggrade::cross_check;
 use ggrade::grade::{Grader, Order};
-use ggrade::hand_in::HandIn;
 use ggrade::homework;
 use ggrade::render::{AdapterKind, Device, Renderer};
 use ggrade::source::{self, Source};
@@ -100,7 +99,7 @@ fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
     bencher.with_inputs(text).bench_local_refs(|text| {
         grader
             .borrow_mut()
-            .grade(&HandIn::of_one("bench.vert", text.as_bytes()), Order { seed: 1, ..Order::default() })
+            .grade("bench.vert", text.as_bytes(), Order { seed: 1, ..Order::default() })
             .expect("a grade")
     });
 }

@@ -224,11 +224,17 @@ fn summed_up(judged: Vec<Judged>) -> CrossCheck {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DMat4;
+    use reference::Values;
+    use reference::interpreter::Type;
 
     fn batch(x: &[f32]) -> Batch {
         Batch {
-            uniforms: vec![("m".into(), std::array::from_fn(|n| n as f32))],
-            attributes: vec![("p".into(), x.iter().map(|&x| [x, 2.0, 3.0]).collect())],
+            uniforms: vec![("m".into(), DMat4::from_cols_array(&std::array::from_fn(|n| n as f64)).into())],
+            attributes: vec![(
+                "p".into(),
+                Values { kind: Type::vector(3), numbers: x.iter().flat_map(|&x| [f64::from(x), 2.0, 3.0]).collect() },
+            )],
         }
     }
 

@@ -179,7 +179,6 @@ fn judge(
         max_points: line.points,
         mistake: culprits.first().map(|id| (*id).to_owned()),
         message: told.text,
-        file: None,
         line: told.line,
     }
 }

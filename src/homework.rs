@@ -10,12 +10,13 @@ use crate::language::Text;
 use crate::render::{Batch, Scene};
 use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
-use reference::Assignment;
 use reference::accepted::Answer;
+use reference::assignment::Input;
 use reference::interpreter::Type;
 use reference::probes::ProbeSet;
 use reference::rasteriser::{Coverage, Frame};
-use reference::scene::{Matrices, Vertex};
+use reference::scene::{Pose, Vertex};
+use reference::{Assignment, Value, Values};
 use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -39,7 +40,7 @@ pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
     let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
     Ok(Interface {
         inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
-        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.name, &uniform.kind)).collect(),
+        uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.path, &uniform.kind)).collect(),
         output: variable(&output.name, &output.kind),
         constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
         fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
@@ -65,33 +66,31 @@ pub fn accepted_frames(assignment: &Assignment, answer: &Answer) -> Vec<Expected
 /// What is drawn for a submission: the course's animation and the probes, set after set.
 pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
     let scene = &assignment.scene;
-    let frames = scene.all_poses().iter().map(|pose| batch(assignment, &pose.matrices, &scene.triangle)).collect();
+    let frame = |pose: &Pose| {
+        let uniforms = assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
+        batch(assignment, &uniforms, &scene.triangle(pose))
+    };
+    let frames = scene.all_poses().iter().map(frame).collect();
     let drawn = |probes: &&ProbeSet| -> Vec<Batch> {
         let vertices = |group| -> Vec<Vertex> { probes.of_group(group).iter().map(|probe| probe.vertex).collect() };
         let groups = probes.groups.iter().enumerate();
-        groups.map(|(place, group)| batch(assignment, &group.matrices, &vertices(place))).collect()
+        groups.map(|(place, group)| batch(assignment, &group.uniforms, &vertices(place))).collect()
     };
     let probes = probes.iter().flat_map(drawn).collect();
     Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes }
 }
 
-/// One draw with the program's own names, in f32.
-pub fn batch(assignment: &Assignment, matrices: &Matrices, vertices: &[Vertex]) -> Batch {
+/// One draw with the program's own names; `uniforms` stand in the interface's order.
+pub fn batch(assignment: &Assignment, uniforms: &[Value], vertices: &[Vertex]) -> Batch {
     let interface = &assignment.interface;
-    let uniforms = interface
-        .uniforms
-        .iter()
-        .map(|uniform| (uniform.name.clone(), uniform.carries.of(matrices).as_mat4().to_cols_array()))
-        .collect();
-    let attributes = interface
-        .inputs
-        .iter()
-        .map(|input| {
-            let xyz = |vertex: &Vertex| input.carries.of(vertex).as_vec4().truncate().to_array();
-            (input.name.clone(), vertices.iter().map(xyz).collect())
-        })
-        .collect();
-    Batch { uniforms, attributes }
+    let uniforms =
+        interface.uniforms.iter().zip(uniforms).map(|(uniform, value)| (uniform.path.clone(), value.clone())).collect();
+    let attribute = |input: &Input| {
+        let values = vertices.iter().map(|vertex| input.stream.value(&input.kind, vertex));
+        let numbers = values.flat_map(|value| value.numbers().to_vec()).collect();
+        (input.name.clone(), Values { kind: input.kind.clone(), numbers })
+    };
+    Batch { uniforms, attributes: interface.inputs.iter().map(attribute).collect() }
 }
 
 /// What is drawn once a process, by the id of the assignment.

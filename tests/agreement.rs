@@ -50,7 +50,10 @@ impl Bench {
 
     fn scene(&self, poses: &[Pose]) -> Scene {
         let scene = &self.assignment.scene;
-        let batch = |pose: &Pose| ggrade::homework::batch(self.assignment, &pose.matrices, &scene.triangle);
+        let batch = |pose: &Pose| {
+            let uniforms = self.assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
+            ggrade::homework::batch(self.assignment, &uniforms, &scene.triangle(pose))
+        };
         Scene {
             width: scene.width,
             height: scene.height,
@@ -72,8 +75,9 @@ impl Bench {
     /// Draws and captures with OpenGL.
     fn draw(&self, program: &Program<'_>, poses: &[Pose]) -> Vec<(Picture, Result<Vec<opengl::Vertex>, String>)> {
         let scene = &self.assignment.scene;
-        let positions = scene.triangle.map(|vertex| vertex.position.as_vec4().truncate().to_array());
-        let normals = scene.triangle.map(|vertex| vertex.normal.as_vec4().truncate().to_array());
+        let triangle = scene.triangle(&scene.pose(0.0));
+        let positions = triangle.map(|vertex| vertex.position.as_vec4().truncate().to_array());
+        let normals = triangle.map(|vertex| vertex.normal.as_vec4().truncate().to_array());
         let mesh = Mesh { positions: &positions, normals: &normals };
         let background = scene.background.map(|channel| f32::from(channel) / 255.0);
         let canvas = Canvas { width: scene.width, height: scene.height, background };
@@ -81,7 +85,7 @@ impl Bench {
             .iter()
             .map(|pose| {
                 let matrix = |m: DMat4| -> Matrix { m.as_mat4().to_cols_array() };
-                let Matrices { model_view, model_view_projection, normal } = pose.matrices;
+                let Matrices { model_view, model_view_projection, normal, .. } = pose.matrices;
                 let uniforms =
                     [("mw", matrix(model_view)), ("mc", matrix(model_view_projection)), ("mg", matrix(normal))];
                 let picture = self.gl.draw(program, &uniforms, mesh, canvas);
@@ -113,7 +117,7 @@ fn poses(assignment: &Assignment, of_the_course: u32, of_cameras: u32) -> Vec<Po
             _ => (distance * random(0.7, 1.0), distance * random(1.0, 1.3)),
         };
         let projection = perspective(random(0.3, 1.4), 640.0 / 480.0, near, far);
-        poses.push(Pose { t: 0.0, matrices: Matrices::new(view, projection) });
+        poses.push(Pose { view: 0, t: 0.0, matrices: Matrices::new(view, projection) });
     }
     poses
 }

@@ -7,6 +7,7 @@ use ggrade::render::{Batch, Scene};
 use ggrade::source;
 use ggrade::translate::{self, UniformBlock};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
+use reference::Values;
 use std::borrow::Cow;
 use wgpu::util::DeviceExt;
 
@@ -54,9 +55,11 @@ impl Stage {
         let mut bytes = vec![0; STRIDE as usize * frames.len()];
         for (batch, chunk) in frames.iter().zip(bytes.chunks_mut(STRIDE as usize)) {
             for (name, matrix) in &batch.uniforms {
+                let matrix: Vec<f32> = matrix.numbers().iter().map(|number| *number as f32).collect();
+                let bytes: &[u8] = bytemuck::cast_slice(&matrix);
                 for member in self.uniforms.members.iter().filter(|member| member.name == *name) {
                     let start = member.offset as usize;
-                    chunk[start..start + size_of_val(matrix)].copy_from_slice(bytemuck::bytes_of(matrix));
+                    chunk[start..start + bytes.len()].copy_from_slice(bytes);
                 }
             }
         }
@@ -118,10 +121,11 @@ impl Bare {
                 count: None,
             }],
         });
-        let attribute = |(_, values): &(String, Vec<[f32; 3]>)| {
+        let attribute = |(_, values): &(String, Values)| {
+            let values: Vec<f32> = values.iter().flat_map(|vertex| vertex[..3].iter().map(|n| *n as f32)).collect();
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: None,
-                contents: bytemuck::cast_slice(values),
+                contents: bytemuck::cast_slice(&values),
                 usage: wgpu::BufferUsages::VERTEX,
             })
         };

@@ -9,7 +9,8 @@ use ggrade::source;
 use ggrade::translate;
 use ggrade_fuzz::{INTERFACE, assignment, program};
 use libfuzzer_sys::fuzz_target;
-use reference::interpreter::{Program, Stage};
+use reference::interpreter::{Program, Stage, Type};
+use reference::{Value, Values};
 
 /// Few: a program that loops for ever is found out soon.
 const FUEL: u64 = 3_000_000;
@@ -65,19 +66,23 @@ fn agrees(text: &str) {
 
 /// Two draws of six vertices that no assignment has, with matrices whose elements are all different.
 fn scene() -> Scene {
-    let number = |seed: usize| (seed * 37 % 101) as f32 / 25.0 - 2.0;
+    // Exact in f32, as all that a draw is given.
+    let number = |seed: usize| f64::from((seed * 37 % 101) as f32 / 25.0 - 2.0);
     let draw = |draw: usize| Batch {
         uniforms: ["mw", "mc", "mg"]
             .into_iter()
             .enumerate()
-            .map(|(which, name)| (name.into(), std::array::from_fn(|n| number(50 * draw + 17 * which + n))))
+            .map(|(which, name)| {
+                let numbers = (0..16).map(|n| number(50 * draw + 17 * which + n)).collect();
+                (name.into(), Value::new(Type::MAT4, numbers).expect("16 numbers"))
+            })
             .collect(),
         attributes: ["pv", "cv"]
             .into_iter()
             .enumerate()
             .map(|(which, name)| {
-                let vertex = |n: usize| [0, 1, 2].map(|axis| number(90 * draw + 31 * which + 3 * n + axis));
-                (name.into(), (0..6).map(vertex).collect())
+                let numbers = (0..18).map(|n| number(90 * draw + 31 * which + n)).collect();
+                (name.into(), Values { kind: Type::vector(3), numbers })
             })
             .collect(),
     };

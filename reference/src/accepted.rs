@@ -43,8 +43,8 @@ impl Assignment {
     }
 
     pub(crate) fn corners_of(&self, answer: &Answer, pose: &Pose) -> [ClipVertex; 3] {
-        let uniforms = self.uniform_values(&pose.matrices);
-        let attributes = self.scene.triangle.map(|vertex| self.attribute_values(&vertex));
+        let uniforms = self.uniform_values(&self.scene.moment(pose.t, pose.matrices));
+        let attributes = self.scene.triangle(pose).map(|vertex| self.attribute_values(&vertex));
         let given = attributes.each_ref().map(|attributes| (uniforms.as_slice(), attributes.as_slice()));
         let computed = self.run(answer, &given);
         std::array::from_fn(|corner| {
@@ -59,7 +59,7 @@ impl Assignment {
     }
 
     fn computed(&self, program: &Program, given: &[(&[Value], &[Value])]) -> Option<Vec<Computed>> {
-        let names = self.interface.uniforms.iter().map(|uniform| &uniform.name).enumerate();
+        let names = self.interface.uniforms.iter().map(|uniform| &uniform.path).enumerate();
         let uniforms: Vec<_> = names
             .filter_map(|(place, name)| {
                 let own = program.uniforms().iter().find(|own| own.name == *name)?;

@@ -1,5 +1,6 @@
 //! What a right answer is asked beyond the homework: where it would break, that is worth a word and costs nothing.
 
+use crate::feed::Feed;
 use crate::probes::{Probe, ProbeSet};
 use crate::scene::Matrices;
 use crate::{Assignment, Text, Value};
@@ -48,19 +49,29 @@ impl Assignment {
     }
 
     fn variation(&self, when: &Circumstance, probes: &ProbeSet, probe: &Probe) -> Variation {
-        let matrices = probes.groups[probe.group].matrices;
-        let matrices = when.stretched.map_or(matrices, |by| stretched(&matrices, by));
+        let group = &probes.groups[probe.group];
+        let mut uniforms = group.uniforms.clone();
+        if let Some(by) = when.stretched {
+            let moment = self.scene.moment(group.t, stretched(&group.matrices, by));
+            for (uniform, value) in self.interface.uniforms.iter().zip(&mut uniforms) {
+                if matches!(uniform.feed, Feed::Role(_)) {
+                    *value = uniform.value(&moment);
+                }
+            }
+        }
         let mut attributes = probe.attributes.clone();
         for (input, value) in self.interface.inputs.iter().zip(&mut attributes) {
             if let Some((_, by)) = when.scaled.iter().find(|(name, _)| *name == input.name) {
                 *value = value.scaled(by);
             }
         }
-        Variation { uniforms: self.uniform_values(&matrices), attributes }
+        Variation { uniforms, attributes }
     }
 }
 
 fn stretched(matrices: &Matrices, by: [f64; 3]) -> Matrices {
     let projection = matrices.model_view_projection * matrices.model_view.inverse();
-    Matrices::new(matrices.model_view * DMat4::from_scale(DVec3::from_array(by)), projection)
+    let stretch = DMat4::from_scale(DVec3::from_array(by));
+    let stretched = Matrices::new(matrices.model_view * stretch, projection);
+    Matrices { model: matrices.model * stretch, view: matrices.view, ..stretched }
 }

@@ -5,12 +5,12 @@ mod check;
 use crate::accepted::Answer;
 use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
+pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::Type;
-pub use crate::manifest::{Attribute, Matrix, RubricLine, Stage};
+pub use crate::manifest::{RubricLine, Stage};
 use crate::mistake::{Form, Found, Mistake};
-use crate::scene::{Matrices, Scene, Vertex};
+use crate::scene::{Moment, Scene, Vertex};
 use crate::{Folder, Text, Value, manifest};
-use glam::DMat4;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
@@ -77,7 +77,7 @@ pub struct Solution {
 pub struct Interface {
     /// Vertex attributes.
     pub inputs: Vec<Input>,
-    /// Uniforms of the default block.
+    /// Uniforms: scalars, vectors, matrices and samplers, each by its path.
     pub uniforms: Vec<Uniform>,
     /// Outputs, `gl_Position` aside.
     pub outputs: Vec<Output>,
@@ -90,19 +90,29 @@ pub struct Input {
     pub name: String,
     /// Its type.
     pub kind: Type,
-    /// What it holds.
-    pub carries: Attribute,
+    /// Where its values come from.
+    pub stream: Stream,
 }
 
-/// A uniform.
+/// A uniform, or a part of one.
 #[derive(Clone, Debug)]
 pub struct Uniform {
-    /// Its name in the shader.
-    pub name: String,
+    /// Its name in the shader, or the path `lights[1].colour`, `Block.member`.
+    pub path: String,
     /// Its type.
     pub kind: Type,
-    /// Which matrix it holds.
-    pub carries: Matrix,
+    /// Where its value comes from.
+    pub feed: Feed,
+    /// What probes may draw at random.
+    pub probe: Option<Bounds>,
+}
+
+impl Uniform {
+    /// Its value at a moment; numbers that are none where an expression has no value.
+    pub fn value(&self, moment: &Moment) -> Value {
+        let none = || Value::of(self.kind.clone(), vec![f64::NAN; self.kind.slots().unwrap_or(0)]);
+        self.feed.value(&self.kind, moment).unwrap_or_else(none)
+    }
 }
 
 /// An output of the handed-in stage.
@@ -188,7 +198,7 @@ impl Assignment {
         let text = folder.text(MANIFEST)?;
         let manifest: manifest::Manifest = toml::from_str(text).map_err(|e| error(MANIFEST, e.to_string()))?;
         let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
-        let mut assignment = check::assignment(manifest, line_at, |name| folder.text(name).map(str::to_owned))?;
+        let mut assignment = check::assignment(manifest, &line_at, &folder)?;
         assignment.digest = folder.digest();
         assignment.folder = Arc::new(folder);
         Ok(assignment)
@@ -224,14 +234,14 @@ impl Assignment {
         self.rubric.iter().map(|line| line.points).sum()
     }
 
-    /// The values of the uniforms, in the interface's order.
-    pub fn uniform_values(&self, matrices: &Matrices) -> Vec<Value> {
-        self.interface.uniforms.iter().map(|uniform| Value::from(uniform.carries.of(matrices))).collect()
+    /// The values of the uniforms at a moment, in the interface's order.
+    pub fn uniform_values(&self, moment: &Moment) -> Vec<Value> {
+        self.interface.uniforms.iter().map(|uniform| uniform.value(moment)).collect()
     }
 
     /// The values of the vertex attributes, in the interface's order.
     pub fn attribute_values(&self, vertex: &Vertex) -> Vec<Value> {
-        self.interface.inputs.iter().map(|input| Value::from(input.carries.of(vertex))).collect()
+        self.interface.inputs.iter().map(|input| input.stream.value(&input.kind, vertex)).collect()
     }
 
     /// The equation with these mistakes in it; `None` if one is not known or has no such form.
@@ -263,27 +273,6 @@ impl Assignment {
             other.equation.constants[place].1 = value.clone();
         }
         Ok(other)
-    }
-}
-
-impl Matrix {
-    /// The matrix itself.
-    pub const fn of(self, matrices: &Matrices) -> DMat4 {
-        match self {
-            Self::ModelView => matrices.model_view,
-            Self::ModelViewProjection => matrices.model_view_projection,
-            Self::NormalMatrix => matrices.normal,
-        }
-    }
-}
-
-impl Attribute {
-    /// The attribute's value at a vertex.
-    pub const fn of(self, vertex: &Vertex) -> glam::DVec4 {
-        match self {
-            Self::Position => vertex.position,
-            Self::Normal => vertex.normal,
-        }
     }
 }
 

@@ -31,10 +31,10 @@ pub struct Equation {
     pub(crate) sheet: Arc<Sheet>,
     /// The cells of the assignment's constants, in its order, and their values.
     pub(crate) constants: Vec<(usize, Value)>,
-    /// The cells of the uniforms, in the interface's order.
-    pub(crate) uniforms: Vec<usize>,
+    /// The cells of the uniforms, in the interface's order; none of one that the solution does not have.
+    pub(crate) uniforms: Vec<Option<usize>>,
     /// Those of the vertex attributes.
-    pub(crate) attributes: Vec<usize>,
+    pub(crate) attributes: Vec<Option<usize>>,
     /// The cell of the first definition; the others follow, and then what is free in a form.
     pub(crate) first: usize,
     pub(crate) definitions: Vec<Definition>,
@@ -145,7 +145,7 @@ impl<'a> Variant<'a> {
         let mut registers = self.registers.borrow_mut();
         let given = self.equation.uniforms.iter().zip(uniforms);
         for (cell, value) in given.chain(self.equation.attributes.iter().zip(attributes)) {
-            sheet.set(*cell, value.numbers(), &mut registers);
+            cell.iter().for_each(|cell| sheet.set(*cell, value.numbers(), &mut registers));
         }
         let mut numbers = Vec::with_capacity(self.equation.numbers);
         for (formula, parameter) in self.formulas.iter().zip(&self.parameters) {

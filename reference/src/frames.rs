@@ -38,8 +38,8 @@ impl Assignment {
 
     /// The vertices of the triangle, with the value of a definition as the colour.
     pub(crate) fn corners(&self, pose: &Pose, variant: &Variant<'_>, shown: usize) -> [ClipVertex; 3] {
-        let uniforms = self.uniform_values(&pose.matrices);
-        self.scene.triangle.map(|vertex| {
+        let uniforms = self.uniform_values(&self.scene.moment(pose.t, pose.matrices));
+        self.scene.triangle(pose).map(|vertex| {
             let outcome = variant.evaluate(&uniforms, &self.attribute_values(&vertex));
             ClipVertex { position: outcome.position(), colour: outcome.vec3(shown) }
         })

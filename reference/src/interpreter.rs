@@ -115,6 +115,15 @@ pub fn constant(text: &str, kind: &Type) -> Result<Vec<f64>, Refusal> {
     compile::constant(&expression, NEWEST, kind)
 }
 
+/// Checks that a text is one expression, whatever its names mean.
+///
+/// # Errors
+/// It is not.
+pub fn expression(text: &str) -> Result<(), Refusal> {
+    let preprocessed = text::preprocess(text)?;
+    parse::parse_expression(&preprocessed.tokens, HashSet::new()).map(drop)
+}
+
 /// The version of an expression that stands by itself.
 const NEWEST: u32 = 460;
 

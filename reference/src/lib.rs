@@ -6,7 +6,8 @@
 //! - [`interpreter`]: GLSL in f64; it knows nothing of the others
 //! - [`equation`]: the solution's definitions, evaluated in order, with any of them replaced
 //! - [`accepted`]: other shaders that are right as well
-//! - [`scene`]: poses and matrices of the course program
+//! - [`scene`]: meshes, cameras and moments of the course program
+//! - [`feed`]: what the shader is given at a moment
 //! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
@@ -24,6 +25,7 @@ pub mod accepted;
 pub mod advice;
 pub mod assignment;
 pub mod equation;
+pub mod feed;
 pub mod fit;
 mod folder;
 pub mod frames;
@@ -39,4 +41,4 @@ mod value;
 pub use assignment::{Assignment, AssignmentError, assignment, assignments};
 pub use folder::Folder;
 pub use text::Text;
-pub use value::Value;
+pub use value::{Value, Values};

@@ -1,12 +1,16 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
+mod interface;
 mod mistake;
+mod scene;
 
+pub use interface::{Input, Uniform};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
+pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 
 use crate::Text;
 use crate::probes::Region;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// The whole file.
@@ -20,13 +24,16 @@ pub struct Manifest {
     /// The files that are handed in.
     pub file: Vec<File>,
     /// Vertex attributes.
+    #[serde(default)]
     pub input: Vec<Input>,
-    /// Uniforms of the default block.
+    /// Uniforms.
+    #[serde(default)]
     pub uniform: Vec<Uniform>,
     /// What the handed-out file defines, as the solution does.
+    #[serde(default)]
     pub constant: Vec<Constant>,
-    /// Geometry, camera, animation.
-    pub scene: Scene,
+    /// Geometry, camera, animation: one table, or several, of which the first is the course's own.
+    pub scene: Scenes,
     /// What the lecture says of the solution's definitions, by their names.
     #[serde(default)]
     pub definition: BTreeMap<String, Definition>,
@@ -102,55 +109,13 @@ pub struct Fixed {
 }
 
 /// A stage of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// The vertex shader.
     Vertex,
     /// The fragment shader.
     Fragment,
-}
-
-/// A vertex attribute.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Input {
-    /// Its name in the shader.
-    pub name: String,
-    /// What it holds.
-    pub carries: Attribute,
-}
-
-/// What a vertex attribute holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Attribute {
-    /// Position in object space, w = 1.
-    Position,
-    /// Normal in object space, w = 1.
-    Normal,
-}
-
-/// A uniform.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Uniform {
-    /// Its name in the shader.
-    pub name: String,
-    /// Which matrix it holds.
-    pub carries: Matrix,
-}
-
-/// Which matrix a uniform holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Matrix {
-    /// From object space to eye space.
-    ModelView,
-    /// From object space to clip space.
-    ModelViewProjection,
-    /// From normals in object space to normals in eye space.
-    NormalMatrix,
 }
 
 /// A constant of the handed-out file.
@@ -163,38 +128,6 @@ pub struct Constant {
     pub means: Text,
     /// The rubric line that suffers when it is changed.
     pub line: String,
-}
-
-/// Geometry, camera, animation; lengths in world units, angles in radians.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Scene {
-    /// Vertices of the triangle.
-    pub triangle: [[f64; 3]; 3],
-    /// Their normals.
-    pub normals: [[f64; 3]; 3],
-    /// Where the eye is.
-    pub eye: [f64; 3],
-    /// What it looks at.
-    pub target: [f64; 3],
-    /// Which way is up.
-    pub up: [f64; 3],
-    /// Vertical field of view.
-    pub fovy: f64,
-    /// Near clipping plane.
-    pub near: f64,
-    /// Far clipping plane.
-    pub far: f64,
-    /// Turn about y in one cycle.
-    pub turn: f64,
-    /// Seconds in a cycle.
-    pub cycle: f64,
-    /// Width and height in pixels.
-    pub window: [u32; 2],
-    /// Clear colour, RGBA.
-    pub background: [u8; 4],
-    /// Number of poses that are looked at.
-    pub poses: u32,
 }
 
 /// What the lecture says of a definition.

@@ -5,6 +5,7 @@
 
 mod design;
 
+use crate::assignment::{Feed, Uniform};
 use crate::scene::{Matrices, Vertex, perspective};
 use crate::{Assignment, Value};
 use design::Light;
@@ -63,6 +64,8 @@ pub struct Probe {
 pub struct Group {
     /// The matrices, exact in f32.
     pub matrices: Matrices,
+    /// Fraction of the cycle.
+    pub t: f64,
     /// The uniforms in the interface's order.
     pub uniforms: Vec<Value>,
 }
@@ -151,29 +154,62 @@ impl Assignment {
         let mut probes = Vec::new();
         for group in 0..count {
             let twin = (group + twins).checked_sub(count + 1);
-            let matrices = match (twin, groups.last()) {
-                (Some(_), Some(Group { matrices, .. })) => *matrices,
-                _ => random_camera(&mut random),
+            let drawn = match (twin, groups.last()) {
+                (Some(_), Some(before)) => Group::clone(before),
+                _ => self.group(&mut random),
             };
-            let uniforms = self.uniform_values(&matrices);
+            let Group { matrices, uniforms, .. } = &drawn;
             for place in 0..self.probing.per_group {
                 let before = probes.len().checked_sub(self.probing.per_group).map(|at| &probes[at]);
                 let position = before.filter(|_| twin == Some(0)).map(|probe: &Probe| probe.vertex.position);
-                let vertex = design::vertex(&mut random, place, position, &light, &matrices);
+                let vertex = design::vertex(&mut random, place, position, &light, matrices);
                 let attributes = self.attribute_values(&vertex);
-                let outcome = right.evaluate(&uniforms, &attributes);
+                let outcome = right.evaluate(uniforms, &attributes);
                 probes.push(Probe {
                     group,
-                    region: light.region(&vertex, &matrices),
+                    region: light.region(&vertex, matrices),
                     colour: outcome.colour(),
                     position: outcome.position(),
                     vertex,
                     attributes,
                 });
             }
-            groups.push(Group { matrices, uniforms });
+            groups.push(drawn);
         }
         ProbeSet { seed, groups, probes, twins }
+    }
+
+    /// What probes with the same uniforms are given. Nothing is drawn that the homework has not: the same seed gives the
+    /// same camera with uniforms of other kinds.
+    fn group(&self, random: &mut Random) -> Group {
+        let uniforms = &self.interface.uniforms;
+        let mut matrices = random_camera(random);
+        let moves = uniforms.iter().any(|uniform| matches!(uniform.feed, Feed::Expression(_)));
+        let t = if moves { random.between(0.0, 1.0) } else { 0.0 };
+        let is_of_the_world = |feed: &Feed| match feed {
+            Feed::Role(role) => role.is_of_the_world(),
+            feed => matches!(feed, Feed::Expression(_)),
+        };
+        if uniforms.iter().any(|uniform| is_of_the_world(&uniform.feed)) {
+            matrices = self.in_the_world(random, t, &matrices);
+        }
+        let moment = self.scene.moment(t, matrices);
+        let value = |uniform: &Uniform| match &uniform.probe {
+            Some(bounds) => bounds.draw(|| random.between(0.0, 1.0)),
+            None => uniform.value(&moment),
+        };
+        Group { matrices, t, uniforms: uniforms.iter().map(value).collect() }
+    }
+
+    /// The camera in front of the homework's own model, turned and shifted: where that is stretched, so is this.
+    fn in_the_world(&self, random: &mut Random, t: f64, seen: &Matrices) -> Matrices {
+        let moment = self.scene.moment(t, *seen);
+        let own = self.scene.views.first().and_then(|view| view.draws.first());
+        let own = own.map_or(DMat4::IDENTITY, |draw| draw.model.at(&moment));
+        let turned = DQuat::from_axis_angle(random.direction(), random.between(0.4, 2.7));
+        let moved = DMat4::from_rotation_translation(turned, random.direction() * random.between(0.5, 3.0));
+        // What the eye sees is as far away as without a world.
+        Matrices::seen(moved * own, seen.model_view * moved.inverse(), seen.projection)
     }
 
     /// Probes of another assignment with what is right by this one's equation, which may have other constants.

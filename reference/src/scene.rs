@@ -1,213 +1,231 @@
-//! The scene of the course program: geometry, camera and the matrices of each pose.
+//! What is drawn, from where, and how it moves.
 //!
-//! Matrices are column-major and act on column vectors, angles are in radians, spaces are right-handed (OpenGL).
+//! Angles are in radians, lengths in world units, times are fractions of the cycle.
 
-use glam::{DMat3, DMat4, DVec3, DVec4};
+mod matrices;
+mod mesh;
+mod vertex;
 
-/// What is drawn, from where, and how it moves.
-#[derive(Clone, Debug, PartialEq)]
+pub use matrices::{Matrices, look_at, normal_matrix, perspective, rotate_y};
+pub use mesh::{Mesh, MeshError, Shape};
+pub use vertex::Vertex;
+
+use crate::Value;
+use crate::feed::Expression;
+use glam::{DMat4, DVec3};
+use serde::Deserialize;
+use std::sync::Arc;
+
+/// All pictures of a homework.
+#[derive(Clone, Debug)]
 pub struct Scene {
-    /// The vertices of the triangle, in object space.
-    pub triangle: [Vertex; 3],
-    /// Where the eye is, in world space.
-    pub eye: DVec3,
-    /// What it looks at, in world space.
-    pub target: DVec3,
-    /// Which way is up, in world space.
-    pub up: DVec3,
-    /// Vertical field of view, in radians.
-    pub fovy: f64,
-    /// Distance of the near clipping plane.
-    pub near: f64,
-    /// Distance of the far clipping plane.
-    pub far: f64,
-    /// How far the object turns about its y axis in one cycle, in radians.
-    pub turn: f64,
-    /// Duration of one cycle, in seconds.
-    pub cycle: f64,
     /// Width of the window, in pixels.
     pub width: u32,
     /// Height of the window, in pixels.
     pub height: u32,
     /// What the window is cleared to, RGBA.
     pub background: [u8; 4],
-    /// How many poses of the cycle are looked at.
-    pub poses: u32,
+    /// Duration of one cycle, in seconds.
+    pub cycle: f64,
+    /// What is shown: the first is the course's own, others reveal what that one hides.
+    pub views: Vec<View>,
 }
 
-/// A vertex as the vertex shader receives it.
+/// Some things in front of a camera.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// What is drawn, in this order.
+    pub draws: Vec<Draw>,
+    /// Where the eye is, in world space.
+    pub eye: Point,
+    /// What it looks at, in world space.
+    pub target: Point,
+    /// Which way is up, in world space.
+    pub up: DVec3,
+    /// Vertical field of view.
+    pub fovy: f64,
+    /// Distance of the near clipping plane.
+    pub near: f64,
+    /// Distance of the far clipping plane.
+    pub far: f64,
+    /// The moments that are looked at.
+    pub times: Vec<f64>,
+}
+
+/// A place that may move.
+#[derive(Clone, Debug)]
+pub enum Point {
+    /// It stays.
+    Fixed(DVec3),
+    /// It is computed.
+    Moving(Expression),
+}
+
+/// A mesh, where it stands, and what decides which of its pixels are seen.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    /// Its vertices and triangles, in object space.
+    pub mesh: Arc<Mesh>,
+    /// From object space to world space.
+    pub model: Model,
+    /// How many times it is drawn: each has its own number `i`, which goes on from draw to draw.
+    pub instances: u32,
+    /// Which pixels are drawn over others; none draws each over what is there.
+    pub depth_test: Option<DepthTest>,
+    /// Which triangles are left out.
+    pub cull: Cull,
+}
+
+/// How an object stands in the world.
+#[derive(Clone, Debug)]
+pub enum Model {
+    /// It turns about the y axis: by so much in a cycle.
+    Turn(f64),
+    /// A matrix that is computed.
+    Expression(Expression),
+}
+
+/// A pixel is drawn where its depth is this to the depth that is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DepthTest {
+    /// Nearer: OpenGL's own.
+    Less,
+    /// Nearer, or as near.
+    LessEqual,
+}
+
+/// Which triangles are left out; the front is where the vertices run against the clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cull {
+    /// None.
+    #[default]
+    None,
+    /// Those that are seen from behind.
+    Back,
+    /// Those that are seen from the front.
+    Front,
+}
+
+/// One moment of one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
-    /// Position in object space; the buffer holds three floats, so w is 1.
-    pub position: DVec4,
-    /// Normal in object space; the buffer holds three floats, so w is 1.
-    pub normal: DVec4,
+pub struct Pose {
+    /// Which view.
+    pub view: usize,
+    /// Fraction of the cycle, in [0, 1).
+    pub t: f64,
+    /// The matrices of what is drawn first.
+    pub matrices: Matrices,
 }
 
-impl Vertex {
-    /// A vertex from the three floats of each attribute, rounded to f32 as a vertex buffer holds them.
-    pub fn new(position: DVec3, normal: DVec3) -> Self {
-        let attribute = |v: DVec3| v.as_vec3().as_dvec3().extend(1.0);
-        Self { position: attribute(position), normal: attribute(normal) }
+/// What the values of uniforms depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Fraction of the cycle.
+    pub t: f64,
+    /// The number of what is drawn, through all draws of a view.
+    pub i: u32,
+    /// Width and height of the window, in pixels.
+    pub resolution: [f64; 2],
+    /// The matrices.
+    pub matrices: Matrices,
+}
+
+/// A draw at a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Instance<'a> {
+    /// What is drawn.
+    pub draw: &'a Draw,
+    /// When and where.
+    pub moment: Moment,
+}
+
+impl Scene {
+    /// The pose of the course's own view at fraction `t` of the cycle.
+    pub fn pose(&self, t: f64) -> Pose {
+        self.pose_of(0, t)
+    }
+
+    fn pose_of(&self, view: usize, t: f64) -> Pose {
+        let first = self.instances_at(view, t).into_iter().next();
+        let none = Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY);
+        Pose { view, t, matrices: first.map_or(none, |instance| instance.moment.matrices) }
+    }
+
+    /// The poses that are looked at, view after view.
+    pub fn all_poses(&self) -> Vec<Pose> {
+        let views = self.views.iter().enumerate();
+        views.flat_map(|(view, one)| one.times.iter().map(move |t| self.pose_of(view, *t))).collect()
+    }
+
+    /// `count` poses of the course's own view: t = k / count.
+    pub fn evenly_spaced(&self, count: u32) -> Vec<Pose> {
+        (0..count).map(|k| self.pose(f64::from(k) / f64::from(count))).collect()
+    }
+
+    /// What is drawn at a pose, in this order.
+    pub fn instances(&self, pose: &Pose) -> Vec<Instance<'_>> {
+        self.instances_at(pose.view, pose.t)
+    }
+
+    fn instances_at(&self, view: usize, t: f64) -> Vec<Instance<'_>> {
+        let Some(view) = self.views.get(view) else { return Vec::new() };
+        let mut moment = self.moment(t, Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY));
+        let eye = view.eye.at(&moment);
+        let seen = look_at(eye, view.target.at(&moment), view.up);
+        let aspect = f64::from(self.width) / f64::from(self.height);
+        let projection = perspective(view.fovy, aspect, view.near, view.far);
+        let mut instances = Vec::new();
+        for draw in &view.draws {
+            for _ in 0..draw.instances {
+                let model = draw.model.at(&moment);
+                let matrices = Matrices::seen(model, seen, projection);
+                instances.push(Instance { draw, moment: Moment { matrices, ..moment } });
+                moment.i += 1;
+            }
+        }
+        instances
+    }
+
+    /// The first triangle of a pose.
+    pub fn triangle(&self, pose: &Pose) -> [Vertex; 3] {
+        let mesh = &self.views[pose.view].draws[0].mesh;
+        mesh.triangles[0].map(|vertex| mesh.vertices[vertex as usize])
+    }
+
+    /// A moment of this window, of what is drawn first.
+    pub fn moment(&self, t: f64, matrices: Matrices) -> Moment {
+        Moment { t, i: 0, resolution: [f64::from(self.width), f64::from(self.height)], matrices }
     }
 }
 
-/// The matrices of one pose, rounded to f32 as a uniform holds them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Matrices {
-    /// From object space to eye space.
-    pub model_view: DMat4,
-    /// From object space to clip space.
-    pub model_view_projection: DMat4,
-    /// From normals in object space to normals in eye space.
-    pub normal: DMat4,
+impl View {
+    /// The vertices of what is drawn first.
+    pub fn vertices(&self) -> &[Vertex] {
+        self.draws.first().map_or(&[], |draw| &draw.mesh.vertices)
+    }
 }
 
-impl Matrices {
-    /// The matrices for a model-view and a projection matrix.
-    pub fn new(model_view: DMat4, projection: DMat4) -> Self {
-        Self {
-            model_view: rounded(model_view),
-            model_view_projection: rounded(projection * model_view),
-            normal: rounded(normal_matrix(model_view)),
+impl Point {
+    fn at(&self, moment: &Moment) -> DVec3 {
+        match self {
+            Self::Fixed(point) => *point,
+            Self::Moving(expression) => expression.value(moment).map_or(DVec3::NAN, |value| value.vec3()),
         }
     }
 }
 
-/// One moment of the animation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
-    /// Fraction of the cycle, in [0, 1).
-    pub t: f64,
-    /// The matrices at that moment.
-    pub matrices: Matrices,
-}
-
-impl Scene {
-    /// The pose at fraction `t` of the cycle.
-    pub fn pose(&self, t: f64) -> Pose {
-        let view = look_at(self.eye, self.target, self.up);
-        let aspect = f64::from(self.width) / f64::from(self.height);
-        let projection = perspective(self.fovy, aspect, self.near, self.far);
-        Pose { t, matrices: Matrices::new(view * rotate_y(self.turn * t), projection) }
-    }
-
-    /// The poses that are looked at: t = k / n.
-    pub fn all_poses(&self) -> Vec<Pose> {
-        self.evenly_spaced(self.poses)
-    }
-
-    /// `count` poses of the cycle: t = k / count.
-    pub fn evenly_spaced(&self, count: u32) -> Vec<Pose> {
-        (0..count).map(|k| self.pose(f64::from(k) / f64::from(count))).collect()
+impl Model {
+    /// The matrix at a moment.
+    pub fn at(&self, moment: &Moment) -> DMat4 {
+        match self {
+            Self::Turn(angle) => rotate_y(angle * moment.t),
+            Self::Expression(expression) => expression.value(moment).map_or(DMat4::NAN, |value| matrix(&value)),
+        }
     }
 }
 
-fn rounded(m: DMat4) -> DMat4 {
-    m.as_mat4().as_dmat4()
-}
-
-/// The view matrix of `gluLookAt`: the eye at the origin, the target on the negative z axis, `up` in the half plane y > 0.
-pub fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> DMat4 {
-    let z = (eye - target).normalize();
-    let x = up.cross(z).normalize();
-    let y = z.cross(x);
-    let rows = DMat3::from_cols(x, y, z);
-    let rotation = rows.transpose();
-    let origin = rotation * eye;
-    DMat4::from_cols(
-        rotation.x_axis.extend(0.0),
-        rotation.y_axis.extend(0.0),
-        rotation.z_axis.extend(0.0),
-        (-origin).extend(1.0),
-    )
-}
-
-/// Rotation by `angle` about the y axis: z turns towards x.
-pub fn rotate_y(angle: f64) -> DMat4 {
-    let (s, c) = angle.sin_cos();
-    DMat4::from_cols(DVec4::new(c, 0.0, -s, 0.0), DVec4::Y, DVec4::new(s, 0.0, c, 0.0), DVec4::W)
-}
-
-/// The projection of `gluPerspective`: z = -near goes to -1 and z = -far to 1 after division by w.
-pub fn perspective(fovy: f64, aspect: f64, near: f64, far: f64) -> DMat4 {
-    let f = 1.0 / (fovy / 2.0).tan();
-    let depth = far - near;
-    DMat4::from_cols(
-        DVec4::new(f / aspect, 0.0, 0.0, 0.0),
-        DVec4::new(0.0, f, 0.0, 0.0),
-        DVec4::new(0.0, 0.0, -(far + near) / depth, -1.0),
-        DVec4::new(0.0, 0.0, -2.0 * far * near / depth, 0.0),
-    )
-}
-
-/// The cofactors of the upper left 3×3, last row and column 0 0 0 1.
-///
-/// The cofactor matrix of (a b c) has the columns b×c, c×a, a×b; it is the transposed inverse times the determinant, so a
-/// transformed normal stays perpendicular to the transformed surface.
-pub fn normal_matrix(m: DMat4) -> DMat4 {
-    let (a, b, c) = (m.x_axis.truncate(), m.y_axis.truncate(), m.z_axis.truncate());
-    DMat4::from_mat3(DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Products of a few f64 of magnitude 10: 10 × 2⁻⁵² × a few operations.
-    const ROUNDING: f64 = 1e-13;
-
-    fn near(a: DVec4, b: DVec4) -> bool {
-        (a - b).abs().max_element() < ROUNDING
-    }
-
-    #[test]
-    fn a_quarter_turn_takes_z_to_x_and_x_to_minus_z() {
-        let quarter = rotate_y(std::f64::consts::FRAC_PI_2);
-        assert!(near(quarter * DVec4::Z, DVec4::X));
-        assert!(near(quarter * DVec4::X, -DVec4::Z));
-        assert!(near(quarter * DVec4::Y, DVec4::Y));
-    }
-
-    #[test]
-    fn look_at_puts_eye_and_target_on_the_z_axis() {
-        let (eye, target) = (DVec3::new(0.0, 3.0, 4.0), DVec3::ZERO);
-        let view = look_at(eye, target, DVec3::Y);
-        assert!(near(view * eye.extend(1.0), DVec4::W));
-        // The target is 5 away (3-4-5 triangle), straight ahead.
-        assert!(near(view * target.extend(1.0), DVec4::new(0.0, 0.0, -5.0, 1.0)));
-        // x stays x; world up has the component cos(angle of elevation) = 4/5 along y and 3/5 along z.
-        assert!(near(view * DVec4::X, DVec4::X));
-        assert!(near(view * DVec4::Y, DVec4::new(0.0, 0.8, 0.6, 0.0)));
-    }
-
-    #[test]
-    fn perspective_takes_near_to_minus_one_and_far_to_one() {
-        let p = perspective(std::f64::consts::FRAC_PI_2, 2.0, 1.0, 15.0);
-        let near_plane = p * DVec4::new(0.0, 0.0, -1.0, 1.0);
-        let far_plane = p * DVec4::new(0.0, 0.0, -15.0, 1.0);
-        assert!((near_plane.z / near_plane.w + 1.0).abs() < ROUNDING);
-        assert!((far_plane.z / far_plane.w - 1.0).abs() < ROUNDING);
-        // At 90 degrees the top of the picture at distance 3 is at y = 3; with aspect 2 its right edge at x = 6.
-        let corner = p * DVec4::new(6.0, 3.0, -3.0, 1.0);
-        assert!((corner.x / corner.w - 1.0).abs() < ROUNDING);
-        assert!((corner.y / corner.w - 1.0).abs() < ROUNDING);
-    }
-
-    #[test]
-    fn the_normal_matrix_keeps_normals_perpendicular_under_a_stretch() {
-        let stretch = DMat4::from_scale(DVec3::new(2.0, 1.0, 1.0));
-        // The plane x + y = 0 contains (1, -1, 0), which becomes (2, -1, 0); its normal is along (1, 2, 0).
-        let normal = normal_matrix(stretch) * DVec4::new(1.0, 1.0, 0.0, 1.0);
-        // Cofactors of diag(2, 1, 1) are diag(1, 2, 2).
-        assert!(near(normal, DVec4::new(1.0, 2.0, 0.0, 1.0)));
-    }
-
-    #[test]
-    fn the_normal_matrix_of_a_rotation_is_that_rotation() {
-        let m = DMat4::from_translation(DVec3::new(1.0, 2.0, 3.0)) * rotate_y(0.7);
-        let n = normal_matrix(m);
-        assert!(near(n.x_axis, m.x_axis) && near(n.y_axis, m.y_axis) && near(n.z_axis, m.z_axis));
-        assert!(near(n.w_axis, DVec4::W));
-    }
+fn matrix(value: &Value) -> DMat4 {
+    <[f64; 16]>::try_from(value.numbers()).map_or(DMat4::NAN, |numbers| DMat4::from_cols_array(&numbers))
 }

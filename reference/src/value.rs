@@ -1,6 +1,6 @@
 //! Values as a program is given them, and as it computes them.
 
-use crate::interpreter::Type;
+use crate::interpreter::{Scalar, Type};
 use glam::{DMat4, DVec3, DVec4};
 
 /// A value of a GLSL type, with every number held as f64.
@@ -14,6 +14,12 @@ impl Value {
     /// The value of type `kind` with these numbers (column-major for matrices); `None` when their count is wrong.
     pub fn new(kind: Type, numbers: Vec<f64>) -> Option<Self> {
         (kind.slots() == Some(numbers.len())).then_some(Self { kind, numbers })
+    }
+
+    /// The value of type `kind` with the first of these numbers; what they lack is 0.
+    pub(crate) fn of(kind: Type, mut numbers: Vec<f64>) -> Self {
+        numbers.resize(kind.slots().unwrap_or(0), 0.0);
+        Self { kind, numbers }
     }
 
     /// The value's type.
@@ -45,6 +51,45 @@ impl Value {
     /// The first three components, see [`Value::vec4`].
     pub fn vec3(&self) -> DVec3 {
         vec3(&self.numbers)
+    }
+}
+
+/// A value as a uniform or an attribute holds it: floats of 32 bits.
+pub(crate) fn rounded(mut value: Value) -> Value {
+    if value.kind.scalar() == Some(Scalar::Float) {
+        value.numbers.iter_mut().for_each(|number| *number = f64::from(*number as f32));
+    }
+    value
+}
+
+/// Values of one type, one after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values {
+    /// The type of each.
+    pub kind: Type,
+    /// All their numbers.
+    pub numbers: Vec<f64>,
+}
+
+impl Values {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.numbers.len() / self.width().max(1)
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.numbers.is_empty()
+    }
+
+    /// How many numbers each has.
+    pub fn width(&self) -> usize {
+        self.kind.slots().unwrap_or(0)
+    }
+
+    /// The numbers of each.
+    pub fn iter(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.numbers.chunks_exact(self.width().max(1))
     }
 }
 

@@ -60,7 +60,7 @@ fn probed(assignment: &Assignment, program: &Program) -> Result<(Vec<[DVec4; 2]>
     let attributes: Vec<&[Value]> = probes.iter().map(|probe| probe.attributes.as_slice()).collect();
     let uniforms: Vec<&[Value]> = probes.iter().map(|probe| probes.uniforms(probe)).collect();
     let attributes = Columns::new(assignment.interface.inputs.iter().map(|input| &input.name), &attributes);
-    let uniforms = Columns::new(assignment.interface.uniforms.iter().map(|uniform| &uniform.name), &uniforms);
+    let uniforms = Columns::new(assignment.interface.uniforms.iter().map(|uniform| &uniform.path), &uniforms);
     let mut run = program.run(probes.probes.len());
     for (name, columns) in &attributes.0 {
         if let Some(input) = program.inputs().iter().find(|input| input.name == *name) {

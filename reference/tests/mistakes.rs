@@ -1,5 +1,6 @@
 //! The table of mistakes and the probes, held against one another: every mistake shows, and is found.
 
+use reference::assignment::{Feed, Role};
 use reference::fit::{Fit, TOLERANCE, explain};
 use reference::mistake::Found;
 use reference::probes::ProbeSet;
@@ -183,8 +184,8 @@ fn right_answers_are_right_however_they_are_written() {
         // The normal from mat3(mw), computed here by hand.
         let mut other = assignment.clone();
         for uniform in &mut other.interface.uniforms {
-            if uniform.carries == reference::assignment::Matrix::NormalMatrix {
-                uniform.carries = reference::assignment::Matrix::ModelView;
+            if matches!(uniform.feed, Feed::Role(Role::NormalMatrix)) {
+                uniform.feed = Feed::Role(Role::ModelView);
             }
         }
         let rotated: Vec<[f64; 3]> = probes
@@ -192,7 +193,7 @@ fn right_answers_are_right_however_they_are_written() {
             .map(|p| {
                 let mut vertex = p.vertex;
                 vertex.normal.w = 0.0;
-                let uniforms = other.uniform_values(&probes.groups[p.group].matrices);
+                let uniforms = other.uniform_values(&other.scene.moment(0.0, probes.groups[p.group].matrices));
                 let outcome = other.equation.right().evaluate(&uniforms, &other.attribute_values(&vertex));
                 outcome.colour().to_array()
             })

@@ -1,6 +1,8 @@
 //! The reference against a right answer as Mesa's OpenGL driver computed it (`tests/data`).
 
+use glam::DVec3;
 use reference::rasteriser::{Coverage, Frame};
+use reference::scene::Point;
 use reference::{Assignment, assignment};
 use std::path::{Path, PathBuf};
 
@@ -29,8 +31,8 @@ fn vertex_colours_agree_with_the_driver() {
     let mut worst = 0.0f64;
     for entry in poses {
         let pose = assignment.scene.pose(entry["t"].as_f64().expect("t"));
-        let uniforms = assignment.uniform_values(&pose.matrices);
-        for (i, vertex) in assignment.scene.triangle.iter().enumerate() {
+        let uniforms = assignment.uniform_values(&assignment.scene.moment(pose.t, pose.matrices));
+        for (i, vertex) in assignment.scene.triangle(&pose).iter().enumerate() {
             let colour = right.evaluate(&uniforms, &assignment.attribute_values(vertex)).colour();
             for channel in 0..3 {
                 let theirs = entry["vc"][i][channel].as_f64().expect("a number");
@@ -96,7 +98,7 @@ fn frames_agree_with_the_driver() {
 fn a_wrong_equation_does_not_agree() {
     let assignment = ggsample06();
     let mut other = assignment.clone();
-    other.scene.eye.x += 0.02;
+    other.scene.views[0].eye = Point::Fixed(DVec3::new(0.02, 2.0, 5.0));
     let moved = other.frames();
     let mismatched = moved.iter().enumerate().any(|(index, frame)| {
         let theirs = captured_frame(index);

@@ -8,11 +8,14 @@ use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped
 /// 90,000 operations for each vertex of ggsample06, of which a usual answer takes 300.
 const FUEL: u64 = 60_000_000;
 
+/// What an attribute has where less is given.
+const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
 /// All vertices as columns.
 pub(super) struct Vertices<'a> {
-    /// By name, x, y, z and 1.
+    /// By name, x, y, z and w.
     attributes: Vec<(&'a str, [Vec<f64>; 4])>,
-    /// By name, the scalars of a matrix.
+    /// By path, the scalars of a value.
     uniforms: Vec<(&'a str, Vec<Vec<f64>>)>,
     /// The number of each vertex in its draw.
     numbers: Vec<f64>,
@@ -34,17 +37,18 @@ impl<'a> Vertices<'a> {
         };
         let Some(first) = batches.first() else { return vertices };
         for (index, (name, _)) in first.attributes.iter().enumerate() {
-            let values = || batches.iter().flat_map(|batch| &batch.attributes[index].1);
-            let column = |axis: usize| values().map(|xyz| f64::from(xyz[axis])).collect();
-            vertices.attributes.push((name, [column(0), column(1), column(2), vertices.ones.clone()]));
+            let values = || batches.iter().flat_map(|batch| batch.attributes[index].1.iter());
+            let of = |numbers: &[f64], axis: usize| numbers.get(axis).copied().unwrap_or(LACKING[axis]);
+            let column = |axis: usize| values().map(|numbers| of(numbers, axis)).collect();
+            vertices.attributes.push((name, std::array::from_fn(column)));
         }
-        for (index, (name, _)) in first.uniforms.iter().enumerate() {
+        for (index, (name, value)) in first.uniforms.iter().enumerate() {
             let column = |scalar: usize| {
                 let each =
-                    |batch: &&Batch| std::iter::repeat_n(f64::from(batch.uniforms[index].1[scalar]), length(batch));
+                    |batch: &&Batch| std::iter::repeat_n(batch.uniforms[index].1.numbers()[scalar], length(batch));
                 batches.iter().flat_map(each).collect()
             };
-            vertices.uniforms.push((name, (0..16).map(column).collect()));
+            vertices.uniforms.push((name, (0..value.numbers().len()).map(column).collect()));
         }
         vertices.numbers = batches.iter().flat_map(|batch| (0..length(batch)).map(|number| number as f64)).collect();
         vertices

@@ -64,11 +64,13 @@ fn fill(block: &UniformBlock, stride: usize, batches: &[&Batch]) -> Vec<u8> {
         return bytes;
     }
     for (batch, chunk) in batches.iter().zip(bytes.chunks_mut(stride)) {
-        for (name, matrix) in &batch.uniforms {
+        for (name, value) in &batch.uniforms {
+            let floats: Vec<f32> = value.numbers().iter().map(|number| *number as f32).collect();
+            let bytes: &[u8] = bytemuck::cast_slice(&floats);
             for member in block.members.iter().filter(|member| member.name == *name) {
                 let start = member.offset as usize;
-                if let Some(place) = chunk.get_mut(start..start + size_of_val(matrix)) {
-                    place.copy_from_slice(bytemuck::bytes_of(matrix));
+                if let Some(place) = chunk.get_mut(start..start + bytes.len()) {
+                    place.copy_from_slice(bytes);
                 }
             }
         }
@@ -82,7 +84,9 @@ pub(super) fn vertex_buffer(device: &wgpu::Device, name: &str, batches: &[&Batch
     for batch in batches {
         let end = values.len() + batch.drawn() as usize;
         if let Some((_, these)) = batch.attributes.iter().find(|(attribute, _)| attribute == name) {
-            values.extend(these.iter().map(|&[x, y, z]| [x, y, z, 1.0]));
+            // What an attribute lacks is that of OpenGL: 0, 0, 0, 1.
+            let filled = |numbers: &[f64]| std::array::from_fn(|at| numbers.get(at).map_or(ORIGIN[at], |n| *n as f32));
+            values.extend(these.iter().map(filled));
         }
         values.resize(end, values.last().copied().unwrap_or(ORIGIN));
     }

@@ -1,12 +1,14 @@
 //! What a submission is drawn with.
 
-/// A draw: its vertices, one array of xyz for each attribute, and the matrices that hold for them.
+use reference::{Value, Values};
+
+/// A draw: its vertices, and the uniforms that hold for them.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// Matrix uniforms by name, column-major.
-    pub uniforms: Vec<(String, [f32; 16])>,
+    /// Uniforms by path.
+    pub uniforms: Vec<(String, Value)>,
     /// Attributes by name; all of one length.
-    pub attributes: Vec<(String, Vec<[f32; 3]>)>,
+    pub attributes: Vec<(String, Values)>,
 }
 
 impl Batch {

@@ -6,7 +6,6 @@ use super::protection::{Policy, Protection};
 use super::protocol::{self, Body, Hello, Longest, Reply, Request};
 use super::{Settings, environment, memory, schedule};
 use crate::fault::Fault;
-use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::Environment;
 use nix::sys::signal::{Signal, killpg};
@@ -130,13 +129,12 @@ impl Worker {
     pub fn grade(
         &mut self,
         request: &Request,
-        hand_in: &HandIn,
+        bytes: &[u8],
         frames_bytes: usize,
         deadline: Duration,
     ) -> Result<(Reply, Body), Ending> {
         self.gradings += 1;
-        let message =
-            protocol::encode(request, &hand_in.concatenated()).map_err(|error| Ending::Garbled(error.to_string()))?;
+        let message = protocol::encode(request, bytes).map_err(|error| Ending::Garbled(error.to_string()))?;
         let before = schedule::cpu_time(self.id());
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
         match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline) {

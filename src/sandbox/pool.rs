@@ -9,7 +9,6 @@ use super::{Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
-use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
 use std::sync::Arc;
@@ -23,18 +22,20 @@ const ATTEMPTS: u32 = 3;
 /// late as that has used the time of a grading anyway.
 const LEFT_TO_CONFIRM: f64 = 0.4;
 
-/// What is to be graded.
+/// A file to grade.
 #[derive(Clone, Copy, Debug)]
 pub struct Submission<'a> {
-    /// Its files.
-    pub hand_in: &'a HandIn,
+    /// Its name as handed in.
+    pub name: &'a str,
+    /// Its bytes.
+    pub bytes: &'a [u8],
     /// How it is to be graded.
     pub order: Order,
     /// Whether the frames are wanted, not only their comparison.
     pub wants_frames: bool,
 }
 
-/// A graded submission.
+/// A graded file.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The report.
@@ -133,7 +134,7 @@ impl Pool {
         let message = ending.message(self.settings.deadline, self.settings.memory);
         crate::grade::unfinished(
             &self.assignment,
-            crate::grade::sources(&self.assignment, submission.hand_in),
+            crate::grade::source_info(submission.name, submission.bytes),
             Verdict::Stopped,
             vec![Diagnostic::error(Stage::Run, message)],
             environment,
@@ -161,14 +162,14 @@ impl Grading<'_> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
         let was_fresh = worker.gradings == 0;
-        let Submission { hand_in, order, wants_frames } = self.submission;
-        let request = Request::new(next_id.fetch_add(1, Ordering::Relaxed), hand_in, order, wants_frames);
+        let Submission { name, bytes, order, wants_frames } = self.submission;
+        let request = Request { id: next_id.fetch_add(1, Ordering::Relaxed), name: name.into(), order, wants_frames };
         let frames_bytes = if wants_frames { self.pool.frames_bytes() } else { 0 };
         let start = Instant::now();
         // Confirming a crash takes what it left of the deadline: no file has twice the time.
         let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
         let deadline = settings.deadline.saturating_sub(spent);
-        let answered = worker.grade(&request, hand_in, frames_bytes, deadline);
+        let answered = worker.grade(&request, bytes, frames_bytes, deadline);
         let environment = worker.environment.clone();
         let ending = match answered {
             Ok((reply, body)) => return self.answered(worker, was_fresh, reply, &body),

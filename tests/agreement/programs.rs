@@ -6,6 +6,8 @@ use ggrade::render::{Batch, Sample, Scene};
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, Refusal};
 use opengl::{Mesh, Vertex};
+use reference::interpreter::Type;
+use reference::{Value, Values};
 
 #[path = "../../fuzz/src/program.rs"]
 pub mod program;
@@ -53,7 +55,9 @@ fn generated_programs_agree() {
     let mut scene = bench.scene(&poses(bench.assignment, 1, 1));
     for batch in &mut scene.frames {
         for (name, values) in &mut batch.attributes {
-            *values = if name == "pv" { positions.clone() } else { normals.clone() };
+            let drawn = if name == "pv" { &positions } else { &normals };
+            let numbers = drawn.iter().flatten().map(|number| f64::from(*number)).collect();
+            *values = Values { kind: Type::vector(3), numbers };
         }
     }
     let (mut agreeing, mut open, mut compared, mut not_run, mut wrong) = (0, 0, 0, 0, Vec::new());
@@ -104,7 +108,8 @@ fn run(bench: &mut Bench, source: &Source, scene: &Scene, mesh: Mesh<'_>) -> Opt
         .frames
         .iter()
         .map(|batch| {
-            let uniforms: Vec<_> = batch.uniforms.iter().map(|(name, matrix)| (name.as_str(), *matrix)).collect();
+            let matrix = |value: &Value| std::array::from_fn(|at| value.numbers()[at] as f32);
+            let uniforms: Vec<_> = batch.uniforms.iter().map(|(name, value)| (name.as_str(), matrix(value))).collect();
             bench.gl.capture(&program, &uniforms, mesh).unwrap()
         })
         .collect();

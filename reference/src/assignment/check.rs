@@ -1,16 +1,17 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
 mod advice;
+mod interface;
 mod mistakes;
+mod scene;
 mod solution;
 
 use super::{Assignment, AssignmentError, Constant, HandedIn, MANIFEST, error};
+use crate::Folder;
 use crate::accepted::Answer;
 use crate::interpreter::{Program, Stage, Type};
 use crate::manifest::{self, Manifest};
 use crate::rasteriser::ClipVertex;
-use crate::scene::{Scene, Vertex};
-use glam::DVec3;
 use solution::Solution;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -21,14 +22,11 @@ const MAX_LINES: usize = 64;
 type Checked<T> = Result<T, AssignmentError>;
 
 /// `line_at`: the line of `assignment.toml` in which a byte of it stands.
-pub(super) fn assignment(
-    mut m: Manifest,
-    line_at: impl Fn(usize) -> u32,
-    read: impl Fn(&str) -> Checked<String>,
-) -> Checked<Assignment> {
+pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder: &Folder) -> Checked<Assignment> {
+    let read = |name: &str| folder.text(name).map(str::to_owned);
     let files = files(std::mem::take(&mut m.file), read)?;
     let mut solution = Solution::read(&files[0], &m.constant)?;
-    let interface = solution.interface(&m)?;
+    let interface = interface::interface(&m, &files[0], &solution, line_at)?;
     let constants = solution.constants(std::mem::take(&mut m.constant))?;
     let lines = rubric(&m.rubric, &solution)?;
     for constant in &constants {
@@ -45,7 +43,7 @@ pub(super) fn assignment(
         if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
             return Err(error(format!("mistake `{}`", entry.id), "another mistake has the same title"));
         }
-        mistakes.push(mistakes::mistake(entry, &mut solution, &lines, &line_at)?);
+        mistakes.push(mistakes::mistake(entry, &mut solution, &lines, line_at)?);
     }
     probing(&m.probes, &constants)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
@@ -53,7 +51,7 @@ pub(super) fn assignment(
     let advice = advice.collect::<Checked<Vec<_>>>()?;
     let equation = solution.finish(&m, &interface, &constants)?;
     let assignment = Assignment {
-        scene: scene(&m.scene)?,
+        scene: scene::scene(&m.scene, line_at)?,
         files,
         id: m.id,
         digest: String::new(),
@@ -76,7 +74,7 @@ fn answers_are_defined(assignment: &Assignment) -> Checked<()> {
     let right = assignment.equation.right();
     let file = &assignment.files[0];
     let mut known: HashSet<&str> = HashSet::new();
-    known.extend(assignment.interface.uniforms.iter().map(|uniform| uniform.name.as_str()));
+    known.extend(assignment.interface.uniforms.iter().map(|uniform| uniform.path.as_str()));
     known.extend(assignment.interface.inputs.iter().map(|input| input.name.as_str()));
     for answer in &file.accepted {
         let mut given = answer.program.uniforms().iter().chain(answer.program.inputs());
@@ -170,33 +168,4 @@ fn probing(probes: &manifest::Probes, constants: &[Constant]) -> Checked<()> {
         return Err(error("probes", "there are none"));
     }
     Ok(())
-}
-
-fn scene(s: &manifest::Scene) -> Checked<Scene> {
-    let sane = s.near > 0.0
-        && s.far > s.near
-        && s.fovy > 0.0
-        && s.fovy < std::f64::consts::PI
-        && s.window.iter().all(|n| (1..=8192).contains(n))
-        && (1..=10_000).contains(&s.poses);
-    if !sane {
-        return Err(error("scene", "the camera, the window or the number of poses makes no picture"));
-    }
-    let vertex = |i: usize| Vertex::new(s.triangle[i].into(), s.normals[i].into());
-    let point = |p: [f64; 3]| DVec3::from_array(p);
-    Ok(Scene {
-        triangle: [vertex(0), vertex(1), vertex(2)],
-        eye: point(s.eye),
-        target: point(s.target),
-        up: point(s.up),
-        fovy: s.fovy,
-        near: s.near,
-        far: s.far,
-        turn: s.turn,
-        cycle: s.cycle,
-        width: s.window[0],
-        height: s.window[1],
-        background: s.background,
-        poses: s.poses,
-    })
 }

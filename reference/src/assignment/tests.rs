@@ -155,7 +155,11 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
     );
     assert_eq!(
         error("uniform mat4 mw;", "const mat4 mw = mat4(1.0);"),
-        "solution.vert: `mw` is not there: write `uniform mat4 mw;`"
+        format!(
+            "assignment.toml, line {}, uniform `mw`: there is no such uniform in solution.vert or the fixed stage: \
+             declare `uniform type mw;` there, or write `type = …` here",
+            line_of("name = \"mw\"")
+        )
     );
     assert_eq!(
         error("out vec4 vc;", "out vec4 vc; uniform float gain;"),

@@ -105,8 +105,8 @@ impl<'a> Columns<'a> {
     pub(super) fn rule(&mut self, formula: &'a Formula) -> Rule {
         let equation = self.equation;
         let uses: Vec<usize> = equation.used(formula).collect();
-        let given = |cells: &[usize]| {
-            let all = cells.iter().copied().enumerate();
+        let given = |cells: &[Option<usize>]| {
+            let all = cells.iter().enumerate().filter_map(|(place, cell)| Some((place, (*cell)?)));
             all.filter(|(_, cell)| formula.uses().contains(cell)).collect()
         };
         self.rules.push(RuleBody {

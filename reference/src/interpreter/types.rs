@@ -134,6 +134,11 @@ impl Type {
     /// `mat4`
     pub const MAT4: Self = Self::Matrix(Scalar::Float, 4, 4);
 
+    /// A vector of floats.
+    pub const fn vector(components: u8) -> Self {
+        Self::Vector(Scalar::Float, components)
+    }
+
     /// An array of it.
     pub fn array(self, length: Option<usize>) -> Self {
         Self::Array(Arc::new(self), length)

@@ -176,7 +176,7 @@ pub(in crate::diagnose) fn given<'a>(
     uniforms: &[Reference],
     attributes: &[Reference],
 ) -> Given<'a> {
-    let uniforms = assignment.interface.uniforms.iter().map(|u| u.name.as_str()).zip(uniforms);
+    let uniforms = assignment.interface.uniforms.iter().map(|u| u.path.as_str()).zip(uniforms);
     let attributes = assignment.interface.inputs.iter().map(|i| i.name.as_str()).zip(attributes);
     Given { inputs: uniforms.chain(attributes).map(|(name, value)| (name, of(value))).collect(), ..Given::default() }
 }

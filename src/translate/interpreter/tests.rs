@@ -29,7 +29,7 @@ fn given(seed: u64, place: usize) -> Given<'static> {
     let probe = &probes.probes[place];
     let uniforms = assignment.interface.uniforms.iter().zip(probes.uniforms(probe));
     let attributes = assignment.interface.inputs.iter().zip(&probe.attributes);
-    let uniforms = uniforms.map(|(u, value)| (u.name.as_str(), Value::of_columns(value.numbers(), 4)));
+    let uniforms = uniforms.map(|(u, value)| (u.path.as_str(), Value::of_columns(value.numbers(), 4)));
     let attributes = attributes.map(|(a, value)| (a.name.as_str(), Value::of_floats(value.numbers())));
     Given { inputs: uniforms.chain(attributes).collect(), ..Given::default() }
 }

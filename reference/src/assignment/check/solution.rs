@@ -2,7 +2,7 @@
 
 use super::{Checked, listed};
 use crate::Value;
-use crate::assignment::{AssignmentError, Constant, HandedIn, Input, Interface, MANIFEST, Output, Uniform, error};
+use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS};
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Type};
 use crate::manifest::{self, Manifest};
@@ -42,12 +42,8 @@ impl<'a> Solution<'a> {
         Ok(solution)
     }
 
-    fn wrong(&self, line: u32, message: impl Into<String>) -> AssignmentError {
+    pub(super) fn wrong(&self, line: u32, message: impl Into<String>) -> AssignmentError {
         error(place(&self.file.solution.name, line), message)
-    }
-
-    fn cell(&self, name: &str) -> Option<&Cell> {
-        self.draft.cells()[..self.first].iter().find(|cell| cell.name == name)
     }
 
     fn definitions(&self) -> &[Cell] {
@@ -106,48 +102,16 @@ impl<'a> Solution<'a> {
         Ok(())
     }
 
-    /// What the shader is given and what it writes.
-    pub(super) fn interface(&self, m: &Manifest) -> Checked<Interface> {
-        let said = |name: &str| {
-            let mut names =
-                m.input.iter().map(|input| &input.name).chain(m.uniform.iter().map(|uniform| &uniform.name));
-            names.any(|known| known == name) || m.constant.iter().any(|constant| constant.name == name)
-        };
-        if let Some(cell) = self.draft.cells()[..self.first].iter().find(|cell| !said(&cell.name)) {
-            let message = format!(
-                "`{}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here",
-                cell.name
-            );
-            return Err(self.wrong(cell.line, message));
-        }
-        let input = |i: &manifest::Input| {
-            let kind = self.declared("in", &i.name, Type::VEC4)?;
-            Ok(Input { name: i.name.clone(), kind, carries: i.carries })
-        };
-        let uniform = |u: &manifest::Uniform| {
-            let kind = self.declared("uniform", &u.name, Type::MAT4)?;
-            Ok(Uniform { name: u.name.clone(), kind, carries: u.carries })
-        };
-        let stored = self.draft.stored().iter().filter(|stored| stored.output != POSITION);
-        let output = |stored: &Stored| Output {
-            name: stored.output.clone(),
-            kind: self.draft.cells()[stored.cell].kind.clone(),
-        };
-        Ok(Interface {
-            inputs: m.input.iter().map(input).collect::<Checked<_>>()?,
-            uniforms: m.uniform.iter().map(uniform).collect::<Checked<_>>()?,
-            outputs: stored.map(output).collect(),
-        })
+    /// What the shader is given, and where each is declared, other than what is a constant.
+    pub(super) fn given(&self) -> &[Cell] {
+        &self.draft.cells()[..self.first]
     }
 
-    fn declared(&self, storage: &str, name: &str, kind: Type) -> Checked<Type> {
-        match self.cell(name) {
-            Some(cell) if cell.kind == kind => Ok(kind),
-            Some(cell) => {
-                Err(self.wrong(cell.line, format!("`{name}` is a {}: write `{storage} {kind} {name};`", cell.kind)))
-            }
-            None => Err(self.wrong(0, format!("`{name}` is not there: write `{storage} {kind} {name};`"))),
-        }
+    /// The outputs beside `gl_Position`.
+    pub(super) fn outputs(&self) -> Vec<Output> {
+        let stored = self.draft.stored().iter().filter(|stored| stored.output != POSITION);
+        let kind = |stored: &Stored| self.draft.cells()[stored.cell].kind.clone();
+        stored.map(|stored| Output { name: stored.output.clone(), kind: kind(stored) }).collect()
     }
 
     /// The constants with the values that they have in the solution, which are those of the handed-out file.
@@ -191,8 +155,9 @@ impl<'a> Solution<'a> {
         };
         let definitions: Vec<Definition> = self.draft.formulas().iter().map(definition).collect();
         let constants = constants.iter().map(|constant| (find(&constant.name), constant.value.clone())).collect();
-        let uniforms = interface.uniforms.iter().map(|uniform| find(&uniform.name)).collect();
-        let attributes = interface.inputs.iter().map(|input| find(&input.name)).collect();
+        let given = |name: &str| self.given().iter().position(|cell| cell.name == *name);
+        let uniforms = interface.uniforms.iter().map(|uniform| given(&uniform.path)).collect();
+        let attributes = interface.inputs.iter().map(|input| given(&input.name)).collect();
         let name = &self.file.solution.name;
         let sheet = self.draft.finish().map_err(|refusal| refused(name, &refusal))?;
         let sheet = Arc::new(sheet);

@@ -96,7 +96,18 @@ impl fmt::Display for Type {
             Self::Array(element, Some(length)) => write!(f, "{element}[{length}]"),
             Self::Array(element, None) => write!(f, "{element}[]"),
             Self::Struct(structure) => f.write_str(&structure.name),
-            Self::Sampler(_) => f.write_str("sampler"),
+            Self::Sampler(Sampler { dimension, array, shadow, texel }) => {
+                let dimension = match dimension {
+                    Dimension::One => "1D",
+                    Dimension::Two => "2D",
+                    Dimension::Three => "3D",
+                    Dimension::Cube => "Cube",
+                    Dimension::Rectangle => "2DRect",
+                };
+                let suffix = |holds: bool, word| if holds { word } else { "" };
+                let (array, shadow) = (suffix(*array, "Array"), suffix(*shadow, "Shadow"));
+                write!(f, "{}sampler{dimension}{array}{shadow}", prefix(*texel))
+            }
         }
     }
 }
@@ -107,7 +118,10 @@ mod tests {
 
     #[test]
     fn names_and_types_belong_together() {
-        for name in "bool int uint float double vec2 bvec3 ivec4 uvec2 dvec3 mat2 mat3x4 mat4 dmat2x3".split(' ') {
+        for name in "bool int uint float double vec2 bvec3 ivec4 uvec2 dvec3 mat2 mat3x4 mat4 dmat2x3 \
+                     sampler2D isampler1DArray sampler2DRectShadow samplerCubeArrayShadow"
+            .split(' ')
+        {
             assert_eq!(Type::named(name).expect(name).to_string(), name);
         }
         assert_eq!(Type::named("mat3x3"), Type::named("mat3"));

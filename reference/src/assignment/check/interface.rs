@@ -1,0 +1,236 @@
+//! What the program is given: every uniform and attribute has a type, by the shaders, and values that fit it.
+
+mod values;
+
+use super::Checked;
+use super::scene::expression;
+use super::solution::{self, Solution};
+use crate::assignment::{AssignmentError, HandedIn, Input, Interface, MANIFEST, Uniform, error};
+use crate::feed::{Feed, Role, Stream};
+use crate::interpreter::{Program, Stage, Type, Variable};
+use crate::manifest::{self, Manifest};
+
+/// More uniforms, each part counted, than this are refused.
+const MOST_UNIFORMS: usize = 4_096;
+
+/// The interface. `line_at`: the line of the manifest in which a byte of it stands.
+pub(super) fn interface(
+    m: &Manifest,
+    file: &HandedIn,
+    solution: &Solution<'_>,
+    line_at: &dyn Fn(usize) -> u32,
+) -> Checked<Interface> {
+    let programs = programs(file)?;
+    let reader = Reader { programs: &programs, line_at };
+    let mut uniforms = Vec::new();
+    for entry in &m.uniform {
+        reader.uniforms(entry, &mut uniforms)?;
+    }
+    if uniforms.len() > MOST_UNIFORMS {
+        return Err(error(
+            "uniform",
+            format!("there are {} with all parts: use at most {MOST_UNIFORMS}", uniforms.len()),
+        ));
+    }
+    let inputs = m.input.iter().map(|entry| reader.input(entry)).collect::<Checked<Vec<_>>>()?;
+    for (index, input) in inputs.iter().enumerate() {
+        if inputs[..index].iter().any(|other| other.name == input.name) {
+            return Err(error(format!("input `{}`", input.name), "stands twice"));
+        }
+    }
+    let known = |name: &str| {
+        inputs.iter().any(|input| input.name == name)
+            || uniforms.iter().any(|uniform| uniform.path == name)
+            || m.constant.iter().any(|constant| constant.name == name)
+    };
+    if let Some(cell) = solution.given().iter().find(|cell| !known(&cell.name)) {
+        let message =
+            format!("`{}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here", cell.name);
+        return Err(solution.wrong(cell.line, message));
+    }
+    Ok(Interface { inputs, uniforms, outputs: solution.outputs() })
+}
+
+/// A stage of the right program, compiled.
+struct Compiled {
+    name: String,
+    stage: Stage,
+    program: Program,
+}
+
+/// The solution, and what it is linked with.
+fn programs(file: &HandedIn) -> Checked<Vec<Compiled>> {
+    let compiled = |name: &str, stage: manifest::Stage, text: &str| {
+        let stage = match stage {
+            manifest::Stage::Vertex => Stage::Vertex,
+            manifest::Stage::Fragment => Stage::Fragment,
+        };
+        let program = Program::compile(text, stage).map_err(|refusal| solution::refused(name, &refusal))?;
+        Ok(Compiled { name: name.to_owned(), stage, program })
+    };
+    let fixed = file.fixed.iter().map(|(stage, text)| compiled("the fixed stage", *stage, text));
+    std::iter::once(compiled(&file.solution.name, file.stage, &file.solution.text)).chain(fixed).collect()
+}
+
+struct Reader<'a> {
+    programs: &'a [Compiled],
+    line_at: &'a dyn Fn(usize) -> u32,
+}
+
+/// Whether a path names this variable or something that it lies in.
+fn lies_in(name: &str, path: &str) -> bool {
+    name.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+impl Reader<'_> {
+    fn wrong(&self, at: usize, place: &str, message: impl Into<String>) -> AssignmentError {
+        error(format!("{}, {place}", solution::place(MANIFEST, (self.line_at)(at))), message)
+    }
+
+    /// The uniforms that an entry speaks of, each with its type.
+    fn leaves(&self, entry: &manifest::Uniform, place: &str) -> Checked<Vec<(String, Type)>> {
+        let path = entry.name.get_ref();
+        let mut leaves: Vec<(&Variable, &str)> = Vec::new();
+        for Compiled { name, program, .. } in self.programs {
+            for variable in program.uniforms().iter().filter(|variable| lies_in(&variable.name, path)) {
+                match leaves.iter().find(|(known, _)| known.name == variable.name) {
+                    Some((known, first)) if known.kind != variable.kind => {
+                        let (one, other) = (&known.kind, &variable.kind);
+                        let message = format!(
+                            "`{}` is a {other} here and a {one} in {first}: declare it alike in both",
+                            variable.name
+                        );
+                        return Err(error(solution::place(name, variable.line), message));
+                    }
+                    Some(_) => {}
+                    None => leaves.push((variable, name)),
+                }
+            }
+        }
+        let found: Vec<_> = leaves.iter().map(|(leaf, _)| (leaf.name.clone(), leaf.kind.clone())).collect();
+        if let Some(said) = &entry.kind {
+            let kind = self.named(said, entry.name.span().start, place)?;
+            return match &found[..] {
+                [] => Ok(vec![(path.clone(), kind)]),
+                [(name, known)] if name == path && *known != kind => {
+                    let message = format!("the shader declares it as {known}: write that, or leave `type` out");
+                    Err(self.wrong(entry.name.span().start, place, message))
+                }
+                _ => Ok(found),
+            };
+        }
+        if found.is_empty() {
+            let names: Vec<&str> = self.programs.iter().map(|program| program.name.as_str()).collect();
+            let message = format!(
+                "there is no such uniform in {}: declare `uniform type {path};` there, or write `type = …` here",
+                names.join(" or ")
+            );
+            return Err(self.wrong(entry.name.span().start, place, message));
+        }
+        Ok(found)
+    }
+
+    fn named(&self, text: &str, at: usize, place: &str) -> Checked<Type> {
+        Type::named(text).filter(|kind| *kind != Type::Void).ok_or_else(|| {
+            self.wrong(at, place, format!("`{text}` is not a type: write one of GLSL's, such as vec3, mat4 or int"))
+        })
+    }
+
+    fn uniforms(&self, entry: &manifest::Uniform, all: &mut Vec<Uniform>) -> Checked<()> {
+        let (path, at) = (entry.name.get_ref(), entry.name.span().start);
+        let place = format!("uniform `{path}`");
+        let leaves = self.leaves(entry, &place)?;
+        if let Some((twice, _)) = leaves.iter().find(|(leaf, _)| all.iter().any(|known| known.path == *leaf)) {
+            return Err(self.wrong(at, &place, format!("`{twice}` stands twice: keep one")));
+        }
+        for (leaf, kind) in leaves {
+            let rest = &leaf[path.len()..];
+            let feed = self.feed(entry, rest, &leaf, &kind, &place)?;
+            let probe = match &entry.probe {
+                None => None,
+                Some(said) => values::bounds(said, rest, &kind)
+                    .map_err(|what| self.wrong(at, &place, format!("`probe` of `{leaf}`, a {kind}: {what}")))?,
+            };
+            all.push(Uniform { path: leaf, kind, feed, probe });
+        }
+        Ok(())
+    }
+
+    fn feed(&self, entry: &manifest::Uniform, rest: &str, leaf: &str, kind: &Type, place: &str) -> Checked<Feed> {
+        let at = entry.name.span().start;
+        match (entry.carries, &entry.value, &entry.is) {
+            (Some(role), None, None) => self.role(role, kind).map_err(|what| self.wrong(at, place, what)),
+            (None, Some(value), None) => {
+                let value = values::part(value, rest).and_then(|part| values::value(part, kind));
+                value
+                    .map(Feed::Constant)
+                    .map_err(|what| self.wrong(at, place, format!("`value` of `{leaf}`, a {kind}: {what}")))
+            }
+            (None, None, Some(text)) if rest.is_empty() => {
+                let expression = expression(text, kind, place, self.line_at)?;
+                Ok(Feed::Expression(expression))
+            }
+            (None, None, Some(text)) => {
+                let message =
+                    format!("`is` gives a scalar, vector or matrix: write an entry for `{leaf}` and each other part");
+                Err(self.wrong(text.span().start, place, message))
+            }
+            (None, None, None) => {
+                Err(self.wrong(at, place, "write where its value comes from: `carries`, `value` or `is`"))
+            }
+            _ => Err(self.wrong(at, place, "write one of `carries`, `value` and `is`")),
+        }
+    }
+
+    fn role(&self, role: Role, kind: &Type) -> Result<Feed, String> {
+        let identity = crate::scene::Matrices::new(glam::DMat4::IDENTITY, glam::DMat4::IDENTITY);
+        match role.value(&identity, kind) {
+            Some(_) => Ok(Feed::Role(role)),
+            None => Err(format!("it is a {kind} in the shader, and what it carries is {}", role.types())),
+        }
+    }
+
+    fn input(&self, entry: &manifest::Input) -> Checked<Input> {
+        let (name, at) = (entry.name.get_ref(), entry.name.span().start);
+        let place = format!("input `{name}`");
+        let vertex = self.programs.iter().find(|program| program.stage == Stage::Vertex);
+        let declared = vertex.and_then(|vertex| vertex.program.inputs().iter().find(|input| input.name == *name));
+        let kind = match (declared, &entry.kind) {
+            (Some(declared), None) => declared.kind.clone(),
+            (declared, Some(said)) => {
+                let kind = self.named(said, at, &place)?;
+                if let Some(declared) = declared.filter(|declared| declared.kind != kind) {
+                    let message =
+                        format!("the shader declares it as {}: write that, or leave `type` out", declared.kind);
+                    return Err(self.wrong(at, &place, message));
+                }
+                kind
+            }
+            (None, None) => {
+                let file = vertex.map_or("the vertex stage", |vertex| vertex.name.as_str());
+                let message = format!(
+                    "there is no such input in {file}: declare `in type {name};` there, or write `type = …` here"
+                );
+                return Err(self.wrong(at, &place, message));
+            }
+        };
+        let stream = match (entry.carries, &entry.values) {
+            (Some(attribute), None) => Stream::Mesh(attribute),
+            (None, Some(listed)) => {
+                let values = listed.iter().map(|value| values::value(value, &kind)).collect::<Result<Vec<_>, _>>();
+                Stream::Listed(
+                    values.map_err(|what| self.wrong(at, &place, format!("`values`, each a {kind}: {what}")))?,
+                )
+            }
+            _ => return Err(self.wrong(at, &place, "write where its values come from: `carries` or `values`")),
+        };
+        if !stream.fits(&kind) {
+            return Err(self.wrong(
+                at,
+                &place,
+                format!("a {kind} cannot hold that: declare a float, vec2, vec3 or vec4"),
+            ));
+        }
+        Ok(Input { name: name.clone(), kind, stream })
+    }
+}

@@ -1,0 +1,198 @@
+//! The scenes of an assignment.
+
+use super::{Checked, solution};
+use crate::assignment::{AssignmentError, MANIFEST, error};
+use crate::feed::Expression;
+use crate::interpreter::Type;
+use crate::manifest::{self, Depth, Poses};
+use crate::scene::{Draw, Mesh, Model, Point, Scene, Shape, Vertex, View};
+use glam::DVec3;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// More poses than this are refused.
+const MOST_POSES: usize = 10_000;
+/// More things than this are refused.
+const MOST_INSTANCES: u32 = 1_000;
+/// The longest side of a window, in pixels.
+const LONGEST_SIDE: u32 = 8_192;
+
+/// All scenes as one. `line_at`: the line of the manifest in which a byte of it stands.
+pub(super) fn scene(scenes: &manifest::Scenes, line_at: &dyn Fn(usize) -> u32) -> Checked<Scene> {
+    let [first, ..] = &scenes.0[..] else { return Err(error("scene", "there is none: write [scene]")) };
+    let missing = |key: &str| error("scene", format!("`{key}` is missing"));
+    let [width, height] = first.window.ok_or_else(|| missing("window"))?;
+    if !(1..=LONGEST_SIDE).contains(&width) || !(1..=LONGEST_SIDE).contains(&height) {
+        return Err(error("scene", format!("the window has to be 1 to {LONGEST_SIDE} pixels wide and high")));
+    }
+    for other in &scenes.0[1..] {
+        if other.window.is_some() || other.background.is_some() || other.cycle.is_some() {
+            return Err(error("scene", "`window`, `background` and `cycle` are those of the first scene: remove them"));
+        }
+    }
+    let views = scenes.0.iter().map(|own| Reader { own, first, line_at }.view()).collect::<Checked<Vec<_>>>()?;
+    let scene = Scene {
+        width,
+        height,
+        background: first.background.ok_or_else(|| missing("background"))?,
+        cycle: first.cycle.unwrap_or(5.0),
+        views,
+    };
+    let sum: usize = scene.views.iter().map(|view| view.times.len()).sum();
+    if sum > MOST_POSES {
+        return Err(error("scene", format!("there are {sum} poses: use at most {MOST_POSES}")));
+    }
+    for pose in scene.all_poses() {
+        let is_seen = |matrix: glam::DMat4| matrix.is_finite();
+        if !scene.instances(&pose).iter().all(|instance| is_seen(instance.moment.matrices.model_view_projection)) {
+            let message = "the camera or a model has no matrix there: look at `eye`, `target`, `up` and `model`";
+            return Err(error(format!("scene, at t = {}", pose.t), message));
+        }
+    }
+    Ok(scene)
+}
+
+/// A scene beside the first one, which says what it does not.
+struct Reader<'a> {
+    own: &'a manifest::Scene,
+    first: &'a manifest::Scene,
+    line_at: &'a dyn Fn(usize) -> u32,
+}
+
+impl Reader<'_> {
+    fn get<T>(&self, key: &str, of: impl Fn(&manifest::Scene) -> Option<T>) -> Checked<T> {
+        of(self.own).or_else(|| of(self.first)).ok_or_else(|| error("scene", format!("`{key}` is missing")))
+    }
+
+    fn view(&self) -> Checked<View> {
+        let point = |key, of: fn(&manifest::Scene) -> Option<&manifest::Point>| -> Checked<Point> {
+            let point =
+                of(self.own).or_else(|| of(self.first)).ok_or_else(|| error("scene", format!("`{key}` is missing")))?;
+            match point {
+                manifest::Point::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
+                manifest::Point::Expression(text) => {
+                    let expression = Expression::compile(text, &Type::vector(3));
+                    let wrong = |what: &str| {
+                        error(format!("scene, `{key}`"), format!("{what}: write three numbers, or a vec3 of `t`"))
+                    };
+                    expression.map(Point::Moving).map_err(|refusal| wrong(refusal.what()))
+                }
+            }
+        };
+        let view = View {
+            draws: self.draws()?,
+            eye: point("eye", |scene| scene.eye.as_ref())?,
+            target: point("target", |scene| scene.target.as_ref())?,
+            up: DVec3::from_array(self.get("up", |scene| scene.up)?),
+            fovy: self.get("fovy", |scene| scene.fovy)?,
+            near: self.get("near", |scene| scene.near)?,
+            far: self.get("far", |scene| scene.far)?,
+            times: self.get("poses", |scene| scene.poses.as_ref().map(times))?,
+        };
+        let sane = view.near > 0.0
+            && view.far > view.near
+            && view.fovy > 0.0
+            && view.fovy < std::f64::consts::PI
+            && (1..=MOST_POSES).contains(&view.times.len())
+            && view.times.iter().all(|t| (0.0..1.0).contains(t));
+        if !sane {
+            return Err(error("scene", "the camera, the window or the number of poses makes no picture"));
+        }
+        Ok(view)
+    }
+
+    fn draws(&self) -> Checked<Vec<Draw>> {
+        let shows = |scene: &manifest::Scene| scene.draw.is_some() || scene.mesh.is_some() || scene.triangle.is_some();
+        let scene = if shows(self.own) { self.own } else { self.first };
+        let said = [scene.draw.is_some(), scene.mesh.is_some(), scene.triangle.is_some()];
+        match said.iter().filter(|said| **said).count() {
+            0 => return Err(error("scene", "nothing is drawn: write `mesh = { torus = {} }`, or [[scene.draw]]")),
+            1 => {}
+            _ => return Err(error("scene", "write one of `draw`, `mesh` and `triangle`")),
+        }
+        let draws = match (&scene.draw, &scene.mesh, &scene.triangle) {
+            (Some(draws), ..) => draws.iter().map(|draw| self.draw(draw)).collect::<Checked<Vec<_>>>()?,
+            (None, Some(shape), _) => vec![self.with(self.mesh(shape)?, Some(Depth::Less))?],
+            (None, None, triangle) => {
+                let triangle = triangle.unwrap_or_default();
+                let normals = scene.normals.unwrap_or([[0.0, 0.0, 1.0]; 3]);
+                let vertex = |at: usize| Vertex::new(triangle[at].into(), normals[at].into());
+                let mesh = Mesh::new(vec![vertex(0), vertex(1), vertex(2)], vec![[0, 1, 2]]);
+                vec![self.with(mesh.map_err(|wrong| error("scene, `triangle`", wrong.to_string()))?, None)?]
+            }
+        };
+        let count: u32 = draws.iter().map(|draw| draw.instances.min(MOST_INSTANCES + 1)).sum();
+        if count == 0 || count > MOST_INSTANCES {
+            return Err(error("scene", format!("{count} things are drawn: draw 1 to {MOST_INSTANCES}")));
+        }
+        Ok(draws)
+    }
+
+    fn mesh(&self, shape: &Shape) -> Checked<Mesh> {
+        shape.mesh().map_err(|wrong| error("scene, `mesh`", wrong.to_string()))
+    }
+
+    /// What a scene says of its only draw.
+    fn with(&self, mesh: Mesh, depth: Option<Depth>) -> Checked<Draw> {
+        let said = |scene: &manifest::Scene| scene.depth_test;
+        let depth = said(self.own).or_else(|| said(self.first)).or(depth);
+        Ok(Draw {
+            mesh: Arc::new(mesh),
+            model: self.model(None, None)?,
+            instances: self.own.instances.or(self.first.instances).unwrap_or(1),
+            depth_test: depth.and_then(Depth::test),
+            cull: self.own.cull.or(self.first.cull).unwrap_or_default(),
+        })
+    }
+
+    fn draw(&self, draw: &manifest::Draw) -> Checked<Draw> {
+        let like = self.with(self.mesh(&draw.mesh)?, Some(Depth::Less))?;
+        Ok(Draw {
+            model: self.model(draw.model.as_ref(), draw.turn)?,
+            instances: draw.instances.unwrap_or(like.instances),
+            depth_test: draw.depth_test.map_or(like.depth_test, Depth::test),
+            cull: draw.cull.unwrap_or(like.cull),
+            ..like
+        })
+    }
+
+    /// The nearest that says how something stands: a draw, its scene, the first scene.
+    fn model(&self, model: Option<&Spanned<String>>, turn: Option<f64>) -> Checked<Model> {
+        let said =
+            [(model, turn), (self.own.model.as_ref(), self.own.turn), (self.first.model.as_ref(), self.first.turn)];
+        match said.into_iter().find(|(model, turn)| model.is_some() || turn.is_some()) {
+            Some((Some(_), Some(_))) => Err(error("scene", "write one of `model` and `turn`")),
+            Some((Some(text), None)) => {
+                expression(text, &Type::MAT4, "scene, `model`", self.line_at).map(Model::Expression)
+            }
+            Some((None, turn)) => Ok(Model::Turn(turn.unwrap_or_default())),
+            None => Ok(Model::Turn(0.0)),
+        }
+    }
+}
+
+fn times(poses: &Poses) -> Vec<f64> {
+    match poses {
+        // One too many is refused like any more.
+        Poses::Count(count) => {
+            (0..(*count).min(MOST_POSES as u32 + 1)).map(|k| f64::from(k) / f64::from(*count)).collect()
+        }
+        Poses::Times(times) => times.clone(),
+    }
+}
+
+/// An expression of the manifest.
+pub(super) fn expression(
+    text: &Spanned<String>,
+    kind: &Type,
+    place: &str,
+    line_at: &dyn Fn(usize) -> u32,
+) -> Checked<Expression> {
+    let wrong = |what: &str| -> AssignmentError {
+        let line = solution::place(MANIFEST, line_at(text.span().start));
+        let message =
+            format!("{what}: write an expression of type {kind} with `t`, `i`, `resolution`, `turn` and `pi`");
+        error(format!("{line}, {place}"), message)
+    };
+    Expression::compile(text.get_ref(), kind).map_err(|refusal| wrong(refusal.what()))
+}

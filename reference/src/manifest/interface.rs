@@ -1,0 +1,39 @@
+//! What a program is given, as `assignment.toml` has it.
+
+use crate::feed::{Attribute, Role};
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+/// A vertex attribute: it is what `carries` or `values` says.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// Its name in the shader.
+    pub name: Spanned<String>,
+    /// Its type, where the shader does not say it.
+    #[serde(rename = "type")]
+    pub kind: Option<String>,
+    /// What of the mesh it holds.
+    pub carries: Option<Attribute>,
+    /// Its values, one for each vertex.
+    pub values: Option<Vec<Value>>,
+}
+
+/// A uniform, or all that lie in a structure, array or block: it is what `carries`, `value` or `is` says.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Uniform {
+    /// Its name in the shader, or a path: `lights[1].colour`, `Block.member`.
+    pub name: Spanned<String>,
+    /// Its type, where no shader says it.
+    #[serde(rename = "type")]
+    pub kind: Option<String>,
+    /// What of camera and model it holds.
+    pub carries: Option<Role>,
+    /// Its value: a number, a list, or a table of members.
+    pub value: Option<Value>,
+    /// Its value as an expression of `t`, `i`, `resolution`, `model`, `view`, `projection` and `eye`.
+    pub is: Option<Spanned<String>>,
+    /// What probes may draw at random: `{ within = [least, greatest] }`, or a table of members.
+    pub probe: Option<Value>,
+}
