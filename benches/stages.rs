@@ -4,6 +4,7 @@ use divan::Bencher;
 use ggrade::compare;
 use ggrade::cross_check;
 use ggrade::grade::{Grader, Order};
+use ggrade::hand_in::HandIn;
 use ggrade::homework;
 use ggrade::render::{AdapterKind, Device, Renderer};
 use ggrade::source::{self, Source};
@@ -99,7 +100,7 @@ fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
     bencher.with_inputs(text).bench_local_refs(|text| {
         grader
             .borrow_mut()
-            .grade("bench.vert", text.as_bytes(), Order { seed: 1, ..Order::default() })
+            .grade(&HandIn::of_one("bench.vert", text.as_bytes()), Order { seed: 1, ..Order::default() })
             .expect("a grade")
     });
 }

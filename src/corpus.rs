@@ -6,6 +6,7 @@ use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Severity, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::parallel;
 use crate::report::{Report, Verdict};
@@ -136,8 +137,7 @@ fn check_one(sample: &Path, pool: &Pool, cross_check: bool) -> Result<Checked, F
     };
     let name = sample.file_name().unwrap_or_default().to_string_lossy();
     let answer = pool.grade(Submission {
-        name: &name,
-        bytes: &bytes,
+        hand_in: &HandIn::of_one(name, bytes),
         order: Order { seed: SEED, cross_check, ..Order::default() },
         wants_frames: false,
     });

@@ -179,6 +179,7 @@ fn judge(
         max_points: line.points,
         mistake: culprits.first().map(|id| (*id).to_owned()),
         message: told.text,
+        file: None,
         line: told.line,
     }
 }

@@ -38,7 +38,10 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// Who speaks.
     pub stage: Stage,
-    /// Line in the student's file, from 1.
+    /// The file that it is about, where it is about one.
+    #[serde(default)]
+    pub file: Option<String>,
+    /// Line in that file, from 1.
     pub line: Option<u32>,
     /// Column in that line, from 1, counted in characters (Unicode scalar values).
     pub column: Option<u32>,
@@ -53,7 +56,7 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error without a place.
     pub fn error(stage: Stage, message: Text) -> Self {
-        Self { severity: Severity::Error, stage, line: None, column: None, length: 1, message, hint: None }
+        Self { severity: Severity::Error, stage, file: None, line: None, column: None, length: 1, message, hint: None }
     }
 
     /// A warning without a place.

@@ -2,19 +2,21 @@
 
 mod unfinished;
 
-pub use unfinished::{source_info, unfinished};
+pub use unfinished::{handed_out, sources, unfinished};
 
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
 use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
+use crate::hand_in::HandIn;
 use crate::homework;
 use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
-use crate::report::{Environment, FrameResult, Report, Verdict};
-use crate::source::{self, Facts, Source};
+use crate::report::{Environment, FrameResult, Report, SourceInfo, Verdict};
+use crate::slots::{self, Trust};
+use crate::source::{self, Source};
 use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
 use reference::accepted::Answer;
@@ -24,9 +26,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
-use unfinished::info;
 
-/// How a file is to be graded.
+/// How a hand-in is to be graded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Order {
     /// Seed of the fresh probes; the same seed gives the same ones.
@@ -38,7 +39,7 @@ pub struct Order {
     pub cross_check: bool,
 }
 
-/// A graded file.
+/// A graded hand-in.
 #[derive(Clone, Debug)]
 pub struct Graded {
     /// The report.
@@ -104,12 +105,13 @@ impl Grader {
         &self.environment
     }
 
-    /// Grades one file.
-    pub fn grade(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
+    /// Grades one hand-in.
+    pub fn grade(&mut self, hand_in: &HandIn, order: Order) -> Result<Graded, Fault> {
         let start = Instant::now();
         // A panic of the translator or renderer is our limit. The process is not to be used again.
-        let judged = catch_unwind(AssertUnwindSafe(|| self.judge(name, bytes, order)));
+        let judged = catch_unwind(AssertUnwindSafe(|| self.judge(hand_in, order)));
         let mut graded = judged.unwrap_or_else(|panic| Err(translate::unsupported(&panic_message(&*panic))))?;
+        graded.report.name_file();
         graded.report.hints = order.hints;
         if order.hints == Hints::None {
             graded.report.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.hint = None);
@@ -118,23 +120,34 @@ impl Grader {
         Ok(graded)
     }
 
-    fn judge(&mut self, name: &str, bytes: &[u8], order: Order) -> Result<Graded, Fault> {
-        let source = match source::read(name, bytes) {
+    fn judge(&mut self, hand_in: &HandIn, order: Order) -> Result<Graded, Fault> {
+        let sources = sources(&self.assignment, hand_in);
+        let files = match slots::arrange(&self.assignment.files, hand_in, Trust::Named) {
+            Ok(arranged) => arranged.files,
+            Err(why) => return Ok(self.rejected(sources, vec![Diagnostic::error(Stage::Source, why)])),
+        };
+        let [file] = files.as_slice() else {
+            return Err(Fault::new(Text::new(
+                format!("assignment {}: only homework of one file can be graded yet", self.assignment.id),
+                format!("課題 {}: まだ採点できるのはファイルが 1 つの課題だけです", self.assignment.id),
+            )));
+        };
+        let source = match source::read(&file.name, &file.bytes) {
             Ok(source) => source,
-            Err(refusal) => return Ok(self.rejected(&refusal.facts, refusal.diagnostics)),
+            Err(refusal) => return Ok(self.rejected(sources, refusal.diagnostics)),
         };
         if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
-            return Ok(self.refused(&source.facts, Verdict::Rejected, vec![error]));
+            return Ok(self.refused(sources, Verdict::Rejected, vec![error]));
         }
         let mut translation = match translate::translate(&source, &self.interface) {
             Ok(translation) => translation,
             Err(Refusal::Rejected(mut diagnostics)) => {
                 diagnostics.extend(source.notes);
-                return Ok(self.rejected(&source.facts, diagnostics));
+                return Ok(self.rejected(sources, diagnostics));
             }
             Err(Refusal::Stopped(mut diagnostics)) => {
                 diagnostics.extend(source.notes);
-                return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
+                return Ok(self.refused(sources, Verdict::Stopped, diagnostics));
             }
             Err(Refusal::Fault(fault)) => return Err(fault),
         };
@@ -146,14 +159,15 @@ impl Grader {
         let mut rendering = self.renderer.render(shader, scene)?;
         if let Some(ran_out) = rendering.ran_out {
             diagnostics.insert(0, shader.out_of_fuel(ran_out));
-            return Ok(self.refused(&source.facts, Verdict::Stopped, diagnostics));
+            return Ok(self.refused(sources, Verdict::Stopped, diagnostics));
         }
         if rendering.undefined.is_some() && !self.shows_undefined(&source, shader, scene, &rendering)? {
             rendering.undefined = None;
         }
         let interpreter = translation.interpreter(&source);
-        let mut report = self.report(&source, fresh, &rendering, interpreter.as_ref(), diagnostics, order.hints);
-        report.cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
+        let report = self.report(&source, fresh, &rendering, interpreter.as_ref(), diagnostics, order.hints);
+        let cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
+        let report = Report { sources, cross_check, ..report };
         Ok(Graded { report, frames: Some(rendering.frames) })
     }
 
@@ -174,13 +188,13 @@ impl Grader {
         Rc::clone(self.last.insert(Rc::new(Probing { fresh, scene })))
     }
 
-    fn rejected(&self, facts: &Facts, diagnostics: Vec<Diagnostic>) -> Graded {
-        self.refused(facts, Verdict::Rejected, diagnostics)
+    fn rejected(&self, sources: Vec<SourceInfo>, diagnostics: Vec<Diagnostic>) -> Graded {
+        self.refused(sources, Verdict::Rejected, diagnostics)
     }
 
-    fn refused(&self, facts: &Facts, verdict: Verdict, diagnostics: Vec<Diagnostic>) -> Graded {
+    fn refused(&self, sources: Vec<SourceInfo>, verdict: Verdict, diagnostics: Vec<Diagnostic>) -> Graded {
         let environment = self.environment.clone();
-        let report = unfinished(&self.assignment, info(facts), verdict, diagnostics, environment);
+        let report = unfinished(&self.assignment, sources, verdict, diagnostics, environment);
         Graded { report, frames: None }
     }
 
@@ -205,6 +219,7 @@ impl Grader {
             || bits(&poisoned.frame_samples) != bits(&rendering.frame_samples))
     }
 
+    /// The report but for what was handed in.
     fn report(
         &self,
         source: &Source,
@@ -253,7 +268,7 @@ impl Grader {
         let max_score = self.assignment.max_score();
         Report {
             assignment: self.assignment.id.clone(),
-            source: info(&source.facts),
+            sources: Vec::new(),
             verdict: if diagnosis.is_right { Verdict::Correct } else { Verdict::Wrong },
             score,
             max_score,

@@ -18,8 +18,10 @@ pub use equation::{Definition, Equation, Term};
 use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
-use serde::{Deserialize, Serialize};
+use reference::assignment::Stage;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The outcome in one word.
@@ -36,11 +38,15 @@ pub enum Verdict {
     Stopped,
 }
 
-/// What was handed in.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+/// A file that was handed in.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 pub struct SourceInfo {
     /// File name as handed in.
     pub name: String,
+    /// The stage that it is for; none where it is for no slot of the assignment, or an older report does not say.
+    #[serde(default)]
+    #[schema(value_type = Option<String>)]
+    pub stage: Option<Stage>,
     /// SHA-256 of the bytes as handed in, in hexadecimal.
     pub sha256: String,
     /// Size in bytes.
@@ -64,7 +70,10 @@ pub struct RubricLine {
     pub mistake: Option<String>,
     /// What is seen, which equation it breaks, where to look.
     pub message: Text,
-    /// The line of the student's file to look at, from 1.
+    /// The file that the line is in.
+    #[serde(default)]
+    pub file: Option<String>,
+    /// The line of that file to look at, from 1.
     pub line: Option<u32>,
 }
 
@@ -173,8 +182,9 @@ pub struct Report {
     pub cross_check: Option<CrossCheck>,
     /// Id of the assignment.
     pub assignment: String,
-    /// What was handed in.
-    pub source: SourceInfo,
+    /// What was handed in: the files in the order of the assignment. A report of the first version has one, as `source`.
+    #[serde(alias = "source", deserialize_with = "one_or_several")]
+    pub sources: Vec<SourceInfo>,
     /// The outcome in one word.
     pub verdict: Verdict,
     /// Sum of the rubric's points.
@@ -206,10 +216,46 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report of the same bytes under another name.
-    pub fn rename(&mut self, name: &str) {
-        self.advice.iter_mut().for_each(|advice| name.clone_into(&mut advice.file));
-        name.clone_into(&mut self.source.name);
+    /// What was handed in, or the first file of it.
+    pub fn source(&self) -> &SourceInfo {
+        static NONE: SourceInfo =
+            SourceInfo { name: String::new(), stage: None, sha256: String::new(), bytes: 0, encoding: String::new() };
+        self.sources.first().unwrap_or(&NONE)
+    }
+
+    /// The file that a line is in: the one that is named, or the only one.
+    pub fn file_of<'a>(&'a self, file: Option<&'a str>) -> Option<&'a SourceInfo> {
+        match (file, self.sources.as_slice()) {
+            (None, [only]) => Some(only),
+            (None, _) => None,
+            (Some(file), sources) => sources.iter().find(|source| source.name == file),
+        }
+    }
+
+    /// Names the file of each place, where there is only one.
+    pub fn name_file(&mut self) {
+        let [only] = self.sources.as_slice() else { return };
+        let lines = self.rubric.iter_mut().filter(|line| line.line.is_some()).map(|line| &mut line.file);
+        let places = self.diagnostics.iter_mut().filter(|place| place.line.is_some()).map(|place| &mut place.file);
+        for file in lines.chain(places).filter(|file| file.is_none()) {
+            *file = Some(only.name.clone());
+        }
+    }
+
+    /// The report of the same files as others handed them in: names and sizes are each one's own. Both are in the
+    /// order of the assignment.
+    pub fn of_files(&mut self, sources: Vec<SourceInfo>) {
+        let names: HashMap<String, String> =
+            self.sources.iter().zip(&sources).map(|(mine, other)| (mine.name.clone(), other.name.clone())).collect();
+        let lines = self.rubric.iter_mut().filter_map(|line| line.file.as_mut());
+        let places = self.diagnostics.iter_mut().filter_map(|place| place.file.as_mut());
+        let advice = self.advice.iter_mut().map(|advice| &mut advice.file);
+        for file in lines.chain(places).chain(advice) {
+            if let Some(name) = names.get(file) {
+                name.clone_into(file);
+            }
+        }
+        self.sources = sources;
     }
 
     /// The report as its student may see it. The name of a mistake is the answer in words, so where messages say only
@@ -221,10 +267,24 @@ impl Report {
         let mut report = self.clone();
         report.mistakes.clear();
         for line in &mut report.rubric {
-            (line.mistake, line.line) = (None, None);
+            (line.mistake, line.file, line.line) = (None, None, None);
         }
         Cow::Owned(report)
     }
+}
+
+/// Files as a report has them, or the only file of a report of the first version.
+fn one_or_several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<SourceInfo>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Sources {
+        One(SourceInfo),
+        Several(Vec<SourceInfo>),
+    }
+    Ok(match Sources::deserialize(from)? {
+        Sources::One(source) => vec![source],
+        Sources::Several(sources) => sources,
+    })
 }
 
 /// Alpha of a pixel of a right picture at which a rasteriser's rounding may decide whether it is painted: it is not

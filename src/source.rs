@@ -76,7 +76,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     };
     let decoded = match decode(bytes) {
         Ok(decoded) => decoded,
-        Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![error] })),
+        Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![*error] })),
     };
     facts.encoding = Some(decoded.encoding);
     let mut source = Source::new(facts, &decoded.text);
@@ -95,21 +95,32 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
 }
 
-/// Why `bytes` cannot be read as text, where they cannot: too many, a binary format, no sense in any encoding.
-pub fn not_text(bytes: &[u8]) -> Option<Diagnostic> {
-    decode(bytes).err()
+/// The encoding that a file is read in; none where it cannot be read as text.
+pub fn encoding(bytes: &[u8]) -> Option<Encoding> {
+    decode(bytes).ok().map(|decoded| decoded.encoding)
 }
 
-fn decode(bytes: &[u8]) -> Result<encoding::Decoded, Diagnostic> {
+/// Why `bytes` cannot be read as text, where they cannot: too many, a binary format, no sense in any encoding.
+pub fn not_text(bytes: &[u8]) -> Option<Diagnostic> {
+    decode(bytes).err().map(|error| *error)
+}
+
+/// The text of a file with its comments blanked, whatever it is; none where it cannot be read as text.
+pub fn code(bytes: &[u8]) -> Option<String> {
+    let text = decode(bytes).ok()?.text;
+    Some(comments::blank(&text, &comments::find(&text)))
+}
+
+fn decode(bytes: &[u8]) -> Result<encoding::Decoded, Box<Diagnostic>> {
     if bytes.len() > MAX_BYTES {
-        return Err(too_large(bytes.len()));
+        return Err(Box::new(too_large(bytes.len())));
     }
     if let Some(error) = kind::binary(bytes) {
-        return Err(error);
+        return Err(Box::new(error));
     }
     let decoded = encoding::decode(bytes);
     match kind::no_sense(&decoded.text, decoded.encoding) {
-        Some(error) => Err(error),
+        Some(error) => Err(Box::new(error)),
         None => Ok(decoded),
     }
 }

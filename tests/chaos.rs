@@ -4,7 +4,8 @@
 mod workers;
 
 use ggrade::grade::Order;
-use ggrade::report::{Report, Verdict};
+use ggrade::hand_in::HandIn;
+use ggrade::report::{Report, SourceInfo, Verdict};
 use ggrade::sandbox::{Pool, Settings, Submission};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -95,12 +96,13 @@ fn grade_all(pool: &Pool, files: &[Vec<u8>], done: &AtomicUsize) -> Vec<(usize, 
 }
 
 fn grade(pool: &Pool, name: &str, bytes: &[u8]) -> Result<Report, String> {
-    let answer =
-        pool.grade(Submission { name, bytes, order: Order { seed: 7, ..Order::default() }, wants_frames: true });
+    let hand_in = HandIn::of_one(name, bytes);
+    let order = Order { seed: 7, ..Order::default() };
+    let answer = pool.grade(Submission { hand_in: &hand_in, order, wants_frames: true });
     let mut report = answer.map(workers::timeless).map_err(|fault| fault.message.en)?;
-    assert_eq!(report.source.name, name, "the report of another submission");
-    report.source.name = "quiet".into();
-    report.advice.iter_mut().for_each(|advice| advice.file = "quiet".into());
+    assert_eq!(report.source().name, name, "the report of another submission");
+    let quiet = SourceInfo { name: "quiet".into(), ..report.source().clone() };
+    report.of_files(vec![quiet]);
     Ok(report)
 }
 

@@ -110,6 +110,7 @@ fn the_json_report_has_the_fields_of_the_contract_in_their_order() {
             "schema",
             "assignment",
             "source",
+            "sources",
             "verdict",
             "score",
             "max_score",

@@ -5,6 +5,7 @@ mod seed;
 
 use assert_cmd::Command;
 use ggrade::grade::{Grader, Order};
+use ggrade::hand_in::HandIn;
 use ggrade::render::AdapterKind;
 use ggrade::report::Verdict;
 use reference::assignment::MANIFEST;
@@ -77,7 +78,10 @@ fn what_agrees_with_an_accepted_answer_is_right() {
     for accepted in ["", "accepted = [\"phong.vert\"]\n"] {
         let mut grader = Grader::new(homework(accepted), AdapterKind::Software).unwrap();
         for bytes in [&right, &phong, &both] {
-            let report = grader.grade("ggsample06.vert", bytes, Order { seed: 1, ..Order::default() }).unwrap().report;
+            let report = grader
+                .grade(&HandIn::of_one("ggsample06.vert", bytes.as_slice()), Order { seed: 1, ..Order::default() })
+                .unwrap()
+                .report;
             judged.push((report.verdict, report.mistakes.len(), report.score == report.max_score, report.advice.len()));
         }
     }

@@ -4,6 +4,7 @@
 use crate::bare::{Bare, Stage};
 use crate::class::Submission;
 use ggrade::grade::{Grader, Order};
+use ggrade::hand_in::HandIn;
 use ggrade::render::AdapterKind;
 use ggrade::sandbox::{self, Pool, Settings};
 use nix::sys::resource::{UsageWho, getrusage};
@@ -62,7 +63,8 @@ pub fn grade_and_bare(shaders: &[Submission]) -> (f64, f64) {
     for (index, shader) in shaders[..2].iter().chain(shaders).enumerate() {
         let Some(stage) = Stage::of(shader) else { continue };
         let bare = cost(|| bare.run(&stage));
-        let grade = cost(|| grader.grade(&shader.name, shader.text.as_bytes(), ORDER).expect("a grade"));
+        let grade =
+            cost(|| grader.grade(&HandIn::of_one(&shader.name, shader.text.as_bytes()), ORDER).expect("a grade"));
         if index >= 2 {
             bares.push(bare);
             grades.push(grade);
@@ -114,8 +116,11 @@ fn grade_all(pool: &Pool, submissions: &[Submission], count: usize, after: impl 
                         break;
                     }
                     let Submission { name, text } = &submissions[index % submissions.len()];
-                    let submission =
-                        sandbox::Submission { name, bytes: text.as_bytes(), order: ORDER, wants_frames: false };
+                    let submission = sandbox::Submission {
+                        hand_in: &HandIn::of_one(name, text.as_bytes()),
+                        order: ORDER,
+                        wants_frames: false,
+                    };
                     pool.grade(submission).unwrap_or_else(|fault| panic!("{name}: {}", fault.message.en));
                     after(index + 1);
                 }

@@ -4,6 +4,7 @@
 #![no_main]
 
 use ggrade::grade::Order;
+use ggrade::hand_in::HandIn;
 use ggrade::sandbox::{Pool, Settings, Submission};
 use ggrade_fuzz::program;
 use libfuzzer_sys::fuzz_target;
@@ -25,7 +26,7 @@ fuzz_target!(|bytes: &[u8]| {
     let order = Order { seed: 1, ..Order::default() };
     let grade = || {
         let start = Instant::now();
-        let answer = POOL.grade(Submission { name: "a.vert", bytes: file, order, wants_frames: true });
+        let answer = POOL.grade(Submission { hand_in: &HandIn::of_one("a.vert", file), order, wants_frames: true });
         (answer, start.elapsed())
     };
     let (answer, took) = grade();

@@ -2,6 +2,7 @@
 
 use ggrade::batch::same::HandOut;
 use ggrade::diagnostic::Diagnostic;
+use ggrade::hand_in::HandIn;
 use ggrade::language::Language;
 use ggrade::report::html::{Lines, Part};
 use ggrade::report::{Verdict, json, text};
@@ -16,10 +17,10 @@ pub fn check(bytes: &[u8], source: Option<&Source>, diagnostics: &[Diagnostic]) 
     if let Some(source) = source {
         let _ = HAND_OUT.answer(source.code());
     }
-    let info = ggrade::grade::source_info("a.vert", bytes);
+    let sources = ggrade::grade::sources(crate::assignment(), &HandIn::of_one("a.vert", bytes));
     let environment = Default::default();
     let report =
-        ggrade::grade::unfinished(crate::assignment(), info, Verdict::Rejected, diagnostics.to_vec(), environment);
+        ggrade::grade::unfinished(crate::assignment(), sources, Verdict::Rejected, diagnostics.to_vec(), environment);
     for language in [Language::En, Language::Ja] {
         let excerpts = ggrade::excerpt::excerpt(source, diagnostics, language, false);
         let options = text::Options { language, width: 80, colour: false, excerpts: Some(&excerpts) };

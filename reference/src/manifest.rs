@@ -10,7 +10,7 @@ pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 
 use crate::Text;
 use crate::probes::Region;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The whole file.
@@ -109,7 +109,7 @@ pub struct Fixed {
 }
 
 /// A stage of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// The vertex shader.

@@ -7,7 +7,7 @@
 use super::class::{Refused, Student};
 use super::folder::Folder;
 use super::formats::plain::cell;
-use super::intake::{Content, HandIn, Intake};
+use super::intake::{Content, Intake, StudentWork};
 use crate::fault::Fault;
 use crate::language::Text;
 use hmac::{Hmac, KeyInit, Mac};
@@ -86,7 +86,7 @@ impl Pseudonyms {
     /// that every file gets.
     pub fn hide(&self, intake: Intake, file: &str) -> (Intake, Vec<Named>) {
         let mut taken = HashSet::new();
-        let mut hidden: Vec<(HandIn, Named)> = Vec::new();
+        let mut hidden: Vec<(StudentWork, Named)> = Vec::new();
         for hand_in in intake.hand_ins {
             let mut round = 0;
             let letters = loop {
@@ -98,13 +98,13 @@ impl Pseudonyms {
             };
             let (start, end) = letters.split_at(LETTERS / 2);
             let pseudonym = format!("{start}-{end}");
-            let HandIn { student, path, local: _, content } = hand_in;
+            let StudentWork { student, path, local: _, content } = hand_in;
             let named = Named { pseudonym: pseudonym.clone(), name: student.name, path };
             let content = match content {
                 Content::File { name: _, bytes } => Content::File { name: file.into(), bytes },
                 Content::Nothing(_) => Content::Nothing(nothing()),
             };
-            let hand_in = HandIn {
+            let hand_in = StudentWork {
                 student: Student { key: letters.to_ascii_lowercase(), name: pseudonym.clone(), moodle: None },
                 path: named.path.as_ref().map(|_| format!("{pseudonym}/{file}")),
                 local: None,
@@ -187,8 +187,8 @@ fn no_random(error: &getrandom::Error) -> Fault {
 mod tests {
     use super::*;
 
-    fn hand_in(key: &str, name: &str) -> HandIn {
-        HandIn {
+    fn hand_in(key: &str, name: &str) -> StudentWork {
+        StudentWork {
             student: Student { key: key.into(), name: name.into(), moodle: None },
             path: Some(format!("class.zip/{name}/{name}.vert")),
             local: Some(format!("{name}.vert").into()),

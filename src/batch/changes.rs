@@ -175,7 +175,7 @@ fn report(outcome: &Outcome) -> Option<&Report> {
 }
 
 fn sha256(outcome: &Outcome) -> Option<&str> {
-    report(outcome).map(|report| report.source.sha256.as_str())
+    report(outcome).map(|report| report.source().sha256.as_str())
 }
 
 /// The lines that differ.

@@ -1,4 +1,4 @@
-//! What was handed in: folders, files, archives and Moodle downloads → one [`HandIn`] per student.
+//! What was handed in: folders, files, archives and Moodle downloads → one [`StudentWork`] per student.
 //!
 //! [`folder`] walks a folder of this machine, [`archive`] reads a ZIP; both fill a [`tree`]. [`students`] finds in the
 //! tree whose each file is ([`moodle`] knows the names in a Moodle download, [`layout`] what a folder looks like),
@@ -33,7 +33,7 @@ use tree::{File, Folder, Held};
 
 /// What one student handed in.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HandIn {
+pub struct StudentWork {
     /// Who.
     pub student: Student,
     /// Where the file was, as a teacher would look for it: from the input on, folders and file name joined by `/`; where
@@ -66,7 +66,7 @@ pub struct Intake {
     /// Title of the class: the name of the archive or folder.
     pub title: String,
     /// Everyone.
-    pub hand_ins: Vec<HandIn>,
+    pub hand_ins: Vec<StudentWork>,
     /// Members that were left out, and why.
     pub refused: Vec<Refused>,
 }
@@ -131,7 +131,7 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
     groups.extend(found);
     reading.refused.extend(refused);
     let students = key::students(groups.iter().map(|group| &group.who));
-    let mut hand_ins: Vec<HandIn> =
+    let mut hand_ins: Vec<StudentWork> =
         students.into_iter().zip(groups).map(|(student, group)| hand_in(student, group, options)).collect();
     if let [(_, name)] = inputs {
         let places = hand_ins.iter_mut().filter_map(|hand_in| hand_in.path.as_mut());
@@ -142,10 +142,10 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
     Intake { title: String::new(), hand_ins, refused: reading.refused }
 }
 
-fn hand_in(student: Student, group: Group, options: &Options) -> HandIn {
+fn hand_in(student: Student, group: Group, options: &Options) -> StudentWork {
     let chosen = choose::choose(group, options);
     let local = chosen.local.and_then(|local| in_working_folder(&local));
-    HandIn { student, path: chosen.path, local, content: chosen.content }
+    StudentWork { student, path: chosen.path, local, content: chosen.content }
 }
 
 /// What one path of the command line is.

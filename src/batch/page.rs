@@ -25,7 +25,7 @@ impl Pages {
     /// The page of one report; `bytes` is the file and `frames` what it draws, which is
     /// the same afterwards.
     pub fn page(&self, report: &Report, bytes: &[u8], frames: &mut Vec<Picture>) -> Result<String, Fault> {
-        let source = match source::read(&report.source.name, bytes) {
+        let source = match source::read(&report.source().name, bytes) {
             Ok(source) => Some(source),
             Err(refusal) => refusal.source,
         };

@@ -2,13 +2,14 @@
 
 use super::class::{Entry, Outcome};
 use super::folder::Folder;
-use super::intake::{self, HandIn};
+use super::intake::{self, StudentWork};
 use super::journal::{Journal, Record, RecordOf};
 use super::page::Pages;
 use super::portrait::Portraits;
 use super::same::{self, Content, HandOut};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
+use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::parallel;
 use crate::report::Verdict;
@@ -25,7 +26,7 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug)]
 pub struct Candidate {
     /// Who handed in what.
-    pub hand_in: HandIn,
+    pub hand_in: StudentWork,
     /// SHA-256 of the file in hexadecimal; none where there is no file.
     pub sha256: Option<String>,
     /// Its text, where it can be read as text.
@@ -35,7 +36,7 @@ pub struct Candidate {
 }
 
 /// Reads what was handed in as text, and finds who shares an answer.
-pub fn candidates(hand_ins: Vec<HandIn>, assignment: &Assignment) -> Vec<Candidate> {
+pub fn candidates(hand_ins: Vec<StudentWork>, assignment: &Assignment) -> Vec<Candidate> {
     let starter = assignment.files.first().and_then(|file| source::read(&file.name, file.starter.as_bytes()).ok());
     let hand_out = HandOut::new(starter.as_ref().map_or("", |starter| starter.code()));
     let mut answers = Vec::with_capacity(hand_ins.len());
@@ -52,7 +53,7 @@ pub fn candidates(hand_ins: Vec<HandIn>, assignment: &Assignment) -> Vec<Candida
     candidates
 }
 
-fn candidate(hand_in: HandIn, hand_out: &HandOut) -> (Candidate, Option<same::Print>) {
+fn candidate(hand_in: StudentWork, hand_out: &HandOut) -> (Candidate, Option<same::Print>) {
     let none = |hand_in| Candidate { hand_in, sha256: None, text: None, content: None, shares_with: Vec::new() };
     let intake::Content::File { name, bytes } = &hand_in.content else { return (none(hand_in), None) };
     let (facts, source) = match source::read(name, bytes) {
@@ -84,13 +85,13 @@ impl Candidate {
 
     /// What is written down of it.
     pub fn record<'a>(&'a self, outcome: &'a Outcome) -> RecordOf<'a> {
-        let HandIn { student, path, .. } = &self.hand_in;
+        let StudentWork { student, path, .. } = &self.hand_in;
         RecordOf { student, path: path.as_deref(), sha256: self.sha256.as_deref(), outcome }
     }
 
     /// The entry of this outcome.
     pub fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
-        let HandIn { student, path, local, .. } = &self.hand_in;
+        let StudentWork { student, path, local, .. } = &self.hand_in;
         Entry {
             student: student.clone(),
             path: path.clone(),
@@ -108,7 +109,7 @@ impl Candidate {
     pub fn reuse(&self, record: &Record, folder: &Folder, wants: Wants) -> Option<Entry> {
         let Outcome::Graded(report) = &record.outcome else { return None };
         let (name, _) = self.file()?;
-        if record.sha256 != self.sha256 || report.source.name != name {
+        if record.sha256 != self.sha256 || report.source().name != name {
             return None;
         }
         let key = &self.hand_in.student.key;
@@ -142,6 +143,8 @@ pub struct Wants {
 
 /// Grades a class.
 pub struct Run<'a> {
+    /// What is graded.
+    pub assignment: &'a Assignment,
     /// Who grades; none where there is no file to grade.
     pub pool: Option<&'a Pool>,
     /// How.
@@ -202,7 +205,9 @@ impl Run<'_> {
             return members.into_iter().map(|member| self.finish(member, &Judged::without(member.nothing()))).collect();
         };
         let wants_frames = self.portraits.is_some() || self.pages.is_some();
-        let mut answer = guarded(|| pool.grade(Submission { name, bytes, order: self.order, wants_frames }));
+        let mut answer = guarded(|| {
+            pool.grade(Submission { hand_in: &HandIn::of_one(name, bytes), order: self.order, wants_frames })
+        });
         let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
         let mut last: Option<Judged> = None;
         for member in members {
@@ -221,13 +226,13 @@ impl Run<'_> {
     fn show(&self, answer: &mut Answer, member: &Candidate, last: Option<Judged>) -> Result<Judged, Fault> {
         let Some((name, bytes)) = member.file() else { return Ok(Judged::without(member.nothing())) };
         // Name, size and line ends are each file's own.
-        let source = grade::source_info(name, bytes);
+        let sources = grade::sources(self.assignment, &HandIn::of_one(name, bytes));
         if let Some(last) = last
-            && answer.report.source == source
+            && answer.report.sources == sources
         {
             return Ok(last);
         }
-        answer.report.source = source;
+        answer.report.of_files(sources);
         let portrait = self.portraits.map(|portraits| portraits.of(&answer.frames)).transpose()?.flatten();
         let page = self.pages.map(|pages| pages.page(&answer.report, bytes, &mut answer.frames)).transpose()?;
         Ok(Judged { outcome: Outcome::Graded(Box::new(answer.report.clone())), portrait, page })

@@ -3,7 +3,7 @@
 use super::{Outcome, language};
 use crate::cli::Doctor;
 use crate::fault::Fault;
-use crate::grade::Order;
+use crate::grade::{Order, handed_out};
 use crate::language::{Language, Text};
 use crate::render::AdapterKind;
 use crate::report::{Environment, Verdict};
@@ -74,9 +74,8 @@ fn check_assignment(assignment: &reference::Assignment, language: Language) -> b
         Err(fault) => return complain(&fault, language),
     };
     let warm = start.elapsed();
-    let file = &assignment.files[0];
-    let submission =
-        Submission { name: &file.name, bytes: file.starter.as_bytes(), order: Order::default(), wants_frames: false };
+    let hand_in = handed_out(assignment);
+    let submission = Submission { hand_in: &hand_in, order: Order::default(), wants_frames: false };
     let start = Instant::now();
     match pool.grade(submission) {
         Ok(answer) if answer.report.verdict == Verdict::Wrong => {

@@ -5,6 +5,7 @@ use super::{Outcome, deadline, exchange, file_fault, language, warn, writing};
 use crate::cli::{Format, Grade, Reading};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
@@ -67,7 +68,7 @@ pub(super) fn grade(
     warn(&pool, language);
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
     let order = Order { seed, hints: arguments.hints, cross_check: arguments.cross_check };
-    pool.grade(Submission { name, bytes, order, wants_frames })
+    pool.grade(Submission { hand_in: &HandIn::of_one(name, bytes), order, wants_frames })
 }
 
 /// The pictures, where any were drawn; written into the folder that was asked for.

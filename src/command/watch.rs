@@ -12,6 +12,7 @@ use super::{Outcome, deadline, grade, language, warn};
 use crate::cli::{Reading, Watch};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::report::{Report, Verdict};
 use crate::sandbox::{Pool, Settings, Submission};
@@ -111,7 +112,8 @@ impl Session {
         };
         let (pool, order, name) = (Arc::clone(&self.pool), self.order, saves.name().to_owned());
         let graded = tokio::task::spawn_blocking(move || {
-            let answer = pool.grade(Submission { name: &name, bytes: &bytes, order, wants_frames: false });
+            let answer =
+                pool.grade(Submission { hand_in: &HandIn::of_one(name, bytes.as_slice()), order, wants_frames: false });
             (answer, bytes)
         });
         let (answer, bytes) = match graded.await {

@@ -1,16 +1,19 @@
-//! Reports of files that were not rendered to the end.
+//! Reports of hand-ins that were not rendered to the end.
 
 use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
-use crate::source::{self, Facts};
+use crate::slots::{self, Slot, Trust};
+use crate::source;
 use reference::Assignment;
+use reference::assignment::Stage;
 
-/// The report of a file that was not rendered to the end: no points, and the diagnostics say why.
+/// The report of a hand-in that was not rendered to the end: no points, and the diagnostics say why.
 pub fn unfinished(
     assignment: &Assignment,
-    source: SourceInfo,
+    sources: Vec<SourceInfo>,
     verdict: Verdict,
     diagnostics: Vec<Diagnostic>,
     environment: Environment,
@@ -29,12 +32,13 @@ pub fn unfinished(
             max_points: line.points,
             mistake: None,
             message: message.clone(),
+            file: None,
             line: None,
         })
         .collect();
     Report {
         assignment: assignment.id.clone(),
-        source,
+        sources,
         verdict,
         score: 0.0,
         max_score: assignment.max_score(),
@@ -52,19 +56,30 @@ pub fn unfinished(
     }
 }
 
-/// What is known of a file without reading it as text.
-pub fn source_info(name: &str, bytes: &[u8]) -> SourceInfo {
-    match source::read(name, bytes) {
-        Ok(source) => info(&source.facts),
-        Err(refusal) => info(&refusal.facts),
+/// What is known of the files of a hand-in: those that the assignment asks for, in its order; or else all of them.
+pub fn sources(assignment: &Assignment, hand_in: &HandIn) -> Vec<SourceInfo> {
+    let slots = &assignment.files;
+    match slots::fill(slots, &hand_in.files, Trust::Named) {
+        Ok(files) => {
+            let files = files.into_iter().zip(slots);
+            files.map(|(file, slot)| info(&hand_in.files[file], Some(slot.stage))).collect()
+        }
+        Err(_) => hand_in.files.iter().map(|file| info(file, None)).collect(),
     }
 }
 
-pub(super) fn info(facts: &Facts) -> SourceInfo {
+fn info(file: &HandedInFile, stage: Option<Stage>) -> SourceInfo {
     SourceInfo {
-        name: facts.name.clone(),
-        sha256: facts.sha256.clone(),
-        bytes: facts.bytes,
-        encoding: facts.encoding.map_or_else(|| "binary".into(), |encoding| encoding.label().to_owned()),
+        name: file.name.clone(),
+        stage,
+        sha256: file.sha256(),
+        bytes: file.bytes.len(),
+        encoding: source::encoding(&file.bytes).map_or_else(|| "binary".into(), |encoding| encoding.label().to_owned()),
     }
+}
+
+/// The files that the assignment hands out, as if somebody handed them in again.
+pub fn handed_out(assignment: &Assignment) -> HandIn {
+    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.starter.as_bytes());
+    HandIn { files: assignment.files.iter().map(file).collect() }
 }

@@ -23,7 +23,7 @@ pub fn view(report: &Report, language: Language) -> View<'_> {
     if report.hints > Hints::None {
         return view;
     }
-    let rubric = view.rubric.into_iter().map(|line| Rubric { mistake: None, line: None, ..line });
+    let rubric = view.rubric.into_iter().map(|line| Rubric { mistake: None, file: None, line: None, ..line });
     View { rubric: rubric.collect(), mistakes: &[], ..view }
 }
 
@@ -32,14 +32,15 @@ pub fn staff_view(report: &Report, language: Language) -> View<'_> {
     View {
         schema: SCHEMA,
         assignment: &report.assignment,
-        source: &report.source,
+        source: report.source(),
+        sources: &report.sources,
         verdict: report.verdict,
         score: Number(report.score),
         max_score: Number(report.max_score),
-        rubric: report.rubric.iter().map(|line| Rubric::of(line, language)).collect(),
+        rubric: report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect(),
         mistakes: &report.mistakes,
         advice: report.advice.iter().map(|advice| Remark::of(advice, language)).collect(),
-        diagnostics: report.diagnostics.iter().map(|d| Message::of(d, language)).collect(),
+        diagnostics: report.diagnostics.iter().map(|d| Message::of(report, d, language)).collect(),
         frames: report.frames.iter().map(Frame::of).collect(),
         probes: Probes::of(&report.probes),
         cross_check: report.cross_check.as_ref().map(|checked| CrossChecked::of(checked, language)),
@@ -73,6 +74,7 @@ pub struct View<'a> {
     schema: &'static str,
     assignment: &'a str,
     source: &'a SourceInfo,
+    sources: &'a [SourceInfo],
     verdict: Verdict,
     #[schema(value_type = Option<f64>)]
     score: Number,
@@ -111,6 +113,11 @@ impl<'a> CrossChecked<'a> {
     }
 }
 
+/// The name of the file that a place is in; a report of the first version names it once, above.
+fn file_of<'a>(report: &'a Report, file: Option<&'a str>, line: Option<u32>) -> Option<&'a str> {
+    file.or_else(|| line.and_then(|_| report.file_of(None)).map(|source| source.name.as_str()))
+}
+
 #[derive(Debug, Serialize, utoipa::ToSchema)]
 struct Rubric<'a> {
     id: &'a str,
@@ -121,11 +128,12 @@ struct Rubric<'a> {
     mistake: Option<&'a str>,
     message: &'a str,
     label: &'a str,
+    file: Option<&'a str>,
     line: Option<u32>,
 }
 
 impl<'a> Rubric<'a> {
-    fn of(line: &'a RubricLine, language: Language) -> Self {
+    fn of(report: &'a Report, line: &'a RubricLine, language: Language) -> Self {
         Self {
             id: &line.id,
             points: Number(line.points),
@@ -133,6 +141,7 @@ impl<'a> Rubric<'a> {
             mistake: line.mistake.as_deref(),
             message: line.message.get(language),
             label: line.label.get(language),
+            file: file_of(report, line.file.as_deref(), line.line),
             line: line.line,
         }
     }
@@ -158,6 +167,7 @@ impl<'a> Remark<'a> {
 struct Message<'a> {
     severity: Severity,
     stage: Stage,
+    file: Option<&'a str>,
     line: Option<u32>,
     column: Option<u32>,
     message: &'a str,
@@ -165,10 +175,11 @@ struct Message<'a> {
 }
 
 impl<'a> Message<'a> {
-    fn of(diagnostic: &'a Diagnostic, language: Language) -> Self {
+    fn of(report: &'a Report, diagnostic: &'a Diagnostic, language: Language) -> Self {
         Self {
             severity: diagnostic.severity,
             stage: diagnostic.stage,
+            file: file_of(report, diagnostic.file.as_deref(), diagnostic.line),
             line: diagnostic.line,
             column: diagnostic.column,
             message: diagnostic.message.get(language),

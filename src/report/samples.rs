@@ -37,16 +37,18 @@ pub(crate) fn correct() -> Report {
         max_points: points,
         mistake: None,
         message: fine(),
+        file: None,
         line: None,
     };
     Report {
         assignment: "ggsample06".into(),
-        source: SourceInfo {
+        sources: vec![SourceInfo {
             name: "ggsample06.vert".into(),
+            stage: Some(reference::assignment::Stage::Vertex),
             sha256: "3f".repeat(32),
             bytes: 1833,
             encoding: "utf-8".into(),
-        },
+        }],
         verdict: Verdict::Correct,
         score: 100.0,
         max_score: 100.0,

@@ -115,7 +115,7 @@ impl Writer {
         let (mark, style) = verdict_mark(report);
         let verdict = self.labels.verdict(report.verdict);
         let title = format!("{mark} {verdict}");
-        let name = plain(&report.source.name);
+        let name = plain(&report.source().name);
         self.gap();
         let title = self.paint(style.bold(), &title);
         self.line(&title);

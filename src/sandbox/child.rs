@@ -6,6 +6,7 @@ use super::protection::{Policy, Protection};
 use super::protocol::{self, Body, Hello, Longest, Reply, Request};
 use super::{Settings, environment, memory, schedule};
 use crate::fault::Fault;
+use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::Environment;
 use nix::sys::signal::{Signal, killpg};
@@ -129,12 +130,13 @@ impl Worker {
     pub fn grade(
         &mut self,
         request: &Request,
-        bytes: &[u8],
+        hand_in: &HandIn,
         frames_bytes: usize,
         deadline: Duration,
     ) -> Result<(Reply, Body), Ending> {
         self.gradings += 1;
-        let message = protocol::encode(request, bytes).map_err(|error| Ending::Garbled(error.to_string()))?;
+        let message =
+            protocol::encode(request, &hand_in.concatenated()).map_err(|error| Ending::Garbled(error.to_string()))?;
         let before = schedule::cpu_time(self.id());
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
         match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline) {

@@ -9,6 +9,7 @@ use super::{Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
 use std::sync::Arc;
@@ -22,20 +23,18 @@ const ATTEMPTS: u32 = 3;
 /// late as that has used the time of a grading anyway.
 const LEFT_TO_CONFIRM: f64 = 0.4;
 
-/// A file to grade.
+/// What is to be graded.
 #[derive(Clone, Copy, Debug)]
 pub struct Submission<'a> {
-    /// Its name as handed in.
-    pub name: &'a str,
-    /// Its bytes.
-    pub bytes: &'a [u8],
+    /// Its files.
+    pub hand_in: &'a HandIn,
     /// How it is to be graded.
     pub order: Order,
     /// Whether the frames are wanted, not only their comparison.
     pub wants_frames: bool,
 }
 
-/// A graded file.
+/// A graded submission.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The report.
@@ -134,7 +133,7 @@ impl Pool {
         let message = ending.message(self.settings.deadline, self.settings.memory);
         crate::grade::unfinished(
             &self.assignment,
-            crate::grade::source_info(submission.name, submission.bytes),
+            crate::grade::sources(&self.assignment, submission.hand_in),
             Verdict::Stopped,
             vec![Diagnostic::error(Stage::Run, message)],
             environment,
@@ -162,14 +161,14 @@ impl Grading<'_> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
         let was_fresh = worker.gradings == 0;
-        let Submission { name, bytes, order, wants_frames } = self.submission;
-        let request = Request { id: next_id.fetch_add(1, Ordering::Relaxed), name: name.into(), order, wants_frames };
+        let Submission { hand_in, order, wants_frames } = self.submission;
+        let request = Request::new(next_id.fetch_add(1, Ordering::Relaxed), hand_in, order, wants_frames);
         let frames_bytes = if wants_frames { self.pool.frames_bytes() } else { 0 };
         let start = Instant::now();
         // Confirming a crash takes what it left of the deadline: no file has twice the time.
         let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
         let deadline = settings.deadline.saturating_sub(spent);
-        let answered = worker.grade(&request, bytes, frames_bytes, deadline);
+        let answered = worker.grade(&request, hand_in, frames_bytes, deadline);
         let environment = worker.environment.clone();
         let ending = match answered {
             Ok((reply, body)) => return self.answered(worker, was_fresh, reply, &body),

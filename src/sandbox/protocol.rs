@@ -3,6 +3,7 @@
 use super::protection::Protection;
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::report::{Environment, Report};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::io::{self, Read, Write};
@@ -13,14 +14,41 @@ const LENGTHS: usize = 8;
 /// Bytes of a large message that are written at once.
 const PIECE: usize = 256 << 10;
 
-/// Parent → worker: grade this; the body is the file.
+/// Parent → worker: grade this; the body is the files, one behind the other.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Request {
     /// Comes back in the reply, so that an answer is never taken for another file's.
     pub id: u64,
-    pub name: String,
+    pub files: Vec<FileHead>,
     pub order: Order,
     pub wants_frames: bool,
+}
+
+/// One file of a request.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct FileHead {
+    pub name: String,
+    pub bytes: usize,
+}
+
+impl Request {
+    /// A request to grade these files.
+    pub fn new(id: u64, hand_in: &HandIn, order: Order, wants_frames: bool) -> Self {
+        let head = |file: &HandedInFile| FileHead { name: file.name.clone(), bytes: file.bytes.len() };
+        Self { id, files: hand_in.files.iter().map(head).collect(), order, wants_frames }
+    }
+
+    /// The files, whose bytes are the body.
+    pub fn hand_in(&self, body: &[u8]) -> io::Result<HandIn> {
+        let mut rest = body;
+        let mut files = Vec::with_capacity(self.files.len());
+        for FileHead { name, bytes } in &self.files {
+            let (file, others) = rest.split_at_checked(*bytes).ok_or(io::ErrorKind::InvalidData)?;
+            files.push(HandedInFile::new(name, file));
+            rest = others;
+        }
+        if rest.is_empty() { Ok(HandIn { files }) } else { Err(io::ErrorKind::InvalidData.into()) }
+    }
 }
 
 /// Worker → parent, first message: ready, or why not.
@@ -179,6 +207,17 @@ mod tests {
         assert_eq!((head.as_str(), &*body), ("head", b"body".as_slice()));
         let (head, body) = decode::<String>(&mut sent, LONGEST).unwrap().unwrap();
         assert_eq!((head.as_str(), &*body, sent), ("head", b"body".as_slice(), Vec::new()));
+    }
+
+    #[test]
+    fn a_request_has_its_files() {
+        let files = [("a.vert", "12"), ("b.frag", ""), ("c", "3")].map(|(name, text)| HandedInFile::new(name, text));
+        let hand_in = HandIn { files: files.into() };
+        let request = Request::new(1, &hand_in, Order::default(), false);
+        assert_eq!(request.hand_in(b"123").unwrap(), hand_in);
+        for body in ["", "12", "1234"] {
+            assert_eq!(request.hand_in(body.as_bytes()).unwrap_err().kind(), io::ErrorKind::InvalidData, "{body}");
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::protection::{Layer, Protection};
 use super::protocol::{Hello, Outcome, REQUEST, Reply, Request, Tile, receive, send};
 use super::{Limits, syscalls};
 use crate::fault::Fault;
-use crate::grade::{Graded, Grader, Order};
+use crate::grade::{self, Graded, Grader, Order};
 use crate::render::{AdapterKind, Frames};
 use nix::sys::resource::Resource;
 use reference::Assignment;
@@ -69,8 +69,8 @@ fn serve(job: &Job, confined: Confined) -> io::Result<()> {
 /// Makes the device warm, and closes the sandbox around it.
 fn prepare(job: &Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Protection), Fault> {
     let mut grader = Grader::new(Arc::clone(&job.assignment), job.adapter)?;
-    if let Some(file) = job.assignment.files.first().filter(|_| job.warm_up) {
-        grader.grade(&file.name, file.starter.as_bytes(), Order::default())?;
+    if job.warm_up {
+        grader.grade(&grade::handed_out(&job.assignment), Order::default())?;
     }
     let filtered = syscalls::restrict(job.adapter);
     if filtered.is_err() {
@@ -83,7 +83,7 @@ fn prepare(job: &Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Pro
     Ok((grader, Protection { layers, open }))
 }
 
-/// Grades one file; false where the parent has closed the pipe. `start` is the size of the process before the first.
+/// Grades one submission; false where the parent has closed the pipe. `start` is the size of the process before the first.
 fn answer(
     input: &mut impl Read,
     output: &mut File,
@@ -98,7 +98,7 @@ fn answer(
         Err(error) => return Err(error),
     };
     meter.next(job.adapter)?;
-    let graded = grader.grade(&request.name, &bytes, request.order);
+    let graded = grader.grade(&request.hand_in(&bytes)?, request.order);
     let spent = meter.size()? > start + job.limits.memory;
     let reply = |outcome| Reply { id: request.id, spent, outcome };
     let Graded { report, frames } = match graded {

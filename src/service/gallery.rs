@@ -11,6 +11,7 @@ use super::store::Submission;
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::homework::expected_pictures;
 use crate::report::html::Film;
 use crate::report::{Picture, Pictures, pictures};
@@ -98,7 +99,8 @@ impl Gallery {
             let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
             let order = Order { seed: submission.seed, hints: submission.hints, ..Order::default() };
             self.in_turn(state, move |state| {
-                let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: true };
+                let hand_in = HandIn::of_one("", bytes);
+                let submission = sandbox::Submission { hand_in: &hand_in, order, wants_frames: true };
                 let frames = state.pool.grade(submission)?.frames;
                 frames.iter().map(pictures::png).collect()
             })

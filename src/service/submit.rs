@@ -12,6 +12,7 @@ use super::{Config, store};
 use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
+use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::source;
 use axum::http::StatusCode;
@@ -305,7 +306,8 @@ async fn keep_known(
     key: Option<&Key>,
     mut report: Report,
 ) -> Result<Option<Receipt>, Problem> {
-    report.rename(&new.name);
+    let hand_in = HandIn::of_one(&new.name, new.bytes.as_slice());
+    report.of_files(crate::grade::sources(&state.assignment, &hand_in));
     if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
         return Ok(None);
     }

@@ -4,6 +4,7 @@ use super::files;
 use super::settings;
 use super::workers::{alone, sample};
 use ggrade::grade::Order;
+use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, Verdict};
 use ggrade::sandbox::{Answer, Pool, Settings, Submission};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -90,7 +91,8 @@ fn reports_that_differ_are_told_apart() {
 
 pub fn hand_in(pool: &Pool, name: &str, bytes: &[u8]) -> Answer {
     let order = Order { seed: 7, ..Order::default() };
-    let submission = Submission { name, bytes, order, wants_frames: true };
+    let hand_in = HandIn::of_one(name, bytes);
+    let submission = Submission { hand_in: &hand_in, order, wants_frames: true };
     pool.grade(submission).unwrap_or_else(|fault| panic!("{name}: {fault}"))
 }
 

@@ -133,9 +133,9 @@ impl<F: Fn() -> Result<(), Fault> + Send + Sync> Judge for Fake<F> {
     fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
         (self.0)()?;
         let assignment = reference::assignment("ggsample06").expect("built in");
-        let source = ggrade::grade::source_info(submission.name, submission.bytes);
+        let sources = ggrade::grade::sources(assignment, submission.hand_in);
         let verdict = ggrade::report::Verdict::Rejected;
-        let report = ggrade::grade::unfinished(assignment, source, verdict, Vec::new(), Default::default());
+        let report = ggrade::grade::unfinished(assignment, sources, verdict, Vec::new(), Default::default());
         Ok(Answer { report, frames: Vec::new() })
     }
 }

@@ -101,7 +101,7 @@ struct Mistaken {
 
 impl Judge for Mistaken {
     fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
-        let is_meant = String::from_utf8_lossy(submission.bytes).contains(self.text);
+        let is_meant = String::from_utf8_lossy(&submission.hand_in.files[0].bytes).contains(self.text);
         let mut answer = self.pool.grade(submission)?;
         if let Some(checked) = answer.report.cross_check.as_mut().filter(|_| is_meant) {
             let message = Text::new("vertex 7: vc[1] differs", "頂点 7: vc[1] が異なります");
@@ -169,9 +169,9 @@ impl Judge for Slow {
             let _ = self.goes_on.lock().expect("a lock").recv();
         }
         let assignment = reference::assignment("ggsample06").expect("built in");
-        let source = ggrade::grade::source_info(submission.name, submission.bytes);
+        let sources = ggrade::grade::sources(assignment, submission.hand_in);
         let mut report =
-            ggrade::grade::unfinished(assignment, source, Verdict::Correct, Vec::new(), Default::default());
+            ggrade::grade::unfinished(assignment, sources, Verdict::Correct, Vec::new(), Default::default());
         report.probes.seed = submission.order.seed;
         Ok(Answer { report, frames: Vec::new() })
     }

@@ -78,8 +78,8 @@ impl Judge for Stopping {
     fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
         self.0.fetch_add(1, Ordering::SeqCst);
         let assignment = reference::assignment("ggsample06").expect("built in");
-        let source = ggrade::grade::source_info(submission.name, submission.bytes);
-        let report = ggrade::grade::unfinished(assignment, source, Verdict::Stopped, Vec::new(), Default::default());
+        let sources = ggrade::grade::sources(assignment, submission.hand_in);
+        let report = ggrade::grade::unfinished(assignment, sources, Verdict::Stopped, Vec::new(), Default::default());
         Ok(Answer { report, frames: Vec::new() })
     }
 }

@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 use ggrade::grade::Order;
+use ggrade::hand_in::HandIn;
 use ggrade::report::Report;
 use ggrade::sandbox::{Answer, Pool, Settings, Submission};
 use std::fs;
@@ -43,8 +44,7 @@ pub fn honest() -> Vec<u8> {
 /// Grades bytes with a fixed seed and without frames.
 pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<Answer, ggrade::fault::Fault> {
     pool.grade(Submission {
-        name: "ggsample06.vert",
-        bytes,
+        hand_in: &HandIn::of_one("ggsample06.vert", bytes),
         order: Order { seed: 7, ..Order::default() },
         wants_frames: false,
     })

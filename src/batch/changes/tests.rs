@@ -97,7 +97,7 @@ fn the_same_points_for_another_mistake_are_told() {
 #[test]
 fn another_file_is_told_apart_from_another_judgement() {
     let mut mended = wrong(40.0);
-    mended.source.sha256 = "another".into();
+    mended.sources[0].sha256 = "another".into();
     assert!(changes(&[("a", graded(wrong(20.0)))], &[("a", graded(mended))]).gains[0].is_new_file);
 }
 

@@ -77,7 +77,7 @@ const LOG_WIDTH: usize = 100;
 
 fn full_report(entry: &Entry, class: &Class) -> String {
     let Some(report) = entry.report() else { return String::new() };
-    let source = entry.source.as_ref().map(|text| match source::read(&report.source.name, text.as_bytes()) {
+    let source = entry.source.as_ref().map(|text| match source::read(&report.source().name, text.as_bytes()) {
         Ok(source) => Some(source),
         Err(refusal) => refusal.source,
     });

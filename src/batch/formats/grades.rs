@@ -60,7 +60,7 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
         cell(&summary(entry, class.language).replace('`', "")),
         cell(&entry.shares_with.join(" ")),
         cell(entry.path.as_deref().unwrap_or_default()),
-        report.map(|report| cell(&report.source.sha256)).unwrap_or_default(),
+        report.map(|report| cell(&report.source().sha256)).unwrap_or_default(),
         report.map(|report| cell(&titles(report, class))).unwrap_or_default(),
     ]);
     row

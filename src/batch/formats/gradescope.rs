@@ -102,7 +102,7 @@ fn extra_data(entry: &Entry) -> Value {
     if let Some(report) = entry.report() {
         data["assignment"] = json!(report.assignment);
         data["mistakes"] = json!(report.mistakes);
-        data["sha256"] = json!(report.source.sha256);
+        data["sha256"] = json!(report.source().sha256);
         data["seed"] = json!(report.probes.seed);
         data["ggrade"] = json!(report.environment.ggrade);
     }

@@ -53,7 +53,7 @@ fn properties(report: &Report) -> Vec<Property> {
     let mut properties = vec![
         Property::new("score", number(report.score)),
         Property::new("max_score", number(report.max_score)),
-        Property::new("file", one_line(&report.source.name)),
+        Property::new("file", one_line(&report.source().name)),
         Property::new("seed", report.probes.seed.to_string()),
     ];
     properties.extend(report.mistakes.iter().map(|mistake| Property::new("mistake", one_line(mistake))));

@@ -52,7 +52,7 @@ pub(super) fn entry(index: usize, outcome: Outcome) -> Entry {
 /// An entry with `report`, in which everything that a student can choose is [`NASTY`].
 pub(super) fn attack(mut report: Report) -> Entry {
     let nasty = || Text::new(NASTY, NASTY);
-    report.source.name = NASTY.into();
+    report.sources[0].name = NASTY.into();
     for line in &mut report.rubric {
         line.message = nasty();
     }

@@ -138,8 +138,8 @@ fn artifact(file: &File, report: &Report) -> Value {
     location["description"] = json!({ "text": visible(&file.entry.student.name) });
     json!({
         "location": location,
-        "length": report.source.bytes,
-        "hashes": { "sha-256": report.source.sha256 },
+        "length": report.source().bytes,
+        "hashes": { "sha-256": report.source().sha256 },
         "sourceLanguage": "glsl",
     })
 }

@@ -104,6 +104,7 @@ impl Session<'_> {
             self.tell(entry);
         };
         let run = Run {
+            assignment: self.assignment,
             pool: pool.as_ref(),
             order: Order { seed: self.header.seed, hints: self.header.hints, ..Order::default() },
             threads,

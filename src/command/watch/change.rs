@@ -58,6 +58,7 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hand_in::HandIn;
     use crate::report::Environment;
 
     fn report(verdict: Verdict, specular: f64, mistakes: &[&str]) -> Report {
@@ -68,18 +69,19 @@ mod tests {
             max_points,
             mistake: None,
             message: Text::default(),
+            file: None,
             line: None,
         };
         let rubric =
             vec![line("shape", "Shape", "形", 10.0, 10.0), line("specular", "Specular", "鏡面反射光", specular, 40.0)];
         let assignment = reference::assignment("ggsample06").unwrap();
-        let source = crate::grade::source_info("x.vert", b"");
+        let sources = crate::grade::sources(assignment, &HandIn::of_one("x.vert", ""));
         Report {
             score: 10.0 + specular,
             max_score: 50.0,
             rubric,
             mistakes: mistakes.iter().map(|id| (*id).into()).collect(),
-            ..crate::grade::unfinished(assignment, source, verdict, Vec::new(), Environment::default())
+            ..crate::grade::unfinished(assignment, sources, verdict, Vec::new(), Environment::default())
         }
     }
 

@@ -50,7 +50,7 @@ fn every_link_in_a_page_has_its_target() {
 #[test]
 fn what_a_student_writes_stays_text() {
     let mut report = samples::rejected();
-    report.source.name = "<script>alert('x')</script>\".vert".into();
+    report.sources[0].name = "<script>alert('x')</script>\".vert".into();
     report.diagnostics[0].message = Text::verbatim("undeclared `<img src=x onerror=y>`");
     let html = page(&report, Language::En);
     assert!(!html.contains("<script>"), "neither the name nor line 2 of the source opens a script");

@@ -16,13 +16,14 @@ fn keys(value: &Value) -> Vec<&str> {
 #[test]
 fn fields_stand_in_the_order_of_the_contract() {
     let value = parsed(&samples::wrong(), Language::En);
-    let top = "schema assignment source verdict score max_score rubric mistakes advice diagnostics \
+    let top = "schema assignment source sources verdict score max_score rubric mistakes advice diagnostics \
                frames probes environment elapsed_ms";
     assert_eq!(keys(&value), top.split_whitespace().collect::<Vec<_>>());
-    assert_eq!(keys(&value["source"]), ["name", "sha256", "bytes", "encoding"]);
-    let rubric = ["id", "points", "max_points", "mistake", "message", "label", "line"];
+    assert_eq!(keys(&value["source"]), ["name", "stage", "sha256", "bytes", "encoding"]);
+    assert_eq!(value["sources"], json!([value["source"]]));
+    let rubric = ["id", "points", "max_points", "mistake", "message", "label", "file", "line"];
     assert_eq!(keys(&value["rubric"][3]), rubric);
-    let diagnostic = ["severity", "stage", "line", "column", "message", "hint"];
+    let diagnostic = ["severity", "stage", "file", "line", "column", "message", "hint"];
     assert_eq!(keys(&value["diagnostics"][0]), diagnostic);
     let frame = "t coverage_mismatches max_difference mean_difference mismatched_pixels";
     assert_eq!(keys(&value["frames"][0]), frame.split_whitespace().collect::<Vec<_>>());
@@ -43,6 +44,37 @@ fn values_are_those_of_the_report() {
     assert_eq!(value["frames"][1]["t"], json!(0.04));
     assert_eq!(value["diagnostics"][0]["severity"], "warning");
     assert_eq!(value["probes"]["seed"], json!(20_240_613));
+}
+
+#[test]
+fn a_place_names_its_file_and_what_has_no_line_names_none() {
+    let mut report = samples::wrong();
+    let files = |report: &Report| {
+        let value = parsed(report, Language::En);
+        [&value["rubric"][3]["file"], &value["rubric"][0]["file"], &value["diagnostics"][0]["file"]].map(Value::clone)
+    };
+    // As a report of the first version has them: nowhere.
+    let file = || json!("ggsample06.vert");
+    assert_eq!(files(&report), [file(), Value::Null, file()]);
+    report.name_file();
+    assert_eq!(files(&report), [file(), Value::Null, file()]);
+    let other = SourceInfo { name: "other.vert".into(), ..SourceInfo::default() };
+    report.of_files(vec![other]);
+    assert_eq!(files(&report), [json!("other.vert"), Value::Null, json!("other.vert")]);
+}
+
+#[test]
+fn a_stored_report_of_the_first_version_is_read() {
+    let report = samples::wrong();
+    let mut stored = serde_json::to_value(&report).unwrap();
+    let mut source = stored.as_object_mut().unwrap().remove("sources").unwrap()[0].take();
+    source.as_object_mut().unwrap().remove("stage");
+    stored["source"] = source;
+    stored["rubric"][3].as_object_mut().unwrap().remove("file");
+    stored["diagnostics"][0].as_object_mut().unwrap().remove("file");
+    let read: Report = serde_json::from_value(stored).unwrap();
+    let expected = SourceInfo { stage: None, ..report.source().clone() };
+    assert_eq!(read, Report { sources: vec![expected], ..report });
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn colour_adds_nothing_but_colour() {
 #[test]
 fn a_name_cannot_steer_the_terminal() {
     let mut report = samples::rejected();
-    report.source.name = "a\u{1b}]0;owned\u{7}.vert".into();
+    report.sources[0].name = "a\u{1b}]0;owned\u{7}.vert".into();
     report.diagnostics[0].message = crate::language::Text::verbatim("\u{1b}[2J");
     assert!(!text(&report, Language::En, 80).contains('\u{1b}'));
 }

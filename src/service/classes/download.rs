@@ -4,7 +4,7 @@ use super::people::{Person, people};
 use crate::batch::class::{Class, Entry, Outcome, Participant, Refused, Student};
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::{Format, KEY, worksheet};
-use crate::batch::intake::{Content, HandIn};
+use crate::batch::intake::{Content, StudentWork};
 use crate::batch::page::Pages;
 use crate::batch::summary::Written;
 use crate::batch::{output, run};
@@ -254,7 +254,7 @@ fn class(
             None => Content::Nothing(note.unwrap_or_else(nobody)),
         };
         outcomes.push(stored.map(outcome));
-        hand_ins.push(HandIn { student, path, local: None, content });
+        hand_ins.push(StudentWork { student, path, local: None, content });
     }
     let candidates = run::candidates(hand_ins, &state.assignment);
     let entries = candidates.iter().zip(outcomes).zip(portraits).map(|((candidate, outcome), portrait)| {

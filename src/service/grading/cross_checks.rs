@@ -7,6 +7,7 @@
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::report::{Report, Verdict};
 use crate::sandbox;
 use crate::service::store::{StoreError, Submission, Via, word};
@@ -137,7 +138,8 @@ async fn check(state: &State, id: &str) -> Result<(), StoreError> {
 async fn cross_check(state: &State, submission: &Submission, bytes: Vec<u8>) -> CrossCheck {
     let order = Order { seed: submission.seed, hints: submission.hints, cross_check: true };
     let graded = state.gallery.in_turn(state, move |state| {
-        let submission = sandbox::Submission { name: "", bytes: &bytes, order, wants_frames: false };
+        let hand_in = HandIn::of_one("", bytes);
+        let submission = sandbox::Submission { hand_in: &hand_in, order, wants_frames: false };
         Ok(state.pool.grade(submission).map(|answer| answer.report))
     });
     match graded.await {

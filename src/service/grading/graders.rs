@@ -3,6 +3,7 @@
 use super::{Job, Outcome, cross_checks};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::Report;
 use crate::sandbox;
@@ -159,7 +160,8 @@ async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { name, seed, hints, .. } = &job.submission;
         let order = Order { seed: *seed, hints: *hints, ..Order::default() };
-        pool.grade(sandbox::Submission { name, bytes: &job.bytes, order, wants_frames: false })
+        let hand_in = HandIn::of_one(name, job.bytes);
+        pool.grade(sandbox::Submission { hand_in: &hand_in, order, wants_frames: false })
     });
     match graded.await {
         Ok(answer) => answer.map(|answer| answer.report),

@@ -71,7 +71,7 @@ pub(super) async fn page(
     let assignment = &submission.assignment;
     shown(
         View {
-            title: format!("{} / {} · {}", number(report.score), number(report.max_score), report.source.name),
+            title: format!("{} / {} · {}", number(report.score), number(report.max_score), report.source().name),
             back: format!("/a/{assignment}"),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),

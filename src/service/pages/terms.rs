@@ -17,7 +17,7 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, bytes: &[u8]) 
     if report.frames.is_empty() {
         return Arc::default();
     }
-    let source = source::read(&report.source.name, bytes).ok();
+    let source = source::read(&report.source().name, bytes).ok();
     let terms = Terms::of(&state.assignment, report.explanation.as_deref(), source.as_ref());
     // Another seed may explain the file in another way: a browser does not keep these pictures for those.
     let seed = report.probes.seed;
@@ -42,7 +42,7 @@ pub(super) async fn picture(
     let Some((term, whose @ ("yours" | "expected"))) = name else { return Err(Problem::not_found()) };
     let (term, is_theirs) = (term.to_owned(), whose == "yours");
     let (report, bytes) = report_of(&state, &id).await?;
-    let file = report.source.sha256.clone();
+    let file = report.source().sha256.clone();
     let shown = format!("{picture} {}", serde_json::to_string(&report.explanation).unwrap_or_default());
     let draw = move |state: &State| draw(state, &report, &bytes, &term, is_theirs);
     let drawn = state.gallery.of_report(&state, &file, shown, draw).await?;
@@ -53,7 +53,7 @@ fn draw(state: &State, report: &Report, bytes: &[u8], term: &str, is_theirs: boo
     if report.frames.is_empty() {
         return Ok(None);
     }
-    let source = source::read(&report.source.name, bytes).ok();
+    let source = source::read(&report.source().name, bytes).ok();
     let terms = Terms::of(&state.assignment, report.explanation.as_deref(), source.as_ref());
     let scenes = terms.scenes();
     let Some(scene) = scenes.iter().find(|scene| scene.id() == term) else { return Ok(None) };
