@@ -9,6 +9,7 @@ pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::Type;
 pub use crate::manifest::{RubricLine, Stage};
 use crate::mistake::{Form, Found, Mistake};
+use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
 use crate::{Folder, Text, Value, manifest};
 use std::fmt;
@@ -41,7 +42,9 @@ pub struct Assignment {
     pub mistakes: Vec<Mistake>,
     /// What is said of right answers that would break elsewhere.
     pub advice: Vec<Advice>,
-    pub(crate) probing: manifest::Probes,
+    /// What a right answer shows at a probe.
+    pub regions: Vec<Region>,
+    pub(crate) probing: Probing,
 }
 
 /// A file that is handed in.

@@ -2,6 +2,7 @@
 
 use crate::Value;
 use crate::interpreter::{Formula, Registers, Sheet, Type};
+use crate::probes::Region;
 use crate::value;
 use glam::{DVec3, DVec4};
 use std::cell::RefCell;
@@ -156,6 +157,18 @@ impl<'a> Variant<'a> {
             numbers.extend_from_slice(sheet.get(formula.cell(), &registers));
         }
         Outcome { equation: self.equation, numbers }
+    }
+}
+
+impl Variant<'_> {
+    /// The first of these regions in which the vertex lies that was computed last.
+    pub(crate) fn first_region(&self, regions: &[Region]) -> Option<usize> {
+        let Equation { sheet, .. } = self.equation;
+        let mut registers = self.registers.borrow_mut();
+        regions.iter().position(|region| {
+            sheet.compute(&region.when, &mut registers);
+            sheet.get(region.when.cell(), &registers) == [1.0]
+        })
     }
 }
 

@@ -9,9 +9,9 @@ pub use mistake::{Alternative, Fit, Mistake, TermState, When};
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 
 use crate::Text;
-use crate::probes::Region;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use toml::Spanned;
 
 /// The whole file.
 #[derive(Debug, Deserialize)]
@@ -39,6 +39,9 @@ pub struct Manifest {
     pub definition: BTreeMap<String, Definition>,
     /// How probes are chosen.
     pub probes: Probes,
+    /// What a right answer shows at a probe; the first whose condition holds.
+    #[serde(default)]
+    pub region: Vec<Region>,
     /// Lines of the rubric.
     pub rubric: Vec<RubricLine>,
     /// The known mistakes.
@@ -148,10 +151,49 @@ pub struct Probes {
     pub groups: usize,
     /// Vertices for each of them.
     pub per_group: usize,
-    /// Constant that holds the light's position in eye space, homogeneous.
-    pub light: String,
-    /// Constant that holds the shininess.
-    pub shininess: String,
+    /// Definition that is a direction in eye space; positions are placed at an angle from it, as it is at the eye.
+    pub axis: String,
+    /// Definition that is a direction in eye space; normals are placed at an angle from it.
+    pub lobe: String,
+    /// Constant to whose power the cosine of that angle is raised.
+    pub power: String,
+    /// What the vertices of a group show, one after the other.
+    pub design: Vec<Design>,
+}
+
+/// A range of numbers.
+pub type Range = [f64; 2];
+
+/// Where a vertex lies and how its normal stands.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Design {
+    /// Angle at the eye between the axis and the direction from the vertex, in degrees.
+    pub angle: Range,
+    /// Distance from the eye.
+    pub distance: Range,
+    /// Cosine of the angle between the normal and the lobe; or else that, raised to the power:
+    pub cosine: Option<Range>,
+    /// Where the normal stands so that the cosine, raised to the power, is in this range.
+    pub raised: Option<Range>,
+    /// Definition → values that it may have.
+    #[serde(default)]
+    pub within: BTreeMap<String, Range>,
+}
+
+/// What a right answer shows at a probe.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// Its name in this file.
+    pub id: String,
+    /// Where that is: a GLSL expression of type `bool` with the solution's definitions.
+    pub when: Spanned<String>,
+    /// What is said of a place there.
+    pub seen: Text,
+    /// Whether a term that is nothing here shows if a clamp is missing.
+    #[serde(default)]
+    pub shows_clamps: bool,
 }
 
 /// A line of the rubric.
@@ -166,10 +208,7 @@ pub struct RubricLine {
     pub label: Text,
     /// The definition that it judges.
     pub judges: String,
-    /// Where its term stands alone, beside those of earlier lines.
+    /// The regions where its term stands alone, beside those of earlier lines.
     #[serde(default)]
-    pub alone_in: Vec<Region>,
-    /// Where it can be judged if all earlier lines are right.
-    #[serde(default)]
-    pub also_in: Vec<Region>,
+    pub alone_in: Vec<String>,
 }

@@ -1,19 +1,21 @@
 //! Samples in which every term, every clamp and every known mistake of the equation shows.
 //!
-//! The animation hardly shows the specular term. Probes are vertices of their own, drawn once with random rigid cameras: each
-//! is designed in eye space by the angles between normal, light and half vector, then carried back to object space.
+//! An animation hardly shows what stands out at a few angles only. Probes are vertices of their own, drawn once with random
+//! rigid cameras: each is designed in eye space by the angles between directions of the solution, then carried back to object
+//! space.
 
 mod design;
 
 use crate::assignment::{Feed, Uniform};
+use crate::interpreter::Formula;
 use crate::scene::{Matrices, Vertex, perspective};
-use crate::{Assignment, Value};
-use design::Light;
+use crate::{Assignment, Text, Value};
+use design::EyeSpace;
+pub(crate) use design::{Design, Normal, Placement};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use serde::Deserialize;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.
 const TWINS: usize = 3;
@@ -24,22 +26,28 @@ const JUDGING: u64 = 1;
 /// So many cameras of the probes that are fresh in every grading: 80 vertices.
 const FRESH_GROUPS: usize = 4;
 
-/// Which terms of a right answer show at a probe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Region {
-    /// The light is behind the surface and there is no highlight: only the ambient term.
-    AmbientOnly,
-    /// As [`Region::AmbientOnly`], and the half vector lies far behind the surface: a highlight without clamp shows.
-    FacingAway,
-    /// Ambient and diffuse term, no highlight.
-    DiffuseOnly,
-    /// All terms; the highlight is at least a fiftieth of its greatest.
-    Highlight,
-    /// A highlight where the light is behind the surface, so that there is no diffuse term.
-    HighlightBehind,
-    /// Between the others.
-    Between,
+/// How the probes of an assignment are chosen.
+#[derive(Clone, Debug)]
+pub(crate) struct Probing {
+    /// Number of cameras.
+    pub groups: usize,
+    /// Vertices for each of them.
+    pub per_group: usize,
+    /// How those are placed.
+    pub placement: Placement,
+}
+
+/// What a right answer shows in some places.
+#[derive(Clone, Debug)]
+pub struct Region {
+    /// Its name in the assignment.
+    pub id: String,
+    /// What is said of a place there.
+    pub seen: Text,
+    /// Whether a term that is nothing here shows if a clamp is missing.
+    pub shows_clamps: bool,
+    /// Where that is.
+    pub(crate) when: Formula,
 }
 
 /// One vertex and what a right answer computes for it.
@@ -51,8 +59,8 @@ pub struct Probe {
     pub vertex: Vertex,
     /// The attributes in the interface's order.
     pub attributes: Vec<Value>,
-    /// Which terms show.
-    pub region: Region,
+    /// What a right answer shows here: a place among the assignment's regions.
+    pub region: Option<usize>,
     /// The right colour, not clamped.
     pub colour: DVec3,
     /// The right position in clip space.
@@ -148,7 +156,7 @@ impl Assignment {
     /// Probes under `count` cameras, of which the last `twins` are the same.
     fn draw(&self, seed: u64, random: ChaCha8Rng, count: usize, twins: usize) -> ProbeSet {
         let mut random = Random(random);
-        let light = Light::of(self);
+        let mut eye_space = EyeSpace::of(self);
         let right = self.equation.right();
         let mut groups = Vec::new();
         let mut probes = Vec::new();
@@ -159,15 +167,16 @@ impl Assignment {
                 _ => self.group(&mut random),
             };
             let Group { matrices, uniforms, .. } = &drawn;
+            eye_space.enter(&drawn);
             for place in 0..self.probing.per_group {
                 let before = probes.len().checked_sub(self.probing.per_group).map(|at| &probes[at]);
                 let position = before.filter(|_| twin == Some(0)).map(|probe: &Probe| probe.vertex.position);
-                let vertex = design::vertex(&mut random, place, position, &light, matrices);
+                let vertex = eye_space.vertex(&mut random, place, position, matrices);
                 let attributes = self.attribute_values(&vertex);
                 let outcome = right.evaluate(uniforms, &attributes);
                 probes.push(Probe {
                     group,
-                    region: light.region(&vertex, matrices),
+                    region: right.first_region(&self.regions),
                     colour: outcome.colour(),
                     position: outcome.position(),
                     vertex,
@@ -246,6 +255,11 @@ impl Random {
         // The upper 53 bits fill the significand of an f64.
         let unit = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         from + (to - from) * unit
+    }
+
+    /// Uniform within a range.
+    fn within(&mut self, range: &RangeInclusive<f64>) -> f64 {
+        self.between(*range.start(), *range.end())
     }
 
     /// Uniform on the unit sphere: height and longitude are independent (Archimedes).

@@ -13,7 +13,6 @@ use reference::assignment::RubricLine;
 use reference::fit::Worst;
 use reference::interpreter::Type;
 use reference::mistake::{Condition, Found, Mistake};
-use reference::probes::Region;
 
 /// A message and the line of the student's file that it speaks of.
 pub(super) struct Told {
@@ -64,8 +63,8 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
         filled.iter().map(|part| language(part).as_str()).collect::<Vec<_>>().join(space)
     };
     let mut text = Text::new(join(|text| &text.en, " "), join(|text| &text.ja, ""));
-    if let Some(worst) = &blanks.worst {
-        let place = region(worst.region);
+    let regions = &evidence.assignment.regions;
+    if let Some(place) = blanks.worst.and_then(|worst| Some(&regions.get(worst.region?)?.seen)) {
         text.en = format!("{} ({}.)", text.en, place.en);
         text.ja = format!("{}({})", text.ja, place.ja);
     }
@@ -242,30 +241,6 @@ fn number(value: f64) -> String {
     let rounded = (value * 1000.0).round() / 1000.0;
     // No minus before a zero.
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
-}
-
-/// Where a probe lies with respect to light and eye.
-fn region(region: Region) -> Text {
-    match region {
-        Region::AmbientOnly => Text::new(
-            "Seen where the light is behind the surface and nothing shines",
-            "光が面の裏側から当たり、ハイライトもないところ",
-        ),
-        Region::FacingAway => Text::new(
-            "Seen where light and half vector are behind the surface",
-            "光も中間ベクトルも面の裏側にあるところ",
-        ),
-        Region::DiffuseOnly => Text::new(
-            "Seen where the light falls on the surface, away from the highlight",
-            "光が当たり、ハイライトから離れたところ",
-        ),
-        Region::Highlight => Text::new("Seen in the highlight", "ハイライトのところ"),
-        Region::HighlightBehind => Text::new(
-            "Seen where N·L is not above 0 and N·H is large, for points behind the eye",
-            "N·L が 0 以下で N·H が大きいところ(視点より後ろの点)",
-        ),
-        Region::Between => Text::new("Seen at the highlight's rim", "ハイライトの縁のところ"),
-    }
 }
 
 /// Right answers get more than silence.

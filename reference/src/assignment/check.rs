@@ -3,13 +3,14 @@
 mod advice;
 mod interface;
 mod mistakes;
+mod probing;
 mod scene;
 mod solution;
 
-use super::{Assignment, AssignmentError, Constant, HandedIn, MANIFEST, error};
+use super::{Assignment, AssignmentError, HandedIn, MANIFEST, error};
 use crate::Folder;
 use crate::accepted::Answer;
-use crate::interpreter::{Program, Stage, Type};
+use crate::interpreter::{Program, Stage};
 use crate::manifest::{self, Manifest};
 use crate::rasteriser::ClipVertex;
 use solution::Solution;
@@ -45,7 +46,8 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         }
         mistakes.push(mistakes::mistake(entry, &mut solution, &lines, line_at)?);
     }
-    probing(&m.probes, &constants)?;
+    let probing = probing::probing(&m.probes, &constants, &solution)?;
+    let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, line_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<Checked<Vec<_>>>()?;
@@ -63,8 +65,10 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         rubric: m.rubric,
         mistakes,
         advice,
-        probing: m.probes,
+        regions,
+        probing,
     };
+    probing::lobe_is_known(&assignment)?;
     answers_are_defined(&assignment)?;
     Ok(assignment)
 }
@@ -155,17 +159,4 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
 
 fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> Checked<()> {
     if lines.contains(line) { Ok(()) } else { Err(error(place, format!("there is no rubric line `{line}`"))) }
-}
-
-fn probing(probes: &manifest::Probes, constants: &[Constant]) -> Checked<()> {
-    let find = |name: &str, kind: Type| {
-        let found = constants.iter().any(|c| c.name == name && *c.value.kind() == kind);
-        found.then_some(()).ok_or_else(|| error("probes", format!("there is no {kind} constant `{name}`")))
-    };
-    find(&probes.light, Type::VEC4)?;
-    find(&probes.shininess, Type::FLOAT)?;
-    if probes.groups == 0 || probes.per_group == 0 {
-        return Err(error("probes", "there are none"));
-    }
-    Ok(())
 }

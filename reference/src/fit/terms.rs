@@ -4,7 +4,7 @@ use super::agrees;
 use super::views::Views;
 use crate::Assignment;
 use crate::assignment::RubricLine;
-use crate::probes::{ProbeSet, Region};
+use crate::probes::ProbeSet;
 use glam::DVec3;
 
 /// What is to be said about one line of the rubric.
@@ -37,8 +37,8 @@ impl TermJudgement {
 pub struct Worst {
     /// The probe's place in the set.
     pub probe: usize,
-    /// What shows there.
-    pub region: Region,
+    /// What shows there: a place among the assignment's regions.
+    pub region: Option<usize>,
     /// The colour that a right term would give there, beside what the shader has of the earlier terms.
     pub expected: DVec3,
     /// The colour that the shader gives.
@@ -59,7 +59,7 @@ pub(super) fn judge(
     let mut judgements: Vec<TermJudgement> = Vec::new();
     let mut shift = DVec3::ZERO;
     for (term, right) in views.terms.iter().zip(right) {
-        let places = alone(term.line, probes);
+        let places = alone(assignment, term.line, probes);
         if judgements.is_empty() && !right {
             shift = constant_shift(probes, samples, &places, tolerance).unwrap_or(DVec3::ZERO);
         }
@@ -80,8 +80,9 @@ pub(super) fn judge(
 }
 
 /// The places where the line's term stands alone.
-fn alone(line: &RubricLine, probes: &ProbeSet) -> Vec<usize> {
-    let here = |place: &usize| line.alone_in.contains(&probes.probes[*place].region);
+fn alone(assignment: &Assignment, line: &RubricLine, probes: &ProbeSet) -> Vec<usize> {
+    let shows = |region: usize| assignment.regions.get(region).is_some_and(|region| line.alone_in.contains(&region.id));
+    let here = |place: &usize| probes.probes[*place].region.is_some_and(shows);
     (0..probes.probes.len()).filter(here).collect()
 }
 

@@ -61,6 +61,7 @@ enum Way {
 /// The terms of a shader at all probes.
 pub(super) struct Views<'a> {
     pub terms: Vec<Term<'a>>,
+    regions: &'a [Region],
     probes: &'a ProbeSet,
     samples: &'a [DVec3],
     tolerance: f64,
@@ -79,7 +80,7 @@ impl<'a> Views<'a> {
             outcomes.iter().map(|o| o.get(&line.judges).map_or(DVec3::NAN, |value| value.vec3())).collect()
         };
         let terms = lines.map(|(place, line)| Term::new(place, line, values(line))).collect();
-        Self { terms, probes, samples, tolerance }
+        Self { terms, regions: &assignment.regions, probes, samples, tolerance }
     }
 
     /// The lines whose term stands alone somewhere, all others being 0 or the same everywhere, and agrees wherever it does:
@@ -235,11 +236,17 @@ impl<'a> Views<'a> {
         Some(places.iter().all(|place| off(rest(*place) - constant) <= self.tolerance))
     }
 
+    /// Whether what is nothing here shows if a clamp is missing.
+    fn shows_clamps(&self, place: usize) -> bool {
+        let region = self.probes.probes[place].region.and_then(|region| self.regions.get(region));
+        region.is_some_and(|region| region.shows_clamps)
+    }
+
     fn is_hidden(&self, other: usize, way: Way, place: usize) -> bool {
         let value = self.terms[other].values[place];
         match way {
             Way::Absent => value == DVec3::ZERO,
-            Way::Faint => value.abs().max_element() < FAINT && self.probes.probes[place].region != Region::FacingAway,
+            Way::Faint => value.abs().max_element() < FAINT && !self.shows_clamps(place),
             Way::Projected | Way::Constant | Way::Right | Way::Beside => true,
         }
     }

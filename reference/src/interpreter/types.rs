@@ -129,6 +129,8 @@ impl Type {
     pub const FLOAT: Self = Self::Vector(Scalar::Float, 1);
     /// `double`
     pub const DOUBLE: Self = Self::Vector(Scalar::Double, 1);
+    /// `vec3`
+    pub const VEC3: Self = Self::Vector(Scalar::Float, 3);
     /// `vec4`
     pub const VEC4: Self = Self::Vector(Scalar::Float, 4);
     /// `mat4`

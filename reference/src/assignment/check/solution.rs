@@ -59,6 +59,23 @@ impl<'a> Solution<'a> {
         })
     }
 
+    /// The place of a definition of this type.
+    pub(super) fn definition_of(&self, name: &str, kind: &Type, place: &dyn Fn() -> String) -> Checked<usize> {
+        let definition = self.definition(name, place)?;
+        let found = &self.definitions()[definition].kind;
+        let other = || error(place(), format!("`{name}` is a {found}, and has to be a {kind}"));
+        (found == kind).then_some(definition).ok_or_else(other)
+    }
+
+    /// A condition on the definitions.
+    pub(super) fn condition(&mut self, text: &str, place: &dyn Fn() -> String) -> Checked<Formula> {
+        self.draft.condition(text).map_err(|refusal| {
+            let known =
+                listed(self.draft.cells().iter().map(|cell| cell.name.as_str()).filter(|name| !name.is_empty()));
+            error(place(), format!("{}: write an expression of type bool with {known}", refusal.what()))
+        })
+    }
+
     /// A name for what is free in a mistake's forms.
     pub(super) fn parameter(&self, name: &str, place: &str) -> Checked<()> {
         let taken = || error(place, format!("`{name}` is taken, means something in GLSL, or is not a name"));

@@ -233,6 +233,18 @@ impl Draft {
         self.formula(cell, nodes, 1)
     }
 
+    /// A condition on the definitions. Where it holds, the cell of what is free becomes 1, and 0 elsewhere.
+    ///
+    /// # Errors
+    /// See [`Draft::replacement`].
+    pub fn condition(&mut self, text: &str) -> Result<Formula, Refusal> {
+        let tokens = text::preprocess(text)?.tokens;
+        let expression = parse::parse_expression(&tokens, self.functions.clone())?;
+        let cell = self.cells.len() - 1;
+        let (nodes, _) = self.compiled(&expression, &Type::BOOL, Some(self.cells[cell].slots.start))?;
+        self.formula(cell, nodes, 1)
+    }
+
     /// Whether a name can be that of something new.
     pub fn is_free(&self, name: &str) -> bool {
         let is_word = text::preprocess(name).is_ok_and(|read| matches!(&*read.tokens, [one] if one.is_name()));

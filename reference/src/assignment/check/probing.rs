@@ -1,0 +1,100 @@
+//! How probes are chosen, and what a right answer shows at them.
+
+use super::solution::{self, Solution};
+use super::{Checked, listed};
+use crate::assignment::{Assignment, Attribute, Constant, Input, MANIFEST, Stream, error};
+use crate::equation::Definition;
+use crate::interpreter::Type;
+use crate::manifest::{self, RubricLine};
+use crate::probes::{Design, Normal, Placement, Probing, Region};
+use std::collections::HashSet;
+use std::ops::RangeInclusive;
+
+/// The probes whose names are known and whose ranges are ranges.
+pub(super) fn probing(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>) -> Checked<Probing> {
+    let place = || "probes".to_owned();
+    if entry.groups == 0 || entry.per_group == 0 || entry.design.is_empty() {
+        return Err(error("probes", "there are none: `groups`, `per_group` and the number of designs are 1 or more"));
+    }
+    let is_power = |constant: &Constant| constant.name == entry.power && *constant.value.kind() == Type::FLOAT;
+    let power = constants.iter().position(is_power);
+    let power = power.ok_or_else(|| error("probes", format!("there is no float constant `{}`", entry.power)))?;
+    let direction = |name: &str| solution.definition_of(name, &Type::VEC3, &place);
+    let (axis, lobe) = (direction(&entry.axis)?, direction(&entry.lobe)?);
+    let designs = entry.design.iter().zip(1..).map(|(entry, number)| design(entry, number, solution));
+    let placement = Placement { axis, lobe, power, designs: designs.collect::<Checked<_>>()? };
+    Ok(Probing { groups: entry.groups, per_group: entry.per_group, placement })
+}
+
+fn design(entry: &manifest::Design, number: usize, solution: &Solution<'_>) -> Checked<Design> {
+    let place = format!("probes, design {number}");
+    let range = |range: manifest::Range, lowest: f64, highest: f64| -> Checked<RangeInclusive<f64>> {
+        let [from, to] = range;
+        let is_range = lowest <= from && from <= to && to <= highest;
+        let wrong = || error(&place, format!("[{from}, {to}] is no range within [{lowest}, {highest}]"));
+        is_range.then_some(from..=to).ok_or_else(wrong)
+    };
+    let normal = match (entry.cosine, entry.raised) {
+        (Some(cosine), None) => Normal::Cosine(range(cosine, -1.0, 1.0)?),
+        (None, Some(raised)) => Normal::Raised(range(raised, 0.0, 1.0)?),
+        _ => return Err(error(&place, "write one of `cosine` and `raised`: how the normal stands")),
+    };
+    let within = entry.within.iter().map(|(name, values)| {
+        let definition = solution.definition_of(name, &Type::FLOAT, &|| place.clone())?;
+        Ok((definition, range(*values, f64::MIN, f64::MAX)?))
+    });
+    Ok(Design {
+        angle: range(entry.angle, 0.0, 180.0)?,
+        distance: range(entry.distance, 0.0, f64::MAX)?,
+        normal,
+        within: within.collect::<Checked<_>>()?,
+    })
+}
+
+/// The lobe is what a normal is chosen by: it has to be known before.
+pub(super) fn lobe_is_known(assignment: &Assignment) -> Checked<()> {
+    let Assignment { equation, interface, probing, .. } = assignment;
+    let lobe = probing.placement.lobe;
+    let is_normal = |input: &Input| matches!(input.stream, Stream::Mesh(Attribute::Normal));
+    let normals = equation.attributes.iter().zip(&interface.inputs);
+    let normals: Vec<usize> = normals.filter(|(_, input)| is_normal(input)).filter_map(|(cell, _)| *cell).collect();
+    let uses_normal =
+        |(_, definition): &(usize, &Definition)| definition.formula.uses().iter().any(|cell| normals.contains(cell));
+    let mut definitions = equation.definitions().iter().enumerate().filter(|(on, _)| equation.depends(lobe, *on));
+    match definitions.find(uses_normal) {
+        None => Ok(()),
+        Some((_, Definition { name, .. })) => {
+            Err(error("probes", format!("the lobe depends on the normal by `{name}`: name a direction that does not")))
+        }
+    }
+}
+
+/// The regions whose conditions can be computed, and which the rubric knows.
+pub(super) fn regions(
+    entries: Vec<manifest::Region>,
+    solution: &mut Solution<'_>,
+    rubric: &[RubricLine],
+    line_at: &dyn Fn(usize) -> u32,
+) -> Checked<Vec<Region>> {
+    let mut ids = HashSet::new();
+    let mut regions = Vec::new();
+    for entry in entries {
+        let place = || {
+            let first = solution::place(MANIFEST, line_at(entry.when.span().start));
+            format!("{first}, region `{}`", entry.id)
+        };
+        if !ids.insert(entry.id.clone()) {
+            return Err(error(place(), "stands twice"));
+        }
+        let when = solution.condition(entry.when.get_ref(), &place)?;
+        regions.push(Region { when, id: entry.id, seen: entry.seen, shows_clamps: entry.shows_clamps });
+    }
+    for line in rubric {
+        if let Some(unknown) = line.alone_in.iter().find(|id| !ids.contains(*id)) {
+            let known = listed(regions.iter().map(|region| region.id.as_str()));
+            let message = format!("there is no region `{unknown}`, only {known}");
+            return Err(error(format!("rubric line `{}`", line.id), message));
+        }
+    }
+    Ok(regions)
+}
