@@ -24,8 +24,6 @@ use message::Facts;
 use reference::Assignment;
 use reference::probes::{Probe, ProbeSet};
 
-/// The rubric line that is judged by where things are drawn, not by their colour.
-const SHAPE: &str = "shape";
 /// Mistakes that are told from other things than the colours alone.
 const POSITION_CHANGED: &str = "position-changed";
 const CONSTANTS_CHANGED: &str = "constants-changed";
@@ -78,7 +76,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let shape = shape_agrees(evidence, &probes);
     let cause = cause(evidence, shape).unless_refuted(evidence);
     let mut mistakes = cause.ids();
-    if !shape && !mistakes.iter().any(|id| costs(evidence.assignment, id, SHAPE)) {
+    if !shape && !mistakes.iter().any(|id| costs_position(evidence.assignment, id)) {
         mistakes.insert(0, POSITION_CHANGED.into());
     }
     let lines = &evidence.assignment.rubric;
@@ -104,8 +102,10 @@ pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
     agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)
 }
 
-fn costs(assignment: &Assignment, id: &str, line: &str) -> bool {
-    assignment.mistake(id).is_some_and(|mistake| mistake.keeps(line) < 1.0)
+/// Whether a mistake costs points where things are drawn.
+fn costs_position(assignment: &Assignment, id: &str) -> bool {
+    let mut lines = assignment.rubric.iter().filter(|line| assignment.judges_position(line));
+    assignment.mistake(id).is_some_and(|mistake| lines.any(|line| mistake.keeps(&line.id) < 1.0))
 }
 
 struct ComparedProbes {

@@ -13,6 +13,16 @@ pub enum Language {
     En,
 }
 
+impl Language {
+    /// The wording of an assignment's text in this language.
+    pub fn of(self, text: &reference::Text) -> &str {
+        match self {
+            Self::En => &text.en,
+            Self::Ja => &text.ja,
+        }
+    }
+}
+
 /// One message in both languages. A report keeps both, so that it can be read in either later.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Text {

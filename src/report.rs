@@ -2,7 +2,6 @@
 
 mod difference;
 mod encode;
-mod equation;
 pub mod html;
 pub mod json;
 pub(crate) mod labels;
@@ -12,8 +11,6 @@ pub mod pictures;
 pub(crate) mod samples;
 pub mod text;
 pub(crate) mod wrap;
-
-pub use equation::{Definition, Equation, Term};
 
 use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
@@ -318,6 +315,8 @@ pub struct Pictures {
     pub expected: Arc<[Picture]>,
     /// One term of the equation at a time, where that is known.
     pub terms: Arc<[TermPictures]>,
+    /// Seconds that the animation takes.
+    pub cycle: f64,
 }
 
 /// One term of the equation on its own, at the pose where it shows best.

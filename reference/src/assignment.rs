@@ -7,10 +7,11 @@ use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::Type;
-pub use crate::manifest::{RubricLine, Stage};
+pub use crate::manifest::{RubricLine, Stage, Task};
 use crate::mistake::{Form, Found, Mistake};
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
+use crate::typeset::Typeset;
 use crate::{Folder, Text, Value, manifest};
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -26,6 +27,10 @@ pub struct Assignment {
     pub folder: Arc<Folder>,
     /// Its title.
     pub title: Text,
+    /// What there is to do.
+    pub task: Task,
+    /// What the lecture writes.
+    pub typeset: Option<Typeset>,
     /// The files that are handed in.
     pub files: Vec<HandedIn>,
     /// What the shader is given and what it writes.
@@ -230,6 +235,16 @@ impl Assignment {
         }
         let mut replaced = form.overrides.iter().map(|o| o.definition);
         replaced.any(|definition| equation.depends(judged, definition) || equation.depends(definition, judged))
+    }
+
+    /// Whether a line is judged by where things are drawn, not by their colour.
+    pub fn judges_position(&self, line: &RubricLine) -> bool {
+        self.equation.index(&line.judges) == Some(self.equation.position)
+    }
+
+    /// What it means that the colour depends on a negative number raised to a power, which GLSL leaves undefined.
+    pub fn undefined_power(&self) -> Option<&Mistake> {
+        self.mistakes.iter().find(|mistake| mistake.undefined_power)
     }
 
     /// Points of the whole rubric.

@@ -9,6 +9,7 @@
 //! - [`scene`]: meshes, cameras and moments of the course program
 //! - [`feed`]: what the shader is given at a moment
 //! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
+//! - [`typeset`]: the equation as the lecture writes it
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
 //! - [`fit`]: which mistakes explain what a shader computed
@@ -36,6 +37,7 @@ pub mod probes;
 pub mod rasteriser;
 pub mod scene;
 mod text;
+pub mod typeset;
 mod value;
 
 pub use assignment::{Assignment, AssignmentError, assignment, assignments};

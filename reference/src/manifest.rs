@@ -21,6 +21,10 @@ pub struct Manifest {
     pub id: String,
     /// Title of the homework.
     pub title: Text,
+    /// What there is to do.
+    pub task: Task,
+    /// What the lecture writes.
+    pub equation: Option<Equation>,
     /// The files that are handed in.
     pub file: Vec<File>,
     /// Vertex attributes.
@@ -49,6 +53,55 @@ pub struct Manifest {
     /// What is said of right answers that would break elsewhere.
     #[serde(default)]
     pub advice: Vec<Advice>,
+}
+
+/// What there is to do, as a page for students has it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Task {
+    /// A sentence; names between backticks are code.
+    pub text: Text,
+    /// What is seen in a right picture, for those who do not see it.
+    pub picture: Text,
+}
+
+/// A sum of terms, in LaTeX.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Equation {
+    /// Where it stands.
+    pub source: Text,
+    /// The symbol of the sum.
+    pub total: Spanned<String>,
+    /// The summands, in order.
+    pub term: Vec<Term>,
+    /// What the terms need.
+    #[serde(default, rename = "where")]
+    pub given: Vec<Given>,
+}
+
+/// A summand.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Term {
+    /// The rubric line that judges it.
+    pub line: String,
+    /// Its symbol in the sum.
+    pub symbol: Spanned<String>,
+    /// What the symbol stands for.
+    pub value: Spanned<String>,
+}
+
+/// What a symbol in the terms stands for.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Given {
+    /// The symbol.
+    pub symbol: Spanned<String>,
+    /// What it stands for.
+    pub value: Spanned<String>,
+    /// Where that stands.
+    pub source: Text,
 }
 
 /// Something to say of a right answer that would break elsewhere.
@@ -208,6 +261,8 @@ pub struct RubricLine {
     pub label: Text,
     /// The definition that it judges.
     pub judges: String,
+    /// What is said where it is right: `{frames}` and `{probes}` are how many there are.
+    pub right: Option<Text>,
     /// The regions where its term stands alone, beside those of earlier lines.
     #[serde(default)]
     pub alone_in: Vec<String>,

@@ -18,6 +18,8 @@ pub struct Mistake {
     pub fit: Option<FreeParameter>,
     /// Whether the handed-out file itself has it, so that its own line may be named.
     pub handed_out: bool,
+    /// Whether it is what a negative base of a power means, also where a driver hides that the result is undefined.
+    pub undefined_power: bool,
     /// Whether something is left out where a right value is used, so that the use is what is named.
     pub at_use: bool,
     /// What the text contains, parentheses and swizzles aside, if it is this mistake and not a number that equals it by chance:
@@ -105,6 +107,8 @@ pub struct FreeParameter {
     pub example: f64,
     /// Whether the colour at a place may rise and fall again while it grows; else it only rises or only falls.
     pub turns: bool,
+    /// What it should be, where it stands for a constant of the handed-out file: that one's place among the constants.
+    pub of: Option<usize>,
 }
 
 /// A mistake that was found, in the form in which it was found.

@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::homework;
 use crate::language::Language;
 use crate::report::html::Page;
-use crate::report::{Equation, Picture, Pictures, Report};
+use crate::report::{Picture, Pictures, Report};
 use crate::source;
 use reference::Assignment;
 use std::sync::Arc;
@@ -12,14 +12,13 @@ use std::sync::Arc;
 /// Makes the pages of a class.
 pub struct Pages {
     assignment: Arc<Assignment>,
-    equation: Equation,
     language: Language,
 }
 
 impl Pages {
     /// The pages for an assignment.
     pub fn new(assignment: Arc<Assignment>, language: Language) -> Self {
-        Self { assignment, equation: Equation::illumination(), language }
+        Self { assignment, language }
     }
 
     /// The page of one report; `bytes` is the file and `frames` what it draws, which is
@@ -36,13 +35,14 @@ impl Pages {
                 yours: std::mem::take(frames),
                 expected: homework::expected_pictures(&self.assignment),
                 terms: homework::term_pictures(&self.assignment, report.explanation.as_deref(), source.as_ref()),
+                cycle: self.assignment.scene.cycle,
             };
         }
         let page = Page {
             report,
             source: source.as_ref().map(|source| source.text.as_str()),
             pictures: is_drawn.then_some(&pictures),
-            equation: Some(&self.equation),
+            equation: self.assignment.typeset.as_ref(),
             language: self.language,
         }
         .render();

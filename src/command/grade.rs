@@ -45,7 +45,14 @@ fn run_for_reading(
     let Answer { report, frames } = grade(arguments, deadline, &name, &bytes, wants_frames, language)?;
     let source = readable(&name, &bytes);
     let pictures = pictures(arguments, &report, source.as_ref(), frames)?;
-    let view = View { report: &report, source: source.as_ref(), pictures: pictures.as_ref(), language };
+    let assignment = crate::homework::assignment(&report.assignment)?;
+    let view = View {
+        report: &report,
+        source: source.as_ref(),
+        equation: assignment.typeset.as_ref(),
+        pictures: pictures.as_ref(),
+        language,
+    };
     let colour = arguments.output.is_none() && has_colour();
     put(arguments, &view.document(reading, colour)?)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
@@ -86,6 +93,7 @@ pub(super) fn pictures(
         yours: frames,
         expected: crate::homework::expected_pictures(&assignment),
         terms: crate::homework::term_pictures(&assignment, report.explanation.as_deref(), source),
+        cycle: assignment.scene.cycle,
     };
     if let Some(folder) = &arguments.frames {
         pictures::write(&pictures, folder)?;

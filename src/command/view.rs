@@ -6,8 +6,9 @@ use crate::excerpt;
 use crate::fault::Fault;
 use crate::language::Language;
 use crate::report::html::Page;
-use crate::report::{Equation, Pictures, Report, json, text};
+use crate::report::{Pictures, Report, json, text};
 use crate::source::{self, Source};
+use reference::typeset::Typeset;
 use std::io::IsTerminal;
 
 /// Everything that a report is shown with.
@@ -16,6 +17,8 @@ pub(super) struct View<'a> {
     pub report: &'a Report,
     /// The file as text, where it can be read as text.
     pub source: Option<&'a Source>,
+    /// The equation that the rubric judges.
+    pub equation: Option<&'a Typeset>,
     /// What was drawn, where it is wanted.
     pub pictures: Option<&'a Pictures>,
     /// The language of every word.
@@ -31,7 +34,7 @@ impl View<'_> {
                 report: self.report,
                 source: self.source.map(|source| source.text.as_str()),
                 pictures: self.pictures,
-                equation: Some(&Equation::illumination()),
+                equation: self.equation,
                 language: self.language,
             }
             .render(),

@@ -132,7 +132,9 @@ impl Session {
 
     fn show(&mut self, report: Report, name: &str, bytes: &[u8]) {
         let source = readable(name, bytes);
-        let view = View { report: &report, source: source.as_ref(), pictures: None, language: self.language };
+        // Neither an equation nor pictures: it is shown in a terminal.
+        let view =
+            View { report: &report, source: source.as_ref(), equation: None, pictures: None, language: self.language };
         match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
                 let change = self.last.as_ref().map(|last| change::between(&last.for_student(), &report.for_student()));

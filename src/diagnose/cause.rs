@@ -2,7 +2,7 @@
 
 use super::constants::{self, ChangedConstant};
 use super::locate::Points;
-use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, SHAPE, addends, hard_coded, plain};
+use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
 use crate::report::{FrameResult, Hypothesis};
@@ -14,8 +14,6 @@ use reference::mistake::Found;
 const HARD_CODED: &str = "hard-coded";
 const UNEXPLAINED: &str = "unexplained";
 const NEARLY_RIGHT: &str = "nearly-right";
-/// What a negative base of a power is called, also where this driver hides that its result is undefined.
-pub(super) const UNDEFINED_POWER: &str = "specular-unclamped";
 
 /// Colours that are off by no more than this everywhere are nearly right: each of three terms is off by one step of 8 bits.
 ///
@@ -44,8 +42,8 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
     let all_right = is_right(probes, &samples, COLOUR_TOLERANCE);
-    if all_right && evidence.undefined.is_some() {
-        let found = vec![Found { id: UNDEFINED_POWER.into(), form: 0, parameter: None }];
+    if let (true, Some(_), Some(mistake)) = (all_right, evidence.undefined, assignment.undefined_power()) {
+        let found = vec![Found { id: mistake.id.clone(), form: 0, parameter: None }];
         return Cause::Known { constants: Vec::new(), found };
     }
     if all_right {
@@ -172,7 +170,7 @@ pub(super) fn kept(
     id: &str,
 ) -> f64 {
     let is_touched = match (cause, id) {
-        (_, POSITION_CHANGED) => !shape && line.id == SHAPE,
+        (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
         (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))

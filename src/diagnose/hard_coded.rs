@@ -62,14 +62,14 @@ fn same(a: &Sample, b: &Sample) -> bool {
 pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[Found]) -> bool {
     let is_one_colour = samples.iter().all(|sample| same(sample, &samples[0]));
     let leaves = |line: &RubricLine| found.iter().all(|found| assignment.keeps(found, line) > 0.0);
-    let mut colours = assignment.rubric.iter().filter(|line| line.id != super::SHAPE);
+    let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
     found.iter().any(|found| found.parameter.is_some())
         || is_one_colour && colours.any(|line| leaves(line) && varies(assignment, probes, &line.judges))
 }
 
 /// Whether the mistakes leave nothing of the colour, so that they cannot draw a right picture.
 pub fn leaves_nothing(assignment: &Assignment, found: &[Found]) -> bool {
-    let mut colours = assignment.rubric.iter().filter(|line| line.id != super::SHAPE);
+    let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
     colours.all(|line| !found.iter().all(|found| assignment.keeps(found, line) > 0.0))
 }
 

@@ -11,7 +11,6 @@ use crate::source::Source;
 use crate::translate::{Interpreter, NO_LINE};
 use reference::assignment::RubricLine;
 use reference::fit::Worst;
-use reference::interpreter::Type;
 use reference::mistake::{Condition, Found, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
@@ -143,11 +142,11 @@ impl<'f> Blanks<'f> {
                 blanks.worst(worst);
             }
             (Cause::Known { found, .. }, id) => {
-                let met = evidence.undefined.filter(|line| id == super::cause::UNDEFINED_POWER && *line != NO_LINE);
+                let met = evidence.undefined.filter(|line| mistake.undefined_power && *line != NO_LINE);
                 let met = met.map(Located::at);
                 blanks.place(evidence, mistake, facts.place(id).cloned().or(met));
                 let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);
-                blanks.parameter(parameter, evidence);
+                blanks.parameter(parameter, evidence, mistake);
             }
             _ => {
                 if evidence.frames.iter().all(FrameResult::agrees) {
@@ -202,12 +201,11 @@ impl<'f> Blanks<'f> {
         self.values.push(("found", numbers(changed.found.numbers())));
     }
 
-    fn parameter(&mut self, parameter: Option<f64>, evidence: &Evidence<'_>) {
+    fn parameter(&mut self, parameter: Option<f64>, evidence: &Evidence<'_>, mistake: &Mistake) {
         let Some(parameter) = parameter else { return };
         self.values.push(("found", number(parameter)));
-        // The only scalar among the constants is what the exponent should be.
-        let scalar = evidence.assignment.constants.iter().find(|constant| *constant.value.kind() == Type::FLOAT);
-        self.values.extend(scalar.map(|constant| ("expected", number(constant.value.float()))));
+        let of = mistake.fit.as_ref().and_then(|fit| evidence.assignment.constants.get(fit.of?));
+        self.values.extend(of.map(|constant| ("expected", number(constant.value.float()))));
     }
 
     fn worst(&mut self, worst: Option<Worst>) {
@@ -247,11 +245,9 @@ fn number(value: f64) -> String {
 fn agreement(evidence: &Evidence<'_>, line: &RubricLine) -> Text {
     let frames = evidence.frames.len();
     let probes = evidence.probes.probes.len();
-    if line.id == super::SHAPE {
-        return Text::new(
-            format!("The triangle stands where it should in all {frames} frames."),
-            format!("{frames} 枚の画像すべてで、三角形の位置と形が一致しています。"),
-        );
+    if let Some(right) = &line.right {
+        let filled = right.fill(&[("frames", &frames.to_string()), ("probes", &probes.to_string())]);
+        return Text::new(filled.en, filled.ja);
     }
     Text::new(
         format!("It agrees wherever it shows among {probes} probes."),

@@ -7,9 +7,6 @@ use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 type Rgb = [u8; 3];
 
-/// Seconds that an animation takes, as in the course's program.
-pub(super) const CYCLE_SECONDS: f64 = 5.0;
-
 /// An opaque picture, top row first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Raster {
@@ -35,21 +32,26 @@ impl Raster {
     }
 }
 
-/// One frame as a PNG, or several of one size as an animated PNG.
+/// One frame as a PNG.
+pub(super) fn encode(frame: &Raster) -> Result<Vec<u8>, Fault> {
+    encode_animated(&[frame], 0.0)
+}
+
+/// Frames of one size as a PNG; several as an animated one that takes `cycle` seconds.
 ///
 /// Up to 256 colours go into a palette: a third of the size, and of the time.
-pub(super) fn encode(frames: &[&Raster]) -> Result<Vec<u8>, Fault> {
+pub(super) fn encode_animated(frames: &[&Raster], cycle: f64) -> Result<Vec<u8>, Fault> {
     let size = frames.first().map_or((0, 0), |frame| (frame.width, frame.height));
     let mut palette = Palette::default();
     let indices = frames.iter().map(|frame| frame.pixels.iter().map(|colour| palette.index(*colour)).collect());
     match indices.collect::<Option<Vec<Vec<u8>>>>() {
         Some(indices) => {
             let frames: Vec<&[u8]> = indices.iter().map(Vec::as_slice).collect();
-            write(size, Some(&palette.colours), &frames)
+            write(size, Some(&palette.colours), &frames, cycle)
         }
         None => {
             let frames: Vec<&[u8]> = frames.iter().map(|frame| frame.pixels.as_flattened()).collect();
-            write(size, None, &frames)
+            write(size, None, &frames, cycle)
         }
     }
 }
@@ -102,16 +104,16 @@ impl Canvas {
     pub fn encode(&self) -> Result<Vec<u8>, Fault> {
         let size = (self.width, self.height);
         match &self.pixels {
-            Pixels::Indexed(indices) => write(size, Some(&self.palette.colours), &[indices]),
-            Pixels::Full(pixels) => write(size, None, &[pixels.as_flattened()]),
+            Pixels::Indexed(indices) => write(size, Some(&self.palette.colours), &[indices], 0.0),
+            Pixels::Full(pixels) => write(size, None, &[pixels.as_flattened()], 0.0),
         }
     }
 }
 
 /// Frames of bytes as a PNG: places in a palette, or red, green and blue where there is none.
-fn write(size: (usize, usize), palette: Option<&[Rgb]>, frames: &[&[u8]]) -> Result<Vec<u8>, Fault> {
+fn write(size: (usize, usize), palette: Option<&[Rgb]>, frames: &[&[u8]], cycle: f64) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
-    write_frames(size, palette, frames, &mut bytes).map_err(|error| {
+    write_frames(size, palette, frames, cycle, &mut bytes).map_err(|error| {
         Fault::new(Text::new(
             format!("A picture could not be encoded: {error}."),
             format!("画像を PNG にできませんでした（{error}）。"),
@@ -124,6 +126,7 @@ fn write_frames(
     (width, height): (usize, usize),
     palette: Option<&[Rgb]>,
     frames: &[&[u8]],
+    cycle: f64,
     out: &mut Vec<u8>,
 ) -> Result<(), png::EncodingError> {
     let mut encoder = Encoder::new(out, width as u32, height as u32);
@@ -139,7 +142,7 @@ fn write_frames(
         None => encoder.set_color(ColorType::Rgb),
     }
     if frames.len() > 1 {
-        let delay = CYCLE_SECONDS * 1000.0 / frames.len() as f64;
+        let delay = cycle * 1000.0 / frames.len() as f64;
         encoder.set_animated(frames.len() as u32, 0)?;
         encoder.set_frame_delay(delay.round() as u16, 1000)?;
     }

@@ -14,10 +14,11 @@ pub use self::body::Mark;
 pub use self::film::{Film, Gallery, Motion, Term, expected_sheet};
 
 use self::body::Body;
-use super::{Equation, Pictures, Report};
+use super::{Pictures, Report};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use askama::Template;
+use reference::typeset::Typeset;
 
 /// The script of the moving pictures, for a `Content-Security-Policy` that names it by its hash.
 pub const SCRIPT: &str = include_str!("html/templates/report.js");
@@ -38,7 +39,7 @@ pub struct Page<'a> {
     /// What was drawn and what is expected.
     pub pictures: Option<&'a Pictures>,
     /// The equation that the rubric judges.
-    pub equation: Option<&'a Equation>,
+    pub equation: Option<&'a Typeset>,
     /// The language of every word.
     pub language: Language,
 }
@@ -61,7 +62,8 @@ impl Page<'_> {
             level: 1,
             has_footer: true,
         });
-        let motion = film.filter(|_| body.moves()).map(|film| film.motion.style());
+        let cycle = self.pictures.map_or(0.0, |pictures| pictures.cycle);
+        let motion = film.filter(|_| body.moves()).map(|film| film.motion.style(cycle));
         Document { script: SCRIPT, motion, body }.render().map_err(unwritten)
     }
 }
@@ -87,7 +89,7 @@ pub struct Part<'a> {
     /// Where the pictures are.
     pub gallery: Option<&'a Gallery>,
     /// The equation that the rubric judges.
-    pub equation: Option<&'a Equation>,
+    pub equation: Option<&'a Typeset>,
     /// The language of every word.
     pub language: Language,
     /// Level of the report's own heading, 1 to 4.

@@ -3,7 +3,7 @@
 //! Alpha is not seen in the course's window: every file is opaque.
 
 use super::difference::difference;
-use super::encode::{Raster, encode, mismatched};
+use super::encode::{Raster, encode, encode_animated, mismatched};
 use super::{Picture, Pictures};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -75,35 +75,35 @@ pub fn write(pictures: &Pictures, directory: &Path) -> Result<Vec<PathBuf>, Faul
         done
     };
     for (index, pose) in poses.iter().enumerate() {
-        save(format!("yours-{index:02}.png"), encode(&[&pose.yours])?)?;
-        save(format!("expected-{index:02}.png"), encode(&[&pose.expected])?)?;
-        save(format!("difference-{index:02}.png"), encode(&[&pose.difference])?)?;
+        save(format!("yours-{index:02}.png"), encode(&pose.yours)?)?;
+        save(format!("expected-{index:02}.png"), encode(&pose.expected)?)?;
+        save(format!("difference-{index:02}.png"), encode(&pose.difference)?)?;
     }
     if !poses.is_empty() {
-        save("animation.png".into(), animate(&poses)?)?;
+        save("animation.png".into(), animate(&poses, pictures.cycle)?)?;
     }
     Ok(written)
 }
 
 /// The poses as one animated PNG, which repeats for ever: yours, expected and difference, from the left.
 pub fn animation(pictures: &Pictures) -> Result<Vec<u8>, Fault> {
-    animate(&Pose::all(pictures)?)
+    animate(&Pose::all(pictures)?, pictures.cycle)
 }
 
 /// One picture as an opaque PNG.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, Fault> {
-    encode(&[&Raster::opaque(picture)?])
+    encode(&Raster::opaque(picture)?)
 }
 
 /// Where two pictures of one size differ, as a PNG.
 pub fn difference_png(yours: &Picture, expected: &Picture) -> Result<Vec<u8>, Fault> {
-    encode(&[&Pose::of(yours, expected)?.difference])
+    encode(&Pose::of(yours, expected)?.difference)
 }
 
-/// Some pictures of one size as one animated PNG, which repeats for ever.
-pub fn animated(pictures: &[Picture]) -> Result<Vec<u8>, Fault> {
+/// Some pictures of one size as one animated PNG, which takes `cycle` seconds and repeats for ever.
+pub fn animated(pictures: &[Picture], cycle: f64) -> Result<Vec<u8>, Fault> {
     let frames = pictures.iter().map(Raster::opaque).collect::<Result<Vec<_>, _>>()?;
-    encode(&frames.iter().collect::<Vec<_>>())
+    encode_animated(&frames.iter().collect::<Vec<_>>(), cycle)
 }
 
 /// The picture in a PNG of ours.
@@ -112,9 +112,9 @@ pub fn decode(png: &[u8]) -> Result<Picture, Fault> {
     Ok(Picture { width: image.width(), height: image.height(), rgba: image.into_raw() })
 }
 
-fn animate(poses: &[Pose]) -> Result<Vec<u8>, Fault> {
+fn animate(poses: &[Pose], cycle: f64) -> Result<Vec<u8>, Fault> {
     let frames: Vec<Raster> = poses.iter().map(Pose::side_by_side).collect();
-    encode(&frames.iter().collect::<Vec<_>>())
+    encode_animated(&frames.iter().collect::<Vec<_>>(), cycle)
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Fault {

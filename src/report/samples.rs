@@ -171,6 +171,7 @@ pub(crate) fn pictures() -> Pictures {
             yours: Some(triangle(12, 30)),
             expected: triangle(12, 90),
         }]),
+        cycle: 5.0,
     }
 }
 

@@ -164,9 +164,11 @@ impl Gallery {
         }
         blocking(state, move |state| {
             let Some(yours) = all.get(index) else { return Ok(None) };
-            let expected = expected_pictures(&state.gallery.assignment).get(index).cloned();
+            let assignment = &state.gallery.assignment;
+            let expected = expected_pictures(assignment).get(index).cloned();
             let (yours, expected) = (vec![pictures::decode(yours)?], expected.into_iter().collect());
-            pictures::animation(&Pictures { yours, expected, terms: Arc::default() }).map(Some)
+            let cycle = assignment.scene.cycle;
+            pictures::animation(&Pictures { yours, expected, terms: Arc::default(), cycle }).map(Some)
         })
         .await
     }
@@ -179,17 +181,19 @@ impl Gallery {
         view: View,
     ) -> Result<Option<Vec<u8>>, Problem> {
         let kind = Kind::Animation(view);
+        let cycle = state.gallery.assignment.scene.cycle;
         let drawn = if view == View::Expected {
-            let make =
-                blocking(state, |state| Ok(vec![pictures::animated(&expected_pictures(&state.gallery.assignment))?]));
+            let make = blocking(state, move |state| {
+                Ok(vec![pictures::animated(&expected_pictures(&state.gallery.assignment), cycle)?])
+            });
             self.once(Key { sha256: String::new(), kind }, make).await?
         } else {
             let make = move |yours, expected: &Arc<[Picture]>| {
-                let pictures = Pictures { yours, expected: Arc::clone(expected), terms: Arc::default() };
+                let pictures = Pictures { yours, expected: Arc::clone(expected), terms: Arc::default(), cycle };
                 Ok(vec![match view {
-                    View::Difference => pictures::animated(&differences(&pictures)?)?,
+                    View::Difference => pictures::animated(&differences(&pictures)?, cycle)?,
                     View::All => pictures::animation(&pictures)?,
-                    View::Yours | View::Expected => pictures::animated(&pictures.yours)?,
+                    View::Yours | View::Expected => pictures::animated(&pictures.yours, cycle)?,
                 }])
             };
             self.made_of_frames(state, submission, kind, make).await?

@@ -6,6 +6,7 @@ mod mistakes;
 mod probing;
 mod scene;
 mod solution;
+mod typeset;
 
 use super::{Assignment, AssignmentError, HandedIn, MANIFEST, error};
 use crate::Folder;
@@ -33,6 +34,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
     for constant in &constants {
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
+    let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, line_at)).transpose()?;
     let mut ids = HashSet::new();
     let mut titles = HashSet::new();
     let mut mistakes = Vec::new();
@@ -44,7 +46,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
             return Err(error(format!("mistake `{}`", entry.id), "another mistake has the same title"));
         }
-        mistakes.push(mistakes::mistake(entry, &mut solution, &lines, line_at)?);
+        mistakes.push(mistakes::mistake(entry, &mut solution, &lines, &constants, line_at)?);
     }
     let probing = probing::probing(&m.probes, &constants, &solution)?;
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, line_at)?;
@@ -58,6 +60,8 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         id: m.id,
         digest: String::new(),
         folder: Arc::default(),
+        task: m.task,
+        typeset,
         title: m.title,
         interface,
         constants,

@@ -26,6 +26,9 @@ pub struct Mistake {
     /// Whether something is left out where a right value is used.
     #[serde(default)]
     pub at_use: bool,
+    /// Whether it is what a negative base of a power means.
+    #[serde(default)]
+    pub undefined_power: bool,
     /// Of these the text contains one, parentheses and swizzles aside, where a free parameter explains as much.
     #[serde(default)]
     pub needs: Vec<String>,
@@ -96,4 +99,6 @@ pub struct Fit {
     /// Whether the colour at a place may rise and fall again while it grows.
     #[serde(default)]
     pub turns: bool,
+    /// The constant of the handed-out file that it stands for.
+    pub of: Option<String>,
 }

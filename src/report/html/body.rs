@@ -9,8 +9,9 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
-use crate::report::{Advice, Equation, Hints, Report, RubricLine, Verdict};
+use crate::report::{Advice, Hints, Report, RubricLine, Verdict};
 use askama::Template;
+use reference::typeset::{Given, Typeset};
 
 /// How much of its points a line or a whole file earned, as a teacher marks it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -169,39 +170,39 @@ impl SecondOpinion {
 }
 
 /// The equation with the marks of its terms.
-struct EquationView {
-    source: String,
-    total: &'static str,
-    terms: Vec<EquationTerm>,
-    definitions: Vec<(&'static str, &'static str, String)>,
+struct EquationView<'a> {
+    source: &'a str,
+    total: &'a str,
+    terms: Vec<EquationTerm<'a>>,
+    definitions: Vec<(&'a str, &'a str, &'a str)>,
 }
 
-struct EquationTerm {
-    symbol: &'static str,
-    value: &'static str,
+struct EquationTerm<'a> {
+    symbol: &'a str,
+    value: &'a str,
     mark: Mark,
     label: String,
     points: String,
 }
 
-impl EquationView {
-    fn of(equation: &Equation, rubric: &[Rubric], language: Language) -> Self {
+impl<'a> EquationView<'a> {
+    fn of(equation: &'a Typeset, rubric: &[Rubric], language: Language) -> Self {
         let terms = equation.terms.iter().filter_map(|term| {
-            let line = rubric.iter().find(|line| line.id == term.rubric)?;
+            let line = rubric.iter().find(|line| line.id == term.line)?;
             Some(EquationTerm {
-                symbol: term.symbol,
-                value: term.value,
+                symbol: &term.symbol,
+                value: &term.value,
                 mark: line.mark,
                 label: line.label.clone(),
                 points: format!("{} / {}", line.points, line.max_points),
             })
         });
-        let definitions = equation.definitions.iter();
+        let given = |given: &'a Given| (&*given.symbol, &*given.value, language.of(&given.source));
         Self {
-            source: equation.source.get(language).to_owned(),
-            total: equation.total,
+            source: language.of(&equation.source),
+            total: &equation.total,
             terms: terms.collect(),
-            definitions: definitions.map(|d| (d.symbol, d.value, d.source.get(language).to_owned())).collect(),
+            definitions: equation.given.iter().map(given).collect(),
         }
     }
 }
@@ -254,7 +255,7 @@ pub(super) struct Body<'a> {
     legend: Vec<Swatch>,
     probes_agree: String,
     second_opinion: Option<SecondOpinion>,
-    equation: Option<EquationView>,
+    equation: Option<EquationView<'a>>,
     terms: Vec<TermView<'a>>,
     listing: Vec<Line>,
     has_lines: bool,

@@ -5,7 +5,7 @@ use super::memo::Memo;
 use super::sheet::{Grid, Step};
 use super::shots::Shots;
 use crate::fault::Fault;
-use crate::report::encode::{CYCLE_SECONDS, Raster, encode, mismatched};
+use crate::report::encode::{Raster, encode, mismatched};
 use crate::report::pictures::fit;
 use crate::report::{Picture, Pictures, TermPictures};
 use askama::Template;
@@ -75,7 +75,7 @@ impl Film {
     /// Where a page that holds all pictures itself finds them.
     pub fn embedded(&self, pictures: &Pictures) -> Result<Gallery, Fault> {
         static TERMS: Memo<[TermPictures], Arc<[Term]>> = Memo::new();
-        let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&[&Raster::opaque(picture)?])?));
+        let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&Raster::opaque(picture)?)?));
         let term = |term: &TermPictures| {
             let yours = term.yours.as_ref().map(address);
             Ok(Term { id: term.id.clone(), t: term.t, yours: yours.transpose()?, expected: address(&term.expected)? })
@@ -158,17 +158,17 @@ impl Motion {
         Self { opening: Some(pose), ..self }
     }
 
-    /// It as a style sheet.
-    pub fn style(self) -> String {
+    /// It as a style sheet, for an animation of `cycle` seconds.
+    pub fn style(self, cycle: f64) -> String {
         let steps = self.grid.steps();
-        let start = |pose: usize| CYCLE_SECONDS * pose as f64 / self.grid.count as f64;
+        let start = |pose: usize| cycle * pose as f64 / self.grid.count as f64;
         let opening = self.opening.and_then(|pose| {
             let Step { x, y, .. } = *steps.get(pose)?;
             Some(Opening { x, y, held: HELD, delay: HELD - start(pose) })
         });
         let style = MotionStyle {
             columns: self.grid.columns,
-            cycle: CYCLE_SECONDS,
+            cycle,
             poses: self.grid.count,
             width: self.width,
             height: self.height,

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
-    let equation = Equation::illumination();
-    let page =
-        Page { report, source: Some(samples::SOURCE), pictures: Some(&pictures), equation: Some(&equation), language };
+    let assignment = reference::assignment("ggsample06").expect("built in");
+    let equation = assignment.typeset.as_ref();
+    let page = Page { report, source: Some(samples::SOURCE), pictures: Some(&pictures), equation, language };
     page.render().expect("a page")
 }
 
@@ -164,7 +164,7 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
     };
     // Two poses of 0.9 MB a picture: 3 bytes for each of 307,200 pixels, which do not compress.
     let pictures =
-        Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), terms: Arc::default() };
+        Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), ..Pictures::default() };
     let report = samples::wrong();
     let page =
         Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };

@@ -70,7 +70,7 @@ fn of_assignment(assignment: &Assignment) -> Vec<Asset> {
     let size = |side: u32| side as usize;
     let (width, height) = expected.first().map_or((4, 3), |first| (size(first.width), size(first.height)));
     let motion = Motion::of(expected.len().max(1), width, height).opening_with(telling_pose(assignment));
-    let mut assets = vec![Asset::new(motion_name(&assignment.id), motion.style().into_bytes())];
+    let mut assets = vec![Asset::new(motion_name(&assignment.id), motion.style(assignment.scene.cycle).into_bytes())];
     match expected_sheet(&expected, 1) {
         Ok(sheet) => assets.push(Asset::new(expected_name(&assignment.id), sheet)),
         Err(fault) => tracing::error!(assignment = %assignment.id, fault = %fault.message.en, "no expected pictures"),

@@ -8,9 +8,10 @@ use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::html::{Gallery, Lines, Mark, Part};
 use crate::report::text::number;
-use crate::report::{Equation, Report, Verdict};
+use crate::report::{Report, Verdict};
 use crate::service::State;
 use askama::Template;
+use reference::typeset::Typeset;
 use serde::Serialize;
 
 #[derive(Template)]
@@ -39,11 +40,11 @@ pub(super) fn part(
     report: &Report,
     source: Lines<'_>,
     gallery: Option<&Gallery>,
+    equation: Option<&Typeset>,
     level: u8,
 ) -> Result<String, Fault> {
-    let equation = Equation::illumination();
     let has_footer = level == 1;
-    let part = Part { report, source, gallery, equation: Some(&equation), language: frame.language, level, has_footer };
+    let part = Part { report, source, gallery, equation, language: frame.language, level, has_footer };
     let view = View {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),

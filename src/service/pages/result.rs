@@ -63,7 +63,8 @@ pub(super) async fn page(
     let text = readable(&submission.name, &bytes);
     let source = text.as_deref().map_or(Lines::Nowhere, Lines::Here);
     let gallery = part::gallery(&state, &id, &report, &bytes);
-    let part = part::part(&frame, &report, source, gallery.as_ref(), 1).map_err(internal)?;
+    let equation = state.assignment.typeset.as_ref();
+    let part = part::part(&frame, &report, source, gallery.as_ref(), equation, 1).map_err(internal)?;
     let receipt = match submission.via {
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
         Via::Editor | Via::Batch => None,
@@ -156,7 +157,8 @@ async fn beside_editor(
 ) -> Result<String, Problem> {
     let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
     let gallery = part::gallery(state, &submission.id, report, &bytes);
-    part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), 2).map_err(internal)
+    let equation = state.assignment.typeset.as_ref();
+    part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2).map_err(internal)
 }
 
 /// A report with the bytes of its file.

@@ -6,13 +6,15 @@ use super::moment::Moment;
 use super::part;
 use super::standing::{Fact, Standing};
 use crate::language::Language;
+use crate::report::Verdict;
 use crate::report::html::Mark;
-use crate::report::{Equation, Verdict};
+use crate::report::html::rich::{Piece, pieces};
 use crate::service::clock::Millis;
 use crate::service::identity::new_id;
 use crate::service::store::{HistoryRow, State as Progress};
 use crate::service::submit::{MAX_UPLOAD, too_large};
 use askama::Template;
+use reference::typeset::Typeset;
 
 /// What a student's page is made of.
 pub(super) struct Desk<'a> {
@@ -34,7 +36,7 @@ pub(super) struct Desk<'a> {
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/student.html")]
-struct View {
+struct View<'a> {
     frame: Frame,
     title: String,
     file: String,
@@ -64,9 +66,9 @@ struct View {
     can_hand_in: bool,
     grades_drafts: bool,
     expected: &'static str,
-    output: String,
-    equation: Equation,
-    equation_source: String,
+    task: Vec<Piece>,
+    picture: &'a str,
+    equation: Option<&'a Typeset>,
     attempts: Vec<Attempt>,
 }
 
@@ -85,12 +87,11 @@ struct Attempt {
 impl Desk<'_> {
     /// The page.
     pub fn render(mut self) -> askama::Result<String> {
-        let id = &self.homework.id;
+        let homework = std::sync::Arc::clone(&self.homework);
+        let id = &homework.id;
         let language = self.frame.language;
         let file = self.homework.files.first();
         let starter = file.map(|file| file.starter.clone()).unwrap_or_default();
-        let output = self.homework.interface.outputs.first().map(|output| output.name.clone());
-        let equation = Equation::illumination();
         let standing = self.standing;
         let file_name = file.map(|file| file.name.clone()).unwrap_or_default();
         let several = match language {
@@ -127,9 +128,9 @@ impl Desk<'_> {
             too_large: too_large().detail.get(language).to_owned(),
             several,
             expected: assets::address(&assets::expected_name(id)),
-            output: output.unwrap_or_default(),
-            equation_source: equation.source.get(language).to_owned(),
-            equation,
+            task: pieces(language.of(&homework.task.text)),
+            picture: language.of(&homework.task.picture),
+            equation: homework.typeset.as_ref(),
             frame: self.frame,
         }
         .render()

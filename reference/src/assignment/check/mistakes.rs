@@ -3,7 +3,8 @@
 use super::solution::{self, Solution};
 use super::{Checked, known_line};
 use crate::Text;
-use crate::assignment::{MANIFEST, error};
+use crate::assignment::{Constant, MANIFEST, error};
+use crate::interpreter::Type;
 use crate::manifest::{self, TermState};
 use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
 use std::collections::{BTreeMap, HashSet};
@@ -14,6 +15,7 @@ pub(super) fn mistake(
     entry: manifest::Mistake,
     solution: &mut Solution<'_>,
     lines: &HashSet<String>,
+    constants: &[Constant],
     line_at: &dyn Fn(usize) -> u32,
 ) -> Checked<Mistake> {
     let place = format!("mistake `{}`", entry.id);
@@ -31,7 +33,13 @@ pub(super) fn mistake(
             if !(f.from > 0.0 && f.from < f.example && f.example < f.to && f.to.is_finite()) {
                 return Err(error(place, "`fit` needs 0 < from < example < to"));
             }
-            Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example, turns: f.turns })
+            let of = f.of.map(|name| {
+                let is_it = |constant: &Constant| constant.name == name && *constant.value.kind() == Type::FLOAT;
+                let found = constants.iter().position(is_it);
+                found.ok_or_else(|| error(&place, format!("there is no float constant `{name}`")))
+            });
+            let of = of.transpose()?;
+            Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example, turns: f.turns, of })
         }
     };
     let free = fit.as_ref().map(|fit| fit.name.as_str());
@@ -55,6 +63,7 @@ pub(super) fn mistake(
         lacks: entry.lacks,
         handed_out: entry.handed_out,
         at_use: entry.at_use,
+        undefined_power: entry.undefined_power,
         instead: entry
             .instead
             .into_iter()

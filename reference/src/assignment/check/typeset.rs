@@ -1,0 +1,42 @@
+//! The equation as the lecture writes it.
+
+use super::solution;
+use super::{Checked, known_line};
+use crate::assignment::{MANIFEST, error};
+use crate::manifest;
+use crate::typeset::{Given, Term, Typeset};
+use math_core::{LatexToMathML, MathDisplay};
+use std::collections::HashSet;
+use toml::Spanned;
+
+/// The equation, its formulas made from LaTeX.
+pub(super) fn typeset(
+    entry: manifest::Equation,
+    lines: &HashSet<String>,
+    line_at: &dyn Fn(usize) -> u32,
+) -> Checked<Typeset> {
+    let latex = LatexToMathML::new(Default::default()).map_err(|e| error("equation", format!("{e:?}")))?;
+    let formula = |text: &Spanned<String>| {
+        let made = latex.convert_with_local_state(text.get_ref(), MathDisplay::Inline);
+        let made = made.map_err(|refusal| {
+            let place = solution::place(MANIFEST, line_at(text.span().start));
+            let found = text.get_ref().get(refusal.0.clone()).unwrap_or_default();
+            error(format!("{place}, equation"), format!("`{found}` is not LaTeX: {}", refusal.error_message()))
+        })?;
+        let inside = made.mathml.strip_prefix("<math>").and_then(|rest| rest.strip_suffix("</math>"));
+        Ok(inside.unwrap_or(&made.mathml).to_owned())
+    };
+    let term = |term: manifest::Term| {
+        known_line(lines, &term.line, "equation")?;
+        Ok(Term { symbol: formula(&term.symbol)?, value: formula(&term.value)?, line: term.line })
+    };
+    let given = |given: manifest::Given| {
+        Ok(Given { symbol: formula(&given.symbol)?, value: formula(&given.value)?, source: given.source })
+    };
+    Ok(Typeset {
+        total: formula(&entry.total)?,
+        terms: entry.term.into_iter().map(term).collect::<Checked<_>>()?,
+        given: entry.given.into_iter().map(given).collect::<Checked<_>>()?,
+        source: entry.source,
+    })
+}
