@@ -2,17 +2,17 @@
 //!
 //! An expectation without a sample, and a sample without one, are errors; so is a folder without any.
 
+mod expectation;
+
+pub use expectation::Expectation;
+
 use crate::cross_check::{CrossCheck, Opinion};
-use crate::diagnostic::{Severity, Stage};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::parallel;
-use crate::report::{Report, Verdict};
 use crate::sandbox::{Pool, Submission};
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::{fs, io};
@@ -21,62 +21,6 @@ use std::{fs, io};
 pub const SEED: u64 = 1;
 /// Extension of an expected report.
 const EXPECTED: &str = "json";
-
-/// What a report must say. Wording is not part of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Expectation {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The score.
-    pub score: f64,
-    /// Points by rubric line.
-    pub rubric: BTreeMap<String, f64>,
-    /// Ids of the mistakes.
-    pub mistakes: Vec<String>,
-    /// Line of the file that is named, by rubric line; none where that is not held.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lines: Option<BTreeMap<String, u32>>,
-    /// What would break elsewhere, and the line that is named.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub advice: BTreeMap<String, Option<u32>>,
-    /// Where the diagnostics point.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub diagnostics: Vec<Place>,
-}
-
-/// Where a diagnostic points.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    /// Error, warning or note.
-    pub severity: Severity,
-    /// The stage that speaks.
-    pub stage: Stage,
-    /// Line, from 1.
-    pub line: Option<u32>,
-    /// Column, from 1.
-    pub column: Option<u32>,
-}
-
-impl Expectation {
-    /// What this report says.
-    pub fn of(report: &Report) -> Self {
-        Self {
-            verdict: report.verdict,
-            score: report.score,
-            rubric: report.rubric.iter().map(|line| (line.id.clone(), line.points)).collect(),
-            mistakes: report.mistakes.clone(),
-            lines: Some(report.rubric.iter().filter_map(|line| Some((line.id.clone(), line.line?))).collect()),
-            advice: report.advice.iter().map(|advice| (advice.id.clone(), advice.line)).collect(),
-            diagnostics: report
-                .diagnostics
-                .iter()
-                .map(|d| Place { severity: d.severity, stage: d.stage, line: d.line, column: d.column })
-                .collect(),
-        }
-    }
-}
 
 /// How one sample came out.
 #[derive(Clone, Debug)]
@@ -95,8 +39,7 @@ impl Checked {
     /// Whether all is as expected.
     pub fn agrees(&self) -> bool {
         let (Some(expected), Ok(found)) = (&self.expected, &self.found) else { return false };
-        let lines = found.lines.clone().filter(|_| expected.lines.is_some());
-        *expected == Expectation { lines, ..found.clone() }
+        expected.agrees(found)
     }
 
     /// Whether the interpreter computes other values than the driver.

@@ -5,7 +5,7 @@ use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
 use crate::cross_check::Opinion;
 use crate::fault::Fault;
-use crate::language::Text;
+use crate::language::{Language, Text};
 use crate::parallel;
 use crate::sandbox::{Pool, Settings};
 use std::time::Duration;
@@ -86,29 +86,36 @@ fn show(checked: &Checked) {
         Ok(found) => anstream::println!("      found     {}", summary(Some(found))),
         Err(fault) => anstream::println!("      found     fault: {}", fault.message.en),
     }
+    let (Some(expected), Ok(found)) = (&checked.expected, &checked.found) else { return };
+    for (name, expected, found) in expected.changed_texts(found) {
+        for language in [Language::En, Language::Ja] {
+            let [expected, found] = [&expected, &found].map(|text| text.get(language));
+            if expected != found {
+                anstream::println!("      {name}\n        expected  {expected}\n        found     {found}");
+            }
+        }
+    }
 }
 
+/// The numbers of an expectation in one line.
 fn summary(expectation: Option<&Expectation>) -> String {
     let Some(expectation) = expectation else { return "nothing (no file)".into() };
-    let rubric: Vec<_> = expectation.rubric.iter().map(|(id, points)| format!("{id} {points}")).collect();
-    let places: Vec<_> = expectation
+    let number = |n: Option<u32>| n.map_or_else(|| "-".into(), |n| n.to_string());
+    let rubric: Vec<_> =
+        expectation.rubric.iter().map(|(id, said)| format!("{id} {} :{}", said.points, number(said.line))).collect();
+    let advice: Vec<_> = expectation.advice.iter().map(|(id, said)| format!("{id}:{}", number(said.line))).collect();
+    let diagnostics: Vec<_> = expectation
         .diagnostics
         .iter()
-        .map(|place| {
-            let number = |n: Option<u32>| n.map_or_else(|| "-".into(), |n| n.to_string());
-            format!("{:?} {:?} {}:{}", place.severity, place.stage, number(place.line), number(place.column))
-        })
+        .map(|said| format!("{:?} {:?} {}:{}", said.severity, said.stage, number(said.line), number(said.column)))
         .collect();
-    let lines: Vec<_> = expectation.lines.iter().flatten().map(|(id, line)| format!("{id}:{line}")).collect();
-    let advice: Vec<_> = expectation.advice.iter().map(|(id, line)| format!("{id}:{}", line.unwrap_or(0))).collect();
     format!(
-        "{:?} {} ({}) [{}] {} {} {}",
+        "{:?} {} ({}) [{}] {} {}",
         expectation.verdict,
         expectation.score,
         rubric.join(", "),
         expectation.mistakes.join(" "),
-        lines.join(" "),
         advice.join(" "),
-        places.join("; ")
+        diagnostics.join("; ")
     )
 }
