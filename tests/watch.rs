@@ -190,7 +190,7 @@ fn other_files_and_looks_at_this_one_are_no_saves() {
 
 #[test]
 fn a_shader_that_loops_for_ever_costs_one_report_only() {
-    let mut watching = Watching::start(&sample("hostile/loops", "do-while-true"));
+    let mut watching = Watching::start(&sample("hostile/stopped/loops", "do-while-true"));
     watching.until("0 / 100");
     watching.until("ms");
     fs::write(watching.path(), right()).unwrap();

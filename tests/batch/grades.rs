@@ -171,11 +171,19 @@ fn hostile_files_get_named_verdicts_and_change_no_honest_report() {
     let place = Place::of(&[("honest-1", &sample(RIGHT)), ("honest-2", &sample(WRONG))]);
     place.batch("quiet").args(["--formats", "csv", "--seed", "3"]).assert().code(1);
     let mut hostile = 0;
-    for folder in
-        ["loops", "recursion", "nesting", "compile-bombs", "memory", "preprocessor", "encodings", "degenerate"]
-    {
+    for folder in [
+        "rejected/degenerate",
+        "rejected/encodings",
+        "rejected/preprocessor",
+        "rejected/recursion",
+        "stopped/compile-bombs",
+        "stopped/loops",
+        "stopped/memory",
+        "stopped/nesting",
+    ] {
         for path in samples(&format!("hostile/{folder}")).iter().step_by(6) {
-            place.hand_in(&format!("{folder}-{}", path.file_stem().unwrap().display()), &fs::read(path).unwrap());
+            let (_, kind) = folder.split_once('/').unwrap();
+            place.hand_in(&format!("{kind}-{}", path.file_stem().unwrap().display()), &fs::read(path).unwrap());
             hostile += 1;
         }
     }

@@ -164,7 +164,7 @@ async fn what_is_no_text_changes_nothing() {
     }
     // A file in an encoding of Japan is read as grading reads it, and is sent as it is.
     for (file, encoding) in [("euc-jp", "EUC-JP"), ("shift-jis", "Shift_JIS"), ("iso-2022-jp", "ISO-2022-JP")] {
-        let path = sample(&format!("hostile/encodings/{file}.vert"));
+        let path = sample(&format!("hostile/accepted/encodings/{file}.vert"));
         browser.keys("#file", &path).await;
         browser.until(&format!("document.querySelector('article.report .file')?.textContent === '{file}.vert'")).await;
         let shown = browser.editor_text().await;

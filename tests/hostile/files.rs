@@ -94,7 +94,7 @@ pub fn all() -> Vec<Hostile> {
 pub fn samples() -> Vec<Hostile> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06/hostile");
     let mut files = Vec::new();
-    for folder in entries(&root) {
+    for folder in entries(&root).iter().flat_map(|verdict| entries(verdict)) {
         for path in entries(&folder) {
             if path.extension().is_none_or(|extension| extension == "json") {
                 continue;

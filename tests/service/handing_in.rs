@@ -237,7 +237,7 @@ async fn what_is_no_text_uses_up_nothing(database: Database) {
     assert_eq!(bench.state.store.waiting().await.expect("counts"), (0, 0));
     // What an editor in Japan saves is text: both attempts are left for it.
     for encoding in ["shift-jis", "euc-jp"] {
-        let reply = hand_in(sample(&format!("hostile/encodings/{encoding}.vert"))).await;
+        let reply = hand_in(sample(&format!("hostile/accepted/encodings/{encoding}.vert"))).await;
         assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
     }
     assert_eq!(hand_in(right()).await.problem(), "attempts");
@@ -267,8 +267,17 @@ async fn what_is_old_is_removed(database: Database) {
 }
 
 /// Hostile files of every kind, each beside its expected report.
-const HOSTILE: [&str; 8] =
-    ["compile-bombs", "degenerate", "encodings", "loops", "memory", "nesting", "preprocessor", "recursion"];
+const HOSTILE: [&str; 9] = [
+    "accepted/encodings",
+    "rejected/degenerate",
+    "rejected/preprocessor",
+    "rejected/recursion",
+    "stopped/compile-bombs",
+    "stopped/loops",
+    "stopped/memory",
+    "stopped/nesting",
+    "wrong/positions",
+];
 
 async fn hostile_files_are_answered_as_any_other(database: Database) {
     let bench = Bench::new(database).await;
