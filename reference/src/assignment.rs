@@ -28,7 +28,7 @@ pub struct Assignment {
     /// Its title.
     pub title: Text,
     /// What there is to do.
-    pub task: Task,
+    pub task: Option<Task>,
     /// What the lecture writes.
     pub typeset: Option<Typeset>,
     /// The files that are handed in.

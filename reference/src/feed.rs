@@ -132,6 +132,19 @@ pub enum Attribute {
     Number,
 }
 
+impl Attribute {
+    /// It at a vertex, as four components.
+    pub fn at(self, vertex: &Vertex) -> DVec4 {
+        match self {
+            Self::Position => vertex.position,
+            Self::Normal => vertex.normal,
+            Self::TextureCoordinates => vertex.texture_coordinates.extend(0.0).extend(1.0),
+            Self::Tangent => vertex.tangent,
+            Self::Number => DVec4::new(f64::from(vertex.number), 0.0, 0.0, 1.0),
+        }
+    }
+}
+
 impl Stream {
     /// The attribute's value at a vertex.
     pub fn value(&self, kind: &Type, vertex: &Vertex) -> Value {
@@ -139,13 +152,7 @@ impl Stream {
             Self::Mesh(attribute) => *attribute,
             Self::Listed(values) => return values[vertex.number as usize % values.len()].clone(),
         };
-        let vector = match attribute {
-            Attribute::Position => vertex.position,
-            Attribute::Normal => vertex.normal,
-            Attribute::TextureCoordinates => vertex.texture_coordinates.extend(0.0).extend(1.0),
-            Attribute::Tangent => vertex.tangent,
-            Attribute::Number => DVec4::new(f64::from(vertex.number), 0.0, 0.0, 1.0),
-        };
+        let vector = attribute.at(vertex);
         let count = kind.slots().unwrap_or(0).min(4);
         Value::new(kind.clone(), vector.to_array()[..count].to_vec()).unwrap_or_else(|| Value::from(vector))
     }

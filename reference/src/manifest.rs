@@ -22,7 +22,7 @@ pub struct Manifest {
     /// Title of the homework.
     pub title: Text,
     /// What there is to do.
-    pub task: Task,
+    pub task: Option<Task>,
     /// What the lecture writes.
     pub equation: Option<Equation>,
     /// The files that are handed in.
@@ -42,6 +42,7 @@ pub struct Manifest {
     #[serde(default)]
     pub definition: BTreeMap<String, Definition>,
     /// How probes are chosen.
+    #[serde(default)]
     pub probes: Probes,
     /// What a right answer shows at a probe; the first whose condition holds.
     #[serde(default)]
@@ -49,6 +50,7 @@ pub struct Manifest {
     /// Lines of the rubric.
     pub rubric: Vec<RubricLine>,
     /// The known mistakes.
+    #[serde(default)]
     pub mistake: Vec<Mistake>,
     /// What is said of right answers that would break elsewhere.
     #[serde(default)]
@@ -196,9 +198,9 @@ pub struct Definition {
     pub symbol: Option<String>,
 }
 
-/// How probes are chosen.
+/// How probes are chosen. Without designs they lie near the vertices of what the scene draws.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct Probes {
     /// Number of cameras.
     pub groups: usize,
@@ -212,6 +214,13 @@ pub struct Probes {
     pub power: String,
     /// What the vertices of a group show, one after the other.
     pub design: Vec<Design>,
+}
+
+impl Default for Probes {
+    fn default() -> Self {
+        let [axis, lobe, power] = Default::default();
+        Self { groups: 28, per_group: 20, axis, lobe, power, design: Vec::new() }
+    }
 }
 
 /// A range of numbers.

@@ -5,13 +5,14 @@
 //! space.
 
 mod design;
+mod nearby;
 
 use crate::assignment::{Feed, Uniform};
 use crate::interpreter::Formula;
 use crate::scene::{Matrices, Vertex, perspective};
 use crate::{Assignment, Text, Value};
 use design::EyeSpace;
-pub(crate) use design::{Design, Normal, Placement};
+pub(crate) use design::{Aim, Design, Normal};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -23,6 +24,9 @@ const TWINS: usize = 3;
 /// The seed of the probes that judge.
 const JUDGING: u64 = 1;
 
+/// How often a vertex is drawn for which a right answer is no number, before it is taken as it is.
+const TRIES: usize = 100;
+
 /// So many cameras of the probes that are fresh in every grading: 80 vertices.
 const FRESH_GROUPS: usize = 4;
 
@@ -33,8 +37,8 @@ pub(crate) struct Probing {
     pub groups: usize,
     /// Vertices for each of them.
     pub per_group: usize,
-    /// How those are placed.
-    pub placement: Placement,
+    /// By which angles those are chosen; without it they lie near the homework's own.
+    pub aim: Option<Aim>,
 }
 
 /// What a right answer shows in some places.
@@ -156,7 +160,7 @@ impl Assignment {
     /// Probes under `count` cameras, of which the last `twins` are the same.
     fn draw(&self, seed: u64, random: ChaCha8Rng, count: usize, twins: usize) -> ProbeSet {
         let mut random = Random(random);
-        let mut eye_space = EyeSpace::of(self);
+        let mut eye_space = self.probing.aim.as_ref().map(|aim| EyeSpace::of(self, aim));
         let right = self.equation.right();
         let mut groups = Vec::new();
         let mut probes = Vec::new();
@@ -167,13 +171,26 @@ impl Assignment {
                 _ => self.group(&mut random),
             };
             let Group { matrices, uniforms, .. } = &drawn;
-            eye_space.enter(&drawn);
+            eye_space.iter_mut().for_each(|eye_space| eye_space.enter(&drawn));
             for place in 0..self.probing.per_group {
                 let before = probes.len().checked_sub(self.probing.per_group).map(|at| &probes[at]);
-                let position = before.filter(|_| twin == Some(0)).map(|probe: &Probe| probe.vertex.position);
-                let vertex = eye_space.vertex(&mut random, place, position, matrices);
-                let attributes = self.attribute_values(&vertex);
-                let outcome = right.evaluate(uniforms, &attributes);
+                let before = before.filter(|_| twin == Some(0)).map(|probe: &Probe| probe.vertex);
+                let mut draw = || match &mut eye_space {
+                    Some(eye_space) => eye_space.vertex(&mut random, place, before.map(|own| own.position), matrices),
+                    None => self.nearby(&mut random, before),
+                };
+                let compute = |vertex: Vertex| {
+                    let attributes = self.attribute_values(&vertex);
+                    let outcome = right.evaluate(uniforms, &attributes);
+                    (vertex, attributes, outcome)
+                };
+                let (mut vertex, mut attributes, mut outcome) = compute(draw());
+                for _ in 0..TRIES {
+                    if outcome.colour().is_finite() && outcome.position().is_finite() {
+                        break;
+                    }
+                    (vertex, attributes, outcome) = compute(draw());
+                }
                 probes.push(Probe {
                     group,
                     region: right.first_region(&self.regions),

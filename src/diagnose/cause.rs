@@ -171,7 +171,11 @@ pub(super) fn kept(
 ) -> f64 {
     let is_touched = match (cause, id) {
         (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
-        (Cause::Unexplained(terms), UNEXPLAINED) => terms.iter().any(|term| term.line == line.id && !term.is_right()),
+        // What cannot be judged by itself is not known to be right.
+        (Cause::Unexplained(terms), UNEXPLAINED) => terms
+            .iter()
+            .find(|term| term.line == line.id)
+            .map_or(!assignment.judges_position(line), |term| !term.is_right()),
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }

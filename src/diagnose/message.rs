@@ -249,6 +249,12 @@ fn agreement(evidence: &Evidence<'_>, line: &RubricLine) -> Text {
         let filled = right.fill(&[("frames", &frames.to_string()), ("probes", &probes.to_string())]);
         return Text::new(filled.en, filled.ja);
     }
+    if evidence.assignment.judges_position(line) {
+        return Text::new(
+            format!("Everything stands where it should in all {frames} frames."),
+            format!("{frames} 枚の画像すべてで、位置と形が一致しています。"),
+        );
+    }
     Text::new(
         format!("It agrees wherever it shows among {probes} probes."),
         format!("{probes} 点の検査点のうち、この項が現れるすべての点で一致しています。"),

@@ -35,19 +35,8 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, line_at)).transpose()?;
-    let mut ids = HashSet::new();
-    let mut titles = HashSet::new();
-    let mut mistakes = Vec::new();
-    for entry in std::mem::take(&mut m.mistake) {
-        if !ids.insert(entry.id.clone()) {
-            return Err(error(format!("mistake `{}`", entry.id), "stands twice"));
-        }
-        // Lists name a mistake by its title alone.
-        if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
-            return Err(error(format!("mistake `{}`", entry.id), "another mistake has the same title"));
-        }
-        mistakes.push(mistakes::mistake(entry, &mut solution, &lines, &constants, line_at)?);
-    }
+    let mistakes = std::mem::take(&mut m.mistake);
+    let mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, line_at)?;
     let probing = probing::probing(&m.probes, &constants, &solution)?;
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, line_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();

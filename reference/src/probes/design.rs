@@ -1,7 +1,7 @@
 //! Where a probe lies and how its normal stands, by the angles that matter to the equation.
 
 use super::{Group, Random};
-use crate::assignment::Feed;
+use crate::assignment::{Feed, Stream};
 use crate::interpreter::Registers;
 use crate::scene::{Matrices, Vertex};
 use crate::{Assignment, value};
@@ -16,7 +16,7 @@ type Range = RangeInclusive<f64>;
 
 /// How the vertices of a group are placed. Directions are definitions of the solution, in eye space.
 #[derive(Clone, Debug)]
-pub(crate) struct Placement {
+pub(crate) struct Aim {
     /// The definition from which the direction to a vertex has its angle.
     pub axis: usize,
     /// The definition around which normals stand; it does not depend on them.
@@ -50,7 +50,7 @@ pub(crate) enum Normal {
 
 /// Chooses vertices in eye space, where all matrices of the solution are the identity.
 pub(super) struct EyeSpace<'a> {
-    placement: &'a Placement,
+    aim: &'a Aim,
     point: Point<'a>,
     /// The axis at the eye, and what it is computed from.
     axis: DVec3,
@@ -69,23 +69,23 @@ struct Point<'a> {
 }
 
 impl<'a> EyeSpace<'a> {
-    pub(super) fn of(assignment: &'a Assignment) -> Self {
-        let (equation, placement) = (&assignment.equation, &assignment.probing.placement);
-        let power = assignment.constants.get(placement.power).map_or(f64::NAN, |constant| constant.value.float());
+    pub(super) fn of(assignment: &'a Assignment, aim: &'a Aim) -> Self {
+        let equation = &assignment.equation;
+        let power = assignment.constants.get(aim.power).map_or(f64::NAN, |constant| constant.value.float());
         let needed = |definitions: &[usize]| -> Vec<usize> {
             let is_needed = |on: &usize| definitions.iter().any(|of| equation.depends(*of, *on));
             (0..equation.definitions.len()).filter(is_needed).collect()
         };
-        let lobe = needed(&[placement.lobe]);
-        let conditions = placement.designs.iter().map(|design| {
+        let lobe = needed(&[aim.lobe]);
+        let conditions = aim.designs.iter().map(|design| {
             let definitions: Vec<usize> = design.within.iter().map(|(definition, _)| *definition).collect();
             needed(&definitions).into_iter().filter(|definition| !lobe.contains(definition)).collect()
         });
         Self {
-            placement,
+            aim,
             point: Point { assignment, registers: equation.registers() },
             axis: DVec3::ZERO,
-            to_axis: needed(&[placement.axis]),
+            to_axis: needed(&[aim.axis]),
             power,
             conditions: conditions.collect(),
             lobe,
@@ -104,7 +104,7 @@ impl<'a> EyeSpace<'a> {
         }
         self.point.stand(DVec3::ZERO, DVec3::Z);
         self.point.compute(&self.to_axis);
-        self.axis = value::vec3(self.point.value(self.placement.axis));
+        self.axis = value::vec3(self.point.value(self.aim.axis));
     }
 
     /// The vertex in a group's `place`, carried back to object space; `position`: in object space, where it is given.
@@ -126,8 +126,8 @@ impl<'a> EyeSpace<'a> {
 
     /// Position and normal as designed; after [`TRIES`] tries, whatever the last one was.
     fn placed(&mut self, random: &mut Random, place: usize, given: Option<DVec3>) -> (DVec3, DVec3) {
-        let place = place % self.placement.designs.len();
-        let design = &self.placement.designs[place];
+        let place = place % self.aim.designs.len();
+        let design = &self.aim.designs[place];
         let point = &mut self.point;
         let mut last = (DVec3::NEG_Z, DVec3::Z);
         for _ in 0..TRIES {
@@ -141,7 +141,7 @@ impl<'a> EyeSpace<'a> {
             };
             point.stand(p, DVec3::Z);
             point.compute(&self.lobe);
-            let n = random.at_angle(value::vec3(point.value(self.placement.lobe)), cosine.acos());
+            let n = random.at_angle(value::vec3(point.value(self.aim.lobe)), cosine.acos());
             last = (p, n);
             point.stand(p, n);
             point.compute(&self.conditions[place]);
@@ -160,9 +160,10 @@ impl Point<'_> {
         let Assignment { equation, interface, .. } = self.assignment;
         let vertex = Vertex { position: p.extend(1.0), normal: n.extend(1.0), ..Vertex::new(p, n) };
         for (cell, input) in equation.attributes.iter().zip(&interface.inputs) {
-            let Some(cell) = cell else { continue };
-            let value = input.stream.value(&input.kind, &vertex);
-            equation.sheet.set(*cell, value.numbers(), &mut self.registers);
+            if let (Some(cell), Stream::Mesh(attribute)) = (cell, &input.stream) {
+                let count = input.kind.slots().unwrap_or(0).min(4);
+                equation.sheet.set(*cell, &attribute.at(&vertex).to_array()[..count], &mut self.registers);
+            }
         }
     }
 

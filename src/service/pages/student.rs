@@ -92,6 +92,11 @@ impl Desk<'_> {
         let language = self.frame.language;
         let file = self.homework.files.first();
         let starter = file.map(|file| file.starter.clone()).unwrap_or_default();
+        let task = homework.task.as_ref();
+        let draw_this = self.frame.say(
+            "Complete the file so that it draws this picture.",
+            "この画像を描くように、ファイルを完成させてください。",
+        );
         let standing = self.standing;
         let file_name = file.map(|file| file.name.clone()).unwrap_or_default();
         let several = match language {
@@ -128,8 +133,11 @@ impl Desk<'_> {
             too_large: too_large().detail.get(language).to_owned(),
             several,
             expected: assets::address(&assets::expected_name(id)),
-            task: pieces(language.of(&homework.task.text)),
-            picture: language.of(&homework.task.picture),
+            task: pieces(task.map_or(draw_this, |task| language.of(&task.text))),
+            picture: task
+                .map_or(self.frame.say("What a right answer draws", "正しい答えが描く画像"), |task| {
+                    language.of(&task.picture)
+                }),
             equation: homework.typeset.as_ref(),
             frame: self.frame,
         }

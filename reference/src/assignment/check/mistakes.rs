@@ -5,13 +5,59 @@ use super::{Checked, known_line};
 use crate::Text;
 use crate::assignment::{Constant, MANIFEST, error};
 use crate::interpreter::Type;
-use crate::manifest::{self, TermState};
+use crate::manifest::{self, RubricLine, TermState};
 use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
+use serde::Deserialize;
 use std::collections::{BTreeMap, HashSet};
 use toml::Spanned;
 
+/// The folder's mistakes, and those of any homework.
+pub(super) fn all(
+    entries: Vec<manifest::Mistake>,
+    rubric: &[RubricLine],
+    solution: &mut Solution<'_>,
+    constants: &[Constant],
+    line_at: &dyn Fn(usize) -> u32,
+) -> Checked<Vec<Mistake>> {
+    let lines: HashSet<String> = rubric.iter().map(|line| line.id.clone()).collect();
+    let mut ids = HashSet::new();
+    let mut titles = HashSet::new();
+    for entry in &entries {
+        let place = || format!("mistake `{}`", entry.id);
+        if !ids.insert(entry.id.clone()) {
+            return Err(error(place(), "stands twice"));
+        }
+        // Lists name a mistake by its title alone.
+        if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
+            return Err(error(place(), "another mistake has the same title"));
+        }
+    }
+    let general = general(rubric, solution)?.into_iter().filter(|entry| !ids.contains(&entry.id));
+    let entries: Vec<_> = entries.into_iter().chain(general).collect();
+    entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, line_at)).collect()
+}
+
+/// What goes wrong in any homework.
+fn general(rubric: &[RubricLine], solution: &Solution<'_>) -> Checked<Vec<manifest::Mistake>> {
+    /// The file, where `keeps` speaks of kinds of lines.
+    #[derive(Deserialize)]
+    struct General {
+        mistake: Vec<manifest::Mistake>,
+    }
+    let read = toml::from_str(include_str!("general.toml"));
+    let General { mut mistake } = read.map_err(|e| error("general.toml", e.to_string()))?;
+    for mistake in &mut mistake {
+        let kept = |line: &RubricLine| {
+            let kind = if solution.is_position(&line.judges) { "position" } else { "colour" };
+            mistake.keeps.get(kind).map(|kept| (line.id.clone(), *kept))
+        };
+        mistake.keeps = rubric.iter().filter_map(kept).collect();
+    }
+    Ok(mistake)
+}
+
 /// A mistake whose forms fit the solution. `line_at`: the line of the manifest in which a byte of it stands.
-pub(super) fn mistake(
+fn mistake(
     entry: manifest::Mistake,
     solution: &mut Solution<'_>,
     lines: &HashSet<String>,

@@ -6,24 +6,28 @@ use crate::assignment::{Assignment, Attribute, Constant, Input, MANIFEST, Stream
 use crate::equation::Definition;
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine};
-use crate::probes::{Design, Normal, Placement, Probing, Region};
+use crate::probes::{Aim, Design, Normal, Probing, Region};
 use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 /// The probes whose names are known and whose ranges are ranges.
 pub(super) fn probing(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>) -> Checked<Probing> {
-    let place = || "probes".to_owned();
-    if entry.groups == 0 || entry.per_group == 0 || entry.design.is_empty() {
-        return Err(error("probes", "there are none: `groups`, `per_group` and the number of designs are 1 or more"));
+    if entry.groups == 0 || entry.per_group == 0 {
+        return Err(error("probes", "there are none: `groups` and `per_group` are 1 or more"));
     }
+    let aim = (!entry.design.is_empty()).then(|| aim(entry, constants, solution)).transpose()?;
+    Ok(Probing { groups: entry.groups, per_group: entry.per_group, aim })
+}
+
+fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>) -> Checked<Aim> {
+    let place = || "probes".to_owned();
     let is_power = |constant: &Constant| constant.name == entry.power && *constant.value.kind() == Type::FLOAT;
     let power = constants.iter().position(is_power);
     let power = power.ok_or_else(|| error("probes", format!("there is no float constant `{}`", entry.power)))?;
     let direction = |name: &str| solution.definition_of(name, &Type::VEC3, &place);
     let (axis, lobe) = (direction(&entry.axis)?, direction(&entry.lobe)?);
     let designs = entry.design.iter().zip(1..).map(|(entry, number)| design(entry, number, solution));
-    let placement = Placement { axis, lobe, power, designs: designs.collect::<Checked<_>>()? };
-    Ok(Probing { groups: entry.groups, per_group: entry.per_group, placement })
+    Ok(Aim { axis, lobe, power, designs: designs.collect::<Checked<_>>()? })
 }
 
 fn design(entry: &manifest::Design, number: usize, solution: &Solution<'_>) -> Checked<Design> {
@@ -54,7 +58,7 @@ fn design(entry: &manifest::Design, number: usize, solution: &Solution<'_>) -> C
 /// The lobe is what a normal is chosen by: it has to be known before.
 pub(super) fn lobe_is_known(assignment: &Assignment) -> Checked<()> {
     let Assignment { equation, interface, probing, .. } = assignment;
-    let lobe = probing.placement.lobe;
+    let Some(Aim { lobe, .. }) = probing.aim else { return Ok(()) };
     let is_normal = |input: &Input| matches!(input.stream, Stream::Mesh(Attribute::Normal));
     let normals = equation.attributes.iter().zip(&interface.inputs);
     let normals: Vec<usize> = normals.filter(|(_, input)| is_normal(input)).filter_map(|(cell, _)| *cell).collect();

@@ -192,6 +192,12 @@ impl<'a> Solution<'a> {
         })
     }
 
+    /// Whether a definition is the position in clip space.
+    pub(super) fn is_position(&self, definition: &str) -> bool {
+        let mut stored = self.draft.stored().iter().filter(|stored| stored.output == POSITION);
+        stored.any(|stored| self.draft.cells()[stored.cell].name == definition)
+    }
+
     /// The place of the definition that an output is given; without a name, of the only output beside the position.
     fn output(&self, name: Option<&str>) -> Checked<usize> {
         let is_it = |output: &str| name.map_or(output != POSITION, |name| output == name);
