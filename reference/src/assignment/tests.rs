@@ -336,3 +336,42 @@ fn regions_and_designs_speak_of_the_solution() {
     let found = broken("within = { nl =", "within = { nl2 =");
     assert!(found.starts_with("probes, design 1: there is no definition `nl2`"), "{found}");
 }
+
+/// A homework that says no more than it has to: a folder of the project's tests.
+fn waves() -> Assignment {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks/waves");
+    Assignment::load(Folder::read(&folder).expect("a folder")).expect("an assignment")
+}
+
+#[test]
+fn a_homework_needs_neither_designs_nor_mistakes() {
+    let waves = waves();
+    let probes = waves.judging_probes();
+    assert_eq!(probes.probes.len(), 560);
+    assert!(probes.iter().all(|probe| probe.colour.is_finite() && probe.position.is_finite()));
+    let right: Vec<[f64; 3]> = probes.iter().map(|probe| probe.colour.to_array()).collect();
+    assert!(crate::fit::is_right(&probes, &right, crate::fit::TOLERANCE));
+    let wrong: Vec<[f64; 3]> = probes.iter().map(|probe| (probe.colour * 0.9).to_array()).collect();
+    assert!(!crate::fit::is_right(&probes, &wrong, crate::fit::TOLERANCE));
+    // A uniform that probes may draw is drawn; one that they may not is the homework's own.
+    let numbers = |path| {
+        let place = waves.interface.uniforms.iter().position(|uniform| uniform.path == path).expect(path);
+        probes.groups.iter().map(|group| group.uniforms[place].numbers()[0]).collect::<Vec<f64>>()
+    };
+    let amplitudes = numbers("waves[0].amplitude");
+    assert!(amplitudes.iter().all(|amplitude| (0.05..=0.4).contains(amplitude)));
+    assert!(amplitudes.iter().any(|amplitude| (amplitude - amplitudes[0]).abs() > 0.1));
+    assert!(numbers("waves[0].direction").iter().all(|x| *x == 1.0));
+}
+
+#[test]
+fn what_goes_wrong_in_any_homework_has_texts_until_a_folder_has_its_own() {
+    let (waves, lecture) = (waves(), assignment("ggsample06").expect("built in"));
+    for id in ["position-changed", "constants-changed", "hard-coded", "nearly-right", "unexplained"] {
+        let (general, own) = (waves.mistake(id).expect(id), lecture.mistake(id).expect(id));
+        assert_ne!(general.seen, own.seen, "{id}");
+    }
+    let kept = |id: &str, line: &str| waves.mistake(id).expect(id).keeps(line);
+    assert_eq!([kept("position-changed", "surface"), kept("position-changed", "colour")], [0.0, 1.0]);
+    assert_eq!([kept("unexplained", "surface"), kept("unexplained", "colour")], [1.0, 0.0]);
+}
