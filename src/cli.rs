@@ -32,11 +32,11 @@ const EXIT_CODES: &str = "Exit codes: 0 graded, all full marks · 1 graded, some
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Grade one file
+    /// Grade one hand-in: its file, or its files
     Grade(Grade),
     /// Grade a whole class: folders, files, archives, a Moodle download
     Batch(Batch),
-    /// Grade a file again whenever it is saved
+    /// Grade a hand-in again whenever a file of it is saved
     Watch(Watch),
     /// Serve the pages on which students upload and teachers see the class
     Serve(Serve),
@@ -86,12 +86,12 @@ impl Sandbox {
     }
 }
 
-/// Grade one file.
+/// Grade one hand-in.
 #[derive(Debug, Args)]
 pub struct Grade {
-    /// The student's shader; `-` reads standard input
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    /// The files of one hand-in, or its folder or ZIP; `-` reads standard input
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,
@@ -127,7 +127,7 @@ pub struct Grade {
 /// Grade a folder of samples.
 #[derive(Debug, Args)]
 pub struct Corpus {
-    /// The folder: each `NAME.vert` stands beside its expected report `NAME.json` [default: submissions/ASSIGNMENT]
+    /// The folder: each `NAME.vert`, or folder `NAME/` of several files, stands beside its expected report `NAME.json` [default: submissions/ASSIGNMENT]
     #[arg(value_name = "DIR")]
     pub folder: Option<PathBuf>,
     /// Homework and adapter.

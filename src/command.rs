@@ -4,6 +4,7 @@ pub mod batch;
 pub mod corpus;
 pub mod doctor;
 mod exchange;
+mod files;
 pub mod grade;
 pub mod interrupt;
 pub mod serve;

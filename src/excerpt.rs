@@ -20,9 +20,9 @@ const MAX_AROUND: usize = 200;
 
 /// Each diagnostic in turn: what is wrong, file name, line and column, the line with the place marked, and the hint.
 ///
-/// One without a place is a line of its own, and so is every one of them where there is no `source` to quote. The
+/// One without a place is a line of its own, and so is one whose file is not among the `sources` to quote. The
 /// result ends with a line end, or is empty.
-pub fn excerpt(source: Option<&Source>, diagnostics: &[Diagnostic], language: Language, colour: bool) -> String {
+pub fn excerpt(sources: &[Source], diagnostics: &[Diagnostic], language: Language, colour: bool) -> String {
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() }.term_width(WIDTH);
     let mut text = String::new();
     for diagnostic in diagnostics {
@@ -30,12 +30,21 @@ pub fn excerpt(source: Option<&Source>, diagnostics: &[Diagnostic], language: La
         if text.ends_with("\n") && diagnostic.line.is_some() {
             text.push('\n');
         }
-        for group in groups(source, diagnostic, language) {
+        for group in groups(source_of(sources, diagnostic), diagnostic, language) {
             text.push_str(renderer.render(&[group]).trim_end());
             text.push('\n');
         }
     }
     text
+}
+
+/// The file that a diagnostic is about: the one that it names, or the only one.
+fn source_of<'a>(sources: &'a [Source], diagnostic: &Diagnostic) -> Option<&'a Source> {
+    match (&diagnostic.file, sources) {
+        (None, [only]) => Some(only),
+        (None, _) => None,
+        (Some(file), sources) => sources.iter().find(|source| source.facts.name == *file),
+    }
 }
 
 /// What is printed for one diagnostic: one group around a quotation, or a plain line each for message and hint.

@@ -14,6 +14,7 @@ pub(crate) mod wrap;
 
 use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
+use crate::hand_in;
 use crate::language::Text;
 use reference::assignment::Stage;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -227,6 +228,22 @@ impl Report {
             (None, _) => None,
             (Some(file), sources) => sources.iter().find(|source| source.name == file),
         }
+    }
+
+    /// The name of a place's file, where that has to be said: a reader of a report on one file knows it.
+    pub fn file_to_name<'a>(&self, file: Option<&'a str>) -> Option<&'a str> {
+        file.filter(|_| self.sources.len() > 1)
+    }
+
+    /// The digest of the hand-in.
+    pub fn sha256(&self) -> String {
+        let files: Vec<_> = self.sources.iter().map(|source| (source.name.as_str(), source.sha256.clone())).collect();
+        hand_in::digest(&files)
+    }
+
+    /// The names of all files, joined for a person.
+    pub fn file_names(&self) -> String {
+        self.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>().join(", ")
     }
 
     /// Names the file of each place, where there is only one.

@@ -24,6 +24,7 @@ pub mod clock;
 pub mod config;
 pub mod course;
 pub mod deletion;
+pub mod download;
 pub mod errors;
 pub mod gallery;
 pub mod grading;

@@ -7,7 +7,7 @@
 
 mod fit;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 pub(crate) mod wording;
 
 pub use fit::{Fit, fit};
@@ -17,6 +17,7 @@ use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::source;
 use reference::assignment::Stage;
+use std::collections::HashSet;
 
 /// A slot for which there is no file, or for which there are several.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,12 +85,27 @@ pub fn fill<F: Offered>(slots: &[Slot], files: &[F], trust: Trust) -> Result<Vec
 /// Why the hand-in cannot be graded, for its student.
 pub fn arrange(slots: &[Slot], hand_in: &HandIn, trust: Trust) -> Result<HandIn, Text> {
     match fill(slots, &hand_in.files, trust) {
-        Ok(chosen) => Ok(HandIn { files: chosen.into_iter().map(|index| hand_in.files[index].clone()).collect() }),
+        Ok(chosen) => {
+            let files = chosen.into_iter().map(|index| hand_in.files[index].clone()).collect();
+            Ok(tell_apart(slots, HandIn { files }))
+        }
         Err(problems) => {
             let names: Vec<String> = hand_in.files.iter().map(|file| file.name.clone()).collect();
             Err(wording::unfilled(slots, &names, &problems))
         }
     }
+}
+
+/// The files in the slots' order; where two have the same name (`a/x.txt`, `b/x.txt`), each with that of its slot, so that
+/// a place in one is not taken for a place in the other.
+pub fn tell_apart(slots: &[Slot], mut hand_in: HandIn) -> HandIn {
+    let mut names = HashSet::new();
+    if !hand_in.files.iter().all(|file| names.insert(file.name.clone())) {
+        for (file, slot) in hand_in.files.iter_mut().zip(slots) {
+            file.name.clone_from(&slot.name);
+        }
+    }
+    hand_in
 }
 
 struct Filling<'a, F> {

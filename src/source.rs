@@ -17,6 +17,7 @@ pub use encoding::Encoding;
 pub use kind::fragment_shader;
 
 use crate::diagnostic::{Diagnostic, Stage};
+use crate::hand_in::HandedInFile;
 use crate::language::Text;
 use comments::Comment;
 use serde::{Deserialize, Serialize};
@@ -93,6 +94,14 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     }
     diagnostics.extend(source.notes.iter().cloned());
     Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
+}
+
+/// A file as text, also where it is refused; none where it cannot be read as text.
+pub fn readable(file: &HandedInFile) -> Option<Source> {
+    match read(&file.name, &file.bytes) {
+        Ok(source) => Some(source),
+        Err(refusal) => refusal.source,
+    }
 }
 
 /// The encoding that a file is read in; none where it cannot be read as text.

@@ -366,3 +366,31 @@ fn advice_costs_nothing_and_does_not_depend_on_the_seed() {
     assert_eq!((&result["ruleId"], &result["level"]), (&"normal-length".into(), &"note".into()));
     assert_eq!(json(&answer, &["--hints", "none"])["advice"], serde_json::json!([]));
 }
+
+#[test]
+fn a_folder_or_an_archive_is_graded_as_one_hand_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let right = std::fs::read(sample_like("accepted/answers", "plain-int-zero")).unwrap();
+    std::fs::create_dir(folder.path().join("mine")).unwrap();
+    std::fs::write(folder.path().join("mine/ggsample06.vert"), &right).unwrap();
+    std::fs::write(folder.path().join("mine/readme.txt"), "hello").unwrap();
+    let report = json(&folder.path().join("mine"), &[]);
+    assert_eq!((&report["verdict"], &report["sources"][0]["name"]), (&"correct".into(), &"ggsample06.vert".into()));
+    let mut zip = zip::ZipWriter::new(std::fs::File::create(folder.path().join("mine.zip")).unwrap());
+    zip.start_file("deep/ggsample06.vert", zip::write::SimpleFileOptions::default()).unwrap();
+    std::io::Write::write_all(&mut zip, &right).unwrap();
+    zip.finish().unwrap();
+    assert_eq!(json(&folder.path().join("mine.zip"), &[])["verdict"], "correct");
+    // Beside the file of the homework's name, others are left aside; without it, two are a question.
+    let notes = folder.path().join("notes.vert");
+    std::fs::write(&notes, "x").unwrap();
+    ggrade().arg("grade").arg(folder.path().join("mine/ggsample06.vert")).arg(&notes).assert().code(0);
+    let other = folder.path().join("other.vert");
+    std::fs::write(&other, "y").unwrap();
+    ggrade()
+        .arg("grade")
+        .args([&notes, &other])
+        .assert()
+        .code(4)
+        .stderr(predicate::str::contains("Several files could be the one to grade: `notes.vert`, `other.vert`"));
+}

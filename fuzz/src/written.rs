@@ -18,17 +18,18 @@ pub fn check(bytes: &[u8], source: Option<&Source>, diagnostics: &[Diagnostic]) 
         let _ = HAND_OUT.answer(source.code());
     }
     let sources = ggrade::grade::sources(crate::assignment(), &HandIn::of_one("a.vert", bytes));
+    let sources_read = source.map(std::slice::from_ref).unwrap_or_default();
     let environment = Default::default();
     let report =
         ggrade::grade::unfinished(crate::assignment(), sources, Verdict::Rejected, diagnostics.to_vec(), environment);
     for language in [Language::En, Language::Ja] {
-        let excerpts = ggrade::excerpt::excerpt(source, diagnostics, language, false);
+        let excerpts = ggrade::excerpt::excerpt(sources_read, diagnostics, language, false);
         let options = text::Options { language, width: 80, colour: false, excerpts: Some(&excerpts) };
         let shown = text::render(&report, &options);
         assert!(!shown.contains(|c: char| c.is_control() && c != '\n'), "{shown:?}");
         let read: serde_json::Value = serde_json::from_str(&json::render(&report, language)).expect("JSON");
         assert_eq!(read["verdict"], "rejected");
-        let lines = source.map_or(Lines::Nowhere, |source| Lines::Here(&source.text));
+        let lines = Lines::of(sources_read);
         let part = Part {
             report: &report,
             source: lines,

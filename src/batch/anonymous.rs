@@ -4,12 +4,13 @@
 //! pseudonyms again, another folder gives others, and without the key nobody can try names until one fits. What a student
 //! wrote inside the file stays as it is: a name in a comment is still there.
 
-use super::class::{Refused, Student};
+use super::class::{Place, Refused, Student};
 use super::folder::Folder;
 use super::formats::plain::cell;
 use super::intake::{Content, Intake, StudentWork};
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::slots::Slot;
 use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
 use std::collections::HashSet;
@@ -82,9 +83,9 @@ impl Pseudonyms {
         letters.collect()
     }
 
-    /// The intake with pseudonyms for names, in the order of the pseudonyms, and whom they stand for. `file` is the name
-    /// that every file gets.
-    pub fn hide(&self, intake: Intake, file: &str) -> (Intake, Vec<Named>) {
+    /// The intake with pseudonyms for names, in the order of the pseudonyms, and whom they stand for. Every file gets
+    /// the name of its slot.
+    pub fn hide(&self, intake: Intake, slots: &[Slot]) -> (Intake, Vec<Named>) {
         let mut taken = HashSet::new();
         let mut hidden: Vec<(StudentWork, Named)> = Vec::new();
         for hand_in in intake.hand_ins {
@@ -98,16 +99,21 @@ impl Pseudonyms {
             };
             let (start, end) = letters.split_at(LETTERS / 2);
             let pseudonym = format!("{start}-{end}");
-            let StudentWork { student, path, local: _, content } = hand_in;
+            let path = hand_in.path();
+            let StudentWork { student, content } = hand_in;
             let named = Named { pseudonym: pseudonym.clone(), name: student.name, path };
             let content = match content {
-                Content::File { name: _, bytes } => Content::File { name: file.into(), bytes },
+                Content::Files { mut hand_in, .. } => {
+                    for (file, slot) in hand_in.files.iter_mut().zip(slots) {
+                        slot.name.clone_into(&mut file.name);
+                    }
+                    let place = |slot: &Slot| Place { path: format!("{pseudonym}/{}", slot.name), local: None };
+                    Content::Files { hand_in, places: slots.iter().map(place).collect() }
+                }
                 Content::Nothing(_) => Content::Nothing(nothing()),
             };
             let hand_in = StudentWork {
                 student: Student { key: letters.to_ascii_lowercase(), name: pseudonym.clone(), moodle: None },
-                path: named.path.as_ref().map(|_| format!("{pseudonym}/{file}")),
-                local: None,
                 content,
             };
             hidden.push((hand_in, named));
@@ -186,14 +192,23 @@ fn no_random(error: &getrandom::Error) -> Fault {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hand_in::HandIn;
 
     fn hand_in(key: &str, name: &str) -> StudentWork {
         StudentWork {
             student: Student { key: key.into(), name: name.into(), moodle: None },
-            path: Some(format!("class.zip/{name}/{name}.vert")),
-            local: Some(format!("{name}.vert").into()),
-            content: Content::File { name: format!("{name}.vert"), bytes: b"void main() {}".to_vec() },
+            content: Content::Files {
+                hand_in: HandIn::of_one(format!("{name}.vert"), "void main() {}"),
+                places: vec![Place {
+                    path: format!("class.zip/{name}/{name}.vert"),
+                    local: Some(format!("{name}.vert").into()),
+                }],
+            },
         }
+    }
+
+    fn slots() -> Vec<Slot> {
+        reference::assignment("ggsample06").unwrap().files.clone()
     }
 
     fn intake() -> Intake {
@@ -205,7 +220,7 @@ mod tests {
 
     #[test]
     fn no_name_is_left_and_everyone_is_there() {
-        let (hidden, named) = Pseudonyms::with_key(&[1; 32]).unwrap().hide(intake(), "ggsample06.vert");
+        let (hidden, named) = Pseudonyms::with_key(&[1; 32]).unwrap().hide(intake(), &slots());
         assert!(!format!("{hidden:?}").contains("tanaka"));
         let keys: HashSet<_> = hidden.hand_ins.iter().map(|hand_in| hand_in.student.key.as_str()).collect();
         assert_eq!((keys.len(), named.len()), (50, 50));
@@ -222,7 +237,7 @@ mod tests {
     fn a_folder_keeps_its_pseudonyms_and_another_has_others() {
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::open(place.path()).unwrap();
-        let of = |folder: &Folder| Pseudonyms::of(folder).unwrap().hide(intake(), "a.vert").1;
+        let of = |folder: &Folder| Pseudonyms::of(folder).unwrap().hide(intake(), &slots()).1;
         let first = of(&folder);
         assert_eq!(of(&folder), first);
         let other = tempfile::tempdir().unwrap();

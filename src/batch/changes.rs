@@ -118,7 +118,7 @@ impl Changes {
         let (before, after) = (Grade::of(&record.outcome), Grade::of(&entry.outcome));
         let change = Change {
             student: entry.student.clone(),
-            is_new_file: record.sha256.as_deref() != sha256(&entry.outcome),
+            is_new_file: record.sha256 != sha256(&entry.outcome),
             rubric: if before.is_drawn() && after.is_drawn() {
                 rubric(report(&record.outcome), entry.report())
             } else {
@@ -174,8 +174,8 @@ fn report(outcome: &Outcome) -> Option<&Report> {
     }
 }
 
-fn sha256(outcome: &Outcome) -> Option<&str> {
-    report(outcome).map(|report| report.source().sha256.as_str())
+fn sha256(outcome: &Outcome) -> Option<String> {
+    report(outcome).map(Report::sha256)
 }
 
 /// The lines that differ.

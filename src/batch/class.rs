@@ -1,8 +1,10 @@
 //! A graded class: what every format is a view of.
 
+use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Report;
+use crate::source::Source;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -49,36 +51,66 @@ pub enum Outcome {
 }
 
 /// One student of a class.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Who.
     pub student: Student,
-    /// Where the file was in the input, as a teacher would look for it: folders and file name joined by `/`; none without
-    /// file.
-    pub path: Option<String>,
-    /// The same as a file of this machine relative to the working folder, where it is one (not inside an archive).
-    pub local: Option<PathBuf>,
+    /// Where the files were, in the order of the report's; none without files.
+    pub places: Vec<Place>,
     /// What became of it.
     pub outcome: Outcome,
-    /// The file as text, where it can be read as text.
-    pub source: Option<String>,
+    /// The files that can be read as text.
+    pub sources: Vec<Source>,
     /// A small PNG of what the shader draws, at the class's pose; none where nothing was drawn.
-    #[serde(skip)]
     pub portrait: Option<Vec<u8>>,
     /// The full report as a self-contained HTML page, on disk.
-    #[serde(skip)]
     pub page: Option<PathBuf>,
-    /// Keys of the other students whose file is the same, comments, spacing and the hand-out's text left aside.
+    /// Keys of the other students whose files are the same, comments, spacing and the hand-out's text left aside.
     pub shares_with: Vec<String>,
 }
 
 impl Entry {
+    /// Where the files were, in one line.
+    pub fn path(&self) -> Option<String> {
+        Place::joined(&self.places)
+    }
+
+    /// Where a file of the report was: the one with this name, or the first.
+    pub fn place(&self, file: Option<&str>) -> Option<&Place> {
+        let named = |name: &str| self.report()?.sources.iter().position(|source| source.name == name);
+        self.places.get(file.and_then(named).unwrap_or(0))
+    }
+
+    /// What the stages say, each with the report in which they say it.
+    pub fn diagnostics(&self) -> impl Iterator<Item = (&Report, &Diagnostic)> {
+        self.report().into_iter().flat_map(|report| report.diagnostics.iter().map(move |said| (report, said)))
+    }
+
     /// The report, where there is one.
     pub fn report(&self) -> Option<&Report> {
         match &self.outcome {
             Outcome::Graded(report) => Some(report),
             _ => None,
         }
+    }
+}
+
+/// Where a file was.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// As a teacher would look for it: from the input on, folders and file name joined by `/`; where there are several
+    /// inputs, from the folder on that holds them all.
+    pub path: String,
+    /// The same as a file of this machine from the working folder on, where it is one (not inside an archive, and not
+    /// elsewhere).
+    pub local: Option<PathBuf>,
+}
+
+impl Place {
+    /// Several places in one line; none where there is none.
+    pub fn joined(places: &[Self]) -> Option<String> {
+        let paths: Vec<&str> = places.iter().map(|place| place.path.as_str()).collect();
+        (!paths.is_empty()).then(|| paths.join(", "))
     }
 }
 

@@ -22,13 +22,15 @@ pub use limits::{Budget, Limits};
 pub(crate) use moodle::is_blind;
 pub use place::in_working_folder;
 
-use super::class::{Refused, Student};
+use super::class::{Place, Refused, Student};
 use crate::fault::Fault;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
+use crate::slots::{Fit, Slot};
 use reference::Assignment;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
-use students::Group;
+use students::{Group, Owned, Who};
 use tree::{File, Folder, Held};
 
 /// What one student handed in.
@@ -36,27 +38,31 @@ use tree::{File, Folder, Held};
 pub struct StudentWork {
     /// Who.
     pub student: Student,
-    /// Where the file was, as a teacher would look for it: from the input on, folders and file name joined by `/`; where
-    /// there are several inputs, from the folder on that holds them all. None without file.
-    pub path: Option<String>,
-    /// The same as a file of this machine from the working folder on, where it is one (not inside an archive, and not
-    /// elsewhere).
-    pub local: Option<PathBuf>,
-    /// The file, or why there is nothing to grade.
+    /// The files, or why there is nothing to grade.
     pub content: Content,
+}
+
+impl StudentWork {
+    /// Where the files were, in one line; none without files.
+    pub fn path(&self) -> Option<String> {
+        match &self.content {
+            Content::Files { places, .. } => Place::joined(places),
+            Content::Nothing(_) => None,
+        }
+    }
 }
 
 /// What can be graded of a hand-in.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
-    /// A file to grade: its own name, and its bytes (cut above the size that [`crate::source`] takes).
-    File {
-        /// File name without folders.
-        name: String,
-        /// Its bytes.
-        bytes: Vec<u8>,
+    /// The files to grade, one for each slot of the homework.
+    Files {
+        /// Names and bytes (cut above the size that [`crate::source`] takes), in the order of the slots.
+        hand_in: HandIn,
+        /// Where each was.
+        places: Vec<Place>,
     },
-    /// No file, several files, an unreadable one: what to tell student and teacher.
+    /// A file that is missing, double or unreadable: what to tell student and teacher.
     Nothing(Text),
 }
 
@@ -74,20 +80,16 @@ pub struct Intake {
 /// What is looked for, and how much is read at most.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Name of the file that the assignment asks for, such as `ggsample06.vert`.
-    pub file_name: String,
+    /// The files that the assignment asks for.
+    pub slots: Vec<Slot>,
     /// How much is read.
     pub limits: Limits,
 }
 
 impl Options {
-    /// The options for an assignment of one file.
-    pub fn new(assignment: &Assignment) -> Result<Self, Fault> {
-        let file = assignment.files.first().ok_or_else(|| {
-            let message = format!("assignment {}: no file is handed in", assignment.id);
-            Fault::new(Text::verbatim(message))
-        })?;
-        Ok(Self { file_name: file.name.clone(), limits: Limits::default() })
+    /// The options for an assignment.
+    pub fn new(assignment: &Assignment) -> Self {
+        Self { slots: assignment.files.clone(), limits: Limits::default() }
     }
 }
 
@@ -104,6 +106,53 @@ pub fn read(inputs: &[PathBuf], options: &Options) -> Result<Intake, Fault> {
 pub fn read_archive(archive: &Path, title: &str, options: &Options) -> Intake {
     let name = format!("{title}.zip");
     Intake { title: title.into(), ..read_named(&[(archive, &name)], options) }
+}
+
+/// A part of one hand-in, as somebody named or sent it.
+#[derive(Clone, Debug)]
+pub enum Given {
+    /// A folder or an archive of this machine.
+    Path(PathBuf),
+    /// A file, or an archive, that was read already; and where it is on this machine, where it is there.
+    File {
+        /// Name and bytes.
+        file: HandedInFile,
+        /// Where it is.
+        local: Option<PathBuf>,
+    },
+}
+
+/// The files of one hand-in: those that are given, and those in the folders and archives among them.
+pub fn one(given: Vec<Given>, options: &Options) -> Content {
+    let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
+    let mut files = Vec::new();
+    let mut is_named = true;
+    for given in given {
+        let (name, input) = reading.given(given);
+        match input {
+            Some(Input::Folder(folder)) => {
+                is_named = false;
+                files.extend(students::owned(&name, folder));
+            }
+            Some(Input::File(file)) => {
+                let own = name.rsplit('/').next().unwrap_or(&name).to_owned();
+                files.push(Owned { below: own.clone(), name: own, path: name, file });
+            }
+            None => {}
+        }
+    }
+    if let (true, Some(refused)) = (files.is_empty(), reading.refused.into_iter().next()) {
+        let Text { en, ja } = refused.reason;
+        return Content::Nothing(Text::new(format!("{}: {en}", refused.path), format!("{}: {ja}", refused.path)));
+    }
+    let who = Who { name: String::new(), moodle: None, place: String::new() };
+    choose::choose(&Group { who, files, is_named, has_online_text: false }, options)
+}
+
+/// Whether a file is to be opened as an archive: documents of office programs are archives as well, and have names of
+/// their own.
+fn is_archive(name: &str, bytes: &[u8]) -> bool {
+    archive::is_archive_start(bytes) && (archive::is_archive(name) || !name.contains('.'))
 }
 
 /// Reads inputs, each with what it is called.
@@ -131,21 +180,23 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
     groups.extend(found);
     reading.refused.extend(refused);
     let students = key::students(groups.iter().map(|group| &group.who));
-    let mut hand_ins: Vec<StudentWork> =
-        students.into_iter().zip(groups).map(|(student, group)| hand_in(student, group, options)).collect();
+    let mut hand_ins: Vec<StudentWork> = students
+        .into_iter()
+        .zip(&groups)
+        .map(|(student, group)| StudentWork { student, content: choose::choose(group, options) })
+        .collect();
     if let [(_, name)] = inputs {
-        let places = hand_ins.iter_mut().filter_map(|hand_in| hand_in.path.as_mut());
-        for path in places.chain(reading.refused.iter_mut().map(|refused| &mut refused.path)) {
+        let places = hand_ins.iter_mut().flat_map(|hand_in| match &mut hand_in.content {
+            Content::Files { places, .. } => places.as_mut_slice(),
+            Content::Nothing(_) => &mut [],
+        });
+        for path in
+            places.map(|place| &mut place.path).chain(reading.refused.iter_mut().map(|refused| &mut refused.path))
+        {
             *path = place::below(std::mem::take(path), name);
         }
     }
     Intake { title: String::new(), hand_ins, refused: reading.refused }
-}
-
-fn hand_in(student: Student, group: Group, options: &Options) -> StudentWork {
-    let chosen = choose::choose(group, options);
-    let local = chosen.local.and_then(|local| in_working_folder(&local));
-    StudentWork { student, path: chosen.path, local, content: chosen.content }
 }
 
 /// What one path of the command line is.
@@ -186,11 +237,31 @@ impl Reading<'_> {
         }
     }
 
+    /// One part of a hand-in, and what it is called.
+    fn given(&mut self, given: Given) -> (String, Option<Input>) {
+        match given {
+            Given::Path(path) => {
+                let name = place::names(std::slice::from_ref(&path)).concat();
+                let input = self.input(&path, &name);
+                (name, input)
+            }
+            Given::File { file: HandedInFile { name, bytes }, local } => {
+                let shown = local.as_deref().and_then(in_working_folder);
+                let shown = shown.map_or_else(|| name.clone(), |path| path.to_string_lossy().into_owned());
+                if is_archive(&name, &bytes) {
+                    let read = archive::read_bytes(bytes, &name, self).map_err(|reason| self.refuse(name, reason));
+                    return (shown, read.ok().map(Input::Folder));
+                }
+                (shown, Some(Input::File(File { local, held: Held::Bytes(bytes) })))
+            }
+        }
+    }
+
     fn file(&mut self, file: std::fs::File, path: &Path, name: &str) -> Result<Input, Text> {
         let limit = self.options.limits.file_bytes;
         let mut start = [0; 4];
         let begins_as_archive = file.read_exact_at(&mut start, 0).is_ok() && archive::is_archive_start(&start);
-        let is_shader = choose::fit(name, &self.options.file_name) <= choose::Fit::Renamed;
+        let is_shader = Fit::best(name, &self.options.slots) <= Fit::Renamed;
         if archive::is_archive(name) || begins_as_archive && !is_shader {
             return archive::read(file, name, self).map(Input::Folder);
         }

@@ -52,22 +52,22 @@ pub struct Header {
 pub struct Record {
     /// Who.
     pub student: Student,
-    /// Where the file was; none where there was none.
+    /// Where the files were; none where there were none.
     pub path: Option<String>,
-    /// SHA-256 of the file in hexadecimal; none where there was none.
+    /// The digest of the hand-in in hexadecimal; none where there was none.
     pub sha256: Option<String>,
     /// What became of it, with the report in both languages.
     pub outcome: Outcome,
 }
 
 /// The same, of what belongs to others: this is what is written.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct RecordOf<'a> {
     /// Who.
     pub student: &'a Student,
-    /// Where the file was.
-    pub path: Option<&'a str>,
-    /// SHA-256 of the file.
+    /// Where the files were.
+    pub path: Option<String>,
+    /// The digest of the hand-in.
     pub sha256: Option<&'a str>,
     /// What became of it.
     pub outcome: &'a Outcome,
@@ -77,7 +77,7 @@ impl Record {
     /// As it is written.
     pub fn view(&self) -> RecordOf<'_> {
         let Self { student, path, sha256, outcome } = self;
-        RecordOf { student, path: path.as_deref(), sha256: sha256.as_deref(), outcome }
+        RecordOf { student, path: path.clone(), sha256: sha256.as_deref(), outcome }
     }
 }
 

@@ -13,7 +13,7 @@ pub const SCHEMA: &str = "ggrade/entry/v1";
 struct Line<'a> {
     schema: &'static str,
     student: &'a Student,
-    path: Option<&'a str>,
+    path: Option<String>,
     /// The contract's verdicts, and `not-graded` and `fault`.
     standing: Standing,
     /// Why there is no report.
@@ -32,7 +32,7 @@ pub fn line(entry: &Entry, language: Language) -> String {
     let line = Line {
         schema: SCHEMA,
         student: &entry.student,
-        path: entry.path.as_deref(),
+        path: entry.path(),
         standing: Standing::of(&entry.outcome),
         message,
         shares_with: &entry.shares_with,

@@ -5,7 +5,7 @@ use crate::homework;
 use crate::language::Language;
 use crate::report::html::Page;
 use crate::report::{Picture, Pictures, Report};
-use crate::source;
+use crate::source::Source;
 use reference::Assignment;
 use std::sync::Arc;
 
@@ -21,26 +21,22 @@ impl Pages {
         Self { assignment, language }
     }
 
-    /// The page of one report; `bytes` is the file and `frames` what it draws, which is
+    /// The page of one report; `sources` are the files that can be read as text, and `frames` what is drawn, which is
     /// the same afterwards.
-    pub fn page(&self, report: &Report, bytes: &[u8], frames: &mut Vec<Picture>) -> Result<String, Fault> {
-        let source = match source::read(&report.source().name, bytes) {
-            Ok(source) => Some(source),
-            Err(refusal) => refusal.source,
-        };
+    pub fn page(&self, report: &Report, sources: &[Source], frames: &mut Vec<Picture>) -> Result<String, Fault> {
         let is_drawn = !frames.is_empty();
         let mut pictures = Pictures::default();
         if is_drawn {
             pictures = Pictures {
                 yours: std::mem::take(frames),
                 expected: homework::expected_pictures(&self.assignment),
-                terms: homework::term_pictures(&self.assignment, report.explanation.as_deref(), source.as_ref()),
+                terms: homework::term_pictures(&self.assignment, report.explanation.as_deref(), sources.first()),
                 cycle: self.assignment.scene.cycle,
             };
         }
         let page = Page {
             report,
-            source: source.as_ref().map(|source| source.text.as_str()),
+            sources,
             pictures: is_drawn.then_some(&pictures),
             equation: self.assignment.typeset.as_ref(),
             language: self.language,

@@ -14,7 +14,7 @@ use crate::language::Text;
 use crate::parallel;
 use crate::report::Verdict;
 use crate::sandbox::{Answer, Pool, Submission};
-use crate::source;
+use crate::source::{self, Source};
 use reference::Assignment;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -27,18 +27,17 @@ use std::sync::{Mutex, PoisonError};
 pub struct Candidate {
     /// Who handed in what.
     pub hand_in: StudentWork,
-    /// SHA-256 of the file in hexadecimal; none where there is no file.
+    /// The hand-in's digest in hexadecimal; none where there is nothing to grade.
     pub sha256: Option<String>,
-    /// Its text, where it can be read as text.
-    text: Option<String>,
+    /// The files that can be read as text.
+    sources: Vec<Source>,
     content: Option<Content>,
     shares_with: Vec<String>,
 }
 
 /// Reads what was handed in as text, and finds who shares an answer.
 pub fn candidates(hand_ins: Vec<StudentWork>, assignment: &Assignment) -> Vec<Candidate> {
-    let starter = assignment.files.first().and_then(|file| source::read(&file.name, file.starter.as_bytes()).ok());
-    let hand_out = HandOut::new(starter.as_ref().map_or("", |starter| starter.code()));
+    let hand_out = HandOut::new(&code(&grade::handed_out(assignment).readable()));
     let mut answers = Vec::with_capacity(hand_ins.len());
     let mut candidates: Vec<Candidate> = Vec::with_capacity(hand_ins.len());
     for hand_in in hand_ins {
@@ -53,24 +52,31 @@ pub fn candidates(hand_ins: Vec<StudentWork>, assignment: &Assignment) -> Vec<Ca
     candidates
 }
 
-fn candidate(hand_in: StudentWork, hand_out: &HandOut) -> (Candidate, Option<same::Print>) {
-    let none = |hand_in| Candidate { hand_in, sha256: None, text: None, content: None, shares_with: Vec::new() };
-    let intake::Content::File { name, bytes } = &hand_in.content else { return (none(hand_in), None) };
-    let (facts, source) = match source::read(name, bytes) {
-        Ok(source) => (source.facts.clone(), Some(source)),
-        Err(refusal) => (refusal.facts, refusal.source),
-    };
-    let content = source.as_ref().map_or_else(|| Content::of_bytes(&facts.sha256), Content::of_text);
-    let answer = source.as_ref().and_then(|source| hand_out.answer(source.code()));
-    let text = source.map(|source| source.text);
-    let candidate = Candidate { sha256: Some(facts.sha256), text, content: Some(content), ..none(hand_in) };
-    (candidate, answer)
+fn candidate(work: StudentWork, hand_out: &HandOut) -> (Candidate, Option<same::Print>) {
+    let none =
+        |hand_in| Candidate { hand_in, sha256: None, sources: Vec::new(), content: None, shares_with: Vec::new() };
+    let intake::Content::Files { hand_in, .. } = &work.content else { return (none(work), None) };
+    let read: Vec<Option<Source>> = hand_in.files.iter().map(source::readable).collect();
+    let contents = hand_in.files.iter().zip(&read).map(|(file, source)| match source {
+        Some(source) => Content::of_text(source),
+        None => Content::of_bytes(&file.sha256()),
+    });
+    let content = Content::of_all(contents);
+    let sha256 = hand_in.sha256();
+    let sources: Vec<Source> = read.into_iter().flatten().collect();
+    let answer = hand_out.answer(&code(&sources));
+    (Candidate { sha256: Some(sha256), sources, content: Some(content), ..none(work) }, answer)
+}
+
+/// The code of all files, one behind the other.
+fn code(sources: &[Source]) -> String {
+    sources.iter().map(Source::code).collect()
 }
 
 impl Candidate {
-    fn file(&self) -> Option<(&str, &[u8])> {
+    fn files(&self) -> Option<&HandIn> {
         match &self.hand_in.content {
-            intake::Content::File { name, bytes } => Some((name, bytes)),
+            intake::Content::Files { hand_in, .. } => Some(hand_in),
             intake::Content::Nothing(_) => None,
         }
     }
@@ -79,37 +85,38 @@ impl Candidate {
     pub fn nothing(&self) -> Outcome {
         match &self.hand_in.content {
             intake::Content::Nothing(why) => Outcome::NotGraded(why.clone()),
-            intake::Content::File { .. } => Outcome::NotGraded(Text::default()),
+            intake::Content::Files { .. } => Outcome::NotGraded(Text::default()),
         }
     }
 
     /// What is written down of it.
     pub fn record<'a>(&'a self, outcome: &'a Outcome) -> RecordOf<'a> {
-        let StudentWork { student, path, .. } = &self.hand_in;
-        RecordOf { student, path: path.as_deref(), sha256: self.sha256.as_deref(), outcome }
+        RecordOf { student: &self.hand_in.student, path: self.hand_in.path(), sha256: self.sha256.as_deref(), outcome }
     }
 
     /// The entry of this outcome.
     pub fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
-        let StudentWork { student, path, local, .. } = &self.hand_in;
+        let places = match &self.hand_in.content {
+            intake::Content::Files { places, .. } => places.clone(),
+            intake::Content::Nothing(_) => Vec::new(),
+        };
         Entry {
-            student: student.clone(),
-            path: path.clone(),
-            local: local.clone(),
+            student: self.hand_in.student.clone(),
+            places,
             outcome,
-            source: self.text.clone(),
+            sources: self.sources.clone(),
             portrait,
             page,
             shares_with: self.shares_with.clone(),
         }
     }
 
-    /// The entry by an earlier result, where that is still this file's: the same bytes under the same name, graded, and
-    /// with the files that are wanted.
+    /// The entry by an earlier result, where that is still this hand-in's: the same bytes under the same names, graded,
+    /// and with the files that are wanted.
     pub fn reuse(&self, record: &Record, folder: &Folder, wants: Wants) -> Option<Entry> {
         let Outcome::Graded(report) = &record.outcome else { return None };
-        let (name, _) = self.file()?;
-        if record.sha256 != self.sha256 || report.source().name != name {
+        let names = self.files()?.files.iter().map(|file| &file.name);
+        if record.sha256 != self.sha256 || !report.sources.iter().map(|source| &source.name).eq(names) {
             return None;
         }
         let key = &self.hand_in.student.key;
@@ -126,9 +133,9 @@ impl Candidate {
         Some(self.entry(record.outcome.clone(), portrait, page))
     }
 
-    /// Whether there is a file to grade.
-    pub fn has_file(&self) -> bool {
-        self.file().is_some()
+    /// Whether there is something to grade.
+    pub fn is_gradable(&self) -> bool {
+        self.files().is_some()
     }
 }
 
@@ -197,17 +204,15 @@ impl Run<'_> {
         failure.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
     }
 
-    /// Grades files that are the same, once, and gives each student an entry.
+    /// Grades hand-ins that are the same, once, and gives each student an entry.
     fn group(&self, candidates: &[Candidate], group: &[usize]) -> Result<Vec<Entry>, Fault> {
         let members: Vec<&Candidate> = group.iter().map(|&index| &candidates[index]).collect();
-        let first = members.first().and_then(|first| first.file());
-        let Some(((name, bytes), pool)) = first.zip(self.pool) else {
+        let first = members.first().and_then(|first| first.files());
+        let Some((hand_in, pool)) = first.zip(self.pool) else {
             return members.into_iter().map(|member| self.finish(member, &Judged::without(member.nothing()))).collect();
         };
         let wants_frames = self.portraits.is_some() || self.pages.is_some();
-        let mut answer = guarded(|| {
-            pool.grade(Submission { hand_in: &HandIn::of_one(name, bytes), order: self.order, wants_frames })
-        });
+        let mut answer = guarded(|| pool.grade(Submission { hand_in, order: self.order, wants_frames }));
         let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
         let mut last: Option<Judged> = None;
         for member in members {
@@ -222,11 +227,11 @@ impl Run<'_> {
         Ok(entries)
     }
 
-    /// What is shown of one of the files that the answer is for; `last` is what was shown of the one before.
+    /// What is shown of one of the hand-ins that the answer is for; `last` is what was shown of the one before.
     fn show(&self, answer: &mut Answer, member: &Candidate, last: Option<Judged>) -> Result<Judged, Fault> {
-        let Some((name, bytes)) = member.file() else { return Ok(Judged::without(member.nothing())) };
-        // Name, size and line ends are each file's own.
-        let sources = grade::sources(self.assignment, &HandIn::of_one(name, bytes));
+        let Some(hand_in) = member.files() else { return Ok(Judged::without(member.nothing())) };
+        // Names, sizes and line ends are each one's own.
+        let sources = grade::sources(self.assignment, hand_in);
         if let Some(last) = last
             && answer.report.sources == sources
         {
@@ -234,7 +239,8 @@ impl Run<'_> {
         }
         answer.report.of_files(sources);
         let portrait = self.portraits.map(|portraits| portraits.of(&answer.frames)).transpose()?.flatten();
-        let page = self.pages.map(|pages| pages.page(&answer.report, bytes, &mut answer.frames)).transpose()?;
+        let page =
+            self.pages.map(|pages| pages.page(&answer.report, &member.sources, &mut answer.frames)).transpose()?;
         Ok(Judged { outcome: Outcome::Graded(Box::new(answer.report.clone())), portrait, page })
     }
 

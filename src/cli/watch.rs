@@ -6,12 +6,12 @@ use crate::language::Language;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Grade a file again whenever it is saved.
+/// Grade a hand-in again whenever a file of it is saved.
 #[derive(Debug, Args)]
 pub struct Watch {
-    /// The shader that you are working on
-    #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    /// The files that you are working on, or their folder
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
     /// Homework and adapter.
     #[command(flatten)]
     pub machine: Machine,

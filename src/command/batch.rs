@@ -37,7 +37,7 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
     begin::outside(arguments)?;
     let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
     let before = arguments.compare.as_deref().map(begin::read_earlier).transpose()?;
-    let options = intake::Options::new(&assignment)?;
+    let options = intake::Options::new(&assignment);
     let intake = intake::read(&arguments.inputs, &options)?;
     if intake.hand_ins.is_empty() {
         begin::tell_empty(&intake, language(arguments.lang));
@@ -60,8 +60,7 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
     if let Some(found) = &found {
         start::same_conditions(&arguments.out, &found.header, &header)?;
     }
-    let intake =
-        if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.file_name)? } else { intake };
+    let intake = if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.slots)? } else { intake };
     let title = arguments.title.clone().unwrap_or(intake.title);
     let candidates = run::candidates(intake.hand_ins, &assignment);
     let portraits = Portraits::new(&assignment)?;

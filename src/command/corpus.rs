@@ -107,7 +107,10 @@ fn summary(expectation: Option<&Expectation>) -> String {
     let diagnostics: Vec<_> = expectation
         .diagnostics
         .iter()
-        .map(|said| format!("{:?} {:?} {}:{}", said.severity, said.stage, number(said.line), number(said.column)))
+        .map(|said| {
+            let file = said.file.as_ref().map(|file| format!("{file}:")).unwrap_or_default();
+            format!("{:?} {:?} {file}{}:{}", said.severity, said.stage, number(said.line), number(said.column))
+        })
         .collect();
     format!(
         "{:?} {} ({}) [{}] {} {}",

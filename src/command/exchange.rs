@@ -1,23 +1,22 @@
-//! `ggrade grade FILE --format gradescope` and its like: one file in a format of autograders and CI.
+//! `ggrade grade FILE… --format gradescope` and its like: one hand-in in a format of autograders and CI.
 //!
 //! What reads these formats shows its student whatever comes, so there is a document for every ending: also where there
 //! is no file, and where ggrade itself fails.
 
-use super::view::readable;
+use super::files::{self, NotTaken};
 use super::{Outcome, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome as Became, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
-use crate::batch::intake::in_working_folder;
 use crate::batch::portrait::Portraits;
 use crate::cli::Grade;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Verdict;
 use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
-/// Grades one file and writes it in `format`.
+/// Grades one hand-in and writes it in `format`.
 pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, language: Language) -> Result<Outcome, Fault> {
     let class = class(arguments, format, deadline, language).for_students().into_owned();
     let variable = |name| std::env::var(name).ok();
@@ -34,18 +33,14 @@ pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, languag
     }
 }
 
-/// The file as a class of one.
+/// The hand-in as a class of one.
 fn class(arguments: &Grade, format: Format, deadline: Duration, language: Language) -> Class {
-    let name = grade::name(&arguments.file);
-    let is_file = arguments.file != Path::new("-");
-    let local = is_file.then(|| in_working_folder(&arguments.file)).flatten();
-    let shown = local.as_ref().map(|path| path.to_string_lossy().into_owned());
+    let name = files::names(&arguments.files);
     let mut entry = Entry {
         student: Student { key: "submission".into(), name: name.clone(), moodle: None },
-        path: is_file.then(|| shown.unwrap_or_else(|| name.clone())),
-        local,
+        places: files::places(&arguments.files),
         outcome: Became::NotGraded(Text::default()),
-        source: None,
+        sources: vec![],
         portrait: None,
         page: None,
         shares_with: vec![],
@@ -65,7 +60,7 @@ fn class(arguments: &Grade, format: Format, deadline: Duration, language: Langua
     class
 }
 
-/// Grades the file; what became of it where there is no report.
+/// Grades the hand-in; what became of it where there is no report.
 fn fill(
     entry: &mut Entry,
     class: &mut Class,
@@ -73,28 +68,33 @@ fn fill(
     format: Format,
     deadline: Duration,
 ) -> Result<(), Became> {
-    let bytes = grade::read(&arguments.file).map_err(|error| match error.kind() {
-        ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => Became::NotGraded(Text::new(
-            format!("There is no file `{}` to grade.", class.title),
-            format!("採点するファイル `{}` がありません。", class.title),
-        )),
-        _ => Became::Fault(Fault::new(grade::unreadable(&arguments.file, &error))),
+    let assignment = crate::homework::assignment(&class.assignment).map_err(Became::Fault)?;
+    let (hand_in, places) = files::taken(&arguments.files, &assignment).map_err(|why| match &why {
+        NotTaken::Unfit(why) => Became::NotGraded(why.clone()),
+        NotTaken::Unreadable(path, error) => match error.kind() {
+            ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => {
+                let name = files::names(std::slice::from_ref(path));
+                Became::NotGraded(Text::new(
+                    format!("There is no file `{name}` to grade."),
+                    format!("採点するファイル `{name}` がありません。"),
+                ))
+            }
+            _ => Became::Fault(Fault::new(why.message())),
+        },
     })?;
-    let (name, language) = (&class.title, class.language);
+    entry.places = places;
     let wants_portrait = format == Format::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
-    let answer = grade::grade(arguments, deadline, name, &bytes, wants_frames, language).map_err(Became::Fault)?;
-    let source = readable(name, &bytes);
+    let answer = grade::grade(arguments, deadline, &hand_in, wants_frames, class.language).map_err(Became::Fault)?;
+    entry.sources = hand_in.readable();
     if wants_portrait && !answer.frames.is_empty() {
-        let assignment = crate::homework::assignment(&answer.report.assignment).map_err(Became::Fault)?;
         let portraits = Portraits::new(&assignment).map_err(Became::Fault)?;
         entry.portrait = portraits.of(&answer.frames).map_err(Became::Fault)?;
         class.expected_portrait = portraits.expected;
     }
     if arguments.frames.is_some() {
-        grade::pictures(arguments, &answer.report, source.as_ref(), answer.frames).map_err(Became::Fault)?;
+        grade::pictures(arguments, &answer.report, &entry.sources, answer.frames).map_err(Became::Fault)?;
     }
-    entry.source = source.map(|source| source.text);
     entry.outcome = Became::Graded(Box::new(answer.report));
     Ok(())
 }

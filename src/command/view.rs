@@ -7,7 +7,7 @@ use crate::fault::Fault;
 use crate::language::Language;
 use crate::report::html::Page;
 use crate::report::{Pictures, Report, json, text};
-use crate::source::{self, Source};
+use crate::source::Source;
 use reference::typeset::Typeset;
 use std::io::IsTerminal;
 
@@ -15,8 +15,8 @@ use std::io::IsTerminal;
 pub(super) struct View<'a> {
     /// The report.
     pub report: &'a Report,
-    /// The file as text, where it can be read as text.
-    pub source: Option<&'a Source>,
+    /// The files that can be read as text.
+    pub sources: &'a [Source],
     /// The equation that the rubric judges.
     pub equation: Option<&'a Typeset>,
     /// What was drawn, where it is wanted.
@@ -32,14 +32,14 @@ impl View<'_> {
             Reading::Json => Ok(json::render(self.report, self.language)),
             Reading::Html => Page {
                 report: self.report,
-                source: self.source.map(|source| source.text.as_str()),
+                sources: self.sources,
                 pictures: self.pictures,
                 equation: self.equation,
                 language: self.language,
             }
             .render(),
             Reading::Text => {
-                let excerpts = excerpt::excerpt(self.source, &self.report.diagnostics, self.language, colour);
+                let excerpts = excerpt::excerpt(self.sources, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
                     &text::Options {
@@ -51,14 +51,6 @@ impl View<'_> {
                 ))
             }
         }
-    }
-}
-
-/// The file as text, for excerpts; none where it cannot be read as text.
-pub(super) fn readable(name: &str, bytes: &[u8]) -> Option<Source> {
-    match source::read(name, bytes) {
-        Ok(source) => Some(source),
-        Err(refusal) => refusal.source,
     }
 }
 

@@ -1,14 +1,15 @@
-//! `ggrade watch FILE`: a report for every save, for a student at their desk.
+//! `ggrade watch FILE…`: a report for every save, for a student at their desk.
 //!
-//! [`saves`] tells when the file was saved, [`change`] what a save changed, [`screen`] shows it. One pool with one warm
-//! worker grades all of them, with the same seed, so that a changed score comes from the file.
+//! [`saves`] tells when a file was saved, [`change`] what a save changed, [`screen`] shows it. One pool with one warm
+//! worker grades all of them, with the same seed, so that a changed score comes from the files.
 
 mod change;
 mod saves;
 mod screen;
 
-use super::view::{View, has_colour, readable};
-use super::{Outcome, deadline, grade, language, warn};
+use super::view::{View, has_colour};
+use super::{Outcome, deadline, files, language, warn};
+use crate::batch::intake::{self, Content, Options};
 use crate::cli::{Reading, Watch};
 use crate::fault::Fault;
 use crate::grade::Order;
@@ -21,7 +22,7 @@ use screen::Screen;
 use std::sync::Arc;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 
-/// Grades the file whenever it is saved, until it is interrupted; then the last report says how it ends.
+/// Grades the hand-in whenever a file of it is saved, until it is interrupted; then the last report says how it ends.
 pub fn run(arguments: &Watch) -> Result<Outcome, Fault> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(|e| broken(&e))?;
     let outcome = runtime.block_on(watch(arguments));
@@ -34,18 +35,22 @@ async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
     let mut ends = Ends::listen().map_err(|error| broken(&error))?;
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
-    if let Err(error) = std::fs::File::open(&arguments.file) {
-        anstream::eprintln!("ggrade: {}", grade::unreadable(&arguments.file, &error).get(language));
-        return Ok(Outcome::Nothing);
+    for path in &arguments.files {
+        if let Err(error) = std::fs::File::open(path) {
+            anstream::eprintln!("ggrade: {}", files::unreadable(path, &error).get(language));
+            return Ok(Outcome::Nothing);
+        }
     }
-    let mut saves = Saves::of(&arguments.file);
+    let mut saves = Saves::of(&arguments.files);
     let settings =
         Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
+    let assignment = crate::homework::assignment(&settings.assignment)?;
     // The spare is for the save after an endless loop, which costs a worker.
     let pool = Arc::new(Pool::start(arguments.sandbox.apply(settings), 1)?);
     warn(&pool, language);
     let mut session = Session {
         pool,
+        options: Options::new(&assignment),
         order: Order {
             seed: arguments.seed.unwrap_or_else(crate::grade::random_seed),
             hints: arguments.hints,
@@ -94,6 +99,7 @@ impl Ends {
 /// What goes on between the saves.
 struct Session {
     pool: Arc<Pool>,
+    options: Options,
     order: Order,
     language: Language,
     screen: Screen,
@@ -105,18 +111,21 @@ struct Session {
 impl Session {
     /// Waits for the next save and shows its report.
     async fn next(&mut self, saves: &mut Saves) {
-        let bytes = match saves.next().await {
-            Save::Content(bytes) => bytes,
+        let given = match saves.next().await {
+            Save::Content(given) => given,
             Save::Gone => return self.screen.note(&saves::gone(saves.name())),
             Save::Unreadable(reason) => return self.screen.note(&reason),
         };
-        let (pool, order, name) = (Arc::clone(&self.pool), self.order, saves.name().to_owned());
+        let hand_in = match intake::one(given, &self.options) {
+            Content::Files { hand_in, .. } => hand_in,
+            Content::Nothing(why) => return self.screen.note(&why),
+        };
+        let (pool, order) = (Arc::clone(&self.pool), self.order);
         let graded = tokio::task::spawn_blocking(move || {
-            let answer =
-                pool.grade(Submission { hand_in: &HandIn::of_one(name, bytes.as_slice()), order, wants_frames: false });
-            (answer, bytes)
+            let answer = pool.grade(Submission { hand_in: &hand_in, order, wants_frames: false });
+            (answer, hand_in)
         });
-        let (answer, bytes) = match graded.await {
+        let (answer, hand_in) = match graded.await {
             Ok(graded) => graded,
             Err(error) => return self.fault(&broken(&error)),
         };
@@ -125,16 +134,15 @@ impl Session {
             return;
         }
         match answer {
-            Ok(answer) => self.show(answer.report, saves.name(), &bytes),
+            Ok(answer) => self.show(answer.report, &hand_in),
             Err(fault) => self.fault(&fault),
         }
     }
 
-    fn show(&mut self, report: Report, name: &str, bytes: &[u8]) {
-        let source = readable(name, bytes);
+    fn show(&mut self, report: Report, hand_in: &HandIn) {
+        let sources = hand_in.readable();
         // Neither an equation nor pictures: it is shown in a terminal.
-        let view =
-            View { report: &report, source: source.as_ref(), equation: None, pictures: None, language: self.language };
+        let view = View { report: &report, sources: &sources, equation: None, pictures: None, language: self.language };
         match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
                 let change = self.last.as_ref().map(|last| change::between(&last.for_student(), &report.for_student()));

@@ -32,6 +32,9 @@ pub struct Expectation {
 pub struct ExpectedLine {
     /// The points.
     pub points: f64,
+    /// The file of that line, where the sample has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// The line of the file that is named, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
@@ -43,6 +46,9 @@ pub struct ExpectedLine {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedAdvice {
+    /// The file of that line, where the sample has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// The line of the file that is named, from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
@@ -58,6 +64,9 @@ pub struct ExpectedDiagnostic {
     pub severity: Severity,
     /// The stage that speaks.
     pub stage: Stage,
+    /// The file, where the sample has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// Line, from 1.
     pub line: Option<u32>,
     /// Column, from 1.
@@ -72,17 +81,24 @@ pub struct ExpectedDiagnostic {
 impl Expectation {
     /// What this report says.
     pub fn of(report: &Report) -> Self {
+        let file = |file: Option<&str>| report.file_to_name(file).map(str::to_owned);
         let rubric = report.rubric.iter().map(|line| {
-            let said = ExpectedLine { points: line.points, line: line.line, message: line.message.clone() };
+            let said = ExpectedLine {
+                points: line.points,
+                file: file(line.file.as_deref()),
+                line: line.line,
+                message: line.message.clone(),
+            };
             (line.id.clone(), said)
         });
-        let advice = report
-            .advice
-            .iter()
-            .map(|advice| (advice.id.clone(), ExpectedAdvice { line: advice.line, message: advice.message.clone() }));
+        let advice = report.advice.iter().map(|advice| {
+            let file = advice.line.and_then(|_| file(Some(&advice.file)));
+            (advice.id.clone(), ExpectedAdvice { file, line: advice.line, message: advice.message.clone() })
+        });
         let diagnostics = report.diagnostics.iter().map(|diagnostic| ExpectedDiagnostic {
             severity: diagnostic.severity,
             stage: diagnostic.stage,
+            file: file(diagnostic.file.as_deref()),
             line: diagnostic.line,
             column: diagnostic.column,
             message: diagnostic.message.clone(),

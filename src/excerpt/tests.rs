@@ -15,7 +15,7 @@ fn error() -> Diagnostic {
 }
 
 fn shown(text: &str, diagnostic: Diagnostic) -> String {
-    excerpt(Some(&source(text)), &[diagnostic], Language::En, false)
+    excerpt(&[source(text)], &[diagnostic], Language::En, false)
 }
 
 #[test]
@@ -32,7 +32,7 @@ error: wrong
   = hint: look here
 ";
     assert_eq!(shown("a;\n  b = c;\nd;\n", diagnostic.clone()), expected);
-    let japanese = excerpt(Some(&source("a;\n  b = c;\nd;\n")), &[diagnostic], Language::Ja, false);
+    let japanese = excerpt(&[source("a;\n  b = c;\nd;\n")], &[diagnostic], Language::Ja, false);
     assert!(japanese.starts_with("エラー: 間違い\n --> a.vert:2:3\n"), "{japanese}");
     assert!(japanese.ends_with("= ヒント: ここを見る\n"), "{japanese}");
 }
@@ -43,8 +43,8 @@ fn severities_have_their_words() {
         [(Severity::Error, "error", "エラー"), (Severity::Warning, "warning", "警告"), (Severity::Note, "note", "注意")]
     {
         let diagnostic = Diagnostic { severity, ..error() };
-        assert_eq!(excerpt(None, std::slice::from_ref(&diagnostic), Language::En, false), format!("{en}: wrong\n"));
-        assert_eq!(excerpt(None, &[diagnostic], Language::Ja, false), format!("{ja}: 間違い\n"));
+        assert_eq!(excerpt(&[], std::slice::from_ref(&diagnostic), Language::En, false), format!("{en}: wrong\n"));
+        assert_eq!(excerpt(&[], &[diagnostic], Language::Ja, false), format!("{ja}: 間違い\n"));
     }
 }
 
@@ -85,14 +85,14 @@ fn a_place_after_the_end_is_told_without_a_quotation() {
 fn without_a_place_there_are_plain_lines() {
     let hint = Text::verbatim("again");
     assert_eq!(shown("a;\n", error().hint(hint)), "error: wrong\nhint: again\n");
-    assert_eq!(excerpt(None, &[error().at(3, Some(1))], Language::En, false), "error: wrong\n");
-    assert_eq!(excerpt(None, &[], Language::En, false), "");
+    assert_eq!(excerpt(&[], &[error().at(3, Some(1))], Language::En, false), "error: wrong\n");
+    assert_eq!(excerpt(&[], &[], Language::En, false), "");
 }
 
 #[test]
 fn several_are_kept_apart() {
     let two = [error().at(1, Some(1)), error().at(1, Some(1))];
-    let shown = excerpt(Some(&source("a;\n")), &two, Language::En, false);
+    let shown = excerpt(&[source("a;\n")], &two, Language::En, false);
     assert_eq!(shown.split("\n\n").count(), 2, "{shown}");
 }
 
@@ -104,7 +104,7 @@ fn nothing_of_the_student_reaches_the_terminal_as_a_command() {
     let text = Text::verbatim(format!("bad {hostile}"));
     let diagnostic = Diagnostic::error(Stage::Compile, text.clone()).at(1, Some(4)).hint(text);
     for colour in [false, true] {
-        let shown = excerpt(Some(&source), std::slice::from_ref(&diagnostic), Language::En, colour);
+        let shown = excerpt(std::slice::from_ref(&source), std::slice::from_ref(&diagnostic), Language::En, colour);
         let plain = shown
             .replace("\x1B[0m", "")
             .replace("\x1B[1m", "")

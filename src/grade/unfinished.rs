@@ -59,11 +59,8 @@ pub fn unfinished(
 /// What is known of the files of a hand-in: those that the assignment asks for, in its order; or else all of them.
 pub fn sources(assignment: &Assignment, hand_in: &HandIn) -> Vec<SourceInfo> {
     let slots = &assignment.files;
-    match slots::fill(slots, &hand_in.files, Trust::Named) {
-        Ok(files) => {
-            let files = files.into_iter().zip(slots);
-            files.map(|(file, slot)| info(&hand_in.files[file], Some(slot.stage))).collect()
-        }
+    match slots::arrange(slots, hand_in, Trust::Named) {
+        Ok(arranged) => arranged.files.iter().zip(slots).map(|(file, slot)| info(file, Some(slot.stage))).collect(),
         Err(_) => hand_in.files.iter().map(|file| info(file, None)).collect(),
     }
 }

@@ -17,6 +17,7 @@ use self::body::Body;
 use super::{Pictures, Report};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
+use crate::source::Source;
 use askama::Template;
 use reference::typeset::Typeset;
 
@@ -34,8 +35,8 @@ pub const SYMBOLS: &str = include_str!("html/templates/symbols.html");
 pub struct Page<'a> {
     /// The report.
     pub report: &'a Report,
-    /// The student's file as text.
-    pub source: Option<&'a str>,
+    /// The student's files as text, those that can be read so.
+    pub sources: &'a [Source],
     /// What was drawn and what is expected.
     pub pictures: Option<&'a Pictures>,
     /// The equation that the rubric judges.
@@ -55,7 +56,7 @@ impl Page<'_> {
         };
         let body = Body::of(&Part {
             report: self.report,
-            source: self.source.map_or(Lines::Nowhere, Lines::Here),
+            source: Lines::of(self.sources),
             gallery: gallery.as_ref(),
             equation: self.equation,
             language: self.language,
@@ -68,15 +69,22 @@ impl Page<'_> {
     }
 }
 
-/// Where the lines of the student's file are shown, which messages link to as `#L12`.
+/// Where the lines of the student's files are shown, which messages link to as `#L12`, or `#F2L12` in the second file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lines<'a> {
-    /// In the report: the file as text.
-    Here(&'a str),
+    /// In the report: the files as text.
+    Here(&'a [Source]),
     /// Elsewhere in the same page.
     Elsewhere,
     /// Not at all: messages do not link.
     Nowhere,
+}
+
+impl<'a> Lines<'a> {
+    /// In the report, where there are files that can be read as text.
+    pub fn of(sources: &'a [Source]) -> Self {
+        if sources.is_empty() { Self::Nowhere } else { Self::Here(sources) }
+    }
 }
 
 /// A report as a part of a larger page, which brings [`SYMBOLS`], the styles and the script.
@@ -84,7 +92,7 @@ pub enum Lines<'a> {
 pub struct Part<'a> {
     /// The report.
     pub report: &'a Report,
-    /// The student's file.
+    /// The student's files.
     pub source: Lines<'a>,
     /// Where the pictures are.
     pub gallery: Option<&'a Gallery>,

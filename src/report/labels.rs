@@ -217,16 +217,21 @@ impl Labels {
         self.tag == JA.tag
     }
 
-    pub fn line(&self, line: u32) -> String {
+    fn line(&self, line: u32) -> String {
         if self.japanese() { format!("{line} 行目") } else { format!("line {line}") }
     }
 
-    /// Line, and column where it is known.
-    pub fn place(&self, line: u32, column: Option<u32>) -> String {
-        match (column, self.japanese()) {
+    /// File where it has to be said, line, and column where it is known.
+    pub fn place(&self, file: Option<&str>, line: u32, column: Option<u32>) -> String {
+        let place = match (column, self.japanese()) {
             (None, _) => self.line(line),
             (Some(column), true) => format!("{line} 行目 {column} 文字目"),
             (Some(column), false) => format!("line {line}, column {column}"),
+        };
+        match (file, self.japanese()) {
+            (None, _) => place,
+            (Some(file), true) => format!("{file} の {place}"),
+            (Some(file), false) => format!("{file}, {place}"),
         }
     }
 

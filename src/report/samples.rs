@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::diagnostic::Stage;
+use crate::hand_in::HandedInFile;
+use crate::source::{self, Source};
 use std::sync::Arc;
 
 /// The course's frame, an eighth in each direction.
@@ -26,6 +28,11 @@ void main(void)
 
 pub(crate) fn all() -> [Report; 4] {
     [correct(), wrong(), rejected(), stopped()]
+}
+
+/// [`SOURCE`] as a file of this name.
+pub(crate) fn source(name: &str) -> Source {
+    source::readable(&HandedInFile::new(name, SOURCE)).unwrap()
 }
 
 pub(crate) fn correct() -> Report {
@@ -106,6 +113,17 @@ pub(crate) fn wrong() -> Report {
     report.frames = (0..POSES).map(|k| frame(k, level(k))).collect();
     report.probes.mismatched = 231;
     report.probes.max_difference = Some(0.2131);
+    report
+}
+
+/// [`wrong`] of a homework of two files: the mistake is in the second one.
+pub(crate) fn two_files() -> Report {
+    let mut report = wrong();
+    let source = |name: &str, stage| SourceInfo { name: name.into(), stage: Some(stage), ..report.sources[0].clone() };
+    let (vertex, fragment) = (reference::assignment::Stage::Vertex, reference::assignment::Stage::Fragment);
+    report.sources = vec![source("ggsample11.vert", vertex), source("ggsample11.frag", fragment)];
+    report.rubric[3].file = Some("ggsample11.frag".into());
+    report.diagnostics[0].file = Some("ggsample11.vert".into());
     report
 }
 

@@ -115,7 +115,7 @@ impl Writer {
         let (mark, style) = verdict_mark(report);
         let verdict = self.labels.verdict(report.verdict);
         let title = format!("{mark} {verdict}");
-        let name = plain(&report.source().name);
+        let name = plain(&report.file_names());
         self.gap();
         let title = self.paint(style.bold(), &title);
         self.line(&title);
@@ -177,12 +177,13 @@ impl Writer {
             return;
         }
         for diagnostic in &report.diagnostics {
-            self.diagnostic(diagnostic);
+            self.diagnostic(report, diagnostic);
         }
     }
 
-    fn diagnostic(&mut self, diagnostic: &Diagnostic) {
-        let place = diagnostic.line.map(|line| self.labels.place(line, diagnostic.column));
+    fn diagnostic(&mut self, report: &Report, diagnostic: &Diagnostic) {
+        let file = report.file_to_name(diagnostic.file.as_deref());
+        let place = diagnostic.line.map(|line| plain(&self.labels.place(file, line, diagnostic.column)));
         let place = place.unwrap_or_else(|| self.labels.stage(diagnostic.stage).to_owned());
         let style = match diagnostic.severity {
             Severity::Error => BAD,

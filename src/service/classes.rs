@@ -17,9 +17,8 @@ use super::idempotency;
 use super::identity::new_id;
 use super::roster::Matcher;
 use super::store::{Batch, BatchEntry, Key, NewSubmission, Via};
-use super::submit::{file_name, sha256};
-use crate::batch::intake::{self, Content, Intake};
-use crate::fault::Fault;
+use super::submit::file_name;
+use crate::batch::intake::{self, Content, Intake, StudentWork};
 use crate::language::Text;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -39,10 +38,10 @@ pub async fn submit(state: &State, path: PathBuf, title: &str, key: Option<Key>)
     }
     let title = if title.is_empty() { NAMELESS } else { title }.to_owned();
     let read = tokio::task::spawn_blocking(move || {
-        let options = intake::Options::new(&assignment)?;
-        Ok::<_, Fault>(intake::read_archive(&path, &title, &options))
+        let options = intake::Options::new(&assignment);
+        intake::read_archive(&path, &title, &options)
     });
-    let intake = read.await.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::of_fault(&fault))?;
+    let intake = read.await.map_err(|panic| Problem::internal(&panic))?;
     if intake.hand_ins.is_empty() {
         return Err(nothing(&intake));
     }
@@ -89,21 +88,24 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
     let mut entries = Vec::new();
     let mut files = Vec::new();
     let matcher = Matcher::new(&state.store.roster().await?);
-    let matches = matcher.of_batch(intake.hand_ins.iter().map(|hand_in| (&hand_in.student, hand_in.path.as_deref())));
-    for ((hand_in, student_id), position) in intake.hand_ins.into_iter().zip(matches).zip(0..) {
-        let (student, path) = (hand_in.student, hand_in.path);
+    let paths: Vec<Option<String>> = intake.hand_ins.iter().map(StudentWork::path).collect();
+    let students = intake.hand_ins.iter().map(|hand_in| &hand_in.student);
+    let matches = matcher.of_batch(students.zip(paths.iter().map(Option::as_deref)));
+    for (((hand_in, student_id), path), position) in intake.hand_ins.into_iter().zip(matches).zip(paths).zip(0..) {
+        let student = hand_in.student;
         let mut entry = BatchEntry { position, student, path, submission_id: None, note: None, student_id };
         match hand_in.content {
             Content::Nothing(why) => entry.note = Some(why),
-            Content::File { name, bytes } => {
+            Content::Files { mut hand_in, .. } => {
+                for (file, slot) in hand_in.files.iter_mut().zip(&state.assignment.files) {
+                    file.name = file_name(&file.name, Some(slot));
+                }
                 let id = new_id();
                 entry.submission_id = Some(id.clone());
                 files.push(NewSubmission {
                     id,
                     assignment: settings.id.clone(),
-                    sha256: sha256(&bytes),
-                    bytes,
-                    name: file_name(&name, &state.assignment),
+                    hand_in,
                     owner_id: None,
                     student_id: entry.student_id.clone(),
                     batch_id: Some(batch.id.clone()),

@@ -55,6 +55,12 @@ impl Problem {
         Self { status, kind, detail: Text::new(en, ja), retry_after: None, position: None }
     }
 
+    /// The same of one file among several.
+    pub fn about(mut self, file: &str) -> Self {
+        self.detail = Text::new(format!("{file}: {}", self.detail.en), format!("{file}: {}", self.detail.ja));
+        self
+    }
+
     /// The same, to be tried again later.
     pub fn retry_after(mut self, seconds: u64) -> Self {
         self.retry_after = Some(seconds.max(1));

@@ -11,7 +11,6 @@ use super::store::Submission;
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
-use crate::hand_in::HandIn;
 use crate::homework::expected_pictures;
 use crate::report::html::Film;
 use crate::report::{Picture, Pictures, pictures};
@@ -43,10 +42,10 @@ pub enum View {
 /// Encoded pictures that belong together; none where nothing is drawn.
 pub type Pngs = Vec<Vec<u8>>;
 
-/// What is kept: pictures of one kind of one file.
+/// What is kept: pictures of one kind of one hand-in.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
-    /// SHA-256 of the file; empty for pictures of a right answer.
+    /// The digest of the hand-in; empty for pictures of a right answer.
     sha256: String,
     kind: Kind,
 }
@@ -96,10 +95,9 @@ impl Gallery {
             return Ok(Arc::default());
         }
         let run = async {
-            let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
+            let hand_in = state.store.hand_in(&submission.id).await?.ok_or_else(Problem::not_found)?;
             let order = Order { seed: submission.seed, hints: submission.hints, ..Order::default() };
             self.in_turn(state, move |state| {
-                let hand_in = HandIn::of_one("", bytes);
                 let submission = sandbox::Submission { hand_in: &hand_in, order, wants_frames: true };
                 let frames = state.pool.grade(submission)?.frames;
                 frames.iter().map(pictures::png).collect()

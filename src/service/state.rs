@@ -65,7 +65,17 @@ pub struct Shared {
 impl State {
     /// The state of a service; `teacher_token` goes before the configured one.
     pub async fn new(config: Config, store: Store, pool: Arc<dyn Judge>, clock: Clock) -> Result<Self, Fault> {
-        let assignment = crate::homework::assignment(&config.assignment)?;
+        Self::serving(crate::homework::assignment(&config.assignment)?, config, store, pool, clock).await
+    }
+
+    /// The same for an assignment that is at hand.
+    pub async fn serving(
+        assignment: Arc<Assignment>,
+        config: Config,
+        store: Store,
+        pool: Arc<dyn Judge>,
+        clock: Clock,
+    ) -> Result<Self, Fault> {
         let failed = |error| Fault::new(Text::verbatim(format!("the database: {error}")));
         let key = store.setting_or("csrf_key", &new_token()).await.map_err(failed)?;
         store.assignment(&assignment.id).await.map_err(failed)?;

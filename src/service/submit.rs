@@ -1,19 +1,21 @@
-//! The one way in: every file that a student hands in, by page, editor or API.
+//! The one way in: every set of files that a student hands in, by page, editor or API.
 
 use super::State;
 use super::clock::millis;
 use super::errors::Problem;
 use super::grading::{Job, Outcome};
-use super::idempotency::{self, Given};
+use super::idempotency;
 use super::identity::{Identity, new_id};
 use super::roster::not_on_roster;
 use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
 use super::{Config, store};
+use crate::batch::intake::{self, Content, Given};
 use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
-use crate::hand_in::HandIn;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::report::Report;
+use crate::slots::Slot;
 use crate::source;
 use axum::http::StatusCode;
 use sha2::{Digest, Sha256};
@@ -27,15 +29,13 @@ pub const MAX_UPLOAD: usize = source::MAX_BYTES;
 /// Longest file name that is kept, in characters.
 const LONGEST_NAME: usize = 200;
 
-/// A file that somebody hands in.
+/// What somebody hands in.
 #[derive(Clone, Debug)]
 pub struct Upload {
     /// Id of the assignment.
     pub assignment: String,
-    /// File name as handed in, with any folders.
-    pub name: String,
-    /// The bytes.
-    pub bytes: Vec<u8>,
+    /// The files as they came: with any folders in their names, and archives unopened.
+    pub hand_in: HandIn,
     /// Who hands in.
     pub identity: Identity,
     /// The way by which it comes.
@@ -43,10 +43,10 @@ pub struct Upload {
     /// How much the messages shall help; never more than the course allows.
     pub hints: Option<Hints>,
     /// The key with which it may come again.
-    pub key: Option<Given>,
+    pub key: Option<idempotency::Given>,
 }
 
-/// A file that is stored.
+/// A hand-in that is stored.
 #[derive(Clone, Debug)]
 pub struct Receipt {
     /// What was stored.
@@ -73,7 +73,7 @@ impl Receipt {
     }
 }
 
-/// Stores a file, has it graded, and waits a while for the report. What comes again with the same key is not stored
+/// Stores a hand-in, has it graded, and waits a while for the report. What comes again with the same key is not stored
 /// again: the answer is about what was stored the first time.
 pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
     let key = upload.key.as_ref().map(|given| key(given, &upload));
@@ -93,9 +93,9 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
 }
 
 /// The key of an upload: everything counts that makes another upload of it.
-fn key(given: &Given, upload: &Upload) -> Key {
-    let Upload { assignment, name, bytes, identity, via, hints, .. } = upload;
-    let parts = [assignment, name, &store::word(via), &store::word(hints), &sha256(bytes)];
+fn key(given: &idempotency::Given, upload: &Upload) -> Key {
+    let Upload { assignment, hand_in, identity, via, hints, .. } = upload;
+    let parts = [assignment, &hand_in.names(), &store::word(via), &store::word(hints), &hand_in.sha256()];
     given.of_student(identity, &parts.map(String::as_str))
 }
 
@@ -124,9 +124,9 @@ async fn in_time(state: &State, listener: &mut broadcast::Receiver<Outcome>) -> 
 
 /// Stores a file, and waits a while for its report; none where the key is taken.
 async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<Option<Receipt>, Problem> {
-    let assignment = checked(state, &upload).await?;
-    let new = new_submission(state, &assignment, &upload);
-    let known = state.store.known_report(&new.assignment, &new.sha256, new.seed, new.hints).await?;
+    let (assignment, hand_in) = checked(state, &upload).await?;
+    let new = new_submission(state, &assignment, &upload, hand_in);
+    let known = state.store.known_report(&new.assignment, &new.hand_in.sha256(), new.seed, new.hints).await?;
     if let Some(report) = known {
         return keep_known(state, new, key, report).await;
     }
@@ -152,13 +152,13 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
     }
     metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     let submission = submission_of(&new, store::State::Queued);
-    place.fill(Job { submission: submission.clone(), bytes: new.bytes, since: Instant::now() });
+    place.fill(Job { submission: submission.clone(), hand_in: new.hand_in, since: Instant::now() });
     let outcome = in_time(state, &mut listener).await;
     Ok(Some(Receipt { submission, outcome }))
 }
 
-/// Whether the file may be handed in at all.
-async fn checked(state: &State, upload: &Upload) -> Result<store::Assignment, Problem> {
+/// The files that the homework asks for, where they may be handed in at all.
+async fn checked(state: &State, upload: &Upload) -> Result<(store::Assignment, HandIn), Problem> {
     if upload.assignment != state.assignment.id {
         return Err(Problem::not_found());
     }
@@ -171,10 +171,41 @@ async fn checked(state: &State, upload: &Upload) -> Result<store::Assignment, Pr
         )
         .retry_after(10));
     }
-    check_text(&upload.bytes)?;
+    let hand_in = asked_for(state, upload.hand_in.clone()).await?;
     let assignment = state.store.assignment(&upload.assignment).await?;
     may_hand_in(state, &assignment, upload).await?;
-    Ok(assignment)
+    Ok((assignment, hand_in))
+}
+
+/// The files that the homework asks for among those that somebody sent, archives opened. What is missing, double or no
+/// text is named; it is not stored and costs no attempt.
+pub(super) async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Problem> {
+    let assignment = Arc::clone(&state.assignment);
+    let names = sent.files.into_iter().zip(0..).map(move |(file, index)| {
+        let name = file_name(&file.name, assignment.files.get(index));
+        Given::File { file: HandedInFile { name, ..file }, local: None }
+    });
+    let given: Vec<Given> = names.collect();
+    let options = intake::Options::new(&state.assignment);
+    let chosen = tokio::task::spawn_blocking(move || intake::one(given, &options));
+    let hand_in = match chosen.await.map_err(|panic| Problem::internal(&panic))? {
+        Content::Files { hand_in, .. } => hand_in,
+        Content::Nothing(why) => {
+            return Err(Problem::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "files",
+                format!("{} Nothing was stored.", why.en),
+                format!("{}何も保存されていません。", why.ja),
+            ));
+        }
+    };
+    for file in &hand_in.files {
+        check_text(&file.bytes).map_err(|problem| match hand_in.files.len() {
+            1 => problem,
+            _ => problem.about(&file.name),
+        })?;
+    }
+    Ok(hand_in)
 }
 
 /// Whether the file can be read as text. What cannot is not stored and costs no attempt.
@@ -267,15 +298,13 @@ pub(super) fn too_large() -> Problem {
     )
 }
 
-fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload) -> NewSubmission {
+fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload, hand_in: HandIn) -> NewSubmission {
     let now = state.clock.now();
     let until = now + millis(Config::span(state.config.limits.lease));
     NewSubmission {
         id: new_id(),
         assignment: upload.assignment.clone(),
-        sha256: sha256(&upload.bytes),
-        bytes: upload.bytes.clone(),
-        name: file_name(&upload.name, &state.assignment),
+        hand_in,
         owner_id: upload.identity.owner_id().map(str::to_owned),
         student_id: upload.identity.student().map(|student| student.id.clone()),
         batch_id: None,
@@ -294,10 +323,13 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
 }
 
 /// The last part of a name as handed in, of a bearable length; the name that the homework asks for, where none is left.
-pub(super) fn file_name(name: &str, assignment: &reference::Assignment) -> String {
+pub(super) fn file_name(name: &str, slot: Option<&Slot>) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
     let clean: String = last.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
-    if clean.trim().is_empty() { assignment.files[0].name.clone() } else { clean }
+    match slot {
+        Some(slot) if clean.trim().is_empty() => slot.name.clone(),
+        _ => clean,
+    }
 }
 
 async fn keep_known(
@@ -306,8 +338,7 @@ async fn keep_known(
     key: Option<&Key>,
     mut report: Report,
 ) -> Result<Option<Receipt>, Problem> {
-    let hand_in = HandIn::of_one(&new.name, new.bytes.as_slice());
-    report.of_files(crate::grade::sources(&state.assignment, &hand_in));
+    report.of_files(crate::grade::sources(&state.assignment, &new.hand_in));
     if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
         return Ok(None);
     }
@@ -324,8 +355,8 @@ fn submission_of(new: &NewSubmission, state: store::State) -> Submission {
     Submission {
         id: new.id.clone(),
         assignment: new.assignment.clone(),
-        sha256: new.sha256.clone(),
-        name: new.name.clone(),
+        sha256: new.hand_in.sha256(),
+        name: new.hand_in.names(),
         owner_id: new.owner_id.clone(),
         student_id: new.student_id.clone(),
         batch_id: new.batch_id.clone(),

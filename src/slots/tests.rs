@@ -4,13 +4,14 @@ use super::*;
 use crate::hand_in::HandedInFile;
 use reference::assignment::{HandedIn, Solution, Stage};
 
-fn slot(name: &str, stage: Stage) -> HandedIn {
+pub(crate) fn slot(name: &str, stage: Stage) -> HandedIn {
     let solution = Solution { name: String::new(), text: String::new() };
     let (starter, starter_name) = (String::new(), String::new());
     HandedIn { name: name.into(), stage, starter, starter_name, solution, accepted: vec![], fixed: vec![] }
 }
 
-fn both() -> Vec<HandedIn> {
+/// The slots of a homework of two files.
+pub(crate) fn both() -> Vec<HandedIn> {
     vec![slot("ggsample11.vert", Stage::Vertex), slot("ggsample11.frag", Stage::Fragment)]
 }
 
@@ -107,4 +108,43 @@ fn a_file_that_a_person_names_needs_no_name_of_its_own() {
         filled(&both(), &[("ggsample11.vert", VERTEX), ("answer", "x")], Trust::Named).unwrap(),
         ["ggsample11.vert", "answer"]
     );
+}
+
+#[test]
+fn names_are_ranked() {
+    for (name, expected) in [
+        ("ggsample06.vert", Fit::Exact),
+        ("GGSample06.VERT", Fit::Exact),
+        ("ggsample06 (1).vert", Fit::Copy),
+        ("ggsample06(2).vert", Fit::Copy),
+        ("ggsample06 - Copy.vert", Fit::Copy),
+        ("ggsample06 - Copy (2).vert", Fit::Copy),
+        ("ggsample06 - コピー.vert", Fit::Copy),
+        ("ggsample06 - コピー (3).vert", Fit::Copy),
+        ("ggsample06のコピー.vert", Fit::Copy),
+        ("ggsample06 copy 2.vert", Fit::Copy),
+        ("ggsample06 2.vert", Fit::Copy),
+        ("ggsample06_1234567890.vert", Fit::Copy),
+        ("ggsample06-1.vert", Fit::Copy),
+        ("ggsample05.vert", Fit::Shader),
+        ("ggsample0.vert", Fit::Shader),
+        ("ggsample061.vert", Fit::Shader),
+        ("kadai6_s2012345.vert", Fit::Shader),
+        ("ggsample06.vert.txt", Fit::Renamed),
+        ("ggsample06.txt", Fit::Renamed),
+        ("ggsample06", Fit::Renamed),
+        ("ggsample06 (1).txt", Fit::Renamed),
+        ("answer.glsl", Fit::Renamed),
+        ("old.vert.txt", Fit::Renamed),
+        ("ggsample06.vert.bak", Fit::Renamed),
+        ("readme.txt", Fit::Text),
+        ("LICENSE", Fit::Text),
+        ("ggsample06.frag", Fit::Other),
+        ("ggsample06.docx", Fit::Other),
+        ("ggsample06.cpp", Fit::Other),
+        ("(1).vert", Fit::Shader),
+        ("", Fit::Text),
+    ] {
+        assert_eq!(fit(name, &slot("ggsample06.vert", Stage::Vertex)), expected, "{name}");
+    }
 }

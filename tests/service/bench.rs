@@ -56,10 +56,22 @@ impl Bench {
         Self::with(database, config(), crate::pool(), Clock::system()).await
     }
 
-    pub async fn with(database: Database, mut config: Config, judge: Arc<dyn Judge>, clock: Clock) -> Self {
+    pub async fn with(database: Database, config: Config, judge: Arc<dyn Judge>, clock: Clock) -> Self {
+        let assignment = reference::assignment("ggsample06").expect("built in");
+        Self::serving(Arc::clone(assignment), database, config, judge, clock).await
+    }
+
+    /// The same for another homework.
+    pub async fn serving(
+        assignment: Arc<reference::Assignment>,
+        database: Database,
+        mut config: Config,
+        judge: Arc<dyn Judge>,
+        clock: Clock,
+    ) -> Self {
         config.database.clone_from(&database.location);
         let store = Store::open(&config.location().expect("a location")).await.expect("a database");
-        let state = State::new(config, store, judge, clock).await.expect("a state");
+        let state = State::serving(assignment, config, store, judge, clock).await.expect("a state");
         let graders = Some(Graders::start(&state).await.expect("graders"));
         Self { app: app(state.clone()), state, graders, _database: database }
     }

@@ -72,7 +72,7 @@ async fn a_student_goes_with_everything_of_theirs(database: Database) {
     ] {
         assert_eq!(status(&bench, &address).await, StatusCode::NOT_FOUND, "{address}");
     }
-    assert!(store.upload(&submission.sha256).await.expect("a store").is_none());
+    assert!(!store.has_file(&submission.sha256).await.expect("a store"));
     assert!(store.portrait("ggsample06", &submission.sha256).await.expect("a store").is_none());
     assert!(store.student_by_id(&student).await.expect("a store").is_none());
     for address in ["/teacher", &format!("/teacher/batches/{batch}"), "/teacher/settings"] {

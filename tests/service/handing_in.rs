@@ -141,9 +141,7 @@ async fn nothing_is_graded_twice_and_nothing_is_left(database: Database) {
         let new = ggrade::service::store::NewSubmission {
             id: format!("left-{number}"),
             assignment: assignment.id.clone(),
-            sha256: format!("{number}"),
-            bytes: vec![b'x'],
-            name: "a.vert".into(),
+            hand_in: ggrade::hand_in::HandIn::of_one("a.vert", format!("x{number}")),
             owner_id: None,
             student_id: None,
             batch_id: None,

@@ -18,6 +18,7 @@ mod places;
 mod process;
 mod roster;
 mod server;
+mod several_files;
 mod static_files;
 mod student_page;
 mod worksheets;

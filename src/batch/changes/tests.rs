@@ -31,15 +31,14 @@ fn changes(before: &[(&str, Outcome)], after: &[(&str, Outcome)]) -> Changes {
     let records = before.iter().map(|(key, outcome)| Record {
         student: student(key),
         path: None,
-        sha256: sha256(outcome).map(str::to_owned),
+        sha256: sha256(outcome),
         outcome: outcome.clone(),
     });
     let entries = after.iter().map(|(key, outcome)| Entry {
         student: student(key),
-        path: None,
-        local: None,
+        places: Vec::new(),
         outcome: outcome.clone(),
-        source: None,
+        sources: Vec::new(),
         portrait: None,
         page: None,
         shares_with: Vec::new(),

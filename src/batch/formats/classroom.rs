@@ -56,8 +56,12 @@ fn status(entry: &Entry) -> &'static str {
 fn message(entry: &Entry, language: Language) -> String {
     let mut lines = vec![wording::explanation(entry, language)];
     lines.extend(wording::fault(entry, language));
-    for diagnostic in entry.report().map_or(&[][..], |report| &report.diagnostics) {
-        lines.push(format!("{}: {}", wording::place(diagnostic, language), wording::message(diagnostic, language)));
+    for (report, diagnostic) in entry.diagnostics() {
+        lines.push(format!(
+            "{}: {}",
+            wording::place(report, diagnostic, language),
+            wording::message(diagnostic, language)
+        ));
     }
     lines.join("\n")
 }
@@ -77,14 +81,14 @@ fn test(entry: &Entry, line: &RubricLine, duration: f64, language: Language) -> 
         "score": line.points,
         "message": message,
         "test_code": one_line(line.mistake.as_deref().unwrap_or_default()),
-        "filename": file_name(entry),
+        "filename": one_line(entry.place(line.file.as_deref()).map_or("", |place| &place.path)),
         "line_no": line.line.unwrap_or(0),
         "duration": duration,
     })
 }
 
 fn file_name(entry: &Entry) -> String {
-    one_line(entry.path.as_deref().unwrap_or_default())
+    one_line(&entry.path().unwrap_or_default())
 }
 
 #[cfg(test)]

@@ -59,12 +59,11 @@ fn table(rubric: &[RubricLine], language: Language) -> Value {
 }
 
 fn epilogue(entry: &Entry, language: Language) -> String {
-    let diagnostics = entry.report().map_or(&[][..], |report| &report.diagnostics);
-    let item = |diagnostic| {
-        let place = html(&wording::place(diagnostic, language));
+    let item = |(report, diagnostic)| {
+        let place = html(&wording::place(report, diagnostic, language));
         format!("<li><strong>{place}</strong><br>{}</li>", rich_html(&wording::message(diagnostic, language)))
     };
-    let items: String = diagnostics.iter().map(item).collect();
+    let items: String = entry.diagnostics().map(item).collect();
     let list = if items.is_empty() { items } else { format!("<ul>{items}</ul>") };
     let next = wording::next_step(entry, language).map(|next| format!("<p>→ {}</p>", rich_html(&next)));
     format!("{list}{}", next.unwrap_or_default())

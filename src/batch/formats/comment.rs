@@ -74,7 +74,8 @@ fn graded(report: &Report, title: &str, language: Language) -> String {
         .iter()
         .filter(|diagnostic| diagnostic.severity == Severity::Error)
         .map(|error| {
-            let place = error.line.map(|line| labels.place(line, error.column) + ": ").unwrap_or_default();
+            let file = report.file_to_name(error.file.as_deref());
+            let place = error.line.map(|line| html(&labels.place(file, line, error.column)) + ": ").unwrap_or_default();
             let hint = error.hint.as_ref().map(|hint| " ".to_owned() + &rich(hint.get(language))).unwrap_or_default();
             format!("<li>{place}{}{hint}</li>", rich(error.message.get(language)))
         })

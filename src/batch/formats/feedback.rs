@@ -87,8 +87,8 @@ pub fn write(class: &Class, recipients: &[Recipient], out: impl Write + Seek) ->
 /// What stands between `assignfeedback_file` and the file's name, in the way of Moodle's download.
 fn separator(class: &Class) -> &'static str {
     const SUBMISSION: &str = "_assignsubmission_file";
-    let paths = class.entries.iter().filter(|entry| entry.student.moodle.is_some()).filter_map(|e| e.path.as_deref());
-    let after = paths.filter_map(|path| path.rsplit_once(SUBMISSION)).map(|(_, after)| after);
+    let paths = class.entries.iter().filter(|entry| entry.student.moodle.is_some()).flat_map(|entry| &entry.places);
+    let after = paths.filter_map(|place| place.path.rsplit_once(SUBMISSION)).map(|(_, after)| after);
     let mut after = after.filter(|after| after.starts_with('/') || after.starts_with('_'));
     match after.next() {
         Some(after) if after.starts_with("_/") => "_/",

@@ -18,7 +18,7 @@ use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::Report;
 use crate::report::labels::mistake_title;
-use crate::{excerpt, report, source};
+use crate::{excerpt, report};
 
 /// What ends a stretch of text in which the runner obeys nothing. Nobody who writes that text can guess it.
 #[derive(Clone, Debug)]
@@ -77,11 +77,7 @@ const LOG_WIDTH: usize = 100;
 
 fn full_report(entry: &Entry, class: &Class) -> String {
     let Some(report) = entry.report() else { return String::new() };
-    let source = entry.source.as_ref().map(|text| match source::read(&report.source().name, text.as_bytes()) {
-        Ok(source) => Some(source),
-        Err(refusal) => refusal.source,
-    });
-    let excerpts = excerpt::excerpt(source.flatten().as_ref(), &report.diagnostics, class.language, false);
+    let excerpts = excerpt::excerpt(&entry.sources, &report.diagnostics, class.language, false);
     let options =
         report::text::Options { language: class.language, width: LOG_WIDTH, colour: false, excerpts: Some(&excerpts) };
     visible(&report::text::render(report, &options))

@@ -59,8 +59,8 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
         report.map(|report| cell(&report.mistakes.join(" "))).unwrap_or_default(),
         cell(&summary(entry, class.language).replace('`', "")),
         cell(&entry.shares_with.join(" ")),
-        cell(entry.path.as_deref().unwrap_or_default()),
-        report.map(|report| cell(&report.source().sha256)).unwrap_or_default(),
+        cell(&entry.path().unwrap_or_default()),
+        report.map(|report| cell(&report.sha256())).unwrap_or_default(),
         report.map(|report| cell(&titles(report, class))).unwrap_or_default(),
     ]);
     row

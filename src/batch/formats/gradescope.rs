@@ -78,13 +78,12 @@ fn output(entry: &Entry, expected: &[u8], language: Language) -> String {
             picture(labels.expected, expected)
         ));
     }
-    let diagnostics = entry.report().map_or(&[][..], |report| &report.diagnostics);
-    if !diagnostics.is_empty() {
-        let item = |diagnostic| {
-            let place = html(&wording::place(diagnostic, language));
+    if entry.diagnostics().next().is_some() {
+        let item = |(report, diagnostic)| {
+            let place = html(&wording::place(report, diagnostic, language));
             format!("<li><strong>{place}</strong><br>{}</li>\n", rich_html(&wording::message(diagnostic, language)))
         };
-        output.push_str(&format!("<ul>\n{}</ul>\n", diagnostics.iter().map(item).collect::<String>()));
+        output.push_str(&format!("<ul>\n{}</ul>\n", entry.diagnostics().map(item).collect::<String>()));
     }
     if let Some(next) = wording::next_step(entry, language) {
         output.push_str(&format!("<p>→ {}</p>\n", rich_html(&next)));
@@ -102,7 +101,7 @@ fn extra_data(entry: &Entry) -> Value {
     if let Some(report) = entry.report() {
         data["assignment"] = json!(report.assignment);
         data["mistakes"] = json!(report.mistakes);
-        data["sha256"] = json!(report.source().sha256);
+        data["sha256"] = json!(report.sha256());
         data["seed"] = json!(report.probes.seed);
         data["ggrade"] = json!(report.environment.ggrade);
     }

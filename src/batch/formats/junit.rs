@@ -53,7 +53,7 @@ fn properties(report: &Report) -> Vec<Property> {
     let mut properties = vec![
         Property::new("score", number(report.score)),
         Property::new("max_score", number(report.max_score)),
-        Property::new("file", one_line(&report.source().name)),
+        Property::new("file", one_line(&report.file_names())),
         Property::new("seed", report.probes.seed.to_string()),
     ];
     properties.extend(report.mistakes.iter().map(|mistake| Property::new("mistake", one_line(mistake))));
@@ -70,7 +70,7 @@ fn case(entry: &Entry, report: &Report, line: &RubricLine, language: Language) -
     status.set_message(wording::rubric_title(line, language)).set_type(one_line(kind));
     let mut description = visible(line.message.get(language));
     for diagnostic in &report.diagnostics {
-        let (place, message) = (wording::place(diagnostic, language), wording::message(diagnostic, language));
+        let (place, message) = (wording::place(report, diagnostic, language), wording::message(diagnostic, language));
         description.push_str(&format!("\n\n{place}\n{message}"));
     }
     status.set_description(description);

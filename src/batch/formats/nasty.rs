@@ -1,6 +1,6 @@
 //! A class made by hand for the tests of the formats: every outcome, and students who attack whoever reads it.
 
-use crate::batch::class::{Class, Entry, Outcome, Student};
+use crate::batch::class::{Class, Entry, Outcome, Place, Student};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
@@ -38,14 +38,25 @@ pub(super) const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 pub(super) fn entry(index: usize, outcome: Outcome) -> Entry {
     let key = format!("student-{index}");
     Entry {
-        path: Some(format!("{key}/ggsample06.vert")),
-        local: Some(PathBuf::from(format!("{key}/ggsample06.vert"))),
+        places: vec![place(format!("{key}/ggsample06.vert"))],
         student: Student { name: format!("Student {index}"), key, moodle: None },
         outcome,
-        source: Some(samples::SOURCE.into()),
+        sources: vec![samples::source("ggsample06.vert")],
         portrait: None,
         page: None,
         shares_with: vec![],
+    }
+}
+
+/// The entry of a homework of two files.
+pub(super) fn two_files() -> Entry {
+    let report = samples::two_files();
+    let names: Vec<String> = report.sources.iter().map(|source| source.name.clone()).collect();
+    let entry = entry(7, Outcome::Graded(Box::new(report)));
+    Entry {
+        places: names.iter().map(|name| place(format!("student-7/{name}"))).collect(),
+        sources: names.iter().map(|name| samples::source(name)).collect(),
+        ..entry
     }
 }
 
@@ -61,7 +72,11 @@ pub(super) fn attack(mut report: Report) -> Entry {
         .insert(0, Diagnostic::error(Stage::Compile, nasty()).at(2, Some(4)).spanning(8).hint(Text::new(NASTY, NASTY)));
     let mut entry = entry(0, Outcome::Graded(Box::new(report)));
     entry.student.name = NASTY.into();
-    entry.path = Some(format!("a, b: 100%/{NASTY}.vert"));
-    entry.local = Some(PathBuf::from(format!("a, b: 100%/{NASTY}.vert")));
+    entry.sources = vec![samples::source(NASTY)];
+    entry.places = vec![place(format!("a, b: 100%/{NASTY}.vert"))];
     entry
+}
+
+fn place(path: String) -> Place {
+    Place { local: Some(PathBuf::from(&path)), path }
 }

@@ -40,7 +40,7 @@ pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
 fn row(entry: &Entry, assignment: &str, max_score: Option<f64>) -> Vec<String> {
     let score = match &entry.outcome {
         Outcome::Graded(report) => Some(report.score),
-        Outcome::NotGraded(_) if entry.path.is_none() => Some(0.0),
+        Outcome::NotGraded(_) if entry.places.is_empty() => Some(0.0),
         Outcome::NotGraded(_) | Outcome::Fault(_) => None,
     };
     let (score, max_score) = (float(score), float(entry.report().map(|report| report.max_score).or(max_score)));

@@ -211,7 +211,8 @@ fn lines(class: &Class) -> Vec<Line> {
 
 fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, shares: Option<(usize, usize)>) -> Row {
     let (report, status) = (entry.report(), Standing::of(&entry.outcome));
-    let file = entry.path.as_deref().and_then(|path| path.rsplit('/').next()).map(one_line);
+    let names: Vec<&str> = entry.places.iter().filter_map(|place| place.path.rsplit('/').next()).collect();
+    let file = (!names.is_empty()).then(|| one_line(&names.join(", ")));
     let number_in_moodle =
         entry.student.moodle.as_ref().and_then(|moodle| moodle.number).map(|number| number.to_string());
     let points = |line: &Line| {

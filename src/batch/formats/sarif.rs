@@ -7,10 +7,10 @@ use self::region::Lines;
 use self::rules::Rules;
 use super::untrusted::visible;
 use super::wording;
-use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::class::{Class, Entry, Outcome, Place};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
-use crate::report::{Advice, Report, RubricLine, Verdict};
+use crate::report::{Advice, RubricLine, SourceInfo, Verdict};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -68,6 +68,7 @@ struct Run {
 /// One file among the artifacts.
 struct File<'a> {
     entry: &'a Entry,
+    source: &'a SourceInfo,
     uri: String,
     index: usize,
     lines: Lines<'a>,
@@ -84,21 +85,31 @@ struct Finding<'a> {
 
 impl Run {
     fn add(&mut self, entry: &Entry, language: Language) {
-        let (Some(report), Some(uri)) = (entry.report(), uri(entry)) else { return };
-        let lines = Lines::of(entry.source.as_deref().unwrap_or_default());
-        let file = File { entry, index: self.artifacts.len(), lines, uri };
-        self.artifacts.push(artifact(&file, report));
+        let Some(report) = entry.report() else { return };
+        let mut files = Vec::new();
+        for (source, place) in report.sources.iter().zip(&entry.places) {
+            let text = entry.sources.iter().find(|read| read.facts.name == source.name);
+            let lines = Lines::of(text.map_or("", |read| &read.text));
+            let file = File { entry, source, index: self.artifacts.len(), lines, uri: uri(place) };
+            self.artifacts.push(artifact(&file));
+            files.push(file);
+        }
+        let of =
+            |name: Option<&str>| files.iter().find(|file| Some(file.source.name.as_str()) == name).or(files.first());
         // Where nothing ran, the lines of the rubric say nothing that the diagnostics do not.
         if report.verdict == Verdict::Wrong {
             for line in report.rubric.iter().filter(|line| !wording::is_full(line)) {
-                self.push(&file, &lost(&file, line, language));
+                let Some(file) = of(line.file.as_deref()) else { continue };
+                self.push(file, &lost(file, line, language));
             }
         }
         for advice in &report.advice {
-            self.push(&file, &advised(&file, advice, language));
+            let Some(file) = of(Some(&advice.file)) else { continue };
+            self.push(file, &advised(file, advice, language));
         }
         for diagnostic in &report.diagnostics {
-            self.push(&file, &said(&file, diagnostic, language));
+            let Some(file) = of(diagnostic.file.as_deref()) else { continue };
+            self.push(file, &said(file, diagnostic, language));
         }
     }
 
@@ -133,13 +144,13 @@ impl Run {
     }
 }
 
-fn artifact(file: &File, report: &Report) -> Value {
+fn artifact(file: &File) -> Value {
     let mut location = location(&file.uri, file.index);
     location["description"] = json!({ "text": visible(&file.entry.student.name) });
     json!({
         "location": location,
-        "length": report.source().bytes,
-        "hashes": { "sha-256": report.source().sha256 },
+        "length": file.source.bytes,
+        "hashes": { "sha-256": file.source.sha256 },
         "sourceLanguage": "glsl",
     })
 }
@@ -149,9 +160,9 @@ fn location(uri: &str, index: usize) -> Value {
 }
 
 /// The file as a relative reference (RFC 3986): from the working folder on, or else from the input on.
-fn uri(entry: &Entry) -> Option<String> {
-    let path = entry.local.as_ref().map(|local| local.to_string_lossy().into_owned()).or(entry.path.clone())?;
-    Some(utf8_percent_encode(&path, PATH).to_string())
+fn uri(place: &Place) -> String {
+    let local = place.local.as_ref().map(|local| local.to_string_lossy());
+    utf8_percent_encode(local.as_deref().unwrap_or(&place.path), PATH).to_string()
 }
 
 fn lost<'a>(file: &File, line: &'a RubricLine, language: Language) -> Finding<'a> {

@@ -30,7 +30,8 @@ fn summary_of(report: &Report, language: Language) -> String {
         Verdict::Rejected | Verdict::Stopped => {
             let error = report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error);
             error.map(|error| {
-                let place = error.line.map(|line| labels.place(line, error.column) + ": ").unwrap_or_default();
+                let file = report.file_to_name(error.file.as_deref());
+                let place = error.line.map(|line| labels.place(file, line, error.column) + ": ").unwrap_or_default();
                 place + error.message.get(language)
             })
         }

@@ -44,7 +44,7 @@ fn grades_open_in_a_spreadsheet_without_a_formula() {
 #[test]
 fn nbgrader_columns_are_those_of_its_exporter() {
     let mut class = class(Language::En);
-    class.entries[10].path = None;
+    class.entries[10].places.clear();
     let bytes = nbgrader::render(&class).expect("a table");
     let table = table(&bytes);
     // nbgrader 0.9.6, plugins/export.py.
@@ -102,7 +102,7 @@ fn the_feedback_archive_has_the_form_of_the_download() {
     ] {
         let mut class = class(Language::En);
         class.entries.truncate(1);
-        class.entries[0].path = Some(format!("class.zip/{form}"));
+        class.entries[0].places[0].path = format!("class.zip/{form}");
         class.entries[0].student.moodle.as_mut().expect("a participant").name = ".~A_b".into();
         let (archive, _) = packed(&class);
         let names: Vec<_> = archive.file_names().map(|name| name.expect("a name").into_owned()).collect();

@@ -48,7 +48,7 @@ pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
     comment.text(&wording::explanation(entry, language));
     if let Some(report) = entry.report() {
         for diagnostic in &report.diagnostics {
-            comment.heading(&wording::place(diagnostic, language));
+            comment.heading(&wording::place(report, diagnostic, language));
             comment.text(&wording::message(diagnostic, language));
         }
         for line in &report.rubric {

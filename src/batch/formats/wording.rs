@@ -4,9 +4,9 @@ use super::untrusted;
 use crate::batch::class::{Entry, Outcome};
 use crate::diagnostic::Diagnostic;
 use crate::language::{Language, Text};
-use crate::report::RubricLine;
 use crate::report::labels::Labels;
 use crate::report::text::number;
+use crate::report::{Report, RubricLine};
 
 /// What a student is told about the outcome as a whole.
 pub fn explanation(entry: &Entry, language: Language) -> String {
@@ -52,10 +52,13 @@ pub fn points(points: f64, max_points: f64) -> String {
 }
 
 /// `error · line 11, column 12`; without a line the stage that speaks.
-pub fn place(diagnostic: &Diagnostic, language: Language) -> String {
+pub fn place(report: &Report, diagnostic: &Diagnostic, language: Language) -> String {
     let labels = Labels::of(language);
     let place = match diagnostic.line {
-        Some(line) => labels.place(line, diagnostic.column),
+        Some(line) => {
+            let file = report.file_to_name(diagnostic.file.as_deref());
+            untrusted::one_line(&labels.place(file, line, diagnostic.column))
+        }
         None => labels.stage(diagnostic.stage).to_owned(),
     };
     format!("{} · {place}", labels.severity(diagnostic.severity))

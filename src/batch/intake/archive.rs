@@ -8,11 +8,11 @@ mod name;
 mod record;
 mod storage;
 
-use super::choose::{Fit, fit};
 use super::limits::{Limits, spent, too_deep, too_many};
 use super::tree::{self, Folder, Held, Node};
 use super::{Reading, moodle};
 use crate::language::Text;
+use crate::slots::Fit;
 use record::Record;
 use std::collections::HashSet;
 use std::fs::File;
@@ -33,6 +33,11 @@ pub(super) fn is_archive_start(bytes: &[u8]) -> bool {
 pub(super) fn read(file: File, shown: &str, reading: &mut Reading) -> Result<Folder, Text> {
     let unreadable = |error: io::Error| super::limits::unreadable(&error);
     unpacked(Storage::file(file).map_err(unreadable)?, shown, 1, reading)
+}
+
+/// The same of an archive that was read already.
+pub(super) fn read_bytes(bytes: Vec<u8>, shown: &str, reading: &mut Reading) -> Result<Folder, Text> {
+    unpacked(Storage::Memory(bytes), shown, 1, reading)
 }
 
 fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut Reading) -> Result<Folder, Text> {
@@ -103,7 +108,7 @@ impl Unpacking<'_, '_> {
         let held = match flaw {
             Some(reason) => Err(reason),
             None if is_archive => Ok(Held::Refused(too_many())),
-            None if fit(&last, &self.reading.options.file_name) == Fit::Other => Ok(Held::Unread),
+            None if Fit::best(&last, &self.reading.options.slots) == Fit::Other => Ok(Held::Unread),
             None => self.unpack(record, self.limits().file_bytes, true).map(Held::Bytes),
         };
         let is_refused = held.is_err();

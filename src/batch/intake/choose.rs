@@ -1,160 +1,90 @@
-//! Which of a student's files is the one to grade.
-//!
-//! The assignment's own name comes first, in any case; then that name with the mark of a copy (`ggsample06 (1).vert`);
-//! then the only vertex shader under another name; then the only file that was renamed on its way (`.vert.txt`). Two
-//! of the same rank that differ are a question to the student, never a guess.
+//! Which of a student's files are the ones to grade, see [`crate::slots`].
 
 use super::folder;
 use super::students::{Group, Owned};
 use super::tree::Held;
-use super::{Content, Options, wording};
+use super::{Content, Options, in_working_folder};
+use crate::batch::class::Place;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
-use std::path::PathBuf;
-
-/// Extensions that other tools give to a vertex shader.
-const OTHER_EXTENSIONS: [&str; 6] = ["glsl", "vs", "vsh", "vertex", "vshader", "shader"];
-
-/// How well a file's name fits, the best first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Fit {
-    /// The assignment's file name.
-    Exact,
-    /// That name with the mark of a copy.
-    Copy,
-    /// Another vertex shader.
-    Shader,
-    /// The assignment's file, or some vertex shader, with another extension behind it or in its place.
-    Renamed,
-    /// A text, which may be a vertex shader.
-    Text,
-    /// Anything else.
-    Other,
-}
-
-/// How well `name` fits the assignment's `wanted`.
-pub(super) fn fit(name: &str, wanted: &str) -> Fit {
-    let name = name.trim().to_lowercase();
-    let wanted = wanted.to_lowercase();
-    if name == wanted {
-        return Fit::Exact;
-    }
-    let wanted_stem = wanted.rsplit_once('.').map_or(wanted.as_str(), |(stem, _)| stem);
-    let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
-    match extension {
-        "vert" if without_copy_mark(stem) == wanted_stem => Fit::Copy,
-        "vert" => Fit::Shader,
-        _ if stem == wanted || without_copy_mark(stem) == wanted_stem && is_text(extension) => Fit::Renamed,
-        _ if stem.ends_with(".vert") && is_text(extension) => Fit::Renamed,
-        _ if OTHER_EXTENSIONS.contains(&extension) => Fit::Renamed,
-        "txt" | "" => Fit::Text,
-        _ => Fit::Other,
-    }
-}
-
-fn is_text(extension: &str) -> bool {
-    ["", "txt", "text"].contains(&extension) || OTHER_EXTENSIONS.contains(&extension)
-}
-
-/// `stem` without what browsers and systems put behind the name of a copy: ` (1)`, ` - Copy`, ` - コピー (2)`, ` 2`, and
-/// the number that upload pages append (`_1234567890`, `-1`).
-fn without_copy_mark(stem: &str) -> &str {
-    let mut stem = stem;
-    loop {
-        let rest = stem.trim_end();
-        let in_brackets = rest
-            .strip_suffix(')')
-            .and_then(|rest| rest.trim_end_matches(|c: char| c.is_ascii_digit()).strip_suffix('('));
-        let word = ["copy", "コピー"].iter().find_map(|word| rest.strip_suffix(word));
-        let word = word.map(|rest| rest.trim_end().trim_end_matches(['-', 'の']));
-        let number = rest.trim_end_matches(|c: char| c.is_ascii_digit());
-        let numbered =
-            (number.len() < rest.len()).then_some(number).and_then(|rest| rest.strip_suffix([' ', '_', '-']));
-        match in_brackets.or(word).or(numbered) {
-            Some(shorter) if !shorter.trim_end().is_empty() => stem = shorter.trim_end(),
-            _ => return rest,
-        }
-    }
-}
-
-/// What is graded of a student's files.
-#[derive(Debug)]
-pub(super) struct Chosen {
-    pub path: Option<String>,
-    pub local: Option<PathBuf>,
-    pub content: Content,
-}
+use crate::slots::{self, Offered, Problem, Trust, wording};
 
 /// Chooses among the files of one student.
-pub(super) fn choose(group: Group, options: &Options) -> Chosen {
-    let mut ranked: Vec<(Fit, Owned)> = group
-        .files
-        .into_iter()
-        .map(|file| (if group.is_named { Fit::Exact } else { fit(&file.name, &options.file_name) }, file))
-        .collect();
-    for fit in [Fit::Exact, Fit::Copy, Fit::Shader, Fit::Renamed, Fit::Text] {
-        let (mut fitting, others): (Vec<_>, Vec<_>) = ranked.into_iter().partition(|(rank, _)| *rank == fit);
-        ranked = others;
-        if fit == Fit::Text {
-            // The extension says nothing: only what reads like a vertex shader is taken for one.
-            let (texts, no_texts) = fitting.into_iter().partition(|(_, file)| is_like_shader(file, options));
-            (fitting, _) = (texts, ranked.extend::<Vec<_>>(no_texts));
+pub(super) fn choose(group: &Group, options: &Options) -> Content {
+    let offers: Vec<Offer> = group.files.iter().map(|file| Offer { file, options }).collect();
+    let trust = if group.is_named { Trust::Named } else { Trust::Found };
+    match slots::fill(&options.slots, &offers, trust) {
+        Ok(chosen) => taken(chosen.into_iter().map(|index| &offers[index]), options),
+        Err(problems) => Content::Nothing(why_not(group, options, &offers, &problems)),
+    }
+}
+
+/// A file that may be chosen. It is read when its content matters.
+struct Offer<'a> {
+    file: &'a Owned,
+    options: &'a Options,
+}
+
+impl Offered for Offer<'_> {
+    fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    fn bytes(&self) -> Option<Vec<u8>> {
+        self.content().ok()
+    }
+}
+
+impl Offer<'_> {
+    /// The bytes, or why the file could not be taken.
+    fn content(&self) -> Result<Vec<u8>, Text> {
+        let bytes = match (&self.file.file.held, &self.file.file.local) {
+            (Held::Bytes(bytes), _) => Ok(bytes.clone()),
+            (Held::OnDisk, Some(local)) => {
+                folder::bytes(local, self.options.limits.file_bytes).map_err(|error| super::limits::unreadable(&error))
+            }
+            (Held::OnDisk, None) | (Held::Unread, _) => Ok(Vec::new()),
+            (Held::Refused(reason), _) => Err(reason.clone()),
+        };
+        let below = &self.file.below;
+        bytes.map_err(|reason| {
+            Text::new(
+                format!("`{below}` could not be taken. {}", reason.en),
+                format!("`{below}` を受け付けられませんでした。{}", reason.ja),
+            )
+        })
+    }
+}
+
+/// The files that are graded, or why one of them cannot be taken.
+fn taken<'a>(offers: impl Iterator<Item = &'a Offer<'a>>, options: &Options) -> Content {
+    let mut hand_in = HandIn::default();
+    let mut places = Vec::new();
+    for offer in offers {
+        match offer.content() {
+            Ok(bytes) => hand_in.files.push(HandedInFile::new(&offer.file.name, bytes)),
+            Err(reason) => return Content::Nothing(reason),
         }
-        if !fitting.is_empty() {
-            return one_of(fitting.into_iter().map(|(_, file)| file).collect(), options);
-        }
+        let local = offer.file.file.local.as_deref().and_then(in_working_folder);
+        places.push(Place { path: offer.file.path.clone(), local });
     }
-    let refused = ranked.iter().find(|(_, file)| matches!(file.file.held, Held::Refused(_)));
-    if let Some(Content::Nothing(reason)) = refused.map(|(_, file)| content(file, options)) {
-        return nothing(reason);
-    }
-    let names: Vec<String> = ranked.into_iter().map(|(_, file)| file.below).collect();
-    nothing(wording::none_fits(&names, group.has_online_text, &options.file_name))
+    Content::Files { hand_in: slots::tell_apart(&options.slots, hand_in), places }
 }
 
-fn nothing(text: Text) -> Chosen {
-    Chosen { path: None, local: None, content: Content::Nothing(text) }
-}
-
-/// The only one of these; of several the first, where all have the same content.
-fn one_of(files: Vec<Owned>, options: &Options) -> Chosen {
-    let names: Vec<String> = files.iter().map(|file| file.below.clone()).collect();
-    let mut contents = files.into_iter().map(|file| (content(&file, options), file));
-    let Some((first, file)) = contents.next() else { return nothing(Text::default()) };
-    let is_same = |other: &Content| match (&first, other) {
-        (Content::File { bytes, .. }, Content::File { bytes: others, .. }) => bytes == others,
-        _ => false,
-    };
-    if !contents.all(|(other, _)| is_same(&other)) {
-        return nothing(wording::several(&names, &options.file_name));
+fn why_not(group: &Group, options: &Options, offers: &[Offer], problems: &[Problem]) -> Text {
+    let is_missing = problems.iter().any(|problem| matches!(problem, Problem::Missing { .. }));
+    // What could not be opened may be what is missing.
+    let refused = offers.iter().filter(|offer| matches!(offer.file.file.held, Held::Refused(_)));
+    if let Some(reason) = refused.filter(|_| is_missing).find_map(|offer| offer.content().err()) {
+        return reason;
     }
-    Chosen { path: Some(file.path), local: file.file.local, content: first }
-}
-
-fn content(file: &Owned, options: &Options) -> Content {
-    let bytes = match &file.file.held {
-        Held::Bytes(bytes) => Ok(bytes.clone()),
-        Held::OnDisk => read(file, options),
-        Held::Unread => Ok(Vec::new()),
-        Held::Refused(reason) => Err(reason.clone()),
-    };
-    match bytes {
-        Ok(bytes) => Content::File { name: file.name.clone(), bytes },
-        Err(reason) => Content::Nothing(Text::new(
-            format!("`{}` could not be taken. {}", file.below, reason.en),
-            format!("`{}` を受け付けられませんでした。{}", file.below, reason.ja),
-        )),
+    if offers.is_empty() && group.has_online_text {
+        let wanted = wording::wanted(&options.slots);
+        return Text::new(
+            format!("Only text typed into Moodle was handed in. Hand in the file {}.", wanted.en),
+            format!("オンラインテキストだけが提出されています。ファイル {} を提出してください。", wanted.ja),
+        );
     }
-}
-
-fn read(file: &Owned, options: &Options) -> Result<Vec<u8>, Text> {
-    let Some(local) = &file.file.local else { return Ok(Vec::new()) };
-    folder::bytes(local, options.limits.file_bytes).map_err(|error| super::limits::unreadable(&error))
-}
-
-/// Whether a text has what only a vertex shader has.
-fn is_like_shader(file: &Owned, options: &Options) -> bool {
-    match content(file, options) {
-        Content::File { bytes, .. } => bytes.windows(11).any(|window| window == b"gl_Position"),
-        Content::Nothing(_) => false,
-    }
+    let names: Vec<String> = offers.iter().map(|offer| offer.file.below.clone()).collect();
+    wording::unfilled(&options.slots, &names, problems)
 }

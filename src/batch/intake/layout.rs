@@ -1,9 +1,9 @@
-//! What a folder looks like by the names in it: one student's, a class, a Moodle download. `wanted` is the name of the
-//! assignment's file.
+//! What a folder looks like by the names in it: one student's, a class, a Moodle download. `wanted` are the files that the
+//! assignment asks for.
 
-use super::choose::{Fit, fit};
 use super::moodle::{self, Loose};
 use super::tree::{Folder, Node};
+use crate::slots::{Fit, Slot, fit};
 
 /// Whether a name in the folder is a participant's of Moodle.
 pub(super) fn is_moodle(folder: &Folder) -> bool {
@@ -30,7 +30,7 @@ pub(super) fn without_zip(name: &str) -> &str {
 }
 
 /// Whether a folder of a class holds classes: each folder in it does, or its only one is full of students' shaders.
-pub(super) fn holds_classes(folder: &Folder, wanted: &str) -> bool {
+pub(super) fn holds_classes(folder: &Folder, wanted: &[Slot]) -> bool {
     only_folder(folder).is_some_and(|(_, only)| is_flat_class(only, wanted))
         || folder.children().all(|(_, node)| match node {
             Node::Folder(folder) => folder.is_empty() || is_class(folder, wanted),
@@ -40,18 +40,18 @@ pub(super) fn holds_classes(folder: &Folder, wanted: &str) -> bool {
 
 /// Whether the whole input is one student's: the wanted file lies in it and no other shader below, or in its only
 /// folder, which has the homework's name. Beside other inputs it is one's unless it shows several students.
-pub(super) fn is_one_student(folder: &Folder, wanted: &str, is_one_of_several: bool) -> bool {
+pub(super) fn is_one_student(folder: &Folder, wanted: &[Slot], is_one_of_several: bool) -> bool {
     let below = folder.children().any(|(_, node)| match node {
         Node::Folder(folder) => has_shader(folder, wanted),
         Node::File(_) => false,
     });
-    let has_wanted = folder.file_names().any(|name| fit(name, wanted) == Fit::Exact);
-    let is_project = only_folder(folder).is_some_and(|(name, _)| fit(name, wanted) <= Fit::Renamed);
+    let has_wanted = folder.file_names().any(|name| Fit::best(name, wanted) == Fit::Exact);
+    let is_project = only_folder(folder).is_some_and(|(name, _)| Fit::best(name, wanted) <= Fit::Renamed);
     (has_wanted && !below) || is_project || (is_one_of_several && !holds_students(folder, wanted))
 }
 
 /// Whether a folder holds students rather than being one's.
-fn is_class(folder: &Folder, wanted: &str) -> bool {
+fn is_class(folder: &Folder, wanted: &[Slot]) -> bool {
     let has_file = folder.file_names().next().is_some();
     let with_shader = folder.children().filter(|(_, node)| match node {
         Node::Folder(folder) => has_shader(folder, wanted),
@@ -60,19 +60,20 @@ fn is_class(folder: &Folder, wanted: &str) -> bool {
     is_moodle(folder) || (!has_file && with_shader.count() >= 2)
 }
 
-/// Whether a folder is full of shaders of several students.
-fn is_flat_class(folder: &Folder, wanted: &str) -> bool {
-    let fits: Vec<Fit> = folder.file_names().map(|name| fit(name, wanted)).collect();
-    !fits.iter().any(|fit| *fit <= Fit::Copy) && fits.iter().filter(|fit| **fit <= Fit::Renamed).count() >= 2
+/// Whether a folder is full of shaders of several students: more than one for the same slot, and none with its name.
+fn is_flat_class(folder: &Folder, wanted: &[Slot]) -> bool {
+    let fitting = |slot: &Slot| folder.file_names().filter(|name| fit(name, slot) <= Fit::Renamed).count();
+    let has_own_name = folder.file_names().any(|name| Fit::best(name, wanted) <= Fit::Copy);
+    !has_own_name && wanted.iter().any(|slot| fitting(slot) >= 2)
 }
 
-fn holds_students(folder: &Folder, wanted: &str) -> bool {
+fn holds_students(folder: &Folder, wanted: &[Slot]) -> bool {
     let holds_within = || only_folder(folder).is_some_and(|(_, folder)| holds_students(folder, wanted));
     is_class(folder, wanted) || is_flat_class(folder, wanted) || holds_within()
 }
 
-fn has_shader(folder: &Folder, wanted: &str) -> bool {
-    folder.has_file(&|name| fit(name, wanted) <= Fit::Renamed)
+fn has_shader(folder: &Folder, wanted: &[Slot]) -> bool {
+    folder.has_file(&|name| Fit::best(name, wanted) <= Fit::Renamed)
 }
 
 /// The only thing in a folder, where that is a folder.

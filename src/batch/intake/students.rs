@@ -5,13 +5,13 @@
 //! Folders of students, such as the classes of a year, have no file of their own and several folders with shaders:
 //! they are looked into where all folders beside them are such, so that no student becomes several by what is handed in.
 
-use super::choose::{Fit, fit};
 use super::layout::{holds_classes, is_moodle, is_one_student, of_folder, without_zip};
 use super::moodle::{self, Loose, Marked};
 use super::tree::{File, Folder, Held, Node};
 use super::{Options, Refused};
 use crate::batch::class::Participant;
 use crate::language::Text;
+use crate::slots::{Fit, fit};
 use std::collections::HashMap;
 use std::path::PathBuf;
 
@@ -60,7 +60,7 @@ pub(super) fn in_folder(
     let mut finding = Finding::new(options);
     if is_moodle(&folder) {
         finding.moodle(shown, folder);
-    } else if is_one_student(&folder, &options.file_name, is_one_of_several) {
+    } else if is_one_student(&folder, &options.slots, is_one_of_several) {
         let name = shown.rsplit('/').next().unwrap_or(shown);
         finding.student(without_zip(name), shown, folder);
     } else {
@@ -82,15 +82,9 @@ pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -
             finding.loose(&loose, &name, shown, file);
             continue;
         }
-        let is_wanted = fit(&name, &options.file_name) <= Fit::Copy;
+        let is_wanted = Fit::best(&name, &options.slots) <= Fit::Copy;
         let who = parent.filter(|_| is_wanted).unwrap_or_else(|| stem(&name).into());
-        let owned = Owned { name: name.clone(), below: name, path: shown.clone(), file };
-        finding.groups.push(Group {
-            who: Who { name: who, moodle: None, place: shown },
-            files: vec![owned],
-            is_named: true,
-            has_online_text: false,
-        });
+        finding.named(who, Owned { name: name.clone(), below: name, path: shown, file });
     }
     (finding.groups, finding.refused)
 }
@@ -112,16 +106,15 @@ impl<'o> Finding<'o> {
         if is_moodle(&folder) {
             return self.moodle(place, folder);
         }
-        let are_classes = holds_classes(&folder, &self.options.file_name);
+        let are_classes = holds_classes(&folder, &self.options.slots);
         for (name, node) in folder.into_children() {
             let place = format!("{place}/{name}");
             match node {
                 Node::Folder(folder) if are_classes && !folder.is_empty() => self.class(&place, folder),
                 Node::Folder(folder) => self.student(without_zip(&name), &place, folder),
                 Node::File(file) if self.is_hand_in(&name, &file) => {
-                    let who = Who { name: stem(&name).into(), moodle: None, place: place.clone() };
-                    let file = Owned { name: name.clone(), below: name, path: place, file };
-                    self.groups.push(Group { who, files: vec![file], is_named: true, has_online_text: false });
+                    let who = stem(&name).to_owned();
+                    self.named(who, Owned { name: name.clone(), below: name, path: place, file });
                 }
                 Node::File(file) => self.nobodys(place, &file),
             }
@@ -171,7 +164,7 @@ impl<'o> Finding<'o> {
     /// Whether a file beside the students' folders is a student's: a shader, or an archive that cannot be opened.
     fn is_hand_in(&self, name: &str, file: &File) -> bool {
         let is_broken = matches!(file.held, Held::Refused(_)) && without_zip(name) != name;
-        is_broken || fit(name, &self.options.file_name) <= Fit::Renamed
+        is_broken || Fit::best(name, &self.options.slots) <= Fit::Renamed
     }
 
     /// The group of this participant, made where there is none yet.
@@ -184,6 +177,28 @@ impl<'o> Finding<'o> {
             groups.len() - 1
         });
         &mut groups[at]
+    }
+
+    /// A file that is a student's by its name: the student's first, or one for another slot than those that are there.
+    fn named(&mut self, name: String, file: Owned) {
+        let slots = &self.options.slots;
+        let slot = |name: &str| (0..slots.len()).min_by_key(|&slot| fit(name, &slots[slot]));
+        let folder = |path: &str| path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
+        let is_theirs = |group: &&mut Group| {
+            group.is_named
+                && group.who.name == name
+                && group
+                    .files
+                    .iter()
+                    .all(|other| folder(&other.path) == folder(&file.path) && slot(&other.name) != slot(&file.name))
+        };
+        match self.groups.iter_mut().find(is_theirs) {
+            Some(group) => group.files.push(file),
+            None => {
+                let who = Who { name, moodle: None, place: file.path.clone() };
+                self.groups.push(Group { who, files: vec![file], is_named: true, has_online_text: false });
+            }
+        }
     }
 
     fn student(&mut self, name: &str, place: &str, folder: Folder) {
@@ -217,7 +232,7 @@ fn nobodys() -> Text {
 }
 
 /// The files below a student's folder.
-fn owned(place: &str, folder: Folder) -> Vec<Owned> {
+pub(super) fn owned(place: &str, folder: Folder) -> Vec<Owned> {
     let own = |(path, file): (Vec<String>, File)| {
         let below = path.join("/");
         Owned { name: path.last().cloned().unwrap_or_default(), path: format!("{place}/{below}"), below, file }

@@ -4,13 +4,14 @@ mod choices;
 mod hostile;
 mod layouts;
 mod mutations;
+mod sets;
 
 use super::*;
 use std::fs;
 use tempfile::TempDir;
 
 fn options() -> Options {
-    Options { file_name: "ggsample06.vert".into(), limits: Limits::default() }
+    Options::new(reference::assignment("ggsample06").unwrap())
 }
 
 fn take(inputs: &[PathBuf]) -> Intake {
@@ -61,7 +62,7 @@ fn everyone(intake: &Intake) -> Vec<(&str, Result<&str, &str>)> {
         .iter()
         .map(|hand_in| {
             let content = match &hand_in.content {
-                Content::File { bytes, .. } => Ok(std::str::from_utf8(bytes).unwrap()),
+                Content::Files { hand_in, .. } => Ok(std::str::from_utf8(&hand_in.files[0].bytes).unwrap()),
                 Content::Nothing(reason) => Err(reason.en.as_str()),
             };
             (hand_in.student.name.as_str(), content)
@@ -83,4 +84,12 @@ fn reason<'a>(intake: &'a Intake, name: &str) -> Option<&'a str> {
     let found = intake.refused.iter().find(|refused| refused.path.ends_with(name))?;
     assert!(!found.reason.ja.is_empty());
     Some(&found.reason.en)
+}
+
+/// Where the first file is on this machine.
+fn local(work: &StudentWork) -> Option<&Path> {
+    match &work.content {
+        Content::Files { places, .. } => places[0].local.as_deref(),
+        Content::Nothing(_) => None,
+    }
 }

@@ -8,10 +8,9 @@ use crate::report::samples;
 fn entry(name: &str, outcome: Outcome) -> Entry {
     Entry {
         student: Student { key: name.into(), name: name.into(), moodle: None },
-        path: None,
-        local: None,
+        places: Vec::new(),
         outcome,
-        source: None,
+        sources: Vec::new(),
         portrait: None,
         page: None,
         shares_with: Vec::new(),

@@ -10,6 +10,7 @@ use crate::cli::Batch;
 use crate::command::{file_fault, language, writing};
 use crate::language::{Language, Text};
 use crate::report::wrap::plain;
+use crate::slots::Slot;
 use std::path::Path;
 
 /// Refuses an output folder that a later run would read as part of the input.
@@ -97,8 +98,8 @@ pub(super) fn header(arguments: &Batch, found: Option<&Found>, before: Option<&F
 }
 
 /// Takes the names away, and writes down whose they were where that is asked for.
-pub(super) fn hide(arguments: &Batch, intake: Intake, folder: &Folder, file: &str) -> Result<Intake, NotBegun> {
-    let (intake, named) = Pseudonyms::of(folder)?.hide(intake, file);
+pub(super) fn hide(arguments: &Batch, intake: Intake, folder: &Folder, slots: &[Slot]) -> Result<Intake, NotBegun> {
+    let (intake, named) = Pseudonyms::of(folder)?.hide(intake, slots);
     if let Some(path) = &arguments.names {
         let table = anonymous::table(&named)?;
         std::fs::write(path, table).map_err(|error| file_fault(&writing(), path, &error))?;

@@ -88,7 +88,7 @@ impl Session<'_> {
         portraits: &Portraits,
     ) -> Result<bool, Fault> {
         let threads = self.arguments.jobs.map_or_else(parallel::processors, usize::from);
-        let is_gradable = |(candidate, entry): (&Candidate, &Option<Entry>)| entry.is_none() && candidate.has_file();
+        let is_gradable = |(candidate, entry): (&Candidate, &Option<Entry>)| entry.is_none() && candidate.is_gradable();
         let pool = match candidates.iter().zip(entries.iter()).any(is_gradable) {
             true => Some(self.pool(threads)?),
             false => None,

@@ -1,14 +1,15 @@
-//! When a file is saved: once it lies still, whichever way the editor writes it.
+//! When a file of a hand-in is saved: once all lie still, whichever way the editor writes it.
 //!
 //! An editor may write into the file, empty it first, or put another in its place; so what is watched is its folder,
 //! and what counts is the file that then stands under the name. Folders that tell nothing, on network drives say, are
 //! looked at twice a second.
 
-use crate::command::grade::{MAX_READ, unreadable};
+use crate::batch::intake::Given;
+use crate::command::files;
+use crate::hand_in::HandedInFile;
 use crate::language::Text;
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{RecursiveMode, Watcher};
-use std::io::Read;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,15 +27,16 @@ const LOOK: Duration = Duration::from_millis(500);
 /// What a save left behind.
 #[derive(Debug)]
 pub(super) enum Save {
-    Content(Vec<u8>),
-    /// The file went away and did not come back at once.
+    Content(Vec<Given>),
+    /// A file went away and did not come back at once.
     Gone,
     Unreadable(Text),
 }
 
-/// The saves of one file.
+/// The saves of the files of one hand-in.
 pub(super) struct Saves {
-    path: PathBuf,
+    /// Files, and folders of files.
+    paths: Vec<PathBuf>,
     name: String,
     seen: Option<Seen>,
     changed: Arc<Notify>,
@@ -42,12 +44,15 @@ pub(super) struct Saves {
     _watcher: Option<notify::RecommendedWatcher>,
 }
 
-/// What the file was when it was read last.
+/// What the files were when they were read last.
 #[derive(Debug)]
 struct Seen {
-    stamp: Option<Stamp>,
-    bytes: Vec<u8>,
+    stamps: Stamps,
+    contents: Vec<Vec<u8>>,
 }
+
+/// The files with what changes when one is saved.
+type Stamps = Vec<(PathBuf, Option<Stamp>)>;
 
 /// What changes when a file is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,14 +74,14 @@ impl Stamp {
 }
 
 impl Saves {
-    /// Watches the file from now on; the first save is what it is now.
-    pub fn of(path: &Path) -> Self {
+    /// Watches the files from now on; the first save is what they are now.
+    pub fn of(paths: &[PathBuf]) -> Self {
         let changed = Arc::new(Notify::new());
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        Self { path: path.into(), name, seen: None, _watcher: watcher(path, &changed), changed }
+        let watcher = watcher(paths, &changed);
+        Self { paths: paths.into(), name: files::names(paths), seen: None, _watcher: watcher, changed }
     }
 
-    /// The file's own name.
+    /// The names of the files.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -84,64 +89,100 @@ impl Saves {
     /// Waits for the next save.
     pub async fn next(&mut self) -> Save {
         loop {
-            let stamp = Stamp::of(&self.path);
-            if self.seen.as_ref().is_some_and(|seen| seen.stamp == stamp) {
+            let stamps = self.stamps();
+            if self.seen.as_ref().is_some_and(|seen| seen.stamps == stamps) {
                 let was_told = timeout(LOOK, self.changed.notified()).await.is_ok();
                 // Two saves within one tick of the file system's clock have the same stamp.
-                if !(was_told && self.differs()) && self.seen.as_ref().is_some_and(|s| s.stamp == Stamp::of(&self.path))
+                if !(was_told && self.differs()) && self.seen.as_ref().is_some_and(|seen| seen.stamps == self.stamps())
                 {
                     continue;
                 }
             }
-            let stamp = self.settled().await;
-            let (save, bytes) = match read(&self.path) {
-                Ok(bytes) => (Save::Content(bytes.clone()), bytes),
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => (Save::Gone, Vec::new()),
-                Err(error) => (Save::Unreadable(unreadable(&self.path, &error)), Vec::new()),
+            let stamps = self.settled().await;
+            let (save, contents) = match contents(&stamps) {
+                Ok(contents) => (Save::Content(given(&stamps, &contents)), contents),
+                Err((_, error)) if error.kind() == std::io::ErrorKind::NotFound => (Save::Gone, Vec::new()),
+                Err((path, error)) => (Save::Unreadable(files::unreadable(&path, &error)), Vec::new()),
             };
-            self.seen = Some(Seen { stamp, bytes });
+            self.seen = Some(Seen { stamps, contents });
             return save;
         }
     }
 
-    /// Whether the file was saved again since [`Self::next`] gave its content.
+    /// Whether a file was saved again since [`Self::next`] gave the contents.
     pub fn is_outdated(&self) -> bool {
-        let stamp = Stamp::of(&self.path);
-        stamp.is_some_and(|stamp| stamp.size > 0) && self.seen.as_ref().is_none_or(|seen| seen.stamp != stamp)
+        let stamps = self.stamps();
+        is_whole(&stamps) && self.seen.as_ref().is_none_or(|seen| seen.stamps != stamps)
+    }
+
+    /// The files as they are now: those that are named, and those in the folders that are.
+    fn stamps(&self) -> Stamps {
+        let in_folder = |path: &Path| -> Option<Vec<PathBuf>> {
+            let entries = std::fs::read_dir(path).ok()?.flatten().map(|entry| entry.path());
+            // Editors keep files of their own beside those that they write.
+            let is_own = |path: &PathBuf| {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                path.is_file() && !name.starts_with('.') && !name.ends_with('~')
+            };
+            let mut files: Vec<PathBuf> = entries.filter(is_own).collect();
+            files.sort();
+            Some(files)
+        };
+        let files = self.paths.iter().flat_map(|path| in_folder(path).unwrap_or_else(|| vec![path.clone()]));
+        files.map(|path| (path.clone(), Stamp::of(&path))).collect()
     }
 
     fn differs(&self) -> bool {
-        let seen = self.seen.as_ref().map(|seen| &seen.bytes);
-        read(&self.path).is_ok_and(|bytes| Some(&bytes) != seen)
+        let seen = self.seen.as_ref().map(|seen| &seen.contents);
+        contents(&self.stamps()).is_ok_and(|contents| Some(&contents) != seen)
     }
 
-    /// Waits until the file lies still.
-    async fn settled(&self) -> Option<Stamp> {
+    /// Waits until the files lie still.
+    async fn settled(&self) -> Stamps {
         let began = Instant::now();
-        let mut stamp = Stamp::of(&self.path);
+        let mut stamps = self.stamps();
         loop {
             sleep(STILL).await;
-            let now = Stamp::of(&self.path);
-            let is_whole = now.is_some_and(|now| now.size > 0) || began.elapsed() > MIDDLE;
-            if now == stamp && is_whole {
+            let now = self.stamps();
+            if now == stamps && (is_whole(&now) || began.elapsed() > MIDDLE) {
                 return now;
             }
-            stamp = now;
+            stamps = now;
         }
     }
 }
 
-/// Watches the folder of the file, and where the file is a link, that of what it points to.
-fn watcher(path: &Path, changed: &Arc<Notify>) -> Option<notify::RecommendedWatcher> {
-    let target = std::fs::canonicalize(path).ok();
-    let files: Vec<PathBuf> = [std::path::absolute(path).ok(), target].into_iter().flatten().collect();
+/// Whether every file is there, and not just emptied by an editor that goes on to fill it.
+fn is_whole(stamps: &Stamps) -> bool {
+    stamps.iter().all(|(_, stamp)| stamp.is_some_and(|stamp| stamp.size > 0))
+}
+
+fn contents(stamps: &Stamps) -> Result<Vec<Vec<u8>>, (PathBuf, std::io::Error)> {
+    let read = |path: &PathBuf| files::read(path).map(|(bytes, _)| bytes).map_err(|error| (path.clone(), error));
+    stamps.iter().map(|(path, _)| read(path)).collect()
+}
+
+fn given(stamps: &Stamps, contents: &[Vec<u8>]) -> Vec<Given> {
+    let files = stamps.iter().zip(contents).map(|((path, _), bytes)| Given::File {
+        file: HandedInFile::new(files::names(std::slice::from_ref(path)), bytes.as_slice()),
+        local: Some(path.clone()),
+    });
+    files.collect()
+}
+
+/// Watches the folder of each file, and where the file is a link, that of what it points to.
+fn watcher(paths: &[PathBuf], changed: &Arc<Notify>) -> Option<notify::RecommendedWatcher> {
+    let (folders, files): (Vec<_>, Vec<_>) = paths.iter().partition(|path| path.is_dir());
+    let places = |path: &PathBuf| [std::path::absolute(path).ok(), std::fs::canonicalize(path).ok()];
+    let files: Vec<PathBuf> = files.into_iter().flat_map(places).flatten().collect();
+    let in_folders = !folders.is_empty();
     let names: Vec<_> = files.iter().filter_map(|file| file.file_name().map(ToOwned::to_owned)).collect();
     let changed = Arc::clone(changed);
     let told = move |event: notify::Result<notify::Event>| {
         let is_ours = event.as_ref().map_or(true, |event| {
             let is_read = matches!(event.kind, EventKind::Access(kind) if kind != AccessKind::Close(AccessMode::Write));
             let names = |path: &PathBuf| path.file_name().is_none_or(|name| names.iter().any(|n| n == name));
-            !is_read && (event.paths.is_empty() || event.paths.iter().any(names))
+            !is_read && (in_folders || event.paths.is_empty() || event.paths.iter().any(names))
         });
         if is_ours {
             changed.notify_one();
@@ -152,13 +193,10 @@ fn watcher(path: &Path, changed: &Arc<Notify>) -> Option<notify::RecommendedWatc
         // What cannot be watched is looked at.
         let _ = file.parent().map(|folder| watcher.watch(folder, RecursiveMode::NonRecursive));
     }
+    for folder in folders {
+        let _ = watcher.watch(folder, RecursiveMode::NonRecursive);
+    }
     Some(watcher)
-}
-
-fn read(path: &Path) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)?.take(MAX_READ).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// The file went away.

@@ -1,6 +1,6 @@
 //! What a report shows, part by part, as the templates need it.
 
-use super::listing::{self, Line};
+use super::listing::{self, Listing};
 use super::player::{self, FrameView, Player, Swatch, TermView};
 use super::rich::{Piece, pieces};
 use super::{Lines, Part};
@@ -78,7 +78,7 @@ struct Rubric {
     /// Title and id.
     mistake: Option<(String, String)>,
     message: Vec<Piece>,
-    line: Option<u32>,
+    anchor: Option<String>,
     place: String,
 }
 
@@ -95,25 +95,36 @@ impl Rubric {
             max_points: number(line.max_points),
             mistake: shown.map(titled),
             message: pieces(line.message.get(language)),
-            line: line.line,
-            place: line.line.map(|line| labels.line(line)).unwrap_or_default(),
+            anchor: anchor(report, line.file.as_deref(), line.line),
+            place: place(report, labels, line.file.as_deref(), line.line),
         }
     }
+}
+
+/// The id of a line in the listings below, see [`super::Lines`].
+fn anchor(report: &Report, file: Option<&str>, line: Option<u32>) -> Option<String> {
+    let index = file.and_then(|file| report.sources.iter().position(|source| source.name == file));
+    Some(listing::anchor(index.unwrap_or(0), line?))
+}
+
+/// A line as a person reads it.
+fn place(report: &Report, labels: &Labels, file: Option<&str>, line: Option<u32>) -> String {
+    line.map(|line| labels.place(report.file_to_name(file), line, None)).unwrap_or_default()
 }
 
 /// What would break elsewhere.
 struct Remark {
     text: Vec<Piece>,
-    line: Option<u32>,
+    anchor: Option<String>,
     place: String,
 }
 
 impl Remark {
-    fn of(advice: &Advice, labels: &Labels, language: Language) -> Self {
+    fn of(report: &Report, advice: &Advice, labels: &Labels, language: Language) -> Self {
         Self {
             text: pieces(advice.message.get(language)),
-            line: advice.line,
-            place: advice.line.map(|line| labels.line(line)).unwrap_or_default(),
+            anchor: anchor(report, Some(&advice.file), advice.line),
+            place: place(report, labels, Some(&advice.file), advice.line),
         }
     }
 }
@@ -123,15 +134,18 @@ pub(super) struct Message {
     pub kind: &'static str,
     pub severity: &'static str,
     stage: &'static str,
+    pub file: Option<String>,
     pub line: Option<u32>,
+    anchor: Option<String>,
     place: String,
     pub text: Vec<Piece>,
     hint: Option<Vec<Piece>>,
 }
 
 impl Message {
-    fn of(diagnostic: &Diagnostic, labels: &Labels, language: Language) -> Self {
-        let place = diagnostic.line.map(|line| labels.place(line, diagnostic.column));
+    fn of(report: &Report, diagnostic: &Diagnostic, labels: &Labels, language: Language) -> Self {
+        let file = report.file_to_name(diagnostic.file.as_deref());
+        let place = diagnostic.line.map(|line| labels.place(file, line, diagnostic.column));
         Self {
             kind: match diagnostic.severity {
                 Severity::Error => "error",
@@ -140,7 +154,9 @@ impl Message {
             },
             severity: labels.severity(diagnostic.severity),
             stage: labels.stage(diagnostic.stage),
+            file: diagnostic.file.clone(),
             line: diagnostic.line,
+            anchor: anchor(report, diagnostic.file.as_deref(), diagnostic.line),
             place: place.unwrap_or_default(),
             text: pieces(diagnostic.message.get(language)),
             hint: diagnostic.hint.as_ref().map(|hint| pieces(hint.get(language))),
@@ -153,18 +169,18 @@ struct SecondOpinion {
     differs: bool,
     counted: String,
     message: Option<String>,
-    line: Option<u32>,
+    anchor: Option<String>,
     place: String,
 }
 
 impl SecondOpinion {
-    fn of(checked: &CrossCheck, labels: &Labels, language: Language) -> Self {
+    fn of(report: &Report, checked: &CrossCheck, labels: &Labels, language: Language) -> Self {
         Self {
             differs: checked.opinion == Opinion::Differs,
             counted: labels.cross_check(checked),
             message: checked.message.as_ref().map(|message| message.get(language).to_owned()),
-            line: checked.line,
-            place: checked.line.map(|line| labels.line(line)).unwrap_or_default(),
+            anchor: anchor(report, None, checked.line),
+            place: place(report, labels, None, checked.line),
         }
     }
 }
@@ -257,7 +273,7 @@ pub(super) struct Body<'a> {
     second_opinion: Option<SecondOpinion>,
     equation: Option<EquationView<'a>>,
     terms: Vec<TermView<'a>>,
-    listing: Vec<Line>,
+    listings: Vec<Listing>,
     has_lines: bool,
     has_footer: bool,
     elapsed: String,
@@ -270,13 +286,13 @@ impl<'a> Body<'a> {
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let gallery = part.gallery.filter(|_| is_drawn);
         let rubric: Vec<Rubric> = report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect();
-        let messages = report.diagnostics.iter().map(|d| Message::of(d, labels, language));
+        let messages = report.diagnostics.iter().map(|d| Message::of(report, d, labels, language));
         let messages: Vec<Message> = messages.collect();
         let agree = report.frames.iter().filter(|frame| frame.agrees()).count();
         let probes = &report.probes;
         let (agreeing, legend) = player::legend();
-        let listing = match part.source {
-            Lines::Here(source) => listing::listing(source, report, &messages, language),
+        let listings = match part.source {
+            Lines::Here(sources) => listing::listings(sources, report, &messages, language),
             Lines::Elsewhere | Lines::Nowhere => Vec::new(),
         };
         Self {
@@ -299,12 +315,15 @@ impl<'a> Body<'a> {
             agreeing,
             legend,
             probes_agree: labels.probes_agree(probes.samples.saturating_sub(probes.mismatched), probes.samples),
-            second_opinion: report.cross_check.as_ref().map(|checked| SecondOpinion::of(checked, labels, language)),
-            has_lines: !listing.is_empty() || part.source == Lines::Elsewhere,
+            second_opinion: report
+                .cross_check
+                .as_ref()
+                .map(|checked| SecondOpinion::of(report, checked, labels, language)),
+            has_lines: !listings.is_empty() || part.source == Lines::Elsewhere,
             has_footer: part.has_footer,
-            listing,
+            listings,
             rubric,
-            advice: report.advice.iter().map(|advice| Remark::of(advice, labels, language)).collect(),
+            advice: report.advice.iter().map(|advice| Remark::of(report, advice, labels, language)).collect(),
             messages,
             elapsed: format!("{:.0} ms", report.elapsed_ms),
         }

@@ -1,13 +1,21 @@
-//! The student's source with what there is to say about its lines.
+//! The student's files with what there is to say about its lines.
 
 use super::body::Message;
 use super::rich::Piece;
 use crate::language::Language;
 use crate::report::Report;
+use crate::source::Source;
 
-/// One line of the source.
+/// One file.
+pub(super) struct Listing {
+    pub name: String,
+    pub lines: Vec<Line>,
+}
+
+/// One line of a file.
 pub(super) struct Line {
     pub number: u32,
+    pub anchor: String,
     pub spans: Vec<Span>,
     pub notes: Vec<Note>,
 }
@@ -29,20 +37,44 @@ pub(super) struct Note {
     pub target: Option<String>,
 }
 
-/// The source in lines, each with the rubric lines and the messages that point at it.
-pub(super) fn listing(source: &str, report: &Report, messages: &[Message], language: Language) -> Vec<Line> {
-    let source = source.replace("\r\n", "\n").replace('\r', "\n");
-    let mut in_comment = false;
-    let line = |(number, text): (u32, &str)| Line {
-        number,
-        spans: spans(text, &marks(report, number), &mut in_comment),
-        notes: notes(number, report, messages, language),
+/// The files in lines, each line with the rubric lines and the messages that point at it.
+pub(super) fn listings(sources: &[Source], report: &Report, messages: &[Message], language: Language) -> Vec<Listing> {
+    let listing = |source: &Source| {
+        let name = source.facts.name.as_str();
+        let file = File { name, is_only: report.sources.len() <= 1 };
+        let index = report.sources.iter().position(|source| source.name == name).unwrap_or(0);
+        let mut in_comment = false;
+        let line = |(number, text): (u32, &str)| Line {
+            number,
+            anchor: anchor(index, number),
+            spans: spans(text, &marks(&file, report, number), &mut in_comment),
+            notes: notes(&file, number, report, messages, language),
+        };
+        Listing { name: name.to_owned(), lines: (1..).zip(source.text.lines()).map(line).collect() }
     };
-    (1..).zip(source.lines()).map(line).collect()
+    sources.iter().map(listing).collect()
 }
 
-fn notes(number: u32, report: &Report, messages: &[Message], language: Language) -> Vec<Note> {
-    let messages = messages.iter().filter(|message| message.line == Some(number));
+/// The id of a line: `L12` in the first file, `F2L12` in the second.
+pub(super) fn anchor(file: usize, line: u32) -> String {
+    if file == 0 { format!("L{line}") } else { format!("F{}L{line}", file + 1) }
+}
+
+/// The file that is listed.
+struct File<'a> {
+    name: &'a str,
+    is_only: bool,
+}
+
+impl File<'_> {
+    /// Whether a place that names this file, or none, is in it.
+    fn has(&self, file: Option<&str>) -> bool {
+        self.is_only || file == Some(self.name)
+    }
+}
+
+fn notes(file: &File, number: u32, report: &Report, messages: &[Message], language: Language) -> Vec<Note> {
+    let messages = messages.iter().filter(|message| message.line == Some(number) && file.has(message.file.as_deref()));
     let mut notes: Vec<Note> = messages
         .map(|message| Note {
             kind: message.kind,
@@ -51,7 +83,10 @@ fn notes(number: u32, report: &Report, messages: &[Message], language: Language)
             target: None,
         })
         .collect();
-    let lines = report.rubric.iter().filter(|line| line.line == Some(number) && line.points < line.max_points);
+    let lines = report
+        .rubric
+        .iter()
+        .filter(|line| line.line == Some(number) && file.has(line.file.as_deref()) && line.points < line.max_points);
     notes.extend(lines.map(|line| Note {
         kind: "rubric",
         heading: line.label.get(language).to_owned(),
@@ -62,8 +97,8 @@ fn notes(number: u32, report: &Report, messages: &[Message], language: Language)
 }
 
 /// The columns that messages mark in a line, from 0.
-fn marks(report: &Report, number: u32) -> Vec<std::ops::Range<usize>> {
-    let here = report.diagnostics.iter().filter(|d| d.line == Some(number));
+fn marks(file: &File, report: &Report, number: u32) -> Vec<std::ops::Range<usize>> {
+    let here = report.diagnostics.iter().filter(|d| d.line == Some(number) && file.has(d.file.as_deref()));
     here.filter_map(|diagnostic| {
         let start = diagnostic.column?.saturating_sub(1) as usize;
         Some(start..start + diagnostic.length.max(1) as usize)

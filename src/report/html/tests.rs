@@ -8,7 +8,8 @@ fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
     let assignment = reference::assignment("ggsample06").expect("built in");
     let equation = assignment.typeset.as_ref();
-    let page = Page { report, source: Some(samples::SOURCE), pictures: Some(&pictures), equation, language };
+    let sources: Vec<Source> = report.sources.iter().map(|source| samples::source(&source.name)).collect();
+    let page = Page { report, sources: &sources, pictures: Some(&pictures), equation, language };
     page.render().expect("a page")
 }
 
@@ -146,7 +147,7 @@ fn terms_are_shown_when_there_are_pictures_of_them() {
     pictures.terms = Arc::new([TermPictures { yours: None, ..pictures.terms[0].clone() }]);
     let report = samples::wrong();
     let page =
-        Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };
+        Page { report: &report, sources: &[], pictures: Some(&pictures), equation: None, language: Language::En };
     let html = page.render().expect("a page");
     assert!(html.contains(Labels::of(Language::En).unknown));
     assert!(!html.contains("href=\"#L"), "without a source there is no line to go to");
@@ -167,8 +168,24 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
         Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), ..Pictures::default() };
     let report = samples::wrong();
     let page =
-        Page { report: &report, source: None, pictures: Some(&pictures), equation: None, language: Language::En };
+        Page { report: &report, sources: &[], pictures: Some(&pictures), equation: None, language: Language::En };
     let html = page.render().expect("a page");
     assert!(html.len() < 1_000_000, "{} bytes", html.len());
     assert!(html.contains(Labels::of(Language::En).reduced));
+}
+
+#[test]
+fn each_of_several_files_has_its_own_listing_and_a_place_leads_into_its_own() {
+    let html = page(&samples::two_files(), Language::En);
+    for name in ["ggsample11.vert", "ggsample11.frag"] {
+        assert!(html.contains(&format!("<h3><bdi>{name}</bdi></h3>")), "{html}");
+    }
+    assert_eq!((html.matches("id=\"L11\"").count(), html.matches("id=\"F2L11\"").count()), (1, 1));
+    // The mistake is on line 11 of the second file, the warning on line 12 of the first.
+    assert!(html.contains("<a href=\"#F2L11\">ggsample11.frag, line 11</a>"), "{html}");
+    assert!(html.contains("<a href=\"#L12\">ggsample11.vert, line 12, column 9</a>"), "{html}");
+    let noted = |anchor: &str| html.contains(&format!("<div id=\"{anchor}\" class=\"line noted\">"));
+    assert_eq!(["F2L11", "L11", "L12", "F2L12"].map(noted), [true, false, true, false]);
+    assert_eq!(html.matches("<dt>SHA-256</dt>").count(), 2);
+    assert!(visible(&html).contains("ggsample11.vert, ggsample11.frag"));
 }

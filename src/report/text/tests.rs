@@ -130,3 +130,12 @@ fn a_bar_is_full_or_empty_only_when_it_says_so() {
 fn numbers_are_short() {
     assert_eq!([80.0, 62.5, 33.333, f64::NAN].map(number), ["80", "62.5", "33.33", "–"]);
 }
+
+#[test]
+fn with_several_files_a_place_names_its_own() {
+    let report = samples::two_files();
+    let options = Options { language: Language::En, width: 80, colour: false, excerpts: None };
+    let text = render(&report, &options);
+    assert!(text.contains("ggsample11.vert, ggsample11.frag"), "{text}");
+    assert!(text.contains("warning · ggsample11.vert, line 12, column 9"), "{text}");
+}

@@ -3,11 +3,11 @@
 use super::archive::Archive;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
-use super::submissions::attachment;
 use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::classes::{self, Download, Pick, Wanted, Whose};
+use crate::service::download::attachment;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::language::{Lang, asked};

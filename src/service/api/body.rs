@@ -1,5 +1,6 @@
-//! A file out of a request: one part of a form, or the whole body.
+//! The files out of a request: parts of a form, or the whole body.
 
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::service::errors::Problem;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Multipart, Request};
@@ -14,16 +15,14 @@ const LONGEST_TEXT: usize = 4096;
 /// What a request brought.
 #[derive(Debug, Default)]
 pub(in crate::service) struct Form {
-    /// Name of the file, where it has one.
-    pub name: Option<String>,
-    /// Its bytes.
-    pub bytes: Bytes,
+    /// The files, each with its name where it has one.
+    pub files: Vec<(Option<String>, Bytes)>,
     /// The other parts.
     pub fields: HashMap<String, String>,
 }
 
 impl Form {
-    /// Reads a form with a part `file`, or a body that is the file.
+    /// Reads a form with parts `file`, or a body that is the file.
     pub async fn read<S: Send + Sync>(request: Request, state: &S) -> Result<Self, Problem> {
         let kind =
             request.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
@@ -32,7 +31,7 @@ impl Form {
             "multipart/form-data" => Self::of_parts(request, state).await,
             "text/plain" | "application/octet-stream" => {
                 let bytes = Bytes::from_request(request, state).await.map_err(other)?;
-                Ok(Self { bytes, ..Self::default() })
+                Ok(Self { files: vec![(None, bytes)], ..Self::default() })
             }
             _ => Err(Problem::new(
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -43,19 +42,25 @@ impl Form {
         }
     }
 
+    /// The files; `name` is that of a file without one.
+    pub fn hand_in(&self, name: Option<String>) -> HandIn {
+        let named = |(own, bytes): &(Option<String>, Bytes)| {
+            HandedInFile::new(own.clone().or(name.clone()).unwrap_or_default(), bytes.to_vec())
+        };
+        HandIn { files: self.files.iter().map(named).collect() }
+    }
+
     async fn of_parts<S: Send + Sync>(request: Request, state: &S) -> Result<Self, Problem> {
         let mut parts = Multipart::from_request(request, state).await.map_err(other)?;
         let mut form = Self::default();
-        let mut has_file = false;
         for _ in 0..=MOST_PARTS {
             let Some(part) = parts.next_field().await.map_err(other)? else {
-                return if has_file { Ok(form) } else { Err(no_file()) };
+                return if !form.files.is_empty() { Ok(form) } else { Err(no_file()) };
             };
             let name = part.name().unwrap_or_default().to_owned();
             if name == "file" {
-                form.name = part.file_name().map(str::to_owned);
-                form.bytes = part.bytes().await.map_err(other)?;
-                has_file = true;
+                let name = part.file_name().map(str::to_owned);
+                form.files.push((name, part.bytes().await.map_err(other)?));
                 continue;
             }
             let text = part.bytes().await.map_err(other)?;

@@ -6,6 +6,7 @@ use super::schema::{IdempotencyKey, SubmissionJson};
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::service::State;
+use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, Given};
 use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
@@ -46,12 +47,12 @@ pub(super) struct About {
     draft: Option<bool>,
 }
 
-/// A form with a file.
+/// A form with the files.
 #[derive(Deserialize, utoipa::ToSchema)]
 #[serde(deny_unknown_fields)]
 #[allow(dead_code, reason = "only its description is used")]
 pub(super) struct FileForm {
-    /// The shader.
+    /// The shader; as many parts of this name as the homework has files, or a ZIP of them.
     #[schema(content_media_type = "application/octet-stream", min_length = 1)]
     file: String,
     /// Id of the assignment.
@@ -77,9 +78,9 @@ pub(super) struct FileForm {
 #[allow(dead_code, reason = "only its description is used")]
 pub(super) struct FileText(String);
 
-/// Hand in a file
+/// Hand in a file, or the files of a homework that has several
 ///
-/// The file is stored before anything else. 201: here is its report. 202: it is stored and will be graded; ask again at
+/// They are stored before anything else. 201: here is its report. 202: it is stored and will be graded; ask again at
 /// the Location. Where no answer comes, send it again with the same `Idempotency-Key`: it is stored once.
 #[utoipa::path(
     post, operation_id = "create_submission", path = "/api/v1/submissions", tag = "submissions", params(About, IdempotencyKey), security((), ("teacher" = [])),
@@ -118,8 +119,7 @@ pub(super) async fn create(
         &state,
         Upload {
             assignment: about.assignment.unwrap_or_else(|| state.assignment.id.clone()),
-            name: form.name.or(about.name).unwrap_or_default(),
-            bytes: form.bytes.into(),
+            hand_in: form.hand_in(about.name),
             identity,
             via: if about.draft == Some(true) { Via::Editor } else { Via::Api },
             hints: about.hints,
@@ -243,7 +243,7 @@ pub(super) async fn find(state: &State, id: &str) -> Result<Stored, Problem> {
     state.store.stored(id).await?.ok_or_else(Problem::not_found)
 }
 
-/// The file as handed in
+/// The file as handed in; several as a ZIP
 #[utoipa::path(
     get, operation_id = "read_source", path = "/api/v1/submissions/{id}/source", tag = "submissions",
     params(("id" = String, Path, description = "Id of the submission")),
@@ -252,42 +252,5 @@ pub(super) async fn find(state: &State, id: &str) -> Result<Stored, Problem> {
     )
 )]
 pub(super) async fn source(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
-    source_of(&state, &id).await
-}
-
-/// The file as handed in, to be saved and never to be shown by a browser.
-pub(in crate::service) async fn source_of(state: &State, id: &str) -> Result<Response, Problem> {
-    let submission = state.store.submission(id).await?.ok_or_else(Problem::not_found)?;
-    let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
-    let mut response = bytes.into_response();
-    let headers = response.headers_mut();
-    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream"));
-    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-store"));
-    if let Ok(disposition) = HeaderValue::from_str(&attachment(&submission.name)) {
-        headers.insert(header::CONTENT_DISPOSITION, disposition);
-    }
-    Ok(response)
-}
-
-/// A `Content-Disposition` that saves under a name as handed in (RFC 6266).
-pub(in crate::service) fn attachment(name: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
-    let ascii: String = name.chars().map(|c| if plain(c) { c } else { '_' }).collect();
-    let encode = |byte: u8| if plain(byte as char) { (byte as char).to_string() } else { format!("%{byte:02X}") };
-    let encoded: String = name.bytes().map(encode).collect();
-    format!("attachment; filename=\"{ascii}\"; filename*=UTF-8''{encoded}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_name_breaks_out_of_its_header() {
-        assert_eq!(attachment("a.vert"), "attachment; filename=\"a.vert\"; filename*=UTF-8''a.vert");
-        assert_eq!(
-            attachment("課\"\r\n.vert"),
-            "attachment; filename=\"____.vert\"; filename*=UTF-8''%E8%AA%B2%22%0D%0A.vert"
-        );
-    }
+    download::hand_in(&state, &id).await
 }

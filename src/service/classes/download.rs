@@ -1,7 +1,7 @@
 //! A class in a format of `ggrade batch`.
 
 use super::people::{Person, people};
-use crate::batch::class::{Class, Entry, Outcome, Participant, Refused, Student};
+use crate::batch::class::{Class, Entry, Outcome, Participant, Place, Refused, Student};
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::{Format, KEY, worksheet};
 use crate::batch::intake::{Content, StudentWork};
@@ -9,12 +9,14 @@ use crate::batch::page::Pages;
 use crate::batch::summary::Written;
 use crate::batch::{output, run};
 use crate::fault::Fault;
+use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::report::Report;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::gallery::blocking;
 use crate::service::store::{Batch, ClassRow, Stored, Submission};
+use crate::source::Source;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -154,8 +156,8 @@ pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<S
         for (number, (entry, submission)) in class.entries.iter_mut().zip(submissions).enumerate() {
             if let (Outcome::Graded(report), Some(submission)) = (&entry.outcome, submission) {
                 let path = temporary.path().join(format!("{number}.html"));
-                let source = entry.source.clone().unwrap_or_default();
-                entry.page = Some(page(state, &submission, report, source, language, path).await?);
+                let sources = entry.sources.clone();
+                entry.page = Some(page(state, &submission, report, sources, language, path).await?);
                 steps.done();
             }
         }
@@ -171,7 +173,7 @@ struct Member {
     student: Student,
     path: Option<String>,
     stored: Option<Stored>,
-    bytes: Vec<u8>,
+    hand_in: HandIn,
     note: Option<Text>,
 }
 
@@ -180,8 +182,8 @@ async fn members(state: &State, whose: Whose) -> Result<(String, Vec<Refused>, V
         Whose::Batch(batch) => {
             let mut members = Vec::new();
             for entry in state.store.batch_entries(&batch.id).await? {
-                let (stored, bytes) = with_bytes(state, entry.submission_id.as_deref()).await?;
-                members.push(Member { student: entry.student, path: entry.path, stored, bytes, note: entry.note });
+                let (stored, hand_in) = with_files(state, entry.submission_id.as_deref()).await?;
+                members.push(Member { student: entry.student, path: entry.path, stored, hand_in, note: entry.note });
             }
             Ok((batch.title, batch.refused, members))
         }
@@ -190,10 +192,10 @@ async fn members(state: &State, whose: Whose) -> Result<(String, Vec<Refused>, V
             let mut keys = HashSet::new();
             for person in people(state).await?.class {
                 let chosen = chosen(&person, pick).or(person.rows.first());
-                let (stored, bytes) = with_bytes(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
+                let (stored, hand_in) = with_files(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
                 let path = stored.as_ref().map(|stored| stored.submission.name.clone());
                 let student = student(person.number, person.name, person.moodle, &person.key, &mut keys);
-                members.push(Member { student, path, stored, bytes, note: person.note });
+                members.push(Member { student, path, stored, hand_in, note: person.note });
             }
             members.sort_by(|a, b| a.student.key.cmp(&b.student.key));
             Ok((state.assignment.id.clone(), Vec::new(), members))
@@ -229,11 +231,11 @@ fn chosen(person: &Person, pick: Pick) -> Option<&ClassRow> {
     }
 }
 
-async fn with_bytes(state: &State, id: Option<&str>) -> Result<(Option<Stored>, Vec<u8>), Problem> {
-    let Some(id) = id else { return Ok((None, Vec::new())) };
-    let Some(stored) = state.store.stored(id).await? else { return Ok((None, Vec::new())) };
-    let bytes = state.store.upload(&stored.submission.sha256).await?.unwrap_or_default();
-    Ok((Some(stored), bytes))
+async fn with_files(state: &State, id: Option<&str>) -> Result<(Option<Stored>, HandIn), Problem> {
+    let Some(id) = id else { return Ok((None, HandIn::default())) };
+    let Some(stored) = state.store.stored(id).await? else { return Ok((None, HandIn::default())) };
+    let hand_in = state.store.hand_in(id).await?.unwrap_or_default();
+    Ok((Some(stored), hand_in))
 }
 
 fn class(
@@ -248,13 +250,13 @@ fn class(
     let mut outcomes = Vec::new();
     let mut hand_ins = Vec::new();
     for member in members {
-        let Member { student, path, stored, bytes, note } = member;
+        let Member { student, path, stored, hand_in, note } = member;
         let content = match &stored {
-            Some(stored) => Content::File { name: stored.submission.name.clone(), bytes },
+            Some(_) => Content::Files { places: places(path, &hand_in), hand_in },
             None => Content::Nothing(note.unwrap_or_else(nobody)),
         };
         outcomes.push(stored.map(outcome));
-        hand_ins.push(StudentWork { student, path, local: None, content });
+        hand_ins.push(StudentWork { student, content });
     }
     let candidates = run::candidates(hand_ins, &state.assignment);
     let entries = candidates.iter().zip(outcomes).zip(portraits).map(|((candidate, outcome), portrait)| {
@@ -270,6 +272,16 @@ fn class(
     })
 }
 
+/// Where the files were: the path that an archive's list has of them, which names each of several, or else their names.
+fn places(path: Option<String>, hand_in: &HandIn) -> Vec<Place> {
+    let place = |path: &str| Place { path: path.to_owned(), local: None };
+    match (path, hand_in.files.as_slice()) {
+        (Some(path), [_]) => vec![place(&path)],
+        (Some(path), files) if path.split(", ").count() == files.len() => path.split(", ").map(place).collect(),
+        (_, files) => files.iter().map(|file| place(&file.name)).collect(),
+    }
+}
+
 fn outcome(stored: Stored) -> Outcome {
     match (stored.report, stored.submission.fault) {
         (Some(report), _) => Outcome::Graded(Box::new(report)),
@@ -278,19 +290,19 @@ fn outcome(stored: Stored) -> Outcome {
     }
 }
 
-/// Writes a student's report as a page with its pictures; where that is. `source` is the file as far as a report shows it.
+/// Writes a student's report as a page with its pictures; where that is. `sources` are its files as far as a report shows them.
 async fn page(
     state: &State,
     submission: &Submission,
     report: &Report,
-    source: String,
+    sources: Vec<Source>,
     language: Language,
     path: PathBuf,
 ) -> Result<PathBuf, Problem> {
     let mut frames = state.gallery.decoded(state, submission).await?;
     let report = report.clone();
     let write = move |state: &State| {
-        let page = Pages::new(Arc::clone(&state.assignment), language).page(&report, source.as_bytes(), &mut frames)?;
+        let page = Pages::new(Arc::clone(&state.assignment), language).page(&report, &sources, &mut frames)?;
         std::fs::write(&path, page).map_err(|error| disk(&error))?;
         Ok(path)
     };

@@ -124,8 +124,8 @@ async fn check(state: &State, id: &str) -> Result<(), StoreError> {
         return Ok(());
     }
     let submission = stored.submission;
-    let Some(bytes) = state.store.upload(&submission.sha256).await? else { return Ok(()) };
-    let checked = cross_check(state, &submission, bytes).await;
+    let Some(hand_in) = state.store.hand_in(id).await? else { return Ok(()) };
+    let checked = cross_check(state, &submission, hand_in).await;
     state.store.set_cross_check(id, submission.seed, &checked).await?;
     metrics::cross_checked(checked.opinion);
     if checked.opinion == Opinion::Differs {
@@ -135,10 +135,9 @@ async fn check(state: &State, id: &str) -> Result<(), StoreError> {
 }
 
 /// Runs the file once more with the interpreter beside the driver.
-async fn cross_check(state: &State, submission: &Submission, bytes: Vec<u8>) -> CrossCheck {
+async fn cross_check(state: &State, submission: &Submission, hand_in: HandIn) -> CrossCheck {
     let order = Order { seed: submission.seed, hints: submission.hints, cross_check: true };
     let graded = state.gallery.in_turn(state, move |state| {
-        let hand_in = HandIn::of_one("", bytes);
         let submission = sandbox::Submission { hand_in: &hand_in, order, wants_frames: false };
         Ok(state.pool.grade(submission).map(|answer| answer.report))
     });

@@ -3,7 +3,6 @@
 use super::{Job, Outcome, cross_checks};
 use crate::fault::Fault;
 use crate::grade::Order;
-use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::Report;
 use crate::sandbox;
@@ -97,7 +96,8 @@ async fn take_from_database(state: &State) -> Result<bool, StoreError> {
     let (now, until) = lease(state);
     let Some(again) = state.store.claim_again(&state.instance, now, until).await? else { return Ok(false) };
     let id = again.submission.id.clone();
-    let judged = judge(state, Job { submission: again.submission, bytes: again.bytes, since: Instant::now() }).await;
+    let judged =
+        judge(state, Job { submission: again.submission, hand_in: again.hand_in, since: Instant::now() }).await;
     if let Err(fault) = &judged {
         tracing::error!(fault = kind_of(fault), submission = id, "grading again failed");
     }
@@ -121,7 +121,7 @@ fn lease(state: &State) -> (Millis, Millis) {
 async fn claim(state: &State) -> Result<Option<Job>, StoreError> {
     let (now, until) = lease(state);
     let claimed = state.store.claim(&state.instance, now, until).await?;
-    Ok(claimed.map(|claimed| Job { submission: claimed.submission, bytes: claimed.bytes, since: Instant::now() }))
+    Ok(claimed.map(|claimed| Job { submission: claimed.submission, hand_in: claimed.hand_in, since: Instant::now() }))
 }
 
 /// Keeps the claims of this process from ending while their files wait.
@@ -158,10 +158,9 @@ async fn grade(state: &State, job: Job) {
 async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
     let pool = Arc::clone(&state.pool);
     let graded = tokio::task::spawn_blocking(move || {
-        let Submission { name, seed, hints, .. } = &job.submission;
+        let Submission { seed, hints, .. } = &job.submission;
         let order = Order { seed: *seed, hints: *hints, ..Order::default() };
-        let hand_in = HandIn::of_one(name, job.bytes);
-        pool.grade(sandbox::Submission { hand_in: &hand_in, order, wants_frames: false })
+        pool.grade(sandbox::Submission { hand_in: &job.hand_in, order, wants_frames: false })
     });
     match graded.await {
         Ok(answer) => answer.map(|answer| answer.report),

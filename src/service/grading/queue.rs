@@ -1,6 +1,7 @@
 //! The files that wait, in the order in which they came, and who waits for their reports.
 
 use crate::fault::Fault;
+use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::service::store::Submission;
 use std::collections::{HashMap, VecDeque};
@@ -18,13 +19,13 @@ pub enum Outcome {
     Failed(Arc<Fault>),
 }
 
-/// A file to grade.
+/// A hand-in to grade.
 #[derive(Clone, Debug)]
 pub struct Job {
     /// What was handed in.
     pub submission: Submission,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
+    /// Its files.
+    pub hand_in: HandIn,
     /// Since when it waits in this process.
     pub since: Instant,
 }

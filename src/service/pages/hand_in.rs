@@ -4,14 +4,18 @@ use super::frame::Frame;
 use super::standing::Standing;
 use super::student::Desk;
 use super::{result, shown};
+use crate::grade::handed_out;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::service::State;
+use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, Given};
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, check_text, is_stranger, sha256, submit};
+use crate::service::submit::{Receipt, Upload, asked_for, is_stranger, submit};
+use crate::slots::wording;
 use crate::source;
 use axum::extract::{Multipart, Path, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -92,29 +96,23 @@ pub(super) async fn desk(
     shown(desk.render())
 }
 
-/// The text of a submission, where it is one.
+/// The text of a submission, where it is one that the editor can go on with.
 async fn text_of(state: &State, id: &str) -> Result<Option<String>, Problem> {
-    let Some(submission) = state.store.submission(id).await? else { return Ok(None) };
-    let bytes = state.store.upload(&submission.sha256).await?;
-    Ok(bytes.and_then(|bytes| readable(&submission.name, &bytes)))
-}
-
-/// A file as text, where it can be read as text.
-pub(super) fn readable(name: &str, bytes: &[u8]) -> Option<String> {
-    match source::read(name, bytes) {
-        Ok(source) => Some(source.text),
-        Err(refusal) => refusal.source.map(|source| source.text),
-    }
+    let Some(hand_in) = state.store.hand_in(id).await? else { return Ok(None) };
+    let [only] = hand_in.files.as_slice() else { return Ok(None) };
+    Ok(source::readable(only).map(|source| source.text))
 }
 
 fn served(state: &State, id: &str) -> Result<(), Problem> {
     if id == state.assignment.id { Ok(()) } else { Err(Problem::not_found()) }
 }
 
-/// `GET /a/{assignment}/starter`: the handed-out file.
+/// `GET /a/{assignment}/starter`: the handed-out file; several as a ZIP.
 pub(super) async fn starter(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
     served(&state, &id)?;
-    let file = state.assignment.files.first().ok_or_else(Problem::not_found)?;
+    let [file] = state.assignment.files.as_slice() else {
+        return download::files(&state.assignment.id, &handed_out(&state.assignment));
+    };
     let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-cache")];
     Ok((headers, file.starter.clone()).into_response())
 }
@@ -129,9 +127,9 @@ pub(super) async fn read(
     served(&state, &id)?;
     let form = Form::read(form).await?;
     visitor.check_csrf(&state, &form.csrf)?;
-    let (name, bytes) = form.file(&state)?;
-    check_text(&bytes)?;
-    let text = readable(&name, &bytes).ok_or_else(|| Problem::internal(&"a text without a text"))?;
+    let hand_in = asked_for(&state, form.hand_in(&state)?).await?;
+    let text = hand_in.files.first().and_then(source::readable).map(|source| source.text);
+    let text = text.ok_or_else(|| Problem::internal(&"a text without a text"))?;
     let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-store")];
     Ok((headers, text).into_response())
 }
@@ -189,11 +187,11 @@ async fn take(
     visitor.check_csrf(state, &form.csrf)?;
     let field = form.key.take();
     let visitor = visitor.known(state).await?;
-    let (name, bytes) = form.file(state)?;
+    let hand_in = form.hand_in(state)?;
     // A page that stays open may be sent again with another text, and first to try it: those are other requests.
-    let field = field.map(|field| format!("{field} {} {}", store::word(&via), sha256(&bytes)));
+    let field = field.map(|field| format!("{field} {} {}", store::word(&via), hand_in.sha256()));
     let key = Given::read(headers, field.as_deref(), &client)?;
-    submit(state, Upload { assignment, name, bytes, identity: visitor.identity, via, hints: None, key }).await
+    submit(state, Upload { assignment, hand_in, identity: visitor.identity, via, hints: None, key }).await
 }
 
 /// The form as it came.
@@ -201,12 +199,12 @@ async fn take(
 struct Form {
     csrf: String,
     key: Option<String>,
-    file: Option<(String, Vec<u8>)>,
+    files: Vec<HandedInFile>,
     text: Option<String>,
     send: Option<Sent>,
 }
 
-/// Which of the two a browser without scripts hands in: its form has the text as well as the file.
+/// Which of the two a browser without scripts hands in: its form has the text as well as the files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sent {
     File,
@@ -233,7 +231,7 @@ impl Form {
                     let bytes = field.bytes().await.map_err(|error| unreadable(&error))?;
                     // A browser sends a field without a name where no file is chosen.
                     if !name.is_empty() {
-                        form.file = Some((name, bytes.to_vec()));
+                        form.files.push(HandedInFile::new(name, bytes.to_vec()));
                     }
                 }
                 _ => {}
@@ -242,21 +240,28 @@ impl Form {
         Ok(form)
     }
 
-    /// What is handed in: the one of file and text that the person chose, else the file, else the text, which browsers
+    /// What is handed in: the one of files and text that the person chose, else the files, else the text, which browsers
     /// send with CRLF.
-    fn file(self, state: &State) -> Result<(String, Vec<u8>), Problem> {
-        let name = state.assignment.files.first().map(|file| file.name.clone()).unwrap_or_default();
-        let file = self.file.filter(|_| self.send != Some(Sent::Text));
-        match (file, self.text, self.send) {
-            (Some(file), ..) => Ok(file),
-            (None, _, Some(Sent::File)) => Err(Problem::bad_request(
-                "No file is chosen. Go back and choose the .vert file, or hand in the text of the editor.",
-                "ファイルが選ばれていません。前のページに戻って .vert ファイルを選ぶか、エディタの内容を提出してください。",
+    fn hand_in(self, state: &State) -> Result<HandIn, Problem> {
+        let slots = &state.assignment.files;
+        let wanted = wording::wanted(slots);
+        let has_files = !self.files.is_empty() && self.send != Some(Sent::Text);
+        match (has_files, self.text, self.send) {
+            (true, ..) => Ok(HandIn { files: self.files }),
+            (false, _, Some(Sent::File)) => Err(Problem::bad_request(
+                format!("No file is chosen. Go back and choose {}, or hand in the text of the editor.", wanted.en),
+                format!(
+                    "ファイルが選ばれていません。前のページに戻って {} を選ぶか、エディタの内容を提出してください。",
+                    wanted.ja
+                ),
             )),
-            (None, Some(text), _) => Ok((name, text.replace("\r\n", "\n").into_bytes())),
-            (None, None, _) => Err(Problem::bad_request(
-                "The form has no file and no text. Choose the .vert file, or type in the editor.",
-                "ファイルもテキストも送られていません。.vert ファイルを選ぶか、エディタに入力してください。",
+            (false, Some(text), _) => {
+                let name = slots.first().map(|slot| slot.name.clone()).unwrap_or_default();
+                Ok(HandIn::of_one(name, text.replace("\r\n", "\n")))
+            }
+            (false, None, _) => Err(Problem::bad_request(
+                format!("The form has no file and no text. Choose {}, or type in the editor.", wanted.en),
+                format!("ファイルもテキストも送られていません。{} を選ぶか、エディタに入力してください。", wanted.ja),
             )),
         }
     }

@@ -10,6 +10,7 @@ use crate::report::html::{Gallery, Lines, Mark, Part};
 use crate::report::text::number;
 use crate::report::{Report, Verdict};
 use crate::service::State;
+use crate::source::Source;
 use askama::Template;
 use reference::typeset::Typeset;
 use serde::Serialize;
@@ -61,13 +62,14 @@ fn summary(frame: &Frame, report: &Report) -> String {
     let verdict = verdict(frame, report.verdict);
     let said = format!("{verdict}: {} / {}", number(report.score), number(report.max_score));
     let mut errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
-    match errors.next().and_then(|first| first.line) {
-        Some(line) => {
+    match errors.next().and_then(|first| Some((report.file_to_name(first.file.as_deref()), first.line?))) {
+        Some((file, line)) => {
             let more = match errors.count() {
                 0 => String::new(),
                 more => format!(" (+{more})"),
             };
-            format!("{said} · {} {line}{more}", frame.say("error in line", "エラーの行:"))
+            let file = file.map(|file| format!("{file}: ")).unwrap_or_default();
+            format!("{said} · {file}{} {line}{more}", frame.say("error in line", "エラーの行:"))
         }
         None => said,
     }
@@ -102,8 +104,8 @@ fn marks(report: &Report) -> Vec<LineMark> {
     diagnostics.chain(rubric).collect()
 }
 
-/// Where the pictures of a submission are; `bytes` is its file.
-pub(super) fn gallery(state: &State, id: &str, report: &Report, bytes: &[u8]) -> Option<Gallery> {
+/// Where the pictures of a submission are; `sources` are its files.
+pub(super) fn gallery(state: &State, id: &str, report: &Report, sources: &[Source]) -> Option<Gallery> {
     if report.frames.is_empty() {
         return None;
     }
@@ -112,6 +114,6 @@ pub(super) fn gallery(state: &State, id: &str, report: &Report, bytes: &[u8]) ->
         expected: assets::address(&assets::expected_name(&report.assignment)).into(),
         difference: format!("/r/{id}/difference.png"),
         is_reduced: false,
-        terms: terms::addresses(state, id, report, bytes),
+        terms: terms::addresses(state, id, report, sources),
     })
 }

@@ -1,19 +1,20 @@
 //! The page of a report, and its pictures.
 
 use super::frame::Frame;
-use super::hand_in::readable;
 use super::{internal, part, receipt, shown};
+use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::report::html::Lines;
 use crate::report::text::number;
 use crate::service::State;
+use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery::View as Pictured;
 use crate::service::identity::Teacher;
 use crate::service::store::{State as Progress, Stored, Submission, Via};
 use askama::Template;
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::{HeaderValue, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use serde::Deserialize;
 
@@ -59,12 +60,10 @@ pub(super) async fn page(
     if teacher.is_some() {
         report.cross_check = cross_check;
     }
-    let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
-    let text = readable(&submission.name, &bytes);
-    let source = text.as_deref().map_or(Lines::Nowhere, Lines::Here);
-    let gallery = part::gallery(&state, &id, &report, &bytes);
+    let sources = state.store.hand_in(&id).await?.unwrap_or_default().readable();
+    let gallery = part::gallery(&state, &id, &report, &sources);
     let equation = state.assignment.typeset.as_ref();
-    let part = part::part(&frame, &report, source, gallery.as_ref(), equation, 1).map_err(internal)?;
+    let part = part::part(&frame, &report, Lines::of(&sources), gallery.as_ref(), equation, 1).map_err(internal)?;
     let receipt = match submission.via {
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
         Via::Editor | Via::Batch => None,
@@ -72,11 +71,11 @@ pub(super) async fn page(
     let assignment = &submission.assignment;
     shown(
         View {
-            title: format!("{} / {} · {}", number(report.score), number(report.max_score), report.source().name),
+            title: format!("{} / {} · {}", number(report.score), number(report.max_score), submission.name),
             back: format!("/a/{assignment}"),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
-            again: text.map(|_| format!("/a/{assignment}?from={id}")),
+            again: (sources.len() == state.assignment.files.len()).then(|| format!("/a/{assignment}?from={id}")),
             address: format!("/r/{id}"),
             source: format!("/r/{id}/source"),
             receipt,
@@ -155,17 +154,17 @@ async fn beside_editor(
     submission: &Submission,
     report: &Report,
 ) -> Result<String, Problem> {
-    let bytes = state.store.upload(&submission.sha256).await?.unwrap_or_default();
-    let gallery = part::gallery(state, &submission.id, report, &bytes);
+    let sources = state.store.hand_in(&submission.id).await?.unwrap_or_default().readable();
+    let gallery = part::gallery(state, &submission.id, report, &sources);
     let equation = state.assignment.typeset.as_ref();
     part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2).map_err(internal)
 }
 
-/// A report with the bytes of its file.
-pub(super) async fn report_of(state: &State, id: &str) -> Result<(Report, Vec<u8>), Problem> {
-    let Stored { submission, report, .. } = stored(state, id).await?;
-    let bytes = state.store.upload(&submission.sha256).await?;
-    report.zip(bytes).ok_or_else(Problem::not_found)
+/// A report with its files.
+pub(super) async fn report_of(state: &State, id: &str) -> Result<(Report, HandIn), Problem> {
+    let report = stored(state, id).await?.report;
+    let hand_in = state.store.hand_in(id).await?;
+    report.zip(hand_in).ok_or_else(Problem::not_found)
 }
 
 /// The receipt of what was handed in, with its report as soon as there is one, as parts of the page with the editor.
@@ -205,30 +204,9 @@ pub(super) fn come_back(id: &str) -> Response {
     (StatusCode::ACCEPTED, headers).into_response()
 }
 
-/// `GET /r/{id}/source`: the file as it was handed in, to be saved.
+/// `GET /r/{id}/source`: the files as they were handed in, to be saved.
 pub(super) async fn source(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
-    let bytes = state.store.upload(&submission.sha256).await?.ok_or_else(Problem::not_found)?;
-    let headers = [
-        (header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream")),
-        (header::CONTENT_DISPOSITION, attachment(&submission.name)),
-    ];
-    Ok((headers, bytes).into_response())
-}
-
-/// A `Content-Disposition` under which a browser saves a file, whatever its name has in it (RFC 6266).
-pub(super) fn attachment(name: &str) -> HeaderValue {
-    let plain: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || ".-_ ".contains(c) { c } else { '_' }).collect();
-    let encoded: String = name
-        .bytes()
-        .map(|byte| match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'.' | b'-' | b'_' => char::from(byte).to_string(),
-            byte => format!("%{byte:02X}"),
-        })
-        .collect();
-    let value = format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{encoded}");
-    HeaderValue::from_str(&value).unwrap_or_else(|_| HeaderValue::from_static("attachment"))
+    download::hand_in(&state, &id).await
 }
 
 pub(super) fn png(bytes: Vec<u8>) -> Response {
@@ -271,18 +249,4 @@ pub(super) async fn frame(
     let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
     let found = state.gallery.frame(&state, &submission, asked.view, index).await?;
     found.map(png).ok_or_else(Problem::not_found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_cannot_leave_its_header() {
-        let header = attachment("a\"b\r\nSet-Cookie: x=1;課題.vert");
-        let text = header.to_str().expect("ASCII");
-        assert!(text.starts_with("attachment; filename=\"a_b__Set-Cookie_ x_1___.vert\";"), "{text}");
-        // 課 is E8 AA B2 in UTF-8.
-        assert!(text.contains("%0D%0A") && text.contains("%E8%AA%B2"), "{text}");
-    }
 }

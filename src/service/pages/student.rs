@@ -13,7 +13,9 @@ use crate::service::clock::Millis;
 use crate::service::identity::new_id;
 use crate::service::store::{HistoryRow, State as Progress};
 use crate::service::submit::{MAX_UPLOAD, too_large};
+use crate::slots::Slot;
 use askama::Template;
+use reference::assignment::Stage;
 use reference::typeset::Typeset;
 
 /// What a student's page is made of.
@@ -39,7 +41,12 @@ pub(super) struct Desk<'a> {
 struct View<'a> {
     frame: Frame,
     title: String,
+    /// The names of the homework's files.
     file: String,
+    /// Whether the homework is one file, which the editor shows.
+    has_editor: bool,
+    /// Extensions of the files that may be chosen.
+    accepted: String,
     facts: Vec<Fact>,
     now: Millis,
     hindrance: Option<&'static str>,
@@ -98,17 +105,21 @@ impl Desk<'_> {
             "この画像を描くように、ファイルを完成させてください。",
         );
         let standing = self.standing;
-        let file_name = file.map(|file| file.name.clone()).unwrap_or_default();
+        let slots = &self.homework.files;
+        let file_name = slots.iter().map(|slot| slot.name.as_str()).collect::<Vec<_>>().join(", ");
         let several = match language {
             Language::En => format!("Several files: give one at a time. The homework is {file_name}."),
             Language::Ja => {
                 format!("ファイルが複数あります。1 つずつ選んでください。課題のファイルは {file_name} です。")
             }
         };
+        let (has_editor, accepted) = (slots.len() == 1, accepted(slots));
         let (own, text) = self.own.take().unzip();
         View {
             title: title(&self.homework, language),
             file: file_name,
+            has_editor,
+            accepted,
             facts: self.facts(),
             now: standing.now,
             hindrance: standing.hindrance(&self.frame),
@@ -187,6 +198,20 @@ impl Desk<'_> {
             at: self.frame.moment(submission.received_at),
         }
     }
+}
+
+/// The extensions of the files of a homework, for the browser's dialogue.
+fn accepted(slots: &[Slot]) -> String {
+    let mut extensions: Vec<&str> = Vec::new();
+    for stage in slots.iter().map(|slot| slot.stage) {
+        extensions.extend(match stage {
+            Stage::Vertex => [".vert", ".vs"],
+            Stage::Fragment => [".frag", ".fs"],
+        });
+    }
+    extensions.dedup();
+    extensions.extend([".glsl", ".txt", "text/plain", ".zip"]);
+    extensions.join(",")
 }
 
 /// The homework's title.

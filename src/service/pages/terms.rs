@@ -7,18 +7,17 @@ use crate::report::html::Term;
 use crate::report::{Report, pictures};
 use crate::service::State;
 use crate::service::errors::Problem;
-use crate::source;
+use crate::source::Source;
 use axum::extract::{Path, State as Shared};
 use axum::response::Response;
 use std::sync::Arc;
 
 /// The terms of a report with the addresses of their pictures.
-pub(super) fn addresses(state: &State, id: &str, report: &Report, bytes: &[u8]) -> Arc<[Term]> {
+pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Source]) -> Arc<[Term]> {
     if report.frames.is_empty() {
         return Arc::default();
     }
-    let source = source::read(&report.source().name, bytes).ok();
-    let terms = Terms::of(&state.assignment, report.explanation.as_deref(), source.as_ref());
+    let terms = Terms::of(&state.assignment, report.explanation.as_deref(), sources.first());
     // Another seed may explain the file in another way: a browser does not keep these pictures for those.
     let seed = report.probes.seed;
     let address = |term: &str, whose| format!("/r/{id}/terms/{term}-{whose}.png?seed={seed}");
@@ -41,20 +40,25 @@ pub(super) async fn picture(
     let name = picture.strip_suffix(".png").and_then(|name| name.rsplit_once('-'));
     let Some((term, whose @ ("yours" | "expected"))) = name else { return Err(Problem::not_found()) };
     let (term, is_theirs) = (term.to_owned(), whose == "yours");
-    let (report, bytes) = report_of(&state, &id).await?;
-    let file = report.source().sha256.clone();
+    let (report, hand_in) = report_of(&state, &id).await?;
+    let digest = report.sha256();
     let shown = format!("{picture} {}", serde_json::to_string(&report.explanation).unwrap_or_default());
-    let draw = move |state: &State| draw(state, &report, &bytes, &term, is_theirs);
-    let drawn = state.gallery.of_report(&state, &file, shown, draw).await?;
+    let draw = move |state: &State| draw(state, &report, &hand_in.readable(), &term, is_theirs);
+    let drawn = state.gallery.of_report(&state, &digest, shown, draw).await?;
     drawn.first().cloned().map(png).ok_or_else(Problem::not_found)
 }
 
-fn draw(state: &State, report: &Report, bytes: &[u8], term: &str, is_theirs: bool) -> Result<Option<Vec<u8>>, Fault> {
+fn draw(
+    state: &State,
+    report: &Report,
+    sources: &[Source],
+    term: &str,
+    is_theirs: bool,
+) -> Result<Option<Vec<u8>>, Fault> {
     if report.frames.is_empty() {
         return Ok(None);
     }
-    let source = source::read(&report.source().name, bytes).ok();
-    let terms = Terms::of(&state.assignment, report.explanation.as_deref(), source.as_ref());
+    let terms = Terms::of(&state.assignment, report.explanation.as_deref(), sources.first());
     let scenes = terms.scenes();
     let Some(scene) = scenes.iter().find(|scene| scene.id() == term) else { return Ok(None) };
     let picture = if is_theirs { terms.yours(scene) } else { terms.expected(scene) };

@@ -1,7 +1,7 @@
 //! Whole classes that a teacher uploaded.
 
 use super::keys::keep_key;
-use super::submissions::{INSERT, INSERT_UPLOAD, bind_submission};
+use super::submissions::insert_submission;
 use super::{Key, NewSubmission, Result, Store, on};
 use crate::batch::class::{Refused, Student};
 use crate::language::Text;
@@ -101,8 +101,7 @@ impl Store {
                 .await?;
             keep_key!(transaction, key, None, Some(&batch.id), batch.created_at);
             for new in files {
-                sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
-                bind_submission!(sqlx::query(INSERT), new, "queued").execute(&mut *transaction).await?;
+                insert_submission!(transaction, new, "queued");
             }
             for entry in entries {
                 sqlx::query(ENTRY)

@@ -66,20 +66,20 @@ impl Target {
     /// The statement that lists its submissions, and what that is given.
     fn submissions(&self) -> (&'static str, &str, i64) {
         match self {
-            Self::Submission(id) => ("SELECT id, sha256, via FROM submissions WHERE id = $1 AND $2 = 0", id, 0),
-            Self::Batch(id) => ("SELECT id, sha256, via FROM submissions WHERE batch_id = $1 AND $2 = 0", id, 0),
+            Self::Submission(id) => ("SELECT id, digest, via FROM submissions WHERE id = $1 AND $2 = 0", id, 0),
+            Self::Batch(id) => ("SELECT id, digest, via FROM submissions WHERE batch_id = $1 AND $2 = 0", id, 0),
             // What a browser tried before its student gave a number is theirs as well.
             Self::Student(id) => (
-                "SELECT id, sha256, via FROM submissions WHERE $2 = 0 AND (student_id = $1 OR (student_id IS NULL \
+                "SELECT id, digest, via FROM submissions WHERE $2 = 0 AND (student_id = $1 OR (student_id IS NULL \
                  AND owner_id IN (SELECT id FROM owners WHERE student_id = $1)))",
                 id,
                 0,
             ),
             Self::Browser(id) => {
-                ("SELECT id, sha256, via FROM submissions WHERE owner_id = $1 AND student_id IS NULL AND $2 = 0", id, 0)
+                ("SELECT id, digest, via FROM submissions WHERE owner_id = $1 AND student_id IS NULL AND $2 = 0", id, 0)
             }
             Self::Entry(batch, position) => (
-                "SELECT id, sha256, via FROM submissions WHERE id = \
+                "SELECT id, digest, via FROM submissions WHERE id = \
                  (SELECT submission_id FROM batch_entries WHERE batch_id = $1 AND position = $2)",
                 batch,
                 *position,
@@ -183,7 +183,7 @@ impl Store {
     }
 
     /// Deletes it with all of that in one transaction, and notes it in the log. `refused` is what the lists of archives'
-    /// left-out members become, by the id of the batch. The answer has the SHA-256 of each file, for whoever keeps
+    /// left-out members become, by the id of the batch. The answer has the digest of each hand-in, for whoever keeps
     /// pictures of it.
     pub async fn delete(
         &self,
@@ -227,7 +227,7 @@ impl Store {
                 .execute(&mut *transaction)
                 .await?;
             transaction.commit().await?;
-            Ok((counts, rows.into_iter().map(|(_, sha256, _)| sha256).collect()))
+            Ok((counts, rows.into_iter().map(|(_, digest, _)| digest).collect()))
         })
     }
 

@@ -6,15 +6,16 @@
 use super::rows::submission_columns;
 use super::{Result, Store, Submission, on};
 use crate::fault::Fault;
+use crate::hand_in::HandIn;
 use crate::service::clock::Millis;
 
-/// A file that was claimed, with its bytes.
+/// A submission that was claimed, with its files.
 #[derive(Clone, Debug)]
 pub struct Claimed {
     /// What was handed in.
     pub submission: Submission,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
+    /// Its files.
+    pub hand_in: HandIn,
 }
 
 /// How often a file is graded that fails by our fault.
@@ -34,8 +35,8 @@ impl Store {
         });
         let Some(id) = id else { return Ok(None) };
         let submission: Submission = on!(&self.write, db => sqlx::query_as(SELECT).bind(&id).fetch_one(db).await?);
-        let Some(bytes) = self.upload(&submission.sha256).await? else { return Ok(None) };
-        Ok(Some(Claimed { submission, bytes }))
+        let Some(hand_in) = self.hand_in(&id).await? else { return Ok(None) };
+        Ok(Some(Claimed { submission, hand_in }))
     }
 
     /// Keeps all claims of a process for longer.

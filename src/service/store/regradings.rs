@@ -3,6 +3,7 @@
 use super::rows::{from_word, submission_columns, word};
 use super::{Progress, Result, Store, Submission, on, signed};
 use crate::diagnose::Hints;
+use crate::hand_in::HandIn;
 use crate::report::{Report, Verdict};
 use crate::service::clock::Millis;
 
@@ -45,8 +46,8 @@ pub struct Again {
     pub regrading_id: String,
     /// What was handed in, with the regrading's seed and hints.
     pub submission: Submission,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
+    /// Its files.
+    pub hand_in: HandIn,
 }
 
 type Row = (String, String, i64, String, i64, Option<i64>);
@@ -159,8 +160,8 @@ impl Store {
         let (Some(regrading), Some(mut submission)) = (regrading, submission) else { return Ok(None) };
         submission.seed = regrading.seed;
         submission.hints = submission.hints.min(regrading.hints);
-        let Some(bytes) = self.upload(&submission.sha256).await? else { return Ok(None) };
-        Ok(Some(Again { regrading_id, submission, bytes }))
+        let Some(hand_in) = self.hand_in(&submission_id).await? else { return Ok(None) };
+        Ok(Some(Again { regrading_id, submission, hand_in }))
     }
 
     /// Keeps what a submission got when it was graded again; none: that failed by our fault.

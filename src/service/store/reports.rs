@@ -222,9 +222,9 @@ impl Store {
 
     /// Keeps a portrait.
     pub async fn set_portrait(&self, assignment: &str, sha256: &str, png: Option<&[u8]>) -> Result<()> {
-        // Not for a file that was deleted while its portrait was drawn.
+        // Not for a hand-in that was deleted while its portrait was drawn.
         const SQL: &str = "INSERT INTO portraits (assignment, sha256, png) SELECT $1, $2, $3 \
-                           WHERE EXISTS (SELECT 1 FROM uploads WHERE sha256 = $2) ON CONFLICT DO NOTHING";
+                           WHERE EXISTS (SELECT 1 FROM submissions WHERE digest = $2) ON CONFLICT DO NOTHING";
         on!(&self.write, db => { sqlx::query(SQL).bind(assignment).bind(sha256).bind(png).execute(db).await?; });
         Ok(())
     }

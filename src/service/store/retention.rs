@@ -17,9 +17,9 @@ pub struct Removed {
 
 /// Files that no submission has any more, and their portraits.
 pub(super) const UPLOADS: &str = "DELETE FROM uploads WHERE NOT EXISTS \
-                                  (SELECT 1 FROM submissions s WHERE s.sha256 = uploads.sha256)";
+                                  (SELECT 1 FROM submission_files f WHERE f.sha256 = uploads.sha256)";
 pub(super) const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
-                                    (SELECT 1 FROM submissions s WHERE s.sha256 = portraits.sha256)";
+                                    (SELECT 1 FROM submissions s WHERE s.digest = portraits.sha256)";
 
 impl Store {
     /// Removes submissions that came before `before`, drafts that came before `drafts_before`, and what only they had.

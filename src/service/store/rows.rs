@@ -31,16 +31,16 @@ pub enum State {
     Failed,
 }
 
-/// A file that was handed in.
+/// What was handed in, without its files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Submission {
     /// Its unguessable id: whoever has it may see the report.
     pub id: String,
     /// Id of the assignment.
     pub assignment: String,
-    /// SHA-256 of the bytes in hexadecimal.
+    /// Its digest in hexadecimal, see [`crate::hand_in::digest`].
     pub sha256: String,
-    /// File name as handed in. Untrusted.
+    /// The names of its files as handed in, in one line. Untrusted.
     pub name: String,
     /// The browser that handed it in.
     pub owner_id: Option<String>,
@@ -65,7 +65,7 @@ pub struct Submission {
 /// The columns of [`Submission`], in its order.
 macro_rules! submission_columns {
     () => {
-        "s.id, s.assignment, s.sha256, s.name, s.owner_id, s.student_id, s.batch_id, s.via, s.seed, s.hints, \
+        "s.id, s.assignment, s.digest, s.name, s.owner_id, s.student_id, s.batch_id, s.via, s.seed, s.hints, \
          s.received_at, s.state, s.fault"
     };
 }
@@ -84,7 +84,7 @@ where
         Ok(Self {
             id: row.try_get("id")?,
             assignment: row.try_get("assignment")?,
-            sha256: row.try_get("sha256")?,
+            sha256: row.try_get("digest")?,
             name: row.try_get("name")?,
             owner_id: row.try_get("owner_id")?,
             student_id: row.try_get("student_id")?,

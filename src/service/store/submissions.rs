@@ -1,25 +1,22 @@
-//! Files that were handed in.
+//! What was handed in.
 
 use super::keys::keep_key;
 use super::rows::{submission_columns, word};
 use super::{Key, Result, Store, Submission, Via, on, signed};
 use crate::diagnose::Hints;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::report::Report;
 use crate::service::clock::Millis;
 
-/// A file to be stored.
+/// A hand-in to be stored.
 #[derive(Clone, Debug)]
 pub struct NewSubmission {
     /// Its id, from [`crate::service::identity::new_id`].
     pub id: String,
     /// Id of the assignment.
     pub assignment: String,
-    /// SHA-256 of the bytes in hexadecimal.
-    pub sha256: String,
-    /// The bytes.
-    pub bytes: Vec<u8>,
-    /// File name as handed in.
-    pub name: String,
+    /// Its files, in the order of the homework; at least one.
+    pub hand_in: HandIn,
     /// The browser.
     pub owner_id: Option<String>,
     /// The student.
@@ -42,22 +39,31 @@ pub struct NewSubmission {
 
 pub(super) const INSERT_UPLOAD: &str =
     "INSERT INTO uploads (sha256, bytes) VALUES ($1, $2) ON CONFLICT (sha256) DO NOTHING";
-pub(super) const INSERT: &str = "INSERT INTO submissions (id, assignment, sha256, name, owner_id, student_id, batch_id, \
-                                 via, seed, hints, received_at, state, tries, priority, claimed_by, claimed_until) \
-                                 VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, 0, $13, $14, $15)";
+pub(super) const INSERT: &str = "INSERT INTO submissions (id, assignment, sha256, digest, name, owner_id, student_id, \
+                                 batch_id, via, seed, hints, received_at, state, tries, priority, claimed_by, \
+                                 claimed_until) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, 0, \
+                                 $14, $15, $16)";
+pub(super) const INSERT_FILE: &str =
+    "INSERT INTO submission_files (submission_id, position, name, sha256) VALUES ($1, $2, $3, $4)";
 
-/// Binds a new submission to [`INSERT`].
-macro_rules! bind_submission {
-    ($query:expr, $new:expr, $state:expr) => {{
+/// Stores a submission with its files.
+macro_rules! insert_submission {
+    ($transaction:expr, $new:expr, $state:expr) => {{
+        use $crate::service::store::submissions::{INSERT, INSERT_FILE, INSERT_UPLOAD};
+        let files = &$new.hand_in.files;
+        for file in files {
+            sqlx::query(INSERT_UPLOAD).bind(file.sha256()).bind(&file.bytes).execute(&mut *$transaction).await?;
+        }
         let (claimed_by, claimed_until) = match &$new.claim {
             Some((by, until)) => (Some(by.as_str()), *until),
             None => (None, 0),
         };
-        $query
+        sqlx::query(INSERT)
             .bind(&$new.id)
             .bind(&$new.assignment)
-            .bind(&$new.sha256)
-            .bind(&$new.name)
+            .bind(files.first().map(|file| file.sha256()))
+            .bind($new.hand_in.sha256())
+            .bind($new.hand_in.names())
             .bind(&$new.owner_id)
             .bind(&$new.student_id)
             .bind(&$new.batch_id)
@@ -69,24 +75,34 @@ macro_rules! bind_submission {
             .bind($new.priority)
             .bind(claimed_by)
             .bind(claimed_until)
+            .execute(&mut *$transaction)
+            .await?;
+        for (file, position) in files.iter().zip(0_i64..) {
+            sqlx::query(INSERT_FILE)
+                .bind(&$new.id)
+                .bind(position)
+                .bind(&file.name)
+                .bind(file.sha256())
+                .execute(&mut *$transaction)
+                .await?;
+        }
     }};
 }
-pub(super) use bind_submission;
+pub(super) use insert_submission;
 
 impl Store {
-    /// Stores a file. When this is done, it is never lost. False, with nothing stored, where the request's key is taken.
+    /// Stores a hand-in. When this is done, it is never lost. False, with nothing stored, where the request's key is taken.
     pub async fn add_submission(&self, new: &NewSubmission, key: Option<&Key>) -> Result<bool> {
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
-            sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
-            bind_submission!(sqlx::query(INSERT), new, "queued").execute(&mut *transaction).await?;
+            insert_submission!(transaction, new, "queued");
             keep_key!(transaction, key, Some(&new.id), None, new.received_at);
             transaction.commit().await?;
         });
         Ok(true)
     }
 
-    /// Stores a file together with its report, which is known already. False, with nothing stored, where the request's key
+    /// Stores a hand-in together with its report, which is known already. False, with nothing stored, where the request's key
     /// is taken.
     pub async fn add_graded(
         &self,
@@ -98,8 +114,7 @@ impl Store {
         let row = super::reports::ReportRow::of(report)?;
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
-            sqlx::query(INSERT_UPLOAD).bind(&new.sha256).bind(&new.bytes).execute(&mut *transaction).await?;
-            bind_submission!(sqlx::query(INSERT), new, "graded").execute(&mut *transaction).await?;
+            insert_submission!(transaction, new, "graded");
             super::reports::bind_report!(sqlx::query(super::reports::INSERT), &new.id, graded_at, row, 1_i64)
                 .execute(&mut *transaction)
                 .await?;
@@ -115,10 +130,21 @@ impl Store {
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?))
     }
 
-    /// The bytes of an uploaded file.
-    pub async fn upload(&self, sha256: &str) -> Result<Option<Vec<u8>>> {
-        const SQL: &str = "SELECT bytes FROM uploads WHERE sha256 = $1";
-        Ok(on!(&self.read, db => sqlx::query_scalar(SQL).bind(sha256).fetch_optional(db).await?))
+    /// The files of a submission, in the order of the homework; none where there is no such submission.
+    pub async fn hand_in(&self, id: &str) -> Result<Option<HandIn>> {
+        const SQL: &str = "SELECT f.name, u.bytes FROM submission_files f JOIN uploads u ON u.sha256 = f.sha256 \
+                           WHERE f.submission_id = $1 ORDER BY f.position";
+        let rows: Vec<(String, Vec<u8>)> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
+        let files = rows.into_iter().map(|(name, bytes)| HandedInFile { name, bytes });
+        let hand_in = HandIn { files: files.collect() };
+        Ok(Some(hand_in).filter(|hand_in| !hand_in.files.is_empty()))
+    }
+
+    /// Whether a file is kept, by the SHA-256 of its bytes.
+    pub async fn has_file(&self, sha256: &str) -> Result<bool> {
+        const SQL: &str = "SELECT count(*) FROM uploads WHERE sha256 = $1";
+        let count: i64 = on!(&self.read, db => sqlx::query_scalar(SQL).bind(sha256).fetch_one(db).await?);
+        Ok(count > 0)
     }
 
     /// How often somebody has handed in: a student, or a browser where nobody said who sits there. Drafts and teachers'
@@ -162,7 +188,7 @@ impl Store {
         Ok((counts[0], counts[1]))
     }
 
-    /// A report of the very same file, graded in the very same way by this version, where there is one. A file that was
+    /// A report of the very same files, graded in the very same way by this version, where there is one. What was
     /// stopped is graded anew: the machine may have been busy.
     pub async fn known_report(
         &self,
@@ -172,7 +198,7 @@ impl Store {
         hints: Hints,
     ) -> Result<Option<Report>> {
         const SQL: &str = "SELECT r.report FROM submissions s JOIN reports r ON r.submission_id = s.id \
-                           WHERE s.sha256 = $1 AND s.assignment = $2 AND s.seed = $3 AND s.hints = $4 \
+                           WHERE s.digest = $1 AND s.assignment = $2 AND s.seed = $3 AND s.hints = $4 \
                            AND r.ggrade = $5 AND r.verdict <> 'stopped' LIMIT 1";
         let json: Option<String> = on!(&self.read, db => {
             sqlx::query_scalar(SQL)

@@ -1,12 +1,12 @@
 //! Annotations: `::error file=…,line=…::message`.
 
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, Entry, Place};
 use crate::batch::formats::untrusted::{one_line, visible};
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::{Language, Text};
-use crate::report::{RubricLine, Verdict};
+use crate::report::{Report, RubricLine, Verdict};
 use std::collections::VecDeque;
 use std::fmt::Write;
 
@@ -20,6 +20,7 @@ const LEVELS: [&str; 3] = ["error", "warning", "notice"];
 struct Annotation<'a> {
     level: &'static str,
     entry: &'a Entry,
+    place: Option<&'a Place>,
     line: Option<u32>,
     columns: Option<(u32, u32)>,
     title: String,
@@ -79,18 +80,27 @@ fn of_entry(entry: &Entry, language: Language) -> Vec<Annotation<'_>> {
     let Some(report) = entry.report() else {
         let message = wording::fault(entry, language).unwrap_or_else(|| wording::explanation(entry, language));
         let title = title(entry, standing.word(language));
-        return vec![Annotation { level: "error", entry, line: None, columns: None, title, message }];
+        return vec![Annotation {
+            level: "error",
+            entry,
+            place: entry.place(None),
+            line: None,
+            columns: None,
+            title,
+            message,
+        }];
     };
     let lost = report.rubric.iter().filter(|line| !wording::is_full(line));
     // Where nothing ran, the lines of the rubric say nothing that the diagnostics do not.
     let lost = lost.filter(|_| report.verdict == Verdict::Wrong).map(|line| of_rubric(entry, line, language));
-    lost.chain(report.diagnostics.iter().map(|diagnostic| of_diagnostic(entry, diagnostic, language))).collect()
+    lost.chain(report.diagnostics.iter().map(|diagnostic| of_diagnostic(entry, report, diagnostic, language))).collect()
 }
 
 fn of_rubric<'a>(entry: &'a Entry, line: &RubricLine, language: Language) -> Annotation<'a> {
     Annotation {
         level: "warning",
         entry,
+        place: entry.place(line.file.as_deref()),
         line: line.line,
         columns: None,
         title: title(entry, &wording::rubric_title(line, language)),
@@ -98,7 +108,7 @@ fn of_rubric<'a>(entry: &'a Entry, line: &RubricLine, language: Language) -> Ann
     }
 }
 
-fn of_diagnostic<'a>(entry: &'a Entry, diagnostic: &Diagnostic, language: Language) -> Annotation<'a> {
+fn of_diagnostic<'a>(entry: &'a Entry, report: &Report, diagnostic: &Diagnostic, language: Language) -> Annotation<'a> {
     let level = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -107,9 +117,10 @@ fn of_diagnostic<'a>(entry: &'a Entry, diagnostic: &Diagnostic, language: Langua
     Annotation {
         level,
         entry,
+        place: entry.place(diagnostic.file.as_deref()),
         line: diagnostic.line,
         columns: diagnostic.column.map(|column| (column, column.saturating_add(diagnostic.length.max(1) - 1))),
-        title: title(entry, &wording::place(diagnostic, language)),
+        title: title(entry, &wording::place(report, diagnostic, language)),
         message: wording::message(diagnostic, language),
     }
 }
@@ -122,7 +133,7 @@ impl Annotation<'_> {
     fn write(&self, out: &mut String) {
         let mut properties = Vec::new();
         let mut property = |name: &str, value: &str| properties.push(format!("{name}={}", escaped(value)));
-        match (&self.entry.local, &self.entry.path) {
+        match (self.place.and_then(|place| place.local.as_ref()), self.place) {
             (Some(file), _) => {
                 property("file", &visible(&file.to_string_lossy()));
                 if let Some(line) = self.line {
@@ -136,7 +147,7 @@ impl Annotation<'_> {
                 property("title", &self.title);
             }
             // Inside an archive there is no line of the repository to point at.
-            (None, Some(path)) => property("title", &one_line(&format!("{} ({path})", self.title))),
+            (None, Some(place)) => property("title", &one_line(&format!("{} ({})", self.title, place.path))),
             (None, None) => property("title", &self.title),
         }
         let _ = writeln!(out, "::{} {}::{}", self.level, properties.join(","), data(&self.message));
@@ -202,7 +213,7 @@ mod tests {
     #[test]
     fn what_a_student_wrote_comes_back_whole_and_alone() {
         let entry = nasty::attack(samples::rejected());
-        let file = visible(&entry.local.as_ref().unwrap().to_string_lossy());
+        let file = visible(&entry.places[0].local.as_ref().unwrap().to_string_lossy());
         let text = annotations(&class(vec![entry]));
         let commands = obeyed(&text);
         assert_eq!(commands.len(), text.lines().count());
@@ -229,7 +240,7 @@ mod tests {
     #[test]
     fn inside_an_archive_no_file_is_named() {
         let mut entry = nasty::entry(2, Outcome::Graded(Box::new(samples::rejected())));
-        entry.local = None;
+        entry.places[0].local = None;
         let text = annotations(&class(vec![entry]));
         assert!(text.starts_with("::error title=Student 2%3A error · line 11%2C column 12 (student-2/"), "{text}");
     }
@@ -239,5 +250,13 @@ mod tests {
         let text = annotations(&nasty::class());
         assert!(text.contains("title=Student 5%3A Grading failed::no driver in /usr/share/vulkan%0A"), "{text}");
         assert!(text.contains("title=Student 4%3A Nothing to grade::There is no .vert file"), "{text}");
+    }
+
+    #[test]
+    fn of_several_files_each_is_annotated_at_its_own_line() {
+        let text = annotations(&class(vec![nasty::two_files()]));
+        assert!(text.contains("file=student-7/ggsample11.frag,line=11,endLine=11,title="), "{text}");
+        assert!(text.contains("file=student-7/ggsample11.vert,line=12,endLine=12,col=9,"), "{text}");
+        assert!(text.contains("title=Student 7%3A warning · ggsample11.vert%2C line 12%2C column 9::"), "{text}");
     }
 }

@@ -92,7 +92,7 @@ fn row(entry: &Entry, language: Language) -> String {
     let detail = match report {
         Some(report) => match report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
             Some(error) => {
-                let place = wording::place(error, language);
+                let place = wording::place(report, error, language);
                 format!("{}: {}", markdown(&place), rich(error.message.get(language)))
             }
             None => {
@@ -133,7 +133,7 @@ fn single(entry: &Entry, language: Language) -> String {
     }
     out.push('\n');
     for diagnostic in &report.diagnostics {
-        let place = wording::place(diagnostic, language);
+        let place = wording::place(report, diagnostic, language);
         let _ = writeln!(out, "- **{}** {}", markdown(&place), rich(&wording::message(diagnostic, language)));
     }
     out

@@ -1,4 +1,5 @@
 use super::*;
+use crate::batch::class::Place;
 use crate::batch::formats::nasty;
 use crate::report::samples;
 
@@ -118,15 +119,14 @@ fn paths_are_relative_references_whatever_they_are_made_of() {
     assert!(uri.starts_with("a%2C%20b%3A%20100%25/%3A%3Aset-output%20name"), "{uri}");
     assert!(uri.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-._~/%".contains(&byte)), "{uri}");
     let decoded = percent_encoding::percent_decode_str(uri).decode_utf8().unwrap();
-    assert_eq!(Some(decoded.as_ref()), class.entries[0].path.as_deref());
+    assert_eq!(decoded, class.entries[0].places[0].path);
     assert!(!render(&class).contains(['\u{1B}', '\0', '\r', '\u{202E}']));
 }
 
 #[test]
 fn a_file_that_is_not_below_the_working_folder_is_named_from_the_input_on() {
     let mut class = nasty::class();
-    class.entries[2].local = None;
-    class.entries[2].path = Some("class.zip/a b/x.vert".into());
+    class.entries[2].places = vec![Place { path: "class.zip/a b/x.vert".into(), local: None }];
     let log = log(&class);
     let location = &results(&log)[2]["locations"][0]["physicalLocation"]["artifactLocation"];
     assert_eq!(location["uri"], "class.zip/a%20b/x.vert");
@@ -146,8 +146,25 @@ fn a_fingerprint_stays_when_lines_move_and_tells_findings_apart() {
     assert_eq!(distinct.len(), before.len());
     // Two lines more at the top, and the message two lines further down.
     let entry = &mut class.entries[2];
-    entry.source = entry.source.as_ref().map(|source| format!("\n\n{source}"));
+    entry.sources[0].text.insert_str(0, "\n\n");
     let Outcome::Graded(report) = &mut entry.outcome else { panic!("graded") };
     report.diagnostics[0].line = Some(13);
     assert_eq!(fingerprints(&class), before);
+}
+
+#[test]
+fn each_of_several_files_is_an_artifact_and_a_finding_stands_in_its_own() {
+    let class = Class { entries: vec![nasty::two_files()], ..nasty::class() };
+    let log = log(&class);
+    let artifacts = log["runs"][0]["artifacts"].as_array().unwrap();
+    let uris: Vec<_> = artifacts.iter().map(|artifact| artifact["location"]["uri"].as_str().unwrap()).collect();
+    assert_eq!(uris, ["student-7/ggsample11.vert", "student-7/ggsample11.frag"]);
+    let places: Vec<_> = results(&log)
+        .iter()
+        .map(|result| {
+            let place = &result["locations"][0]["physicalLocation"];
+            (place["artifactLocation"]["uri"].as_str().unwrap(), place["region"]["startLine"].as_u64().unwrap())
+        })
+        .collect();
+    assert_eq!(places, [("student-7/ggsample11.frag", 11), ("student-7/ggsample11.vert", 12)]);
 }

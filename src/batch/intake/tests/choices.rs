@@ -1,7 +1,6 @@
 //! Which of a student's files is graded.
 
 use super::*;
-use crate::batch::intake::choose::{Fit, fit};
 
 /// The name of the file that is graded of a student who hands in these, or the English reason why none is.
 fn graded(files: &[(&str, &str)]) -> Result<String, String> {
@@ -10,50 +9,11 @@ fn graded(files: &[(&str, &str)]) -> Result<String, String> {
     let mut intake = take_folder(&[&files[..], &[("zoe/ggsample06.vert", "z")]].concat());
     assert_eq!(names(&intake), ["alice", "zoe"]);
     match intake.hand_ins.remove(0).content {
-        Content::File { name, .. } => Ok(name),
+        Content::Files { hand_in, .. } => Ok(hand_in.names()),
         Content::Nothing(reason) => {
             assert!(!reason.ja.is_empty());
             Err(reason.en)
         }
-    }
-}
-
-#[test]
-fn names_are_ranked() {
-    for (name, expected) in [
-        ("ggsample06.vert", Fit::Exact),
-        ("GGSample06.VERT", Fit::Exact),
-        ("ggsample06 (1).vert", Fit::Copy),
-        ("ggsample06(2).vert", Fit::Copy),
-        ("ggsample06 - Copy.vert", Fit::Copy),
-        ("ggsample06 - Copy (2).vert", Fit::Copy),
-        ("ggsample06 - コピー.vert", Fit::Copy),
-        ("ggsample06 - コピー (3).vert", Fit::Copy),
-        ("ggsample06のコピー.vert", Fit::Copy),
-        ("ggsample06 copy 2.vert", Fit::Copy),
-        ("ggsample06 2.vert", Fit::Copy),
-        ("ggsample06_1234567890.vert", Fit::Copy),
-        ("ggsample06-1.vert", Fit::Copy),
-        ("ggsample05.vert", Fit::Shader),
-        ("ggsample0.vert", Fit::Shader),
-        ("ggsample061.vert", Fit::Shader),
-        ("kadai6_s2012345.vert", Fit::Shader),
-        ("ggsample06.vert.txt", Fit::Renamed),
-        ("ggsample06.txt", Fit::Renamed),
-        ("ggsample06", Fit::Renamed),
-        ("ggsample06 (1).txt", Fit::Renamed),
-        ("answer.glsl", Fit::Renamed),
-        ("old.vert.txt", Fit::Renamed),
-        ("ggsample06.vert.bak", Fit::Renamed),
-        ("readme.txt", Fit::Text),
-        ("LICENSE", Fit::Text),
-        ("ggsample06.frag", Fit::Other),
-        ("ggsample06.docx", Fit::Other),
-        ("ggsample06.cpp", Fit::Other),
-        ("(1).vert", Fit::Shader),
-        ("", Fit::Text),
-    ] {
-        assert_eq!(fit(name, "ggsample06.vert"), expected, "{name}");
     }
 }
 
@@ -102,9 +62,10 @@ fn what_is_there_instead_is_said() {
 #[test]
 fn a_long_file_is_cut_above_what_the_source_stage_takes() {
     let intake = take_folder(&[("alice/ggsample06.vert", &"x".repeat(3 << 20))]);
-    let Content::File { bytes, .. } = &intake.hand_ins[0].content else { panic!("{intake:?}") };
-    assert_eq!(bytes.len(), 1 << 20);
-    assert!(bytes.len() > crate::source::MAX_BYTES);
+    let Content::Files { hand_in, .. } = &intake.hand_ins[0].content else { panic!("{intake:?}") };
+    let length = hand_in.files[0].bytes.len();
+    assert_eq!(length, 1 << 20);
+    assert!(length > crate::source::MAX_BYTES);
 }
 
 #[test]

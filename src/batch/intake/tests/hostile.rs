@@ -118,7 +118,7 @@ fn what_is_unpacked_in_all_has_a_limit() {
     .collect();
     let members: Vec<Member> = (0..5).map(|n| Member::stored(format!("s{n}/ggsample06.vert"), &noise)).collect();
     let intake = take_archive_within(&archive(&members), within(2500, 100));
-    assert_eq!(intake.hand_ins.iter().filter(|hand_in| matches!(hand_in.content, Content::File { .. })).count(), 2);
+    assert_eq!(intake.hand_ins.iter().filter(|hand_in| matches!(hand_in.content, Content::Files { .. })).count(), 2);
     assert_eq!(intake.refused.len(), 3);
 }
 

@@ -13,9 +13,9 @@ fn each_folder_is_a_student_and_an_empty_one_too() {
     assert_eq!((intake.title.as_str(), intake.refused.len()), ("class", 0));
     let alice = &intake.hand_ins[0];
     assert_eq!(alice.student.key, "alice");
-    assert_eq!(alice.path.as_deref(), Some("alice/src/ggsample06.vert"));
+    assert_eq!(alice.path().as_deref(), Some("alice/src/ggsample06.vert"));
     // It is not below the working folder.
-    assert_eq!(alice.local, None);
+    assert_eq!(local(alice), None);
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn inputs_named_one_by_one_are_one_student_each() {
     let class = folder.path().join("class");
     let files = [class.join("alice/ggsample06.vert"), class.join("bob/ggsample06.vert"), class.join("carol.vert")];
     assert_eq!(everyone(&take(&files)), [("alice", Ok("a")), ("bob", Ok("b")), ("carol", Ok("c"))]);
-    let places: Vec<_> = take(&files).hand_ins.into_iter().filter_map(|hand_in| hand_in.path).collect();
+    let places: Vec<_> = take(&files).hand_ins.into_iter().filter_map(|hand_in| hand_in.path()).collect();
     assert_eq!(places, ["alice/ggsample06.vert", "bob/ggsample06.vert", "carol.vert"]);
     let folders = [class.join("alice"), class.join("bob")];
     assert_eq!(everyone(&take(&folders)), [("alice", Ok("a")), ("bob", Ok("b"))]);

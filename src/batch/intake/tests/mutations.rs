@@ -31,7 +31,7 @@ fn holds(bytes: &[u8], seed: u64) {
         .hand_ins
         .iter()
         .map(|hand_in| match &hand_in.content {
-            Content::File { bytes, .. } => bytes.len(),
+            Content::Files { hand_in, .. } => hand_in.concatenated().len(),
             Content::Nothing(_) => 0,
         })
         .sum();

@@ -1,0 +1,78 @@
+//! What was handed in, to be saved and never to be shown by a browser.
+
+use super::State;
+use super::errors::Problem;
+use crate::hand_in::HandIn;
+use axum::http::{HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use std::io::Write;
+
+/// The files of a submission: one as it is, several as a ZIP.
+pub async fn hand_in(state: &State, id: &str) -> Result<Response, Problem> {
+    files(&state.assignment.id, &state.store.hand_in(id).await?.ok_or_else(Problem::not_found)?)
+}
+
+/// Files to be saved; `title` is the name of several of them together.
+pub fn files(title: &str, hand_in: &HandIn) -> Result<Response, Problem> {
+    let (name, bytes) = match hand_in.files.as_slice() {
+        [only] => (only.name.clone(), only.bytes.clone()),
+        _ => (format!("{title}.zip"), zipped(hand_in).map_err(|error| Problem::internal(&error))?),
+    };
+    let mut response = bytes.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream"));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-store"));
+    if let Ok(disposition) = HeaderValue::from_str(&attachment(&name)) {
+        headers.insert(header::CONTENT_DISPOSITION, disposition);
+    }
+    Ok(response)
+}
+
+fn zipped(hand_in: &HandIn) -> zip::result::ZipResult<Vec<u8>> {
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for file in &hand_in.files {
+        zip.start_file(&file.name, zip::write::SimpleFileOptions::default())?;
+        zip.write_all(&file.bytes)?;
+    }
+    Ok(zip.finish()?.into_inner())
+}
+
+/// A `Content-Disposition` under which a browser saves a file, whatever its name has in it (RFC 6266).
+pub fn attachment(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
+    let ascii: String = name.chars().map(|c| if plain(c) { c } else { '_' }).collect();
+    let encode = |byte: u8| if plain(byte as char) { (byte as char).to_string() } else { format!("%{byte:02X}") };
+    let encoded: String = name.bytes().map(encode).collect();
+    format!("attachment; filename=\"{ascii}\"; filename*=UTF-8''{encoded}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hand_in::HandedInFile;
+
+    #[test]
+    fn no_name_breaks_out_of_its_header() {
+        assert_eq!(attachment("a.vert"), "attachment; filename=\"a.vert\"; filename*=UTF-8''a.vert");
+        assert_eq!(
+            attachment("課\"\r\n.vert"),
+            "attachment; filename=\"____.vert\"; filename*=UTF-8''%E8%AA%B2%22%0D%0A.vert"
+        );
+    }
+
+    #[test]
+    fn several_files_are_an_archive_of_them() {
+        let files = [("課題.vert", "v"), ("b.frag", "f")].map(|(name, text)| HandedInFile::new(name, text));
+        let bytes = zipped(&HandIn { files: files.clone().into() }).unwrap();
+        let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+        let found: Vec<_> = (0..archive.len())
+            .map(|index| {
+                let mut member = archive.by_index(index).unwrap();
+                let mut bytes = Vec::new();
+                std::io::copy(&mut member, &mut bytes).unwrap();
+                HandedInFile::new(member.name().unwrap(), bytes)
+            })
+            .collect();
+        assert_eq!(found, files);
+    }
+}
