@@ -48,7 +48,7 @@ fn shader(source: &Source, interface: &Interface) -> Shader {
 fn renderer() -> Renderer {
     let interface = interface();
     let fixed = translate::fixed_stage(&interface, &assignment().files[0].starter).expect("the starter links");
-    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), fixed).expect("a renderer")
+    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), &fixed).expect("a renderer")
 }
 
 #[divan::bench]
@@ -112,7 +112,7 @@ fn interpret_frames_and_probes(bencher: Bencher<'_, '_>) {
     let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
     let text = text();
     let rendering = renderer.render(&shader(&read(&text), &interface()), &scene).expect("a rendering");
-    let batches: Vec<_> = scene.frames.iter().chain(&scene.probes).collect();
+    let batches: Vec<_> = scene.frames.iter().flatten().chain(&scene.probes).collect();
     let samples: Vec<_> = rendering.frame_samples.iter().chain(&rendering.probe_samples).map(Vec::as_slice).collect();
     bencher.bench_local(|| cross_check::check(&text, "vc", &batches, &samples));
 }

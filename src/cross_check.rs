@@ -235,6 +235,7 @@ mod tests {
                 "p".into(),
                 Values { kind: Type::vector(3), numbers: x.iter().flat_map(|&x| [f64::from(x), 2.0, 3.0]).collect() },
             )],
+            ..Batch::default()
         }
     }
 

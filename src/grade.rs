@@ -91,7 +91,7 @@ impl Grader {
             renderer: device.renderer.clone(),
             driver: device.driver.clone(),
         };
-        let renderer = Renderer::new(device, fixed?)?;
+        let renderer = Renderer::new(device, &fixed?)?;
         let expected = expected.map_err(panicked)?;
         let frames = |answer: &Answer| (answer.clone(), homework::accepted_frames(&assignment, answer));
         let accepted = assignment.accepted().iter().map(frames).collect();
@@ -173,7 +173,7 @@ impl Grader {
 
     /// The second opinion on all vertices that were drawn.
     fn cross_check(&self, source: &Source, scene: &Scene, rendering: &Rendering) -> CrossCheck {
-        let batches: Vec<&Batch> = scene.frames.iter().chain(&scene.probes).collect();
+        let batches: Vec<&Batch> = scene.frames.iter().flatten().chain(&scene.probes).collect();
         let samples = rendering.frame_samples.iter().chain(&rendering.probe_samples);
         let samples: Vec<&[Sample]> = samples.map(Vec::as_slice).collect();
         cross_check::check(&source.text, &self.interface.output.name, &batches, &samples)

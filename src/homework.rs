@@ -68,7 +68,7 @@ pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
     let scene = &assignment.scene;
     let frame = |pose: &Pose| {
         let uniforms = assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
-        batch(assignment, &uniforms, &scene.triangle(pose))
+        vec![batch(assignment, &uniforms, &scene.triangle(pose))]
     };
     let frames = scene.all_poses().iter().map(frame).collect();
     let drawn = |probes: &&ProbeSet| -> Vec<Batch> {
@@ -77,7 +77,7 @@ pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
         groups.map(|(place, group)| batch(assignment, &group.uniforms, &vertices(place))).collect()
     };
     let probes = probes.iter().flat_map(drawn).collect();
-    Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes }
+    Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes, ..Scene::default() }
 }
 
 /// One draw with the program's own names; `uniforms` stand in the interface's order.
@@ -90,7 +90,7 @@ pub fn batch(assignment: &Assignment, uniforms: &[Value], vertices: &[Vertex]) -
         let numbers = values.flat_map(|value| value.numbers().to_vec()).collect();
         (input.name.clone(), Values { kind: input.kind.clone(), numbers })
     };
-    Batch { uniforms, attributes: interface.inputs.iter().map(attribute).collect() }
+    Batch { uniforms, attributes: interface.inputs.iter().map(attribute).collect(), ..Batch::default() }
 }
 
 /// What is drawn once a process, by the id of the assignment.

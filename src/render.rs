@@ -7,14 +7,19 @@
 mod buffers;
 mod capture;
 mod device;
+mod fragments;
 mod frames;
 mod painter;
+mod pixels;
 mod renderer;
 mod scene;
+mod textures;
 mod tiles;
+mod uniforms;
 
 pub use device::{AdapterKind, Device};
-pub use frames::{Frames, Rendering, Sample};
+pub use frames::{Frames, Met, Rendering, Sample};
+pub use pixels::Pixel;
 pub use renderer::Renderer;
-pub use scene::{Batch, Scene};
+pub use scene::{Batch, Scene, State};
 pub use tiles::Area;

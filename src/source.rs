@@ -16,10 +16,11 @@ mod tests;
 pub use encoding::Encoding;
 pub use kind::fragment_shader;
 
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::Diagnostic;
 use crate::hand_in::HandedInFile;
 use crate::language::Text;
 use comments::Comment;
+use reference::interpreter::Stage;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -69,6 +70,18 @@ pub struct Source {
 /// # Errors
 /// A [`Refusal`] for what is no vertex shader, and for characters in code that no GLSL compiler takes.
 pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
+    read_stage(Stage::Vertex, name, bytes)
+}
+
+/// Reads the file `name`, which is to be a shader of this stage.
+///
+/// # Errors
+/// As of [`read`].
+pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
+    let in_words = |refusal: Diagnostic| match stage {
+        Stage::Vertex => refusal,
+        Stage::Fragment => kind::of_fragment_shader(refusal),
+    };
     let mut facts = Facts {
         name: name.to_owned(),
         bytes: bytes.len(),
@@ -77,13 +90,13 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     };
     let decoded = match decode(bytes) {
         Ok(decoded) => decoded,
-        Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![*error] })),
+        Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![in_words(*error)] })),
     };
     facts.encoding = Some(decoded.encoding);
     let mut source = Source::new(facts, &decoded.text);
     source.notes = decoded.notes;
     source.notes.extend(odd::in_comments(&source));
-    let mut diagnostics: Vec<_> = kind::wrong_text(&source).into_iter().collect();
+    let mut diagnostics: Vec<_> = kind::wrong_text(&source, stage).map(in_words).into_iter().collect();
     if diagnostics.is_empty() {
         let (errors, warnings) = odd::in_code(&source);
         source.notes.splice(0..0, warnings);
@@ -238,7 +251,7 @@ fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
 fn too_large(bytes: usize) -> Diagnostic {
     let (kib, limit) = (bytes.div_ceil(1024), MAX_BYTES / 1024);
     Diagnostic::error(
-        Stage::Source,
+        crate::diagnostic::Stage::Source,
         Text::new(
             format!("The file has {kib} KiB; at most {limit} KiB are read."),
             format!("ファイルの大きさが {kib} KiB あります。受け付けられるのは {limit} KiB までです。"),

@@ -3,6 +3,7 @@
 //! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
+mod boundary;
 mod build;
 mod concessions;
 mod entry;
@@ -20,6 +21,7 @@ mod macros;
 mod module;
 mod opaque;
 mod portability;
+mod program;
 mod spirv;
 mod strict;
 #[cfg(test)]
@@ -27,19 +29,23 @@ mod tests;
 mod text;
 mod undefined;
 
-pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE};
+pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT};
 pub use fuel::{MAX_TURNS, Meter};
+pub use glslang::Stage;
 pub use interface::{Interface, Variable};
 pub use interpreter::{Given, Interpreter, Place, Value, Written};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
-pub use spirv::Lines;
+pub use program::{Linked, Program, ProgramRefusal};
+pub use spirv::{Interpolation, Lines, Qualifiers, TEXTURES};
 pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
-use crate::source::Source;
+use crate::source::{self, Source};
 use concessions::Renamed;
-use glslang::{Outcome, Reached, Request, Rules, Stage, compile};
+use glslang::{Outcome, Reached, Request, Rules, StageText, compile};
+use module::Built;
+use std::ffi::CStr;
 
 /// Why there is no shader.
 #[derive(Clone, Debug)]
@@ -72,24 +78,36 @@ pub struct Translation {
 
 /// Compiles, links and translates a vertex shader.
 pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
+    check_text(source)?;
+    let mut stages = [Submitted::new(Stage::Vertex, source, interface)];
+    let fixed = [StageText::plain(Stage::Fragment, &interface.fragment)];
+    let verdict = first_pass(&mut stages, &fixed).map_err(|(_, refusal)| refusal)?;
+    linked(&verdict, &stages, &fixed)?;
+    let [stage] = stages;
+    let mut diagnostics = stage.diagnostics(&verdict)?;
+    let spirv = stage.second_pass()?;
+    gate::check_words(&spirv, source, Stage::Vertex, &interface.set_uniforms())?;
+    let outputs = Some(vec![interface.output.name.clone()]);
+    let shader = module::build(
+        spirv,
+        source,
+        interface,
+        Built { stage: Stage::Vertex, outputs, is_fixed: false, poisons: false },
+    )?;
+    diagnostics.extend(interface::check(&shader, source, interface)?);
+    Ok(Translation { shader, diagnostics, text: stage.text, renamed: stage.renamed })
+}
+
+/// What is looked at before the compiler sees a text.
+fn check_text(source: &Source) -> Result<(), Refusal> {
     gate::check_text(source)?;
     if let Some(error) = strict::hidden_version(source) {
         return Err(Refusal::Rejected(vec![error]));
     }
-    let Accepted { text, renamed, verdict, warnings } = first_pass(source, interface)?;
-    let mut overlooked = hints::overlooked_errors(&source.text, interface);
-    overlooked.extend(strict::errors(source, interface));
-    if !overlooked.is_empty() {
-        return Err(Refusal::Rejected(overlooked));
+    match concessions::fatal(source) {
+        Some(name) => Err(unsupported(&format!("`{name}`")).into()),
+        None => Ok(()),
     }
-    let mut diagnostics = log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface);
-    diagnostics.extend(warnings);
-    diagnostics.extend(portability::warnings(source, interface));
-    let spirv = second_pass(&text, &renamed, text::version(source.code()))?;
-    gate::check_words(&spirv, source)?;
-    let shader = module::build(spirv, source, interface, false)?;
-    diagnostics.extend(interface::check(&shader, source, interface)?);
-    Ok(Translation { shader, diagnostics, text, renamed })
 }
 
 impl Translation {
@@ -102,123 +120,189 @@ impl Translation {
         let text = plain.as_ref().unwrap_or(&self.text);
         let text = macros::on_their_lines(text, version).unwrap_or_else(|| text.clone());
         let variable = text::without_constants(&text);
-        let compiled = |text: &str| second_pass(text, &self.renamed, version).ok();
+        let compiled = |text: &str| second_pass(Stage::Vertex, text, &self.renamed, version).ok();
         let words = variable.as_deref().and_then(compiled).or_else(|| compiled(&text));
         Interpreter::new(&words?)
     }
 }
 
-/// A text that the compiler accepts under OpenGL's rules.
-struct Accepted {
+/// How often a text is changed for what the compiler minds and drivers take; each refusal can hide the next.
+const MAX_CONCESSIONS: usize = 4;
+
+/// A stage that is handed in, on its way through the compiler.
+struct Submitted<'a> {
+    stage: Stage,
+    source: &'a Source,
+    interface: &'a Interface,
+    /// The text that the compiler is given under OpenGL's rules.
     text: String,
     renamed: Vec<Renamed>,
-    verdict: Outcome,
     warnings: Vec<Diagnostic>,
 }
 
-/// How often the text is changed for what the compiler minds and drivers take; each refusal can hide the next.
-const MAX_CONCESSIONS: usize = 4;
-
-/// The compiler's verdict on the student's text.
-fn first_pass(source: &Source, interface: &Interface) -> Result<Accepted, Refusal> {
-    if let Some(name) = concessions::fatal(source) {
-        return Err(unsupported(&format!("`{name}`")).into());
+impl<'a> Submitted<'a> {
+    fn new(stage: Stage, source: &'a Source, interface: &'a Interface) -> Self {
+        let text = text::prepared(source);
+        Self { stage, source, interface, text, renamed: Vec::new(), warnings: Vec::new() }
     }
-    let mut text = text::prepared(source);
-    let mut warnings = Vec::new();
-    let mut renamed = Vec::new();
-    let mut verdict = check(&text, interface, &renamed);
+
+    /// Changes the text for what the compiler minds and drivers take; whether there was anything of the kind.
+    fn concede(&mut self, verdict: &Outcome) -> bool {
+        let Some(granted) = concessions::grant(&self.text, verdict.log(self.stage), self.source) else { return false };
+        self.text = granted.text;
+        self.warnings.extend(granted.warnings);
+        self.renamed.extend(granted.renamed);
+        true
+    }
+
+    /// What there is to say about a text that compiles and links.
+    fn diagnostics(&self, verdict: &Outcome) -> Result<Vec<Diagnostic>, Refusal> {
+        let Self { source, interface, .. } = *self;
+        let mut errors = hints::overlooked_errors(&source.text, interface);
+        errors.extend(strict::errors(source, interface));
+        if !errors.is_empty() {
+            return Err(Refusal::Rejected(errors));
+        }
+        let mut diagnostics = log::stage_diagnostics(verdict.log(self.stage), &source.text, interface);
+        diagnostics.extend(self.warnings.iter().cloned());
+        diagnostics.extend(portability::warnings(source, interface));
+        Ok(diagnostics)
+    }
+
+    /// SPIR-V of a text that the first pass accepts.
+    fn second_pass(&self) -> Result<Vec<u32>, Fault> {
+        second_pass(self.stage, &self.text, &self.renamed, text::version(self.source.code()))
+    }
+}
+
+/// The compiler's verdict on the texts of all stages, with what it minds and drivers take changed in them; or the first
+/// stage that does not compile, and why.
+fn first_pass(submitted: &mut [Submitted<'_>], fixed: &[StageText<'_>]) -> Result<Outcome, (Stage, Refusal)> {
+    let mut verdict = check(submitted, fixed);
     for _ in 0..MAX_CONCESSIONS {
-        if verdict.reached != Reached::Vertex {
+        let Reached::Stage(at) = verdict.reached else { break };
+        if !submitted.iter_mut().filter(|one| one.stage == at).any(|one| one.concede(&verdict)) {
             break;
         }
-        let Some(granted) = concessions::grant(&text, &verdict, source) else { break };
-        text = granted.text;
-        warnings.extend(granted.warnings);
-        renamed.extend(granted.renamed);
-        verdict = check(&text, interface, &renamed);
+        verdict = check(submitted, fixed);
     }
-
-    match (verdict.reached, concessions::unimplemented(&verdict)) {
-        (Reached::Done, _) => Ok(Accepted { text, renamed, verdict, warnings }),
-        (_, Some(feature)) => Err(unsupported(&format!("`{feature}`")).into()),
-        _ => Err(rejected(verdict, &text, &renamed, source, interface)),
+    let Reached::Stage(at) = verdict.reached else { return Ok(verdict) };
+    match concessions::unimplemented(verdict.log(at)) {
+        Some(feature) => Err((at, unsupported(&format!("`{feature}`")).into())),
+        None => Err((at, rejected(verdict, submitted, fixed))),
     }
 }
 
 /// Compiles and links under OpenGL's rules.
-fn check(text: &str, interface: &Interface, renamed: &[Renamed]) -> Outcome {
-    let mut outcome = compile(&Request {
-        vertex: &text::c_text(text),
-        fragment: Some(&interface.fragment),
-        preamble: c"",
-        rules: Rules::OpenGl,
-        version: None,
-        emit: Stage::Vertex,
-    });
-    concessions::in_own_names(&mut outcome, renamed);
+fn check(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Outcome {
+    let texts: Vec<_> = submitted.iter().map(|one| (one.stage, text::c_text(&one.text))).collect();
+    let mut outcome = compiled(texts.iter().map(|(stage, text)| StageText::plain(*stage, text)), fixed);
+    submitted.iter().for_each(|one| concessions::in_own_names(&mut outcome, &one.renamed));
     outcome
 }
 
-fn rejected(verdict: Outcome, text: &str, renamed: &[Renamed], source: &Source, interface: &Interface) -> Refusal {
-    // With `#line` the compiler counts as the student tells it to; a person counts lines of the file.
-    let plain = hints::without_line_directives(text).map(|text| check(&text, interface, renamed));
-    let verdict = match plain {
+fn compiled<'a>(texts: impl Iterator<Item = StageText<'a>>, fixed: &[StageText<'a>]) -> Outcome {
+    let mut stages: Vec<_> = texts.chain(fixed.iter().copied()).collect();
+    stages.sort_by_key(|text| text.stage == Stage::Fragment);
+    compile(&Request { stages: &stages, rules: Rules::OpenGl, emit: Stage::Vertex })
+}
+
+/// The verdict without `#line`: with it the compiler counts as the student tells it to, and a person counts lines of the
+/// file. None where no text has it.
+fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<Outcome> {
+    let plain: Vec<_> = submitted.iter().map(|one| hints::without_line_directives(&one.text)).collect();
+    plain.iter().any(Option::is_some).then(|| {
+        let texts: Vec<_> = submitted
+            .iter()
+            .zip(&plain)
+            .map(|(one, plain)| (one.stage, text::c_text(plain.as_ref().unwrap_or(&one.text))))
+            .collect();
+        let mut outcome = compiled(texts.iter().map(|(stage, text)| StageText::plain(*stage, text)), fixed);
+        submitted.iter().for_each(|one| concessions::in_own_names(&mut outcome, &one.renamed));
+        outcome
+    })
+}
+
+/// The refusal of texts of which one does not compile.
+fn rejected(verdict: Outcome, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Refusal {
+    let verdict = match plainly(submitted, fixed) {
         None => verdict,
         Some(plain) if plain.reached == verdict.reached => plain,
-        Some(_) => return Refusal::Rejected(vec![hints::refused_line_directive(text)]),
+        Some(_) => return refused_line_directive(submitted),
     };
-    match verdict.reached {
-        Reached::Vertex => Refusal::Rejected(log::vertex_diagnostics(&verdict.vertex_log, &source.text, interface)),
-        Reached::Link => Refusal::Rejected(log::link_diagnostics(&verdict.link_log, &source.text, interface)),
-        Reached::Fragment | Reached::Done => Refusal::Fault(Fault::new(crate::language::Text::verbatim(format!(
-            "the assignment's fixed fragment shader does not compile: {}",
-            verdict.link_log
+    let Reached::Stage(at) = verdict.reached else { return refused_line_directive(submitted) };
+    match submitted.iter().find(|one| one.stage == at) {
+        Some(one) => Refusal::Rejected(log::stage_diagnostics(verdict.log(at), &one.source.text, one.interface)),
+        None => Refusal::Fault(Fault::new(crate::language::Text::verbatim(format!(
+            "the assignment's fixed {at:?} shader does not compile: {}",
+            verdict.log(at)
         )))),
     }
 }
 
-/// SPIR-V of a text that the first pass accepts.
-fn second_pass(text: &str, renamed: &[Renamed], version: i32) -> Result<Vec<u32>, Fault> {
-    let ready = text::for_spirv(text, version);
-    let request = Request {
-        vertex: &ready.text,
-        // That the two fit together, the first pass has seen.
-        fragment: None,
-        preamble: &ready.preamble,
-        rules: Rules::SpirV,
-        version: ready.version,
-        emit: Stage::Vertex,
-    };
-    let mut outcome = compile(&request);
+fn refused_line_directive(submitted: &[Submitted<'_>]) -> Refusal {
+    let with_line = submitted.iter().find(|one| hints::without_line_directives(&one.text).is_some());
+    Refusal::Rejected(with_line.map(|one| vec![hints::refused_line_directive(&one.text)]).unwrap_or_default())
+}
+
+/// Refuses texts that compile and do not link.
+fn linked(verdict: &Outcome, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Result<(), Refusal> {
+    if verdict.reached == Reached::Done {
+        return Ok(());
+    }
+    let plain = plainly(submitted, fixed);
+    if plain.as_ref().is_some_and(|plain| plain.reached != verdict.reached) {
+        return Err(refused_line_directive(submitted));
+    }
+    let log = &plain.as_ref().unwrap_or(verdict).link_log;
+    let last = submitted.last();
+    Err(Refusal::Rejected(
+        last.map(|one| log::link_diagnostics(log, &one.source.text, one.interface)).unwrap_or_default(),
+    ))
+}
+
+/// SPIR-V of a text that the first pass accepts. That the stages fit together, the first pass has seen.
+fn second_pass(stage: Stage, text: &str, renamed: &[Renamed], version: i32) -> Result<Vec<u32>, Fault> {
+    let ready = text::for_spirv(text, version, stage);
+    let text = StageText { stage, text: &ready.text, preamble: &ready.preamble, version: ready.version };
+    let mut outcome = compile(&Request { stages: &[text], rules: Rules::SpirV, emit: stage });
     concessions::in_own_names(&mut outcome, renamed);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
     }
-    let log = [outcome.vertex_log, outcome.link_log].concat();
+    let log = [outcome.log(stage), &outcome.link_log].concat();
     Err(unsupported(log.lines().find(|line| line.starts_with("ERROR")).unwrap_or(log.trim())))
 }
 
-/// The module of the assignment's fixed fragment stage, linked with a vertex shader that fits it.
-pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<naga::Module, Fault> {
+/// The homework's own stage with this text.
+fn fixed(stage: Stage, text: &CStr, interface: &Interface) -> Result<Shader, Fault> {
+    let text = text.to_str().unwrap_or_default();
+    let source =
+        source::read_stage(stage, "fixed", text.as_bytes()).map_err(|_| unsupported("the text of a fixed stage"))?;
+    let spirv = second_pass(stage, text, &[], text::version(source.code()))?;
+    let how = Built { stage, outputs: None, is_fixed: true, poisons: false };
+    module::build(spirv, &source, interface, how).map_err(|refusal| match refusal {
+        Refusal::Fault(fault) => fault,
+        Refusal::Rejected(_) | Refusal::Stopped(_) => unsupported("a fixed stage of this size"),
+    })
+}
+
+/// The assignment's fixed fragment stage, which fits the vertex shader `vertex`.
+pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<Shader, Fault> {
     // The compiler keeps one table of built-ins for both kinds of rules; it must be made under OpenGL's, or
     // `gl_DepthRange` is missing from it.
-    warm(interface, vertex);
-    let outcome = compile(&Request {
-        vertex: &text::c_text(vertex),
-        fragment: Some(&interface.fragment),
-        preamble: c"",
-        rules: Rules::SpirV,
-        version: None,
-        emit: Stage::Fragment,
-    });
+    let outcome = warm(interface, vertex);
     if outcome.reached != Reached::Done {
-        return Err(unsupported(&[outcome.vertex_log, outcome.link_log].concat()));
+        return Err(unsupported(
+            &[outcome.log(Stage::Vertex), outcome.log(Stage::Fragment), &outcome.link_log].concat(),
+        ));
     }
-    module::build_fixed_stage(&outcome.spirv, &interface.output.name)
+    fixed(Stage::Fragment, &interface.fragment, interface)
 }
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
-pub fn warm(interface: &Interface, vertex: &str) {
-    check(vertex, interface, &[]);
+pub fn warm(interface: &Interface, vertex: &str) -> Outcome {
+    let vertex = text::c_text(vertex);
+    let fixed = [StageText::plain(Stage::Fragment, &interface.fragment)];
+    compiled(std::iter::once(StageText::plain(Stage::Vertex, &vertex)), &fixed)
 }

@@ -57,7 +57,7 @@ impl Stage {
             for (name, matrix) in &batch.uniforms {
                 let matrix: Vec<f32> = matrix.numbers().iter().map(|number| *number as f32).collect();
                 let bytes: &[u8] = bytemuck::cast_slice(&matrix);
-                for member in self.uniforms.members.iter().filter(|member| member.name == *name) {
+                for member in self.uniforms.members.iter().filter(|member| member.path == *name) {
                     let start = member.offset as usize;
                     chunk[start..start + bytes.len()].copy_from_slice(bytes);
                 }
@@ -87,7 +87,7 @@ impl Bare {
         let fragment = translate::fixed_stage(&interface, &assignment.files[0].starter).expect("the fixed stage");
         let fragment = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
-            source: wgpu::ShaderSource::Naga(Cow::Owned(fragment)),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(fragment.module)),
         });
         let rows = (scene.frames.len() as u32).div_ceil(COLUMNS);
         let size =
@@ -129,7 +129,7 @@ impl Bare {
                 usage: wgpu::BufferUsages::VERTEX,
             })
         };
-        let vertices = scene.frames[0].attributes.iter().map(attribute).collect();
+        let vertices = scene.frames[0][0].attributes.iter().map(attribute).collect();
         Self { device, queue, fragment, texture, readback, layout, vertices, scene }
     }
 
@@ -162,7 +162,7 @@ impl Bare {
     fn uniforms(&self, stage: &Stage) -> wgpu::BindGroup {
         let buffer = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: None,
-            contents: &stage.matrices(&self.scene.frames),
+            contents: &stage.matrices(&self.scene.frames.concat()),
             usage: wgpu::BufferUsages::UNIFORM,
         });
         self.device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -21,7 +21,7 @@ thread_local! {
 
 fn renderer() -> Renderer {
     let fixed = translate::fixed_stage(&INTERFACE, &assignment().files[0].starter).expect("the starter links");
-    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), fixed).expect("a renderer")
+    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), &fixed).expect("a renderer")
 }
 
 fuzz_target!(|bytes: &[u8]| {
@@ -58,7 +58,7 @@ fn agrees(text: &str) {
     if rendering.ran_out.is_some() {
         return;
     }
-    let batches: Vec<&Batch> = scene.frames.iter().collect();
+    let batches: Vec<&Batch> = scene.frames.iter().flatten().collect();
     let samples: Vec<_> = rendering.frame_samples.iter().map(Vec::as_slice).collect();
     let checked = cross_check::check(&source.text, &INTERFACE.output.name, &batches, &samples);
     assert_ne!(checked.opinion, Opinion::Differs, "{checked:?}\n{text}");
@@ -85,6 +85,8 @@ fn scene() -> Scene {
                 (name.into(), Values { kind: Type::vector(3), numbers })
             })
             .collect(),
+        ..Batch::default()
     };
-    Scene { width: 4, height: 4, background: [0; 4], frames: vec![draw(0), draw(1)], probes: Vec::new() }
+    let frames = vec![vec![draw(0)], vec![draw(1)]];
+    Scene { width: 4, height: 4, frames, ..Scene::default() }
 }

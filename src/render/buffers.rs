@@ -1,14 +1,13 @@
 //! Uniforms and attributes by name, laid out as one shader reads them.
 
 use super::scene::Batch;
-use crate::translate::UniformBlock;
+use super::uniforms::fill;
+use crate::translate::{TEXTURES, UniformBlock};
+use reference::interpreter::Scalar;
 use wgpu::util::DeviceExt;
 
-/// Bytes of one attribute of one vertex: xyz and a w of 1, as f32. The driver has less to do for four numbers than for three.
+/// Bytes of one attribute of one vertex: four numbers. The driver has less to do for four than for three.
 pub(super) const ATTRIBUTE_STRIDE: u64 = 16;
-
-/// What a vertex has of an attribute that nothing feeds.
-const ORIGIN: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// The uniform blocks of a shader, filled for every batch.
 pub(super) struct Uniforms {
@@ -57,51 +56,65 @@ impl Uniforms {
     }
 }
 
-/// The bytes of one block for all batches; what the program does not set is zero, as in OpenGL.
-fn fill(block: &UniformBlock, stride: usize, batches: &[&Batch]) -> Vec<u8> {
-    let mut bytes = vec![0; stride * batches.len().max(1)];
-    if !block.is_default {
-        return bytes;
-    }
-    for (batch, chunk) in batches.iter().zip(bytes.chunks_mut(stride)) {
-        for (name, value) in &batch.uniforms {
-            let floats: Vec<f32> = value.numbers().iter().map(|number| *number as f32).collect();
-            let bytes: &[u8] = bytemuck::cast_slice(&floats);
-            for member in block.members.iter().filter(|member| member.name == *name) {
-                let start = member.offset as usize;
-                if let Some(place) = chunk.get_mut(start..start + bytes.len()) {
-                    place.copy_from_slice(bytes);
-                }
-            }
-        }
-    }
-    bytes
-}
-
-/// The values of one attribute for all batches, one after the other.
-pub(super) fn vertex_buffer(device: &wgpu::Device, name: &str, batches: &[&Batch]) -> wgpu::Buffer {
-    let mut values: Vec<[f32; 4]> = Vec::new();
-    for batch in batches {
+/// The values of one attribute for all batches, one after the other, and how a driver reads them: components that the
+/// program does not feed are 0, 0, 0 and 1, as in OpenGL.
+pub(super) fn vertex_buffer(
+    device: &wgpu::Device,
+    name: &str,
+    batches: &[&Batch],
+) -> (wgpu::Buffer, wgpu::VertexFormat) {
+    let columns = || batches.iter().map(|batch| batch.attributes.iter().find(|(attribute, _)| attribute == name));
+    let scalar = columns().flatten().next().and_then(|(_, values)| values.kind.scalar());
+    let (format, bits): (_, fn(f64) -> u32) = match scalar {
+        Some(Scalar::Int) => (wgpu::VertexFormat::Sint32x4, |number| (number as i32).cast_unsigned()),
+        Some(Scalar::Uint) => (wgpu::VertexFormat::Uint32x4, |number| number as u32),
+        _ => (wgpu::VertexFormat::Float32x4, |number| (number as f32).to_bits()),
+    };
+    let missing = [0.0, 0.0, 0.0, 1.0].map(bits);
+    let mut values: Vec<[u32; 4]> = Vec::new();
+    for (batch, column) in batches.iter().zip(columns()) {
         let end = values.len() + batch.drawn() as usize;
-        if let Some((_, these)) = batch.attributes.iter().find(|(attribute, _)| attribute == name) {
-            // What an attribute lacks is that of OpenGL: 0, 0, 0, 1.
-            let filled = |numbers: &[f64]| std::array::from_fn(|at| numbers.get(at).map_or(ORIGIN[at], |n| *n as f32));
-            values.extend(these.iter().map(filled));
+        for vertex in column.iter().flat_map(|(_, values)| values.iter()) {
+            values.push(std::array::from_fn(|axis| vertex.get(axis).map_or(missing[axis], |number| bits(*number))));
         }
-        values.resize(end, values.last().copied().unwrap_or(ORIGIN));
+        values.resize(end, values.last().copied().unwrap_or(missing));
     }
     if values.is_empty() {
-        values.push(ORIGIN);
+        values.push(missing);
     }
-    debug_assert_eq!(size_of_val(&ORIGIN) as u64, ATTRIBUTE_STRIDE);
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+    debug_assert_eq!(size_of_val(&missing) as u64, ATTRIBUTE_STRIDE);
+    let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("attribute"),
         contents: bytemuck::cast_slice(&values),
         usage: wgpu::BufferUsages::VERTEX,
-    })
+    });
+    (buffer, format)
 }
 
-/// A buffer that the vertex stage sees.
+/// The layout of the group that holds the header and, where textures are read, those.
+pub(super) fn capture_layout(device: &wgpu::Device, reads_textures: bool) -> wgpu::BindGroupLayout {
+    let mut entries = vec![layout_entry(0, wgpu::BufferBindingType::Storage { read_only: false }, false)];
+    if reads_textures {
+        entries.push(layout_entry(TEXTURES.1, wgpu::BufferBindingType::Storage { read_only: true }, false));
+    }
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("capture"), entries: &entries })
+}
+
+/// That group.
+pub(super) fn capture_group(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    header: &wgpu::Buffer,
+    textures: Option<&wgpu::Buffer>,
+) -> wgpu::BindGroup {
+    let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: header.as_entire_binding() }];
+    entries.extend(
+        textures.map(|buffer| wgpu::BindGroupEntry { binding: TEXTURES.1, resource: buffer.as_entire_binding() }),
+    );
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("capture"), layout, entries: &entries })
+}
+
+/// A buffer that both stages see.
 pub(super) fn layout_entry(
     binding: u32,
     ty: wgpu::BufferBindingType,
@@ -109,7 +122,7 @@ pub(super) fn layout_entry(
 ) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::VERTEX,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
         ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
         count: None,
     }

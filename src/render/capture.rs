@@ -2,10 +2,10 @@
 //!
 //! The pipeline has no fragment stage and paints nothing, so that the driver compiles the student's text and no more.
 
-use super::buffers::{ATTRIBUTE_STRIDE, Uniforms, layout_entry, vertex_buffer};
+use super::buffers::{ATTRIBUTE_STRIDE, Uniforms, capture_group, capture_layout, vertex_buffer};
 use super::device::Device;
 use super::scene::{Batch, Scene};
-use crate::translate::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_STRIDE, Shader};
+use crate::translate::{CAPTURE_GROUP, CAPTURE_HEADER, Shader};
 use std::borrow::Cow;
 
 /// Of the texture that a pass cannot be without.
@@ -21,10 +21,7 @@ pub(super) struct Stage {
 
 impl Stage {
     pub fn new(device: &wgpu::Device) -> Self {
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("capture"),
-            entries: &[layout_entry(0, wgpu::BufferBindingType::Storage { read_only: false }, false)],
-        });
+        let layout = capture_layout(device, false);
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("nothing"),
             size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
@@ -52,25 +49,31 @@ pub(super) struct Capture {
 }
 
 impl Capture {
-    pub fn new(device: &wgpu::Device, stage: &Stage, shader: &Shader, scene: &Scene) -> Self {
+    pub fn new(
+        device: &wgpu::Device,
+        stage: &Stage,
+        shader: &Shader,
+        scene: &Scene,
+        textures: Option<&wgpu::Buffer>,
+    ) -> Self {
         let batches: Vec<&Batch> = scene.batches().collect();
         let uniforms = Uniforms::new(device, &shader.uniforms, &batches);
-        let size = CAPTURE_HEADER + u64::from(scene.drawn().max(1)) * CAPTURE_STRIDE;
+        let size = CAPTURE_HEADER + u64::from(scene.drawn().max(1)) * shader.record_stride();
         let buffer = |label, usage| {
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
         };
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_SRC;
         let records = buffer("capture", usage);
         let readback = buffer("capture, read back", wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("capture"),
-            layout: &stage.layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: records.as_entire_binding() }],
-        });
+        let with_textures = textures.map(|_| capture_layout(device, true));
+        let layout = with_textures.as_ref().unwrap_or(&stage.layout);
+        let group = capture_group(device, layout, &records, textures);
+        let (vertices, formats): (Vec<_>, Vec<_>) =
+            shader.inputs.iter().map(|attribute| vertex_buffer(device, &attribute.name, &batches)).unzip();
         Self {
-            pipeline: pipeline(device, shader, [&uniforms.layout, &stage.layout]),
+            pipeline: pipeline(device, shader, &formats, [&uniforms.layout, layout]),
             bind_groups: [uniforms.group, group],
-            vertices: shader.attributes.iter().map(|a| vertex_buffer(device, &a.name, &batches)).collect(),
+            vertices,
             records,
             readback,
             strides: uniforms.strides,
@@ -115,7 +118,12 @@ impl Capture {
     }
 }
 
-fn pipeline(device: &wgpu::Device, shader: &Shader, groups: [&wgpu::BindGroupLayout; 2]) -> wgpu::RenderPipeline {
+fn pipeline(
+    device: &wgpu::Device,
+    shader: &Shader,
+    formats: &[wgpu::VertexFormat],
+    groups: [&wgpu::BindGroupLayout; 2],
+) -> wgpu::RenderPipeline {
     let vertex = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("submission"),
         source: wgpu::ShaderSource::Naga(Cow::Owned(shader.module.clone())),
@@ -126,11 +134,10 @@ fn pipeline(device: &wgpu::Device, shader: &Shader, groups: [&wgpu::BindGroupLay
         immediate_size: 0,
     });
     let attributes: Vec<[wgpu::VertexAttribute; 1]> = shader
-        .attributes
+        .inputs
         .iter()
-        .map(|a| {
-            [wgpu::VertexAttribute { format: wgpu::VertexFormat::Float32x4, offset: 0, shader_location: a.location }]
-        })
+        .zip(formats)
+        .map(|(attribute, &format)| [wgpu::VertexAttribute { format, offset: 0, shader_location: attribute.location }])
         .collect();
     let buffers: Vec<_> = attributes
         .iter()

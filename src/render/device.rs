@@ -39,7 +39,11 @@ impl Device {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("ggrade"),
             required_features: wgpu::Features::VERTEX_WRITABLE_STORAGE | (adapter.features() & wanted),
-            required_limits: wgpu::Limits::default(),
+            // A fragment stage may have several outputs of four floats.
+            required_limits: wgpu::Limits {
+                max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,
+                ..wgpu::Limits::default()
+            },
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         }))

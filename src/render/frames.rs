@@ -1,5 +1,6 @@
 //! What a rendering gives back.
 
+use super::pixels::Pixel;
 use super::scene::Scene;
 use super::tiles::{Area, Tile, Tiles};
 use crate::report::Picture;
@@ -80,7 +81,7 @@ impl Drop for Mapped {
 }
 
 impl Frames {
-    /// The frames of a scene from the texture that they are tiles of.
+    /// The frames of a scene from the texture that they are tiles of, whose rows run upwards.
     pub(super) fn new(scene: &Scene, tiles: Tiles, bytes: Arc<Mapped>) -> Self {
         Self {
             width: scene.width,
@@ -96,7 +97,11 @@ impl Frames {
     /// Frames as they would be read back if these pictures had been drawn, each only within its area.
     pub fn of(background: [u8; 4], pictures: &[(Picture, Area)]) -> Self {
         let (width, height) = pictures.first().map_or((0, 0), |(picture, _)| (picture.width, picture.height));
-        let tile = |index: usize, area: Area| Tile { area, x: area.x, y: index as u32 * height + area.y };
+        let bottom = |area: Area| height - area.y - area.height;
+        let tile = |index: usize, area: Area| Tile { area, x: area.x, y: index as u32 * height + bottom(area) };
+        let upwards = |picture: &Picture| -> Vec<u8> {
+            picture.rgba.chunks_exact(width.max(1) as usize * 4).rev().flatten().copied().collect()
+        };
         Self {
             width,
             height,
@@ -104,7 +109,7 @@ impl Frames {
             background,
             tiles: pictures.iter().enumerate().map(|(index, (_, area))| tile(index, *area)).collect(),
             bytes_per_row: width as usize * 4,
-            bytes: Bytes::Copied(pictures.iter().flat_map(|(picture, _)| &picture.rgba).copied().collect()),
+            bytes: Bytes::Copied(pictures.iter().flat_map(|(picture, _)| upwards(picture)).collect()),
         }
     }
 
@@ -125,9 +130,9 @@ impl Frames {
     /// # Panics
     /// Where the area has no such row.
     pub fn row(&self, index: u32, y: u32) -> &[u8] {
-        let Tile { area, x, y: top } = self.tiles[index as usize];
+        let Tile { area, x, y: bottom } = self.tiles[index as usize];
         assert!((area.y..area.y + area.height).contains(&y), "row {y} of {area:?}");
-        let start = (top + y - area.y) as usize * self.bytes_per_row + x as usize * 4;
+        let start = (bottom + area.y + area.height - 1 - y) as usize * self.bytes_per_row + x as usize * 4;
         &self.bytes()[start..start + area.width as usize * 4]
     }
 
@@ -144,8 +149,28 @@ impl Frames {
     }
 }
 
+/// What a stage met while it ran.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Met {
+    /// The loop that ran out of fuel.
+    pub ran_out: Option<u32>,
+    /// The line where a negative number was raised to a power.
+    pub undefined: Option<u32>,
+}
+
+impl Met {
+    /// What a header says.
+    pub(super) fn of(header: &[u8]) -> Self {
+        let word = |index: usize| {
+            let bytes = header.get(index * 4..)?.first_chunk()?;
+            Some(u32::from_le_bytes(*bytes)).filter(|number| *number != 0)
+        };
+        Self { ran_out: word(0), undefined: word(2) }
+    }
+}
+
 /// Everything that a rendering gives back.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Rendering {
     /// The frames.
     pub frames: Frames,
@@ -153,10 +178,14 @@ pub struct Rendering {
     pub frame_samples: Vec<Vec<Sample>>,
     /// For each batch of probes, its vertices.
     pub probe_samples: Vec<Vec<Sample>>,
+    /// For each batch of probes of a fragment stage, its pixels.
+    pub pixels: Vec<Vec<Pixel>>,
     /// The loop that ran out of fuel, where one did: then nothing else here means anything. See
     /// [`Shader::out_of_fuel`](crate::translate::Shader::out_of_fuel).
     pub ran_out: Option<u32>,
     /// The line where a negative number was raised to a power, where one was; see
     /// [`NO_LINE`](crate::translate::NO_LINE).
     pub undefined: Option<u32>,
+    /// The same two of the fragment stage, where that is handed in.
+    pub of_fragments: Met,
 }

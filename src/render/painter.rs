@@ -1,45 +1,20 @@
-//! From captured vertices to frames, by one pipeline for all submissions.
-//!
-//! The vertex stage here passes on what the student's computed, so the fixed fragment stage is compiled once and for
-//! all, and nothing that belongs to one submission is kept for the next.
+//! From captured vertices to frames.
 
 use super::device::Device;
+use super::fragments::{DEPTH, FragmentData, FragmentStage, Key};
 use super::frames::Mapped;
-use super::scene::Scene;
+use super::scene::{Batch, Scene};
 use super::tiles::{Tile, Tiles};
-use crate::translate::{CAPTURE_HEADER, CAPTURE_STRIDE};
-use std::borrow::Cow;
+use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT};
 use std::sync::Weak;
+use wgpu::util::DeviceExt;
 
 /// As the course's window: 8 bits a channel, linear, no sRGB encoding.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Passes records on; OpenGL's clip range of z, [−w, w], becomes wgpu's [0, w].
-///
-/// A colour beyond ±2²⁰ is painted as if it were that: white or black at every pixel that shows any of it, as it is anyway,
-/// but the driver's conversion to 8 bits goes through an `i32` and would make black of what that cannot hold.
-///
-/// Alpha is not seen. It says here what is painted, so that a colour that equals the background is not taken for it.
-const PASS_ON: &str = "
-struct Vertex {
-    @builtin(position) position: vec4f,
-    @location(0) @interpolate(perspective, center) colour: vec4f,
-}
-
-fn bounded(colour: vec4f) -> vec4f {
-    let most = 1048576.0;
-    return select(colour, sign(colour) * most, abs(colour) > vec4f(most));
-}
-
-@vertex fn pass_on(@location(0) position: vec4f, @location(1) colour: vec4f) -> Vertex {
-    return Vertex(vec4f(position.xy, (position.z + position.w) * 0.5, position.w), vec4f(bounded(colour).rgb, 1.0));
-}
-";
-
 /// Paints frames.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Painter {
-    pipeline: wgpu::RenderPipeline,
     target: Option<Target>,
 }
 
@@ -48,55 +23,59 @@ pub(super) struct Painter {
 pub(super) struct Target {
     tiles: Tiles,
     texture: wgpu::Texture,
+    depth: Option<wgpu::Texture>,
     pub readback: wgpu::Buffer,
     /// Who still reads the last submission's frames.
     pub reader: Weak<Mapped>,
 }
 
-impl Painter {
-    pub fn new(device: &wgpu::Device, fragment: naga::Module) -> Self {
-        let module =
-            |label, source| device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source });
-        let vertex = module("pass on", wgpu::ShaderSource::Wgsl(Cow::Borrowed(PASS_ON)));
-        let fragment = module("fixed fragment stage", wgpu::ShaderSource::Naga(Cow::Owned(fragment)));
-        let attributes = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4];
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("frames"),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module: &vertex,
-                entry_point: None,
-                compilation_options: Default::default(),
-                buffers: &[Some(wgpu::VertexBufferLayout {
-                    array_stride: CAPTURE_STRIDE,
-                    step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes: &attributes,
-                })],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &fragment,
-                entry_point: None,
-                compilation_options: Default::default(),
-                targets: &[Some(FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        Self { pipeline, target: None }
+/// Captured vertices.
+pub(super) struct Records<'a> {
+    /// A header, and record after record.
+    pub buffer: &'a wgpu::Buffer,
+    /// What stands in the slots of a record.
+    pub outputs: &'a [Attribute],
+}
+
+impl Records<'_> {
+    fn stride(&self) -> u64 {
+        (self.outputs.len() as u64 + 1) * CAPTURE_SLOT
     }
 
-    /// Paints the frames of a scene whose vertices were captured in `records`, to be read back from the target.
-    pub fn submit(&mut self, device: &Device, records: &wgpu::Buffer, scene: &Scene, tiles: &Tiles) -> &mut Target {
+    /// The slot of each input.
+    fn slots(&self, inputs: &[Attribute]) -> Vec<usize> {
+        let slot = |input: &Attribute| self.outputs.iter().position(|output| output.name == input.name);
+        inputs.iter().map(|input| slot(input).unwrap_or(0)).collect()
+    }
+}
+
+impl Painter {
+    /// Paints the frames of a scene with a fragment stage, to be read back from the target.
+    pub fn submit(
+        &mut self,
+        device: &Device,
+        stage: &mut FragmentStage,
+        records: &Records<'_>,
+        scene: &Scene,
+        textures: Option<&wgpu::Buffer>,
+        tiles: &Tiles,
+    ) -> (&mut Target, FragmentData) {
+        let has_depth = scene.frames.iter().flatten().any(|draw| draw.state.tests_depth);
         let target = match self.target.take() {
-            Some(target) if target.tiles == *tiles && target.reader.strong_count() == 0 => target,
-            _ => Target::new(&device.device, tiles.clone()),
+            Some(target)
+                if target.tiles == *tiles
+                    && target.reader.strong_count() == 0
+                    && target.depth.is_some() == has_depth =>
+            {
+                target
+            }
+            _ => Target::new(&device.device, tiles.clone(), has_depth),
         };
         let target = self.target.insert(target);
+        let draws: Vec<&Batch> = scene.frames.iter().flatten().collect();
+        let data = FragmentData::new(&device.device, stage, &draws, textures, true);
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        target.paint(&mut encoder, &self.pipeline, records, scene);
+        target.paint(&device.device, &mut encoder, stage, &data, records, scene);
         encoder.copy_texture_to_buffer(
             target.texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
@@ -109,41 +88,64 @@ impl Painter {
             },
             tiles.size(),
         );
+        data.copy_header(&mut encoder);
         device.queue.submit([encoder.finish()]);
-        target
+        (target, data)
     }
 }
 
 impl Target {
-    fn new(device: &wgpu::Device, tiles: Tiles) -> Self {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("frames"),
-            size: tiles.size(),
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+    fn new(device: &wgpu::Device, tiles: Tiles, has_depth: bool) -> Self {
+        let texture = |label, format, usage| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: tiles.size(),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+                view_formats: &[],
+            })
+        };
+        let depth = has_depth.then(|| texture("depths", DEPTH, wgpu::TextureUsages::empty()));
+        let texture = texture("frames", FORMAT, wgpu::TextureUsages::COPY_SRC);
         let readback = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frames, read back"),
             size: u64::from(tiles.bytes_per_row()) * u64::from(tiles.size().height),
             usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
-        Self { tiles, texture, readback, reader: Weak::new() }
+        Self { tiles, texture, depth, readback, reader: Weak::new() }
     }
 
     fn paint(
         &self,
+        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        pipeline: &wgpu::RenderPipeline,
-        records: &wgpu::Buffer,
+        stage: &mut FragmentStage,
+        data: &FragmentData,
+        records: &Records<'_>,
         scene: &Scene,
     ) {
         let [r, g, b, a] = scene.background.map(|channel| f64::from(channel) / 255.0);
         let view = self.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = self.depth.as_ref().map(|depth| depth.create_view(&wgpu::TextureViewDescriptor::default()));
+        let is_turned = stage.is_flat();
+        let (mut corners, mut ranges) = (Vec::new(), Vec::new());
+        for draw in scene.frames.iter().flatten() {
+            let first = corners.len() as u32;
+            corners.extend(draw.corners(is_turned));
+            ranges.push(first..corners.len() as u32);
+        }
+        let buffer = |label, contents: &[u8], usage| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        let indices = buffer("corners", bytemuck::cast_slice(&corners), wgpu::BufferUsages::INDEX);
+        let shifts: Vec<[f32; 2]> = self.tiles.tiles.iter().map(|tile| tile.shift(scene.height)).collect();
+        let shifts = stage
+            .is_placed
+            .then(|| buffer("places of frames", bytemuck::cast_slice(&shifts), wgpu::BufferUsages::VERTEX));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("frames"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -155,23 +157,47 @@ impl Target {
                     store: wgpu::StoreOp::Store,
                 },
             })],
+            depth_stencil_attachment: depth.as_ref().map(|view| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
             ..Default::default()
         });
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, records.slice(CAPTURE_HEADER..));
+        pass.set_vertex_buffer(0, records.buffer.slice(CAPTURE_HEADER..));
+        if let Some(shifts) = &shifts {
+            pass.set_vertex_buffer(1, shifts.slice(..));
+        }
+        if !corners.is_empty() {
+            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        }
         let (width, height) = (scene.width as f32, scene.height as f32);
-        let mut first = 0;
-        for (batch, Tile { area, x, y }) in scene.frames.iter().zip(&self.tiles.tiles) {
-            let vertices = first..first + batch.drawn();
-            first = vertices.end;
-            if area.is_empty() {
-                continue;
+        let (mut number, mut first) = (0, 0);
+        for (frame, (draws, tile)) in (0..).zip(scene.frames.iter().zip(&self.tiles.tiles)) {
+            for draw in draws {
+                let (own, base, batch) = (ranges[number].clone(), first, number);
+                number += 1;
+                first += draw.drawn() as i32;
+                if tile.area.is_empty() || own.is_empty() {
+                    continue;
+                }
+                let key = Key {
+                    state: draw.state,
+                    targets: vec![Some(FORMAT)],
+                    has_depth: depth.is_some(),
+                    stride: records.stride(),
+                    slots: records.slots(&stage.inputs),
+                    moves_each: false,
+                };
+                pass.set_pipeline(stage.pipeline(device, data, &key));
+                data.bind(&mut pass, batch);
+                // A viewport for the whole frame, of which the tile shows its part.
+                let [left, bottom] = tile.origin(scene.height);
+                pass.set_viewport(left, bottom, width, height, 0.0, 1.0);
+                let Tile { area, x, y } = *tile;
+                pass.set_scissor_rect(x, y, area.width, area.height);
+                pass.draw_indexed(own, base, frame..frame + 1);
             }
-            // A viewport for the whole frame, of which the tile shows its part.
-            let (left, top) = (*x as f32 - area.x as f32, *y as f32 - area.y as f32);
-            pass.set_viewport(left, top, width, height, 0.0, 1.0);
-            pass.set_scissor_rect(*x, *y, area.width, area.height);
-            pass.draw(vertices, 0..1);
         }
     }
 }

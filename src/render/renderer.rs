@@ -2,13 +2,17 @@
 
 use super::capture::{self, Capture};
 use super::device::Device;
-use super::frames::{Frames, Mapped, Rendering, Sample};
-use super::painter::Painter;
+use super::fragments::FragmentStage;
+use super::frames::{Frames, Mapped, Met, Rendering, Sample};
+use super::painter::{Painter, Records};
+use super::pixels::{self, Pixels};
 use super::scene::{Batch, Scene};
+use super::textures::Textures;
 use super::tiles::{Area, Tiles};
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::translate::{CAPTURE_HEADER, Shader};
+use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Linked, Shader};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// Renders submissions on one device.
@@ -16,15 +20,19 @@ use std::sync::Arc;
 pub struct Renderer {
     device: Device,
     stage: capture::Stage,
+    /// The fixed fragment stage.
+    fragments: FragmentStage,
     painter: Painter,
+    textures: RefCell<Textures>,
 }
 
 impl Renderer {
     /// A renderer that runs this fixed fragment stage.
-    pub fn new(device: Device, fragment: naga::Module) -> Result<Self, Fault> {
-        let (stage, painter) =
-            checked(&device.device, || (capture::Stage::new(&device.device), Painter::new(&device.device, fragment)))?;
-        Ok(Self { device, stage, painter })
+    pub fn new(device: Device, fragment: &Shader) -> Result<Self, Fault> {
+        let (stage, fragments) = checked(&device.device, || {
+            (capture::Stage::new(&device.device), FragmentStage::new(&device.device, fragment))
+        })?;
+        Ok(Self { device, stage, fragments, painter: Painter::default(), textures: RefCell::default() })
     }
 
     /// The device.
@@ -38,14 +46,57 @@ impl Renderer {
         if rendering.ran_out.is_some() {
             return Ok(rendering);
         }
+        let records = Records { buffer: &capture.records, outputs: &shader.outputs };
+        let textures = self
+            .fragments
+            .reads_textures
+            .then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures));
+        paint(&self.device, &mut self.painter, &mut self.fragments, &records, scene, textures.as_ref(), rendering)
+    }
+
+    /// Draws the scene with a program of which any stage may be handed in, and computes the probes of both stages.
+    pub fn render_program(&mut self, program: &Linked, scene: &Scene) -> Result<Rendering, Fault> {
+        let (capture, rendering) = self.run(&program.vertex, scene)?;
+        if rendering.ran_out.is_some() {
+            return Ok(rendering);
+        }
+        let (mut stage, rendering) = self.run_pixels(&program.fragment, scene, rendering)?;
+        if rendering.of_fragments.ran_out.is_some() {
+            return Ok(rendering);
+        }
+        let records = Records { buffer: &capture.records, outputs: &program.vertex.outputs };
+        let textures = self.textures(&[&program.fragment], scene);
+        paint(&self.device, &mut self.painter, &mut stage, &records, scene, textures.as_ref(), rendering)
+    }
+
+    /// What the fragment stage computes for the probes of the scene; no frame is drawn.
+    pub fn compute_pixels(&self, fragment: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+        Ok(self.run_pixels(fragment, scene, Rendering::default())?.1)
+    }
+
+    fn run_pixels(
+        &self,
+        fragment: &Shader,
+        scene: &Scene,
+        mut rendering: Rendering,
+    ) -> Result<(FragmentStage, Rendering), Fault> {
         let device = &self.device;
-        let areas: Vec<Area> =
-            rendering.frame_samples.iter().map(|vertices| Area::painted(vertices, scene.width, scene.height)).collect();
-        let tiles = Tiles::place(&areas)?;
-        let painted = self.painter.submit(device, &capture.records, scene, &tiles);
-        let bytes = Arc::new(map(device, &painted.readback)?);
-        painted.reader = Arc::downgrade(&bytes);
-        Ok(Rendering { frames: Frames::new(scene, tiles, bytes), ..rendering })
+        let textures = self.textures(&[fragment], scene);
+        let (stage, pixels) = checked(&device.device, || {
+            let mut stage = FragmentStage::new(&device.device, fragment);
+            let pixels = (!scene.pixels.is_empty())
+                .then(|| Pixels::submit(device, &mut stage, &scene.pixels, textures.as_ref()));
+            (stage, pixels)
+        })?;
+        if let Some(pixels) = pixels {
+            let read = |buffer: &wgpu::Buffer| -> Result<Vec<u32>, Fault> {
+                Ok(bytemuck::pod_collect_to_vec(map(device, buffer)?.bytes()))
+            };
+            let outputs = pixels.readbacks().iter().map(read).collect::<Result<Vec<_>, _>>()?;
+            rendering.pixels = pixels::split(&stage, &scene.pixels, &outputs);
+            rendering.of_fragments = met(device, pixels.data.header())?;
+        }
+        Ok((stage, rendering))
     }
 
     /// What the shader computes for every vertex of the scene; no frame is drawn.
@@ -53,11 +104,19 @@ impl Renderer {
         Ok(self.run(shader, scene)?.1)
     }
 
+    /// The textures of the scene, where a stage reads them.
+    fn textures(&self, stages: &[&Shader], scene: &Scene) -> Option<wgpu::Buffer> {
+        let is_read = stages.iter().any(|stage| stage.reads_textures);
+        is_read.then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures))
+    }
+
     fn run(&self, shader: &Shader, scene: &Scene) -> Result<(Capture, Rendering), Fault> {
         let device = &self.device;
-        let capture = checked(&device.device, || Capture::new(&device.device, &self.stage, shader, scene))?;
+        let textures = self.textures(&[shader], scene);
+        let capture =
+            checked(&device.device, || Capture::new(&device.device, &self.stage, shader, scene, textures.as_ref()))?;
         capture.submit(device, &self.stage, scene);
-        let rendering = split(map(device, &capture.readback)?.bytes(), scene);
+        let rendering = split(map(device, &capture.readback)?.bytes(), &shader.outputs, scene);
         Ok((capture, rendering))
     }
 }
@@ -84,18 +143,43 @@ fn map(device: &Device, buffer: &wgpu::Buffer) -> Result<Mapped, Fault> {
     Mapped::new(buffer).map_err(|error| lost(&error.to_string()))
 }
 
-/// The captured header and records; there are no frames yet.
-fn split(captured: &[u8], scene: &Scene) -> Rendering {
-    let (header, records) = captured.split_at((CAPTURE_HEADER as usize).min(captured.len()));
-    let word = |index: usize| {
-        let bytes = header.get(index * 4..)?.first_chunk()?;
-        Some(u32::from_le_bytes(*bytes)).filter(|number| *number != 0)
+/// Paints the frames of captured vertices.
+fn paint(
+    device: &Device,
+    painter: &mut Painter,
+    stage: &mut FragmentStage,
+    records: &Records<'_>,
+    scene: &Scene,
+    textures: Option<&wgpu::Buffer>,
+    mut rendering: Rendering,
+) -> Result<Rendering, Fault> {
+    let area = |vertices: &Vec<Sample>| {
+        Area::painted(vertices.iter().map(|vertex| vertex.position), scene.width, scene.height)
     };
-    let (ran_out, undefined) = (word(0), word(2));
-    let samples: Vec<Sample> = bytemuck::pod_collect_to_vec(records);
+    let areas: Vec<Area> = rendering.frame_samples.iter().map(area).collect();
+    let tiles = Tiles::place(&areas)?;
+    let (painted, data) = checked(&device.device, || painter.submit(device, stage, records, scene, textures, &tiles))?;
+    let bytes = Arc::new(map(device, &painted.readback)?);
+    painted.reader = Arc::downgrade(&bytes);
+    let met = met(device, data.header())?;
+    rendering.of_fragments.ran_out = rendering.of_fragments.ran_out.or(met.ran_out);
+    rendering.of_fragments.undefined = rendering.of_fragments.undefined.or(met.undefined);
+    Ok(Rendering { frames: Frames::new(scene, tiles, bytes), ..rendering })
+}
+
+/// What the header of a pass says.
+fn met(device: &Device, header: Option<&wgpu::Buffer>) -> Result<Met, Fault> {
+    Ok(header.map(|header| map(device, header)).transpose()?.map(|header| Met::of(header.bytes())).unwrap_or_default())
+}
+
+/// The captured header and records; there are no frames yet.
+fn split(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> Rendering {
+    let (header, records) = captured.split_at((CAPTURE_HEADER as usize).min(captured.len()));
+    let Met { ran_out, undefined } = Met::of(header);
+    let samples = samples(records, outputs.len());
     let mut rest = samples.as_slice();
     let mut take = |batches: &[Batch]| {
-        let mut all = Vec::with_capacity(batches.len());
+        let mut all = Vec::new();
         for batch in batches {
             let (these, others) = rest.split_at((batch.drawn() as usize).min(rest.len()));
             rest = others;
@@ -103,9 +187,23 @@ fn split(captured: &[u8], scene: &Scene) -> Rendering {
         }
         all
     };
-    let frame_samples = take(&scene.frames);
+    let frame_samples = scene.frames.iter().map(|draws| take(draws).concat()).collect();
     let probe_samples = take(&scene.probes);
-    Rendering { frames: Frames::default(), frame_samples, probe_samples, ran_out, undefined }
+    Rendering { frame_samples, probe_samples, ran_out, undefined, ..Rendering::default() }
+}
+
+/// Positions, and the first of so many outputs.
+fn samples(records: &[u8], outputs: usize) -> Vec<Sample> {
+    let stride = (outputs + 1) * CAPTURE_SLOT as usize;
+    if stride == size_of::<Sample>() {
+        return bytemuck::pod_collect_to_vec(records);
+    }
+    let floats = |record: &[u8], slot: usize| -> [f32; 4] {
+        let bytes = record.get(slot * CAPTURE_SLOT as usize..).and_then(|rest| rest.first_chunk::<16>());
+        bytes.map(|bytes| bytemuck::pod_read_unaligned(bytes)).unwrap_or_default()
+    };
+    let sample = |record: &[u8]| Sample { position: floats(record, 0), colour: floats(record, 1) };
+    records.chunks_exact(stride).map(sample).collect()
 }
 
 fn lost(detail: &str) -> Fault {

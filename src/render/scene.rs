@@ -1,17 +1,46 @@
 //! What a submission is drawn with.
 
+use reference::interpreter::Texture;
 use reference::{Value, Values};
+use std::sync::Arc;
 
-/// A draw: its vertices, and the uniforms that hold for them.
+/// How the fragments of a draw are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct State {
+    /// Whether a fragment must be nearer than what is there.
+    pub tests_depth: bool,
+    /// Whether triangles that show their backs are left out.
+    pub culls_back: bool,
+}
+
+/// A draw: its vertices by attribute, and the uniforms that hold for them.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
-    /// Uniforms by path.
+    /// Uniforms by path, such as `lights[1].colour`; a part of a structure, array or block may be set by itself.
     pub uniforms: Vec<(String, Value)>,
     /// Attributes by name; all of one length.
     pub attributes: Vec<(String, Values)>,
+    /// The corners of the triangles, as numbers of vertices; three after three vertices where there are none.
+    pub triangles: Vec<[u32; 3]>,
+    /// How its fragments are kept.
+    pub state: State,
 }
 
 impl Batch {
+    /// The corners of its triangles in the order in which they are drawn. For `flat` values the last one counts, and wgpu
+    /// takes the first.
+    pub(super) fn corners(&self, is_flat: bool) -> Vec<u32> {
+        let turned = |[a, b, c]: [u32; 3]| if is_flat { [c, a, b] } else { [a, b, c] };
+        let in_order = (0..self.vertices() / 3).map(|number| [0, 1, 2].map(|corner| 3 * number + corner));
+        if self.triangles.is_empty() {
+            in_order.flat_map(turned).collect()
+        } else {
+            // A corner that no vertex has draws nothing.
+            let all = self.triangles.iter().copied();
+            all.filter(|corners| corners.iter().all(|corner| *corner < self.vertices())).flat_map(turned).collect()
+        }
+    }
+
     pub(super) fn vertices(&self) -> u32 {
         self.attributes.first().map_or(0, |(_, values)| values.len() as u32)
     }
@@ -23,7 +52,7 @@ impl Batch {
     }
 }
 
-/// What is drawn: frames, which are seen, and probes, of which only the vertices count.
+/// What is drawn: frames, which are seen, and probes, of which only the numbers count.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Pixels in a row of a frame.
@@ -32,16 +61,21 @@ pub struct Scene {
     pub height: u32,
     /// Colour that a frame is cleared to, RGBA8.
     pub background: [u8; 4],
-    /// One batch a frame.
-    pub frames: Vec<Batch>,
-    /// The probes.
+    /// The draws of each frame.
+    pub frames: Vec<Vec<Batch>>,
+    /// The probes of a vertex stage, one a vertex.
     pub probes: Vec<Batch>,
+    /// The probes of a fragment stage, one a pixel: what it is fed, as attributes by path. `gl_FragCoord` and
+    /// `gl_FrontFacing` may be among them.
+    pub pixels: Vec<Batch>,
+    /// The textures; a sampler's value is the number of one.
+    pub textures: Arc<[Texture]>,
 }
 
 impl Scene {
     /// The frames, then the probes.
     pub(super) fn batches(&self) -> impl Iterator<Item = &Batch> {
-        self.frames.iter().chain(&self.probes)
+        self.frames.iter().flatten().chain(&self.probes)
     }
 
     /// How many vertices are drawn in all.

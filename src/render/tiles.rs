@@ -1,6 +1,5 @@
 //! Where frames lie in the texture that they are drawn to: of each only the part that its triangles can reach.
 
-use super::frames::Sample;
 use crate::fault::Fault;
 use crate::language::Text;
 
@@ -33,17 +32,17 @@ pub struct Area {
 
 impl Area {
     /// The part of a frame of this size outside of which the triangles of these vertices paint nothing.
-    pub(super) fn painted(vertices: &[Sample], width: u32, height: u32) -> Self {
+    pub(super) fn painted(positions: impl Iterator<Item = [f32; 4]>, width: u32, height: u32) -> Self {
         let whole = Self { x: 0, y: 0, width, height };
-        let mut corners = Vec::with_capacity(vertices.len());
-        for vertex in vertices {
-            let [x, y, _, w] = vertex.position.map(f64::from);
+        let mut corners = Vec::new();
+        for position in positions {
+            let [x, y, _, w] = position.map(f64::from);
             let (x, y) = (x / w, y / w);
             // A corner behind the eye is at no place of the picture, and NaN is at none at all.
             if !(w > 0.0 && x.abs() < NEAR && y.abs() < NEAR) {
                 return whole;
             }
-            corners.push(((x + 1.0) / 2.0 * f64::from(width), (1.0 - y) / 2.0 * f64::from(height)));
+            corners.push(((x + 1.0) / 2.0 * f64::from(width), (y + 1.0) / 2.0 * f64::from(height)));
         }
         let extent = |values: &mut dyn Iterator<Item = f64>, size: u32| {
             let (low, high) =
@@ -54,8 +53,9 @@ impl Area {
             (low.min(high), high)
         };
         let (left, right) = extent(&mut corners.iter().map(|corner| corner.0), width);
-        let (top, bottom) = extent(&mut corners.iter().map(|corner| corner.1), height);
-        Self { x: left, y: top, width: right - left, height: bottom - top }
+        // From below, so that blocks of 2 × 2 pixels are those of the whole frame.
+        let (bottom, top) = extent(&mut corners.iter().map(|corner| corner.1), height);
+        Self { x: left, y: height - top, width: right - left, height: top - bottom }
     }
 
     /// Whether there is nothing to paint.
@@ -68,9 +68,22 @@ impl Area {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Tile {
     pub area: Area,
-    /// Its top left corner in the texture.
+    /// Its lower left corner in the texture, whose rows run upwards.
     pub x: u32,
     pub y: u32,
+}
+
+impl Tile {
+    /// Where the lower left corner of the whole frame, `height` rows high, is in the texture, whose rows run upwards.
+    pub fn origin(&self, height: u32) -> [f32; 2] {
+        let bottom = height - self.area.y - self.area.height;
+        [self.x as f32 - self.area.x as f32, self.y as f32 - bottom as f32]
+    }
+
+    /// From a place in the texture to that in the frame.
+    pub fn shift(&self, height: u32) -> [f32; 2] {
+        self.origin(height).map(|at| -at)
+    }
 }
 
 /// How the parts of all frames lie in one texture.
@@ -98,8 +111,9 @@ impl Tiles {
                 (x, y, row) = (0, y + row, 0);
             }
             tiles[index] = Tile { area, x, y };
-            x += area.width;
-            row = row.max(area.height);
+            // Even, so that a block of 2 × 2 pixels is one in the texture as well.
+            x += area.width.next_multiple_of(2);
+            row = row.max(area.height.next_multiple_of(2));
             width = width.max(x);
         }
         let placed = Self { tiles, width: width.max(1), height: (y + row).max(1) };
@@ -129,12 +143,8 @@ fn too_large(count: usize) -> Fault {
 mod tests {
     use super::*;
 
-    fn at(position: [f32; 4]) -> Sample {
-        Sample { position, colour: [0.0; 4] }
-    }
-
     fn area(corners: [[f32; 4]; 3]) -> Area {
-        Area::painted(&corners.map(at), 640, 480)
+        Area::painted(corners.into_iter(), 640, 480)
     }
 
     const WHOLE: Area = Area { x: 0, y: 0, width: 640, height: 480 };

@@ -11,6 +11,26 @@ pub(super) use prose::wrong_text;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 
+/// The refusal in the words of a homework that asks for a fragment shader.
+pub(super) fn of_fragment_shader(mut refusal: Diagnostic) -> Diagnostic {
+    let own = |text: Text| {
+        let asked = text
+            .en
+            .replace("not a vertex shader", "not a fragment shader")
+            .replace("your vertex shader", "your fragment shader");
+        let japanese = |text: String| match text.strip_prefix("頂点シェーダ") {
+            Some(rest) => format!("フラグメントシェーダ{rest}"),
+            None => text,
+        };
+        Text::new(
+            asked.replace(".vert file", ".frag file"),
+            japanese(text.ja).replace(".vert ", ".frag ").replace(" .vert", " .frag"),
+        )
+    };
+    refusal.hint = refusal.hint.map(own);
+    Diagnostic { message: own(refusal.message), ..refusal }
+}
+
 /// The refusal of a file that seems to be `en`, `ja`.
 fn looks_like(en: &str, ja: &str) -> Diagnostic {
     Diagnostic::error(

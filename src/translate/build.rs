@@ -48,6 +48,11 @@ impl<'a> Build<'a> {
         self.node(Expression::AccessIndex { base, index })
     }
 
+    /// Whether an expression is this argument of the function.
+    pub fn is_argument(&self, value: Handle<Expression>, argument: u32) -> bool {
+        matches!(self.expressions[value], Expression::FunctionArgument(index) if index == argument)
+    }
+
     /// `left op right`.
     pub fn binary(
         &mut self,

@@ -27,7 +27,7 @@ pub(super) struct Renamed {
 /// What the compiler says, in the student's own names.
 pub(super) fn in_own_names(outcome: &mut Outcome, renamed: &[Renamed]) {
     for Renamed { own, ours } in renamed {
-        for log in [&mut outcome.vertex_log, &mut outcome.link_log] {
+        for log in [&mut outcome.link_log].into_iter().chain(outcome.logs.iter_mut().map(|(_, log)| log)) {
             let places: Vec<usize> = text::words(log).filter(|(_, word)| word == ours).map(|(at, _)| at).collect();
             for at in places {
                 log.replace_range(at..at + ours.len(), own);
@@ -37,9 +37,9 @@ pub(super) fn in_own_names(outcome: &mut Outcome, renamed: &[Renamed]) {
     }
 }
 
-/// Looks in the log of a refused `text` for what drivers take; `None` where there is nothing of the kind.
-pub(super) fn grant(text: &str, outcome: &Outcome, source: &Source) -> Option<Granted> {
-    let entries = log::entries(&outcome.vertex_log);
+/// Looks in the `log` of a refused `text` for what drivers take; `None` where there is nothing of the kind.
+pub(super) fn grant(text: &str, log: &str, source: &Source) -> Option<Granted> {
+    let entries = log::entries(log);
     let errors = || entries.iter().filter(|entry| entry.is_error);
     let mut granted = Granted { text: text.to_owned(), warnings: Vec::new(), renamed: Vec::new() };
     for entry in errors().filter(|entry| entry.token == "extraneous semicolon") {
@@ -60,8 +60,8 @@ pub(super) fn grant(text: &str, outcome: &Outcome, source: &Source) -> Option<Gr
 }
 
 /// The message of a feature that the compiler knows to be valid and cannot take.
-pub(super) fn unimplemented(outcome: &Outcome) -> Option<String> {
-    let entries = log::entries(&outcome.vertex_log);
+pub(super) fn unimplemented(log: &str) -> Option<String> {
+    let entries = log::entries(log);
     entries.iter().find(|entry| entry.message == "feature not yet implemented").map(|entry| entry.token.to_owned())
 }
 

@@ -13,9 +13,11 @@ mod lines;
 mod refit;
 mod tank;
 mod told;
+mod total;
 
 pub(super) use tank::run;
 pub(super) use told::out_of_fuel;
+pub(super) use total::settle;
 
 use super::gate::{Costs, each_statement};
 use super::spirv::Lines;

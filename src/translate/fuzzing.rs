@@ -1,20 +1,23 @@
 //! Steps of the translation that the fuzzer enters from the side; in no other build.
 
-use super::{Interface, first_pass, gate, second_pass, spirv, text};
+use super::glslang::{Stage, StageText};
+use super::{Interface, Submitted, first_pass, gate, spirv};
 use crate::source::Source;
 
 /// The words that the compiler writes for a file that it accepts.
 pub fn words(source: &Source, interface: &Interface) -> Option<Vec<u32>> {
     gate::check_text(source).ok()?;
-    let accepted = first_pass(source, interface).ok()?;
-    second_pass(&accepted.text, text::version(source.code())).ok()
+    let mut stages = [Submitted::new(Stage::Vertex, source, interface)];
+    first_pass(&mut stages, &[StageText::plain(Stage::Fragment, &interface.fragment)]).ok()?;
+    stages[0].second_pass().ok()
 }
 
 /// Bounds and reworks any words, damaged ones too.
 pub fn bear(words: &[u32], source: &Source) {
     // A refusal is as good an answer as any here.
-    let _ = gate::check_words(words, source);
+    let _ = gate::check_words(words, source, Stage::Vertex, &[]);
     for poisons in [false, true] {
-        let _ = spirv::rework(words, &["mw", "mc", "mg"], poisons);
+        let _ =
+            spirv::rework(words, spirv::How { set: &["mw", "mc", "mg"], has_textures: true, is_split: true, poisons });
     }
 }

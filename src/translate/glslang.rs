@@ -5,6 +5,7 @@
 #![allow(unsafe_code)]
 
 use glslang_sys as sys;
+pub use reference::interpreter::Stage;
 use std::ffi::{CStr, CString};
 use std::sync::OnceLock;
 
@@ -17,81 +18,90 @@ pub enum Rules {
     SpirV,
 }
 
-/// A stage of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// The student's shader.
-    Vertex,
-    /// The assignment's fixed shader.
-    Fragment,
-}
-
 /// How far the compiler came.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
-    /// The vertex shader does not compile.
-    Vertex,
-    /// The fixed fragment shader does not compile.
-    Fragment,
-    /// The two do not link.
+    /// A stage does not compile; the first that does not.
+    Stage(Stage),
+    /// All compile, and they do not link.
     Link,
     /// They link, and their interfaces have locations.
     Done,
 }
 
-/// What the compiler says about a vertex shader and its fragment shader.
+/// What the compiler says about the stages of a program.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// How far it came.
     pub reached: Reached,
-    /// Its log about the vertex shader, as it wrote it.
-    pub vertex_log: String,
+    /// Its log about each stage, as it wrote it, in the order of the request.
+    pub logs: Vec<(Stage, String)>,
     /// Its log about linking, as it wrote it.
     pub link_log: String,
     /// The stage that was asked for, in SPIR-V; empty under OpenGL's rules.
     pub spirv: Vec<u32>,
 }
 
-/// How a vertex shader is to be read.
+impl Outcome {
+    /// The log about a stage; empty where it was not asked for.
+    pub fn log(&self, stage: Stage) -> &str {
+        self.logs.iter().find(|(one, _)| *one == stage).map_or("", |(_, log)| log)
+    }
+}
+
+/// The text of one stage.
+#[derive(Clone, Copy, Debug)]
+pub struct StageText<'a> {
+    /// Which stage.
+    pub stage: Stage,
+    /// The text.
+    pub text: &'a CStr,
+    /// Text that stands before its first line without counting as a line.
+    pub preamble: &'a CStr,
+    /// Read it as this GLSL version whatever its `#version` says.
+    pub version: Option<i32>,
+}
+
+impl<'a> StageText<'a> {
+    /// The text as it stands.
+    pub fn plain(stage: Stage, text: &'a CStr) -> Self {
+        Self { stage, text, preamble: c"", version: None }
+    }
+}
+
+/// How a program is to be read.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// The student's text.
-    pub vertex: &'a CStr,
-    /// The assignment's fixed fragment shader; without one, the vertex shader is linked alone.
-    pub fragment: Option<&'a CStr>,
-    /// Text that stands before the first line of the vertex shader without counting as a line.
-    pub preamble: &'a CStr,
+    /// Its stages in order; one by itself is linked alone.
+    pub stages: &'a [StageText<'a>],
     /// Whose rules.
     pub rules: Rules,
-    /// Read the vertex shader as this GLSL version whatever its `#version` says.
-    pub version: Option<i32>,
     /// The stage to write as SPIR-V under [`Rules::SpirV`].
     pub emit: Stage,
 }
 
-/// Compiles and links the two shaders; under [`Rules::SpirV`] also writes SPIR-V.
+/// Compiles the stages and links them; under [`Rules::SpirV`] also writes SPIR-V.
 pub fn compile(request: &Request<'_>) -> Outcome {
     static PROCESS: OnceLock<()> = OnceLock::new();
     PROCESS.get_or_init(|| {
         // SAFETY: called once, before any other call into glslang; it has no other precondition.
         unsafe { sys::glslang_initialize_process() };
     });
-    let mut outcome =
-        Outcome { reached: Reached::Vertex, vertex_log: String::new(), link_log: String::new(), spirv: Vec::new() };
-    let vertex = Shader::new(request, Stage::Vertex, request.vertex);
-    let parsed = vertex.parse();
-    outcome.vertex_log = vertex.log();
-    if !parsed {
+    let mut outcome = Outcome { reached: Reached::Link, logs: Vec::new(), link_log: String::new(), spirv: Vec::new() };
+    let mut shaders = Vec::with_capacity(request.stages.len());
+    for text in request.stages {
+        let shader = Shader::new(request.rules, text);
+        let parsed = shader.parse();
+        outcome.logs.push((text.stage, shader.log()));
+        if !parsed && outcome.reached == Reached::Link {
+            outcome.reached = Reached::Stage(text.stage);
+        }
+        shaders.push(shader);
+    }
+    if outcome.reached != Reached::Link {
         return outcome;
     }
-    outcome.reached = Reached::Fragment;
-    let fragment = request.fragment.map(|text| Shader::new(request, Stage::Fragment, text));
-    if let Some(fragment) = fragment.as_ref().filter(|fragment| !fragment.parse()) {
-        outcome.link_log = fragment.log();
-        return outcome;
-    }
-    outcome.reached = Reached::Link;
-    let program = Program::new(&vertex, fragment.as_ref());
+    let program = Program::new(&shaders);
     if program.link(request.rules) {
         outcome.reached = Reached::Done;
         if request.rules == Rules::SpirV {
@@ -102,12 +112,10 @@ pub fn compile(request: &Request<'_>) -> Outcome {
     outcome
 }
 
-impl Stage {
-    fn raw(self) -> sys::glslang_stage_t {
-        match self {
-            Stage::Vertex => sys::glslang_stage_t::Vertex,
-            Stage::Fragment => sys::glslang_stage_t::Fragment,
-        }
+fn raw(stage: Stage) -> sys::glslang_stage_t {
+    match stage {
+        Stage::Vertex => sys::glslang_stage_t::Vertex,
+        Stage::Fragment => sys::glslang_stage_t::Fragment,
     }
 }
 
@@ -131,14 +139,13 @@ struct Shader {
 }
 
 impl Shader {
-    fn new(request: &Request<'_>, stage: Stage, code: &CStr) -> Self {
-        let is_vertex = stage == Stage::Vertex;
-        let code: CString = code.to_owned();
+    fn new(rules: Rules, text: &StageText<'_>) -> Self {
+        let code: CString = text.text.to_owned();
         let resource = Box::new(super::limits::desktop());
-        let spirv = request.rules == Rules::SpirV;
+        let spirv = rules == Rules::SpirV;
         let input = Box::new(sys::glslang_input_t {
             language: sys::glslang_source_t::GLSL,
-            stage: stage.raw(),
+            stage: raw(text.stage),
             // Vulkan's rules would give parameters a precision, and so refuse a student's own `max`.
             client: sys::glslang_client_t::OpenGL,
             client_version: sys::glslang_target_client_version_t::OpenGL450,
@@ -154,7 +161,7 @@ impl Shader {
             default_profile: sys::glslang_profile_t::None,
             force_default_version_and_profile: 0,
             forward_compatible: 0,
-            messages: request.rules.messages(),
+            messages: rules.messages(),
             resource: &*resource,
             callbacks: sys::glsl_include_callbacks_t {
                 include_system: None,
@@ -172,11 +179,9 @@ impl Shader {
         // SAFETY: `raw` is live; the texts are NUL-terminated and copied by the callee.
         unsafe {
             sys::glslang_shader_set_options(raw, options.0);
-            if is_vertex {
-                sys::glslang_shader_set_preamble(raw, request.preamble.as_ptr());
-                if let Some(version) = request.version {
-                    sys::glslang_shader_set_glsl_version(raw, version);
-                }
+            sys::glslang_shader_set_preamble(raw, text.preamble.as_ptr());
+            if let Some(version) = text.version {
+                sys::glslang_shader_set_glsl_version(raw, version);
             }
             sys::glslang_shader_set_preprocessed_code(raw, code.as_ptr());
         }
@@ -204,21 +209,18 @@ impl Drop for Shader {
 /// A program of shaders that outlive it.
 struct Program<'a> {
     raw: *mut sys::glslang_program_t,
-    _shaders: (&'a Shader, Option<&'a Shader>),
+    _shaders: &'a [Shader],
 }
 
 impl<'a> Program<'a> {
-    fn new(vertex: &'a Shader, fragment: Option<&'a Shader>) -> Self {
+    fn new(shaders: &'a [Shader]) -> Self {
         // SAFETY: no precondition; the shaders are parsed and outlive the program by the lifetime.
         let raw = unsafe {
             let raw = sys::glslang_program_create();
-            sys::glslang_program_add_shader(raw, vertex.raw);
-            if let Some(fragment) = fragment {
-                sys::glslang_program_add_shader(raw, fragment.raw);
-            }
+            shaders.iter().for_each(|shader| sys::glslang_program_add_shader(raw, shader.raw));
             raw
         };
-        Self { raw, _shaders: (vertex, fragment) }
+        Self { raw, _shaders: shaders }
     }
 
     fn link(&self, rules: Rules) -> bool {
@@ -249,7 +251,7 @@ impl<'a> Program<'a> {
         // SAFETY: the program is linked and mapped; the pointer is valid for `size` words until the
         // program is deleted or generates again, and the words are copied at once.
         unsafe {
-            sys::glslang_program_SPIRV_generate_with_options(self.raw, stage.raw(), &mut options);
+            sys::glslang_program_SPIRV_generate_with_options(self.raw, raw(stage), &mut options);
             let size = sys::glslang_program_SPIRV_get_size(self.raw);
             if size == 0 {
                 return Vec::new();

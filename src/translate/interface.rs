@@ -1,6 +1,7 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
-use super::{Refusal, Shader};
+use super::spirv::Declared;
+use super::{Refusal, Shader, glslang};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
@@ -31,6 +32,45 @@ pub struct Interface {
     pub fragment: CString,
 }
 
+impl Interface {
+    /// The uniforms and blocks that the program sets, as a whole or in part.
+    pub(super) fn set_uniforms(&self) -> Vec<&str> {
+        let root = |path: &'_ str| path.find(['.', '[']).unwrap_or(path.len());
+        let mut roots: Vec<&str> = self.uniforms.iter().map(|uniform| &uniform.name[..root(&uniform.name)]).collect();
+        roots.dedup();
+        roots
+    }
+}
+
+impl Declared {
+    /// Whether the program sets this part by `path`; an array without an index is its first element.
+    fn is_at(&self, path: &str) -> bool {
+        let is_it = |own: &str| own == path || own.strip_suffix("[0]") == Some(path);
+        // A member of a block without an instance name goes by its own name.
+        is_it(&self.path) || self.path.split_once('.').is_some_and(|(_, member)| self.is_in_block && is_it(member))
+    }
+
+    /// The variable as the program sets it, and as it is declared, where one of the two has parts and the other is one
+    /// value.
+    fn other_shape(&self, uniform: &Variable) -> Option<(Variable, &str)> {
+        let shape = |outer: &str, inner: &str| {
+            let rest = inner.strip_prefix(outer)?;
+            match rest.split_once(']').filter(|_| rest.starts_with('[')) {
+                Some((_, element)) if element.starts_with('.') => Some("struct"),
+                Some(_) => Some("array"),
+                None => rest.starts_with('.').then_some("struct"),
+            }
+        };
+        let member = self.path.split_once('.').map(|(_, member)| member).filter(|_| self.is_in_block);
+        if let Some("struct") = shape(&uniform.name, &self.path) {
+            return Some((uniform.clone(), "struct"));
+        }
+        let own = [Some(self.path.as_str()), member].into_iter().flatten();
+        let (name, whole) = own.filter_map(|own| Some((own, shape(own, &uniform.name)?))).next()?;
+        Some((Variable { name: name.into(), ty: whole.into() }, &self.ty))
+    }
+}
+
 /// Holds what the shader declares against what the program feeds.
 ///
 /// # Errors
@@ -38,21 +78,31 @@ pub struct Interface {
 pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> Result<Vec<Diagnostic>, Refusal> {
     let mut errors = Vec::new();
     let mut notes = Vec::new();
-    for member in shader.uniforms.iter().filter(|block| block.is_default).flat_map(|block| &block.members) {
-        let declared = type_name(&member.ty);
-        match interface.uniforms.iter().find(|uniform| uniform.name == member.name) {
-            Some(expected) if expected.ty == declared => {}
-            Some(expected) => errors.push(wrong_type(source, "uniform", expected, &declared)),
-            None => notes.push(unset_uniform(source, &member.name, interface)),
+    let mut noted: Vec<&str> = Vec::new();
+    for declared in &shader.known.declared {
+        if let Some(expected) = interface.uniforms.iter().find(|uniform| declared.is_at(&uniform.name)) {
+            if expected.ty != declared.ty {
+                errors.push(wrong_type(source, "uniform", expected, &declared.ty));
+            }
+        } else if let Some((expected, ty)) = interface.uniforms.iter().find_map(|uniform| declared.other_shape(uniform))
+        {
+            errors.push(wrong_type(source, "uniform", &expected, ty));
+        } else if let root = &declared.path[..declared.path.find('[').unwrap_or(declared.path.len())]
+            && !noted.contains(&root)
+            && !interface.uniforms.iter().any(|uniform| uniform.name.starts_with(root))
+        {
+            noted.push(root);
+            notes.push(unset_uniform(source, root, interface));
         }
     }
-    for unset in &shader.unset {
+    errors.dedup();
+    for unset in &shader.known.unset {
         match interface.uniforms.iter().find(|uniform| uniform.name == unset.name) {
             Some(expected) if unset.ty != "block" => errors.push(wrong_type(source, "uniform", expected, unset.ty)),
             _ => notes.push(unset_uniform(source, &unset.name, interface)),
         }
     }
-    for attribute in &shader.attributes {
+    for attribute in shader.inputs.iter().filter(|_| shader.stage == glslang::Stage::Vertex) {
         let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
         // A program feeds floats; a shader may take fewer of them than there are.
         if attribute.kind != Some(naga::ScalarKind::Float) || attribute.width != 4 {
@@ -70,12 +120,15 @@ fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &
             format!("`{name}` is declared as `{declared}`, but the program passes a `{ty}`"),
             format!("`{name}` が `{declared}` と宣言されていますが、プログラムが渡すのは `{ty}` です"),
         ),
-    )
-    .hint(Text::new(
+    );
+    let diagnostic = place(diagnostic, source, name);
+    if name.contains(['.', '[']) {
+        return diagnostic;
+    }
+    diagnostic.hint(Text::new(
         format!("The handed-out file declares it as `{qualifier} {ty} {name};`."),
         format!("配布されたファイルの宣言は `{qualifier} {ty} {name};` です。"),
-    ));
-    place(diagnostic, source, name)
+    ))
 }
 
 fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnostic {
@@ -94,8 +147,11 @@ fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnost
     place(diagnostic, source, name)
 }
 
-/// Puts the diagnostic at the first place where the code has `name` as a word: its declaration.
+/// Puts the diagnostic at the first place where the code has `name`, or the last name of that path, as a word: its
+/// declaration.
 pub(super) fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+    let name = name.rsplit('.').next().unwrap_or(name);
+    let name = name.split('[').next().unwrap_or(name);
     if name.is_empty() {
         return diagnostic;
     }

@@ -65,9 +65,9 @@ fn place(rest: &str) -> Option<((u32, u32), &str)> {
     Some(((line.parse().ok()?, column.parse().ok()?), rest))
 }
 
-/// What the compiler's log of compiling the vertex shader `text` says, in the order in which to fix it: at least one
+/// What the compiler's log of compiling a stage's `text` says, in the order in which to fix it: at least one
 /// error if the log has one, except for what real drivers let pass, which stays a warning.
-pub fn vertex_diagnostics(log: &str, text: &str, interface: &Interface) -> Vec<Diagnostic> {
+pub fn stage_diagnostics(log: &str, text: &str, interface: &Interface) -> Vec<Diagnostic> {
     let mut entries = entries(log);
     // The parser's giving up is the last error, and tells most about the ones before it.
     let syntax = entries.iter().position(Entry::is_syntax_error).filter(|&at| at >= MAX_ENTRIES);

@@ -1,27 +1,37 @@
 //! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
 
-use super::entry::{self, Attribute};
+use super::entry::{self, Attribute, CAPTURE_SLOT, Part};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
+use super::glslang::Stage;
 use super::opaque;
-use super::spirv::{self, Lines, Reworked, Unset, Unworkable};
+use super::spirv::{self, Lines, Reworked, Uniforms, Unworkable};
 use super::undefined;
-use super::{Interface, Refusal, Variable};
+use super::{Interface, Refusal};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::source::Source;
 use naga::{AddressSpace, Handle, Module, ResourceBinding, Type, TypeInner};
 
-/// A uniform variable of the default block, or a member of a block of the student's own.
+/// A scalar, vector or matrix in a block of uniforms.
 #[derive(Clone, Debug)]
 pub struct Uniform {
-    /// Its name.
-    pub name: String,
+    /// Its path, such as `lights[1].colour` or, in a named block, `Light.ambient`.
+    pub path: String,
+    /// Its path without the block's name, where the block has no instance name.
+    pub alias: Option<String>,
     /// Offset in its block, in bytes.
     pub offset: u32,
     /// Its type.
     pub ty: TypeInner,
+}
+
+impl Uniform {
+    /// The paths by which the program may set it.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        [Some(self.path.as_str()), self.alias.as_deref()].into_iter().flatten()
+    }
 }
 
 /// A block of uniforms: binding 0, 1, … of group 0.
@@ -37,17 +47,28 @@ pub struct UniformBlock {
     pub members: Vec<Uniform>,
 }
 
-/// A vertex shader that wgpu can run.
+/// A stage that wgpu can run.
 #[derive(Clone, Debug)]
 pub struct Shader {
+    /// Which stage.
+    pub stage: Stage,
     /// The module; its entry point is `main`.
     pub module: Module,
-    /// The attributes that it reads.
-    pub attributes: Vec<Attribute>,
+    /// What it is fed, at locations from 0 on.
+    pub inputs: Vec<Attribute>,
+    /// What it hands over: a vertex stage in the slots of a captured record behind the position, a fragment stage to the
+    /// targets of their locations.
+    pub outputs: Vec<Attribute>,
+    /// Whether it is the homework's own, which nothing watches.
+    pub is_fixed: bool,
+    /// The location of what is to be added to `gl_FragCoord`, where a fragment stage reads that.
+    pub shift: Option<u32>,
     /// Its uniform blocks in order of binding.
     pub uniforms: Vec<UniformBlock>,
-    /// Uniforms that it reads and the program does not set.
-    pub(super) unset: Vec<Unset>,
+    /// Whether it reads textures, which are bound at [`TEXTURES`](super::TEXTURES).
+    pub reads_textures: bool,
+    /// Its uniforms as its text declares them.
+    pub(super) known: Uniforms,
     /// From a span of the module to the line of the student's file.
     pub lines: Lines,
     /// Its loops, numbered from 1 where the capture's header names one.
@@ -60,47 +81,109 @@ impl Shader {
     /// The same shader, but where its text leaves a result undefined (see [`super::undefined`]) it computes a number that
     /// shows in whatever depends on it.
     pub fn poisoned(&self, source: &Source, interface: &Interface) -> Result<Self, Refusal> {
-        build(self.written.clone(), source, interface, true)
+        build(self.written.clone(), source, interface, self.as_built(true))
     }
 
     /// The module as the compiler wrote it, without fuel, capture and whatever else ggrade adds: to measure what they cost.
     /// Its attributes have locations in the interface's order, its output location 0, its uniforms binding 0 of group 0.
     pub fn plain(&self, interface: &Interface) -> Result<Module, Fault> {
-        let set: Vec<_> = interface.uniforms.iter().map(|variable| variable.name.as_str()).collect();
-        let mut module = parse(&spirv::rework(&self.written, &set, false).map_err(damaged)?.words)?;
+        let how = spirv::How { set: &interface.set_uniforms(), ..spirv::How::default() };
+        let mut module = parse(&spirv::rework(&self.written, how).map_err(damaged)?.words)?;
         bind_uniforms(&mut module);
         entry::locate(&mut module, interface);
         Ok(module)
     }
 
+    /// How it was built, but poisoned or not.
+    fn as_built(&self, poisons: bool) -> Built {
+        let outputs = Some(self.outputs.iter().map(|output| output.name.clone()).collect());
+        Built { stage: self.stage, outputs, is_fixed: self.is_fixed, poisons }
+    }
+
+    /// Bytes of a captured vertex: its position and its outputs.
+    pub fn record_stride(&self) -> u64 {
+        (self.outputs.len() as u64 + 1) * CAPTURE_SLOT
+    }
+
     /// What to say where the capture's header is not 0.
     pub fn out_of_fuel(&self, ran_out: u32) -> Diagnostic {
-        fuel::out_of_fuel(&self.meters, ran_out)
+        fuel::out_of_fuel(&self.meters, ran_out, self.stage)
     }
 }
 
+/// How a stage is built.
+#[derive(Clone, Debug)]
+pub(super) struct Built {
+    pub stage: Stage,
+    /// The outputs of a vertex stage that are captured, by path; all where none are named.
+    pub outputs: Option<Vec<String>>,
+    /// Whether it is the homework's own, which needs no watching.
+    pub is_fixed: bool,
+    /// Whether what is undefined becomes a number that shows.
+    pub poisons: bool,
+}
+
 /// Makes the module. A fault here is our limit, not the student's.
-pub(super) fn build(
-    written: Vec<u32>,
-    source: &Source,
-    interface: &Interface,
-    poisons: bool,
-) -> Result<Shader, Refusal> {
-    let names = |variables: &'_ [Variable]| variables.iter().map(|variable| variable.name.clone()).collect::<Vec<_>>();
-    let (inputs, set) = (names(&interface.inputs), names(&interface.uniforms));
-    let set: Vec<&str> = set.iter().map(String::as_str).collect();
-    let Reworked { words, lines, unset } = spirv::rework(&written, &set, poisons).map_err(refusal)?;
+pub(super) fn build(written: Vec<u32>, source: &Source, interface: &Interface, how: Built) -> Result<Shader, Refusal> {
+    let has_textures = interface.uniforms.iter().any(|uniform| uniform.ty.contains("sampler"));
+    let rework = spirv::How { set: &interface.set_uniforms(), has_textures, is_split: true, poisons: how.poisons };
+    let Reworked { words, lines, uniforms: known, io, reads_textures } =
+        spirv::rework(&written, rework).map_err(refusal)?;
     let mut module = parse(&words)?;
-    let costs = Costs::of(&module);
-    gate::check_module(&module, &costs, &lines, source)?;
-    let zero = opaque::hide_conditions(&mut module);
-    let (meters, gauge) = fuel::meter(&mut module, &costs, &written, &lines);
-    let undefined = undefined::watch(&mut module, &lines);
-    let inputs: Vec<&str> = inputs.iter().map(String::as_str).collect();
-    let hooks = entry::Hooks { gauge, zero, undefined };
-    let attributes = entry::rebuild(&mut module, &inputs, &interface.output.name, &hooks);
+    let [mut inputs, mut outputs] = [true, false].map(|inputs| entry::parts(&module, &io, inputs));
+    let mut costs = Costs::of(&module);
+    costs.copy(&inputs, &outputs);
+    gate::check_module(&module, &costs, &lines, source, how.stage)?;
+    let mut meters = Vec::new();
+    let mut hooks = entry::Hooks { gauge: None, zero: None, undefined: None };
+    if !how.is_fixed {
+        hooks.zero = opaque::hide_conditions(&mut module, &io);
+        (meters, hooks.gauge) = fuel::meter(&mut module, &costs, &written, &lines);
+        hooks.undefined = undefined::watch(&mut module, &lines);
+    }
+    let shift = match how.stage {
+        Stage::Vertex => {
+            entry::leave_unset(&mut module, &inputs);
+            let is_fed = |part: &Part| {
+                let name = &part.attribute.name;
+                interface.inputs.iter().any(|input| input.name == *name)
+            };
+            inputs.retain(is_fed);
+            if let Some(wanted) = &how.outputs {
+                let place = |part: &Part| wanted.iter().position(|name| *name == part.attribute.name);
+                outputs.retain(|part| place(part).is_some());
+                outputs.sort_by_key(place);
+            }
+            entry::rebuild_vertex(&mut module, &inputs, &outputs, &hooks);
+            None
+        }
+        Stage::Fragment => {
+            inputs.retain(|part| part.attribute.is_used);
+            outputs.retain(|part| part.attribute.is_used);
+            entry::rebuild_fragment(&mut module, &inputs, &outputs, (!how.is_fixed).then_some(&hooks))
+        }
+    };
     let uniforms = bind_uniforms(&mut module);
-    Ok(Shader { module, attributes, uniforms, unset, lines, meters, written })
+    let mut inputs: Vec<Attribute> = inputs.into_iter().map(|part| part.attribute).collect();
+    // The compiler's automatic locations may collide with the student's own.
+    (0..).zip(&mut inputs).for_each(|(location, input)| input.location = location);
+    let outputs = outputs.into_iter().map(|part| part.attribute).collect();
+    let Built { stage, is_fixed, .. } = how;
+    let shader = Shader {
+        stage,
+        module,
+        inputs,
+        outputs,
+        is_fixed,
+        shift,
+        uniforms,
+        reads_textures,
+        known,
+        lines,
+        meters,
+        written,
+    };
+    Ok(shader)
 }
 
 fn refusal(unworkable: Unworkable) -> Refusal {
@@ -153,39 +236,44 @@ fn bind_uniforms(module: &mut Module) -> Vec<UniformBlock> {
         }
         let binding = blocks.len() as u32;
         variable.binding = Some(ResourceBinding { group: 0, binding });
-        blocks.push(block(types, variable.ty, binding));
+        blocks.push(block(types, variable, binding));
     }
     blocks
 }
 
-fn block(types: &naga::UniqueArena<Type>, ty: Handle<Type>, binding: u32) -> UniformBlock {
-    let TypeInner::Struct { members, span } = &types[ty].inner else {
+fn block(types: &naga::UniqueArena<Type>, variable: &naga::GlobalVariable, binding: u32) -> UniformBlock {
+    let TypeInner::Struct { members, span } = &types[variable.ty].inner else {
         return UniformBlock { binding, size: 16, is_default: false, members: Vec::new() };
     };
-    UniformBlock {
-        binding,
-        size: *span,
-        is_default: types[ty].name.as_deref() == Some(spirv::DEFAULT_BLOCK),
-        members: members
-            .iter()
-            .map(|member| Uniform {
-                name: member.name.clone().unwrap_or_default(),
-                offset: member.offset,
-                ty: types[member.ty].inner.clone(),
-            })
-            .collect(),
+    let name = types[variable.ty].name.as_deref().unwrap_or_default();
+    let is_default = name == spirv::DEFAULT_BLOCK;
+    let mut found = Vec::new();
+    for member in members {
+        leaves(types, member.ty, member.name.clone().unwrap_or_default(), member.offset, &mut found);
     }
+    let is_bare = variable.name.as_deref().unwrap_or_default().is_empty();
+    for uniform in found.iter_mut().filter(|_| !is_default) {
+        let path = format!("{name}.{}", uniform.path);
+        let alias = std::mem::replace(&mut uniform.path, path);
+        uniform.alias = is_bare.then_some(alias);
+    }
+    UniformBlock { binding, size: *span, is_default, members: found }
 }
 
-/// Makes the module of the assignment's fixed fragment stage; it reads `varying` at location 0.
-pub(super) fn build_fixed_stage(words: &[u32], varying: &str) -> Result<Module, Fault> {
-    let mut module = parse(&spirv::rework(words, &[], false).map_err(damaged)?.words)?;
-    for argument in &mut module.entry_points[0].function.arguments {
-        if let Some(naga::Binding::Location { location, .. }) = &mut argument.binding
-            && argument.name.as_deref() == Some(varying)
-        {
-            *location = 0;
+/// The scalars, vectors and matrices that a type consists of.
+fn leaves(types: &naga::UniqueArena<Type>, ty: Handle<Type>, path: String, offset: u32, found: &mut Vec<Uniform>) {
+    match &types[ty].inner {
+        TypeInner::Struct { members, .. } => {
+            for member in members {
+                let path = format!("{path}.{}", member.name.as_deref().unwrap_or_default());
+                leaves(types, member.ty, path, offset + member.offset, found);
+            }
         }
+        TypeInner::Array { base, size: naga::ArraySize::Constant(length), stride } => {
+            for index in 0..length.get() {
+                leaves(types, *base, format!("{path}[{index}]"), offset + index * stride, found);
+            }
+        }
+        inner => found.push(Uniform { path, alias: None, offset, ty: inner.clone() }),
     }
-    Ok(module)
 }

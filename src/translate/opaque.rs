@@ -6,6 +6,8 @@
 //! with a value from the capture's header that is always true, and of which the driver's compiler knows nothing.
 
 use super::build::Build;
+use super::entry::is_input;
+use super::spirv::Io;
 use naga::{
     AddressSpace, Arena, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, LocalVariable, Module,
     Scalar, ScalarKind, Span, Statement, SwitchValue, Type, TypeInner,
@@ -24,9 +26,10 @@ enum Source {
 
 /// Joins the conditions that hang on uniforms alone with a variable that holds 0. Gives the variable, which the entry
 /// point has to fill from the capture's header; none where there is no such condition.
-pub(super) fn hide_conditions(module: &mut Module) -> Option<Handle<GlobalVariable>> {
+pub(super) fn hide_conditions(module: &mut Module, io: &[Io]) -> Option<Handle<GlobalVariable>> {
     let u32_type = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
-    let inputs = inputs(&module.entry_points[0].function);
+    let mut inputs = inputs(&module.entry_points[0].function);
+    inputs.extend(module.global_variables.iter().filter(|(_, of)| is_input(io, of)).map(|(handle, _)| handle));
     let zero = GlobalVariable {
         name: Some("zero".into()),
         space: AddressSpace::Private,

@@ -20,6 +20,9 @@ pub(super) fn warnings(source: &Source, interface: &Interface) -> Vec<Diagnostic
     let version = text::version(source.code());
     let mut warnings: Vec<_> = version_line(source, version).into_iter().collect();
     warnings.extend(late_extension(source));
+    if interface.fragment.is_empty() {
+        return warnings;
+    }
     warnings.extend(invariant_pragma(source, version, &interface.output.name));
     let output = interface.output.name.as_str();
     let code = text::without_directives(source.code());

@@ -5,7 +5,9 @@ mod globals;
 mod images;
 mod infinite;
 mod integers;
+mod io;
 mod lower;
+mod memory;
 pub(super) mod op;
 mod packing;
 mod poison;
@@ -13,10 +15,15 @@ mod sound;
 mod switch;
 #[cfg(test)]
 mod tests;
+mod textures;
 mod walk;
 
-pub(super) use globals::{DEFAULT_BLOCK, Unset};
+pub(super) use globals::{DEFAULT_BLOCK, Declared, Uniforms};
+pub(super) use io::Io;
+pub use io::{Interpolation, Qualifiers};
 pub(super) use poison::NEGATIVE;
+pub(super) use textures::OURS;
+pub use textures::TEXTURES;
 pub(super) use walk::{Instruction, instructions, rename, text};
 
 use code::Code;
@@ -28,8 +35,12 @@ pub(super) struct Reworked {
     pub words: Vec<u32>,
     /// Which line of the source each instruction comes from.
     pub lines: Lines,
-    /// Uniforms that the program does not set.
-    pub unset: Vec<Unset>,
+    /// What became of the uniforms.
+    pub uniforms: Uniforms,
+    /// Inputs and outputs that are plain variables.
+    pub io: Vec<Io>,
+    /// Whether textures are read.
+    pub reads_textures: bool,
 }
 
 /// Why words are not reworked.
@@ -41,7 +52,20 @@ pub(super) enum Unworkable {
     Cases(Option<u32>),
 }
 
-/// Reworks `words`; `set` are the uniforms that the program sets.
+/// How words are reworked.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct How<'a> {
+    /// The uniforms and blocks that the program sets, as a whole or in part.
+    pub set: &'a [&'a str],
+    /// Whether there are textures among them.
+    pub has_textures: bool,
+    /// Whether inputs and outputs become plain variables.
+    pub is_split: bool,
+    /// Whether what is undefined becomes a number that shows.
+    pub poisons: bool,
+}
+
+/// Reworks `words`.
 ///
 /// - Uniforms that the program sets become members of one block; any other is a private variable with
 ///   its initial value, for nothing ever sets it ([`globals`]).
@@ -49,23 +73,27 @@ pub(super) enum Unworkable {
 /// - Instructions that naga does not know, or takes for something else, become others
 ///   ([`lower`], [`integers`]).
 /// - Constants that are infinite or no numbers are made where they are used ([`infinite`]).
-/// - Where `poisons`, what is undefined becomes a number that shows ([`poison`]).
+/// - Inputs and outputs become plain variables ([`io`]), samplers of textures numbers ([`textures`]).
+/// - Where asked for, what is undefined becomes a number that shows ([`poison`]).
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
 ///   there, and zero is the same each time.
 /// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
-pub(super) fn rework(words: &[u32], set: &[&str], poisons: bool) -> Result<Reworked, Unworkable> {
+pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable> {
     let mut code = Code::parse(words).ok_or(Unworkable::Damaged)?;
-    let unset = globals::rework(&mut code, set);
+    let samplers = if how.has_textures { textures::Samplers::take(&mut code) } else { Default::default() };
+    let is_fragment = code.is_fragment();
+    let (uniforms, io) = globals::rework(&mut code, how, &samplers);
     undefined(&mut code);
     code.functions.retain(|instruction| instruction.opcode != op::MEMORY_BARRIER);
     switch::separate_cases(&mut code)?;
+    let reads_textures = textures::lower(&mut code, &samplers, is_fragment);
     lower::lower(&mut code);
-    if poisons {
+    if how.poisons {
         poison::poison(&mut code);
     }
     infinite::rework(&mut code);
     let (words, lines) = code.encode();
-    Ok(Reworked { words, lines, unset })
+    Ok(Reworked { words, lines, uniforms, io, reads_textures })
 }
 
 fn undefined(code: &mut Code) {

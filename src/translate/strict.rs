@@ -19,7 +19,7 @@ pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> 
         if version < FREE_LAYOUTS {
             errors.extend(repeated_layout(source, &statement));
         }
-        if version == STRICT_LOCATIONS {
+        if version == STRICT_LOCATIONS && !interface.fragment.is_empty() {
             errors.extend(located_output(source, &statement, interface));
         }
         errors.extend(qualified_result(source, &statement));

@@ -111,3 +111,44 @@ fn what_some_drivers_refuse_is_warned_of() {
     assert_eq!(at("#version 410 compatibility\nout vec4 vc;"), [(Some(1), Some(14))]);
     assert_eq!(at("#version 410\nout vec4 vc;\n#extension GL_ARB_gpu_shader5 : enable"), [(Some(3), Some(12))]);
 }
+
+/// Translates a right shader that the program sets these uniforms for as well.
+fn with_uniforms(set: &[(&str, &str)], globals: &str, body: &str) -> Result<Translation, Refusal> {
+    let text = format!(
+        "#version 410\nin vec4 pv, cv;\nuniform mat4 mw, mc, mg;\nout vec4 vc;\n{globals}\n\
+         void main() {{\nvc = mg * cv + mw * pv;\n{body}\ngl_Position = mc * pv;\n}}\n"
+    );
+    let mut interface = interface();
+    let variable = |(name, ty): &(&str, &str)| super::Variable { name: (*name).into(), ty: (*ty).into() };
+    interface.uniforms.extend(set.iter().map(variable));
+    translate(&source::read("a.vert", text.as_bytes()).expect("a text"), &interface)
+}
+
+#[test]
+fn parts_of_uniforms_are_held_against_what_the_program_sets() {
+    let light = "struct L { vec3 at; bool on[2]; float far; };\nuniform L l[2];\nuniform K { vec4 ambient; };";
+    let body = "if (l[1].on[0]) vc.xyz += l[0].at * l[1].far + ambient.xyz;";
+    let set =
+        [("l[0].at", "vec3"), ("l[1].on[0]", "bool"), ("l[1].far", "float"), ("K.ambient", "vec4"), ("gone", "int")];
+    let translation = with_uniforms(&set, light, body).expect("all is as the program sets it");
+    let members: Vec<_> = translation.shader.uniforms.iter().flat_map(|block| &block.members).collect();
+    let offset = |path: &str| members.iter().find(|member| member.paths().any(|own| own == path)).map(|one| one.offset);
+    // By std140: three floats, from 16 on two integers 16 bytes apart, a float at 48; 64 bytes in all.
+    let first = offset("l[0].at").expect("a member");
+    assert_eq!(offset("l[0].on[1]").map(|at| at - first), Some(32));
+    assert_eq!(offset("l[1].far").map(|at| at - first), Some(64 + 48));
+    assert_eq!((offset("K.ambient"), offset("ambient")), (Some(0), Some(0)));
+
+    let place = |set: &[(&str, &str)]| match with_uniforms(set, light, body) {
+        Err(Refusal::Rejected(diagnostics)) => (diagnostics[0].line, diagnostics[0].message.en.clone()),
+        other => panic!("{:?}", other.map(|_| "accepted")),
+    };
+    let (line, message) = place(&[("l[0].at", "vec4")]);
+    assert_eq!(line, Some(5));
+    assert_eq!(message, "`l[0].at` is declared as `vec3`, but the program passes a `vec4`");
+    assert_eq!(place(&[("l", "float")]).0, Some(6));
+    assert_eq!(
+        place(&[("ambient.x", "float")]).1,
+        "`ambient` is declared as `vec4`, but the program passes a `struct`"
+    );
+}

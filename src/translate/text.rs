@@ -3,6 +3,7 @@
 //! Every line stays where it is, and so does every byte but those of [`continued`] lines, so that the places of the
 //! compiler's messages are the student's own.
 
+use super::glslang::Stage;
 use crate::source::Source;
 use std::ffi::CString;
 use std::ops::Range;
@@ -157,7 +158,7 @@ pub(super) struct ForSpirv {
 const FIRST_SPIRV_VERSION: i32 = 330;
 
 /// Makes `text`, which the first pass accepts, ready for SPIR-V.
-pub(super) fn for_spirv(text: &str, version: i32) -> ForSpirv {
+pub(super) fn for_spirv(text: &str, version: i32, stage: Stage) -> ForSpirv {
     let has_old_qualifiers = words(text).any(|(_, word)| word == "attribute" || word == "varying");
     let mut bytes = text.as_bytes().to_vec();
     for (at, word) in words(text).filter(|(_, word)| matches!(*word, "shared" | "packed")) {
@@ -168,7 +169,11 @@ pub(super) fn for_spirv(text: &str, version: i32) -> ForSpirv {
     }
     ForSpirv {
         text: CString::new(bytes).unwrap_or_default(),
-        preamble: c_text(if has_old_qualifiers { "#define attribute in\n#define varying out\n" } else { "" }),
+        preamble: c_text(match stage {
+            Stage::Vertex if has_old_qualifiers => "#define attribute in\n#define varying out\n",
+            Stage::Fragment if has_old_qualifiers => "#define varying in\n",
+            _ => "",
+        }),
         version: (version < FIRST_SPIRV_VERSION).then_some(FIRST_SPIRV_VERSION),
     }
 }
@@ -230,9 +235,9 @@ mod tests {
 
     #[test]
     fn layouts_of_blocks_become_one_that_spirv_has() {
-        let ready = for_spirv("layout(shared) uniform B { float a; };\nfloat shared_;\n", 410);
+        let ready = for_spirv("layout(shared) uniform B { float a; };\nfloat shared_;\n", 410, Stage::Vertex);
         assert_eq!(ready.text.to_str(), Ok("layout(std140) uniform B { float a; };\nfloat shared_;\n"));
         assert_eq!(ready.version, None);
-        assert_eq!(for_spirv("varying vec4 a;", 120).version, Some(330));
+        assert_eq!(for_spirv("varying vec4 a;", 120, Stage::Vertex).version, Some(330));
     }
 }

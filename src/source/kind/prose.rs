@@ -1,9 +1,10 @@
 //! Text files that are no vertex shader.
 
 use super::looks_like;
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use crate::source::Source;
+use reference::interpreter::Stage;
 
 /// Words that stand in one kind of shader only, and never in a vertex shader.
 const OTHER_STAGES: [(&[&str], &str, &str); 4] = [
@@ -17,16 +18,27 @@ const OTHER_STAGES: [(&[&str], &str, &str); 4] = [
     (&["gl_GlobalInvocationID", "gl_LocalInvocationID"], "a compute shader", "コンピュートシェーダ"),
 ];
 
-/// Why the text of `source` is no vertex shader, where it is not.
-pub(in crate::source) fn wrong_text(source: &Source) -> Option<Diagnostic> {
+/// Why the text of `source` is no shader of this stage, where it is not.
+pub(in crate::source) fn wrong_text(source: &Source, stage: Stage) -> Option<Diagnostic> {
     if source.code().trim().is_empty() {
         return Some(empty(source));
     }
     let found = markup(source).or_else(|| wrapped(source)).or_else(|| cpp_with_main(source));
-    if found.is_some() || has_word(source, "gl_Position") {
-        return found;
+    let of_fragments = |word: &str| OTHER_STAGES[0].0.contains(&word);
+    match stage {
+        _ if found.is_some() => found,
+        Stage::Vertex if has_word(source, "gl_Position") => None,
+        Stage::Vertex => other_program(source, &OTHER_STAGES),
+        Stage::Fragment if source.words().any(|(_, word)| of_fragments(word)) => None,
+        Stage::Fragment => vertex_shader(source).or_else(|| other_program(source, &OTHER_STAGES[1..])),
     }
-    other_program(source)
+}
+
+/// A vertex shader: it writes `gl_Position`, which no other stage here has.
+fn vertex_shader(source: &Source) -> Option<Diagnostic> {
+    let (at, word) = source.words().find(|(_, word)| *word == "gl_Position")?;
+    let (line, column) = source.position(at);
+    Some(looks_like("the vertex shader", "頂点シェーダ").at(line, Some(column)).spanning(word.len()))
 }
 
 /// The refusal of a fragment shader: one that takes in the variable that the vertex shader has to write, `varying`,
@@ -68,7 +80,7 @@ fn empty(source: &Source) -> Diagnostic {
         Text::new("The file holds nothing but comments.", "ファイルにコメントしか入っていません。")
     };
     let open = source.comments.last().filter(|comment| !comment.to_line_end && comment.range.end == source.text.len());
-    let diagnostic = Diagnostic::error(Stage::Source, message)
+    let diagnostic = Diagnostic::error(crate::diagnostic::Stage::Source, message)
         .hint(Text::new("Was it saved before you handed it in?", "提出する前に保存したか確かめてください。"));
     let Some(open) = open else { return diagnostic };
     let (line, column) = source.position(open.range.start);
@@ -115,7 +127,7 @@ fn conflict() -> Diagnostic {
         "The marks of a Git merge conflict are still in the file.",
         "Git のマージで競合した箇所の印（<<<<<<<）が残っています。",
     );
-    Diagnostic::error(Stage::Source, message).hint(Text::new(
+    Diagnostic::error(crate::diagnostic::Stage::Source, message).hint(Text::new(
         "Keep one of the two versions and delete the lines <<<<<<<, ======= and >>>>>>>.",
         "どちらか一方を残し、<<<<<<<、=======、>>>>>>> の行を削除してください。",
     ))
@@ -126,15 +138,15 @@ fn fenced() -> Diagnostic {
         "The shader is wrapped in a Markdown code fence (```), which is not GLSL.",
         "シェーダが Markdown のコードブロックの印（```）で囲まれています。これは GLSL ではありません。",
     );
-    Diagnostic::error(Stage::Source, message).hint(Text::new(
+    Diagnostic::error(crate::diagnostic::Stage::Source, message).hint(Text::new(
         "Delete the lines that begin with ``` and everything outside of them.",
         "``` で始まる行と、その外側の文章を削除してください。",
     ))
 }
 
 /// A program in another language, or for another stage. Only asked where nothing writes `gl_Position`.
-fn other_program(source: &Source) -> Option<Diagnostic> {
-    for (marks, en, ja) in OTHER_STAGES {
+fn other_program(source: &Source, stages: &[(&[&str], &str, &str)]) -> Option<Diagnostic> {
+    for &(marks, en, ja) in stages {
         if let Some((at, word)) = source.words().find(|(_, word)| marks.contains(word)) {
             let (line, column) = source.position(at);
             return Some(looks_like(en, ja).at(line, Some(column)).spanning(word.len()));

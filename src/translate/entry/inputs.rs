@@ -1,24 +1,12 @@
-//! The inputs of the entry point: which of them the assignment's program feeds, and what the others hold.
+//! The inputs of the entry point: which of them the program feeds, and what the others hold.
 
+use super::header::insert;
+use super::{Attribute, Part};
+use crate::translate::spirv::Interpolation;
 use naga::{
-    Binding, Block, BuiltIn, Expression, Function, FunctionArgument, GlobalVariable, Handle, Literal, Module, Scalar,
-    Span, Statement, TypeInner, VectorSize,
+    Binding, Block, BuiltIn, Expression, Function, FunctionArgument, GlobalVariable, Handle, Literal, Module, Sampling,
+    Scalar, ScalarKind, Span, Statement, TypeInner, VectorSize,
 };
-
-/// A vertex attribute that the shader reads.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Attribute {
-    /// Its name in the student's file.
-    pub name: String,
-    /// Its location in the module.
-    pub location: u32,
-    /// Its GLSL type, such as `vec4`.
-    pub ty: String,
-    /// What its components are, where it is a scalar or vector.
-    pub kind: Option<naga::ScalarKind>,
-    /// Bytes of a component.
-    pub width: u8,
-}
 
 /// Gives attributes the locations of their places in the interface, and the outputs location 0.
 pub(in crate::translate) fn locate(module: &mut Module, interface: &crate::translate::Interface) {
@@ -48,47 +36,54 @@ pub(in crate::translate) fn locate(module: &mut Module, interface: &crate::trans
     }
 }
 
-/// Keeps the inputs that the program feeds and takes the others away. Gives the attributes and the
-/// index of the argument that carries `instance_index`.
-pub(super) fn feed(module: &mut Module, function: &mut Function, inputs: &[&str]) -> (Vec<Attribute>, u32) {
-    let arguments = std::mem::take(&mut function.arguments);
-    let mut attributes = Vec::new();
-    let mut kept = Vec::new();
-    for argument in &arguments {
-        let keep = match (&argument.binding, &argument.name) {
-            (Some(Binding::Location { .. }), Some(name)) if inputs.contains(&name.as_str()) => {
-                let inner = &module.types[argument.ty].inner;
-                attributes.push(Attribute {
-                    name: name.clone(),
-                    location: attributes.len() as u32,
-                    ty: super::super::interface::type_name(inner),
-                    kind: inner.scalar_kind(),
-                    width: inner.scalar().map_or(0, |scalar| scalar.width),
-                });
-                true
-            }
-            (Some(Binding::BuiltIn(BuiltIn::VertexIndex)), _) => true,
-            _ => false,
-        };
-        kept.push(keep.then(|| {
-            let mut argument = argument.clone();
-            if let (Some(Binding::Location { location, .. }), Some(attribute)) =
-                (&mut argument.binding, attributes.last())
-            {
-                // The compiler's automatic locations may collide with the student's own.
-                *location = attribute.location;
-            }
-            function.arguments.push(argument);
-            function.arguments.len() as u32 - 1
-        }));
+/// Adds an argument for each part that the program feeds, at locations from 0 on.
+pub(super) fn feed<'a>(function: &mut Function, parts: &'a [Part], is_fragment: bool) -> Vec<(&'a Part, u32)> {
+    let mut fed = Vec::with_capacity(parts.len());
+    for (location, part) in (0..).zip(parts) {
+        let (interpolation, sampling) = if is_fragment { interpolation(&part.attribute) } else { (None, None) };
+        let binding = Binding::Location { location, interpolation, sampling, blend_src: None, per_primitive: false };
+        let name = Some(part.attribute.name.clone());
+        function.arguments.push(FunctionArgument { name, ty: part.ty, binding: Some(binding) });
+        fed.push((part, function.arguments.len() as u32 - 1));
     }
-    let u32_type = super::types::scalar_type(module, Scalar::U32);
+    fed
+}
+
+/// How the driver is to interpolate an input.
+pub(super) fn interpolation(of: &Attribute) -> (Option<naga::Interpolation>, Option<Sampling>) {
+    let sampling = if of.qualifiers.centroid { Sampling::Centroid } else { Sampling::Center };
+    match of.qualifiers.interpolation {
+        Interpolation::Flat => (Some(naga::Interpolation::Flat), Some(Sampling::First)),
+        _ if of.kind != Some(ScalarKind::Float) => (Some(naga::Interpolation::Flat), Some(Sampling::First)),
+        Interpolation::NoPerspective => (Some(naga::Interpolation::Linear), Some(sampling)),
+        Interpolation::Smooth => (Some(naga::Interpolation::Perspective), Some(sampling)),
+    }
+}
+
+/// Gives the inputs that nothing feeds their values: a generic attribute that nothing feeds is (0, 0, 0, 1).
+pub(in crate::translate) fn leave_unset(module: &mut Module, parts: &[Part]) {
+    for global in parts.iter().filter_map(Part::whole) {
+        unset_attribute(module, global);
+    }
+}
+
+/// Takes away the arguments of a vertex stage but the vertex's number: what they are copied to is 0. Gives the index of
+/// the argument that carries `instance_index`.
+pub(super) fn drop_arguments(module: &mut Module, function: &mut Function) -> u32 {
+    let arguments = std::mem::take(&mut function.arguments);
+    let kept: Vec<Option<u32>> = arguments
+        .iter()
+        .map(|argument| {
+            (argument.binding == Some(Binding::BuiltIn(BuiltIn::VertexIndex))).then(|| {
+                function.arguments.push(argument.clone());
+                function.arguments.len() as u32 - 1
+            })
+        })
+        .collect();
+    let ty = insert(module, TypeInner::Scalar(Scalar::U32));
     let instance = function.arguments.len() as u32;
-    function.arguments.push(FunctionArgument {
-        name: None,
-        ty: u32_type,
-        binding: Some(Binding::BuiltIn(BuiltIn::InstanceIndex)),
-    });
+    let binding = Some(Binding::BuiltIn(BuiltIn::InstanceIndex));
+    function.arguments.push(FunctionArgument { name: None, ty, binding });
 
     let mut dropped = Vec::new();
     for (handle, expression) in function.expressions.iter_mut() {
@@ -98,48 +93,32 @@ pub(super) fn feed(module: &mut Module, function: &mut Function, inputs: &[&str]
                 Some(new) => *expression = Expression::FunctionArgument(new),
                 None => {
                     *expression = Expression::ZeroValue(arguments[index].ty);
-                    dropped.push((handle, index));
+                    dropped.push(handle);
                 }
             }
         }
     }
-    drop_stores(module, function, &arguments, &dropped);
-    (attributes, instance)
+    drop_stores(function, &dropped);
+    instance
 }
 
-/// Removes the copies of dropped inputs; a generic attribute that nothing feeds is (0, 0, 0, 1).
-fn drop_stores(
-    module: &mut Module,
-    function: &mut Function,
-    arguments: &[FunctionArgument],
-    dropped: &[(Handle<Expression>, usize)],
-) {
+/// Removes the copies of dropped inputs.
+fn drop_stores(function: &mut Function, dropped: &[Handle<Expression>]) {
+    let expressions = &function.expressions;
     let is_dropped = |value: &Handle<Expression>| {
-        let source = match function.expressions[*value] {
+        let source = match expressions[*value] {
             Expression::As { expr, .. } => expr,
             _ => *value,
         };
-        dropped.iter().find(|(handle, _)| *handle == source).map(|(_, index)| *index)
+        dropped.contains(&source)
     };
     let mut body = Block::new();
-    let mut defaults = Vec::new();
     for (statement, span) in std::mem::take(&mut function.body).span_into_iter() {
-        if let Statement::Store { pointer, value } = &statement
-            && let Some(index) = is_dropped(value)
-        {
-            if let Expression::GlobalVariable(global) = function.expressions[*pointer]
-                && matches!(arguments[index].binding, Some(Binding::Location { .. }))
-            {
-                defaults.push(global);
-            }
-            continue;
+        if !matches!(&statement, Statement::Store { value, .. } if is_dropped(value)) {
+            body.push(statement, span);
         }
-        body.push(statement, span);
     }
     function.body = body;
-    for global in defaults {
-        unset_attribute(module, global);
-    }
 }
 
 fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
@@ -147,12 +126,7 @@ fn unset_attribute(module: &mut Module, global: Handle<GlobalVariable>) {
     let TypeInner::Vector { size: VectorSize::Quad, scalar } = module.types[ty].inner else {
         return;
     };
-    let Some(one) = Literal::one(scalar) else {
-        return;
-    };
-    let Some(zero) = Literal::zero(scalar) else {
-        return;
-    };
+    let (Some(one), Some(zero)) = (Literal::one(scalar), Literal::zero(scalar)) else { return };
     let components = [zero, zero, zero, one]
         .map(|literal| module.global_expressions.append(Expression::Literal(literal), Span::UNDEFINED))
         .to_vec();

@@ -3,19 +3,24 @@
 use super::{MAX_TURNS, Meter};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
+use crate::translate::glslang::Stage as GlslStage;
 
 /// What a student is told whose loops ran out of fuel.
-pub(in crate::translate) fn out_of_fuel(meters: &[Meter], ran_out: u32) -> Diagnostic {
+pub(in crate::translate) fn out_of_fuel(meters: &[Meter], ran_out: u32, stage: GlslStage) -> Diagnostic {
+    let (each, each_ja) = match stage {
+        GlslStage::Vertex => ("vertex", "頂点"),
+        GlslStage::Fragment => ("fragment", "フラグメント"),
+    };
     let meter = meters.get((ran_out as usize).wrapping_sub(1)).copied();
     let line = meter.or(meters.first().copied()).and_then(|meter| meter.line);
     let turns = meter.map_or(MAX_TURNS, |meter| meter.turns);
     let message = match meter {
         Some(_) => Text::new(
             format!(
-                "your loop ran more than {turns} times: it was stopped (the limit counts all loops of one vertex together)"
+                "your loop ran more than {turns} times: it was stopped (the limit counts all loops of one {each} together)"
             ),
             format!(
-                "ループの繰り返しが {turns} 回を超えたため、打ち切りました (上限は頂点 1 個のすべてのループを合わせた回数です)"
+                "ループの繰り返しが {turns} 回を超えたため、打ち切りました (上限は{each_ja} 1 個のすべてのループを合わせた回数です)"
             ),
         ),
         None => Text::new(

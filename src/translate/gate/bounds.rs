@@ -6,6 +6,7 @@ use super::weight::scalars;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
+use crate::translate::glslang::Stage as GlslStage;
 use crate::translate::interface::place;
 use crate::translate::{Lines, Refusal};
 use naga::{AddressSpace, Module};
@@ -30,10 +31,11 @@ pub(in crate::translate) fn check_module(
     costs: &Costs,
     lines: &Lines,
     source: &Source,
+    stage: GlslStage,
 ) -> Result<(), Refusal> {
     let entry = &module.entry_points[0].function;
     if costs.of_entry <= MAX_OPERATIONS {
-        return check_variables(module, costs, source);
+        return check_variables(module, costs, source, stage);
     }
     Err(stopped(
         Stage::Compile,
@@ -53,7 +55,7 @@ pub(in crate::translate) fn check_module(
     ))
 }
 
-fn check_variables(module: &Module, costs: &Costs, source: &Source) -> Result<(), Refusal> {
+fn check_variables(module: &Module, costs: &Costs, source: &Source, stage: GlslStage) -> Result<(), Refusal> {
     let globals = || module.global_variables.iter().map(|(_, variable)| variable);
     let uniform: u64 = globals()
         .filter(|variable| variable.space == AddressSpace::Uniform)
@@ -77,10 +79,16 @@ fn check_variables(module: &Module, costs: &Costs, source: &Source) -> Result<()
         .chain(locals.map(|(_, variable)| (&variable.name, variable.ty)));
     let largest = variables.max_by_key(|(_, ty)| scalars(module, &module.types[*ty].inner));
     let name = largest.and_then(|(name, _)| name.as_deref()).unwrap_or_default();
-    Err(too_much_memory(all.saturating_mul(4), name, source))
+    Err(too_much_memory(all.saturating_mul(4), name, source, stage))
 }
 
-pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source) -> Refusal {
+pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source, stage: GlslStage) -> Refusal {
+    let (each, each_ja) = match stage {
+        GlslStage::Vertex => ("vertex", "頂点"),
+        GlslStage::Fragment => ("fragment", "フラグメント"),
+    };
+    // The name of an input or output is followed by its number.
+    let name = name.split('@').next().unwrap_or(name);
     let limit = MAX_SCALARS * 4;
     // The compiler makes variables of its own, whose names say nothing.
     let is_known = source.words().any(|(_, word)| word == name);
@@ -91,11 +99,11 @@ pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source) -> Refusa
     };
     let message = Text::new(
         format!(
-            "the variables of the shader, with those of all calls, need {bytes} bytes, and a vertex has at most \
+            "the variables of the shader, with those of all calls, need {bytes} bytes, and a {each} has at most \
              {limit} (memory limit of the grader){en}"
         ),
         format!(
-            "変数に、呼び出すすべての関数の分も合わせて {bytes} バイト必要ですが、頂点 1 個あたり {limit} バイトまでです \
+            "変数に、呼び出すすべての関数の分も合わせて {bytes} バイト必要ですが、{each_ja} 1 個あたり {limit} バイトまでです \
              (採点システムのメモリ上限){ja}"
         ),
     );

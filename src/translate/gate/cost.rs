@@ -4,12 +4,17 @@
 //! program: what counts is the size after both.
 
 use super::bounds::MAX_SCALARS;
-use super::weight::{BRANCH, CALL, LOOP, LOOP_IN_LOOP, scalars, weight};
+use super::weight::{BRANCH, CALL, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
 use crate::translate::Lines;
+use crate::translate::entry::Part;
+use crate::translate::spirv::OURS;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
 use naga::{Block, Expression, Function, Handle, Module, Span, Statement};
 use std::collections::{BTreeMap, HashMap};
+
+/// Numbers of a position.
+const POSITION: u64 = 4;
 
 /// What the functions of a module cost, each with all that it calls.
 #[derive(Debug, Default)]
@@ -28,6 +33,8 @@ impl Costs {
         let mut costs = Self::default();
         for (handle, function) in module.functions.iter() {
             let (operations, scalars) = costs.function(module, function);
+            let is_ours = function.name.as_ref().is_some_and(|name| name.ends_with(OURS));
+            let operations = if is_ours { operations.min(LOOK_UP) } else { operations };
             costs.functions.insert(handle, operations);
             costs.scalars.insert(handle, scalars);
             let loops = Walk { module, costs: &costs }.loops(&function.body);
@@ -35,6 +42,15 @@ impl Costs {
         }
         (costs.of_entry, costs.scalars_of_entry) = costs.function(module, &module.entry_points[0].function);
         costs
+    }
+
+    /// Adds what the entry point copies: each number of an input once, each of an output, and the position, when it is
+    /// read and when it is handed over.
+    pub fn copy(&mut self, inputs: &[Part], outputs: &[Part]) {
+        let numbers = |parts: &[Part]| parts.iter().map(|part| u64::from(part.attribute.size)).sum::<u64>();
+        let position = if outputs.is_empty() { 0 } else { POSITION };
+        let copied = numbers(inputs) + 2 * numbers(outputs) + position;
+        self.of_entry = self.of_entry.saturating_add(copied);
     }
 
     fn function(&self, module: &Module, function: &Function) -> (u64, u64) {

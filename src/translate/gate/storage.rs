@@ -8,6 +8,7 @@ use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::Source;
 use crate::translate::Refusal;
+use crate::translate::glslang::Stage as GlslStage;
 use crate::translate::interface::place;
 use crate::translate::spirv::{Instruction, instructions, op, text};
 use std::collections::{HashMap, HashSet};
@@ -21,8 +22,13 @@ enum Kind {
     Other,
 }
 
-/// Refuses a shader that uses such a variable. One that only declares it draws the same picture without it.
-pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Result<(), Refusal> {
+/// Refuses a shader that uses such a variable, `set` being those that the program sets. One that only declares it draws the same picture without it.
+pub(in crate::translate) fn check_words(
+    words: &[u32],
+    source: &Source,
+    stage: GlslStage,
+    set: &[&str],
+) -> Result<(), Refusal> {
     let names: HashMap<u32, String> = instructions(words).filter_map(|i| name(&i)).collect();
     let buffers: HashSet<u32> = instructions(words)
         .filter_map(|i| match (i.opcode, i.words) {
@@ -30,7 +36,7 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
             _ => None,
         })
         .collect();
-    check_sizes(words, &names, source)?;
+    check_sizes(words, &names, source, stage)?;
     let mut textures = HashSet::new();
     let mut pointers = HashMap::new();
     let mut arrays = HashMap::new();
@@ -51,7 +57,8 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
             (op::VARIABLE, [_, ty, id, class, ..]) if !in_function => {
                 let pointee = pointers.get(ty).map(|ty| arrays.get(ty).unwrap_or(ty));
                 let is = |set: &HashSet<u32>| pointee.is_some_and(|ty| set.contains(ty));
-                if let Some(kind) = kind(*class, is(&textures), is(&buffers)) {
+                let is_set = names.get(id).is_some_and(|name| set.contains(&name.as_str()));
+                if let Some(kind) = kind(*class, is(&textures) && !is_set, is(&buffers)) {
                     found.insert(*id, (kind, pointee.copied().unwrap_or(0)));
                 }
             }
@@ -59,7 +66,7 @@ pub(in crate::translate) fn check_words(words: &[u32], source: &Source) -> Resul
             _ if in_function => {
                 if let Some((id, (kind, ty))) = words[1..].iter().find_map(|id| found.get_key_value(id)) {
                     let name = names.get(id).filter(|name| !name.is_empty()).or_else(|| names.get(ty));
-                    return Err(refusal(*kind, name.map_or("", String::as_str), source));
+                    return Err(refusal(*kind, name.map_or("", String::as_str), source, stage));
                 }
             }
             _ => {}
@@ -77,7 +84,7 @@ fn name(instruction: &Instruction<'_>) -> Option<(u32, String)> {
 }
 
 /// Refuses a variable that is too large by itself; naga counts bytes in 32 bits and gives up beyond.
-fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> Result<(), Refusal> {
+fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source, stage: GlslStage) -> Result<(), Refusal> {
     let mut lengths: HashMap<u32, u64> = HashMap::new();
     let mut sizes: HashMap<u32, u64> = HashMap::new();
     for instruction in instructions(words) {
@@ -103,7 +110,7 @@ fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source) -> 
                     }
                     0 | 2 => {}
                     _ if size(ty) > MAX_SCALARS => {
-                        return Err(too_much_memory(size(ty).saturating_mul(4), name, source));
+                        return Err(too_much_memory(size(ty).saturating_mul(4), name, source, stage));
                     }
                     _ => {}
                 }
@@ -133,7 +140,7 @@ fn kind(class: u32, is_texture: bool, is_buffer: bool) -> Option<Kind> {
     }
 }
 
-fn refusal(kind: Kind, name: &str, source: &Source) -> Refusal {
+fn refusal(kind: Kind, name: &str, source: &Source, stage: GlslStage) -> Refusal {
     let (en, ja) = match kind {
         Kind::Texture => ("a texture or an image", "テクスチャや画像"),
         Kind::Buffer => {
@@ -142,9 +149,13 @@ fn refusal(kind: Kind, name: &str, source: &Source) -> Refusal {
         Kind::Shared => ("shared memory", "共有メモリ"),
         Kind::Other => ("a resource", "リソース"),
     };
+    let (to, to_ja) = match stage {
+        GlslStage::Vertex => ("vertex shader", "頂点シェーダ"),
+        GlslStage::Fragment => ("fragment shader", "フラグメントシェーダ"),
+    };
     let message = Text::new(
-        format!("`{name}` is {en}, and the program provides none to the vertex shader"),
-        format!("`{name}` は{ja}ですが、プログラムはそのようなものを頂点シェーダに用意していません"),
+        format!("`{name}` is {en}, and the program provides none to the {to}"),
+        format!("`{name}` は{ja}ですが、プログラムはそのようなものを{to_ja}に用意していません"),
     );
     let hint = Text::new(
         "This homework needs only the attributes and uniforms of the handed-out file.",

@@ -5,9 +5,9 @@ mod link;
 mod robustness;
 
 use crate::diagnostic::Diagnostic;
-use crate::translate::glslang::{self, Outcome, Request, Rules, Stage};
+use crate::translate::glslang::{self, Outcome, Request, Rules, Stage, StageText};
 use crate::translate::hints::overlooked_errors;
-use crate::translate::log::{link_diagnostics, vertex_diagnostics};
+use crate::translate::log::{link_diagnostics, stage_diagnostics};
 use crate::translate::{Interface, Variable};
 use std::ffi::CString;
 
@@ -57,21 +57,15 @@ pub fn interface() -> Interface {
 
 fn outcome(text: &str, interface: &Interface) -> Outcome {
     let vertex = CString::new(text).expect("no test has a NUL");
-    glslang::compile(&Request {
-        vertex: &vertex,
-        fragment: Some(&interface.fragment),
-        preamble: c"",
-        rules: Rules::OpenGl,
-        version: None,
-        emit: Stage::Vertex,
-    })
+    let stages = [StageText::plain(Stage::Vertex, &vertex), StageText::plain(Stage::Fragment, &interface.fragment)];
+    glslang::compile(&Request { stages: &stages, rules: Rules::OpenGl, emit: Stage::Vertex })
 }
 
 /// Everything that is said about `text`.
 fn diagnostics(text: &str) -> Vec<Diagnostic> {
     let interface = interface();
     let outcome = outcome(text, &interface);
-    let mut all = vertex_diagnostics(&outcome.vertex_log, text, &interface);
+    let mut all = stage_diagnostics(outcome.log(Stage::Vertex), text, &interface);
     all.extend(link_diagnostics(&outcome.link_log, text, &interface));
     all.extend(overlooked_errors(text, &interface));
     all

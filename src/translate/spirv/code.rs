@@ -1,6 +1,6 @@
 //! SPIR-V as instructions, with what a pass over them needs: new ids, types, constants.
 
-use super::{Lines, op, sound};
+use super::{Lines, op, sound, text};
 use std::collections::{BTreeMap, HashMap};
 
 const HEADER_WORDS: usize = 5;
@@ -104,6 +104,11 @@ impl Code {
         (words, Lines(lines))
     }
 
+    /// Whether the entry point is one of fragments (SPIR-V specification, section 3.3).
+    pub fn is_fragment(&self) -> bool {
+        self.heads.iter().any(|head| head.opcode == op::ENTRY_POINT && head.operands[0] == 4)
+    }
+
     /// How many words the functions have.
     pub fn function_words(&self) -> usize {
         self.functions.iter().map(|instruction| instruction.operands.len() + 1).sum()
@@ -118,6 +123,11 @@ impl Code {
     /// The number above all ids.
     pub fn bound(&self) -> u32 {
         self.header[BOUND]
+    }
+
+    /// Sets so many ids aside.
+    pub fn reserve(&mut self, count: u32) {
+        self.header[BOUND] = self.header[BOUND].saturating_add(count);
     }
 
     /// An id that nothing has.
@@ -195,12 +205,6 @@ impl Code {
         let is_decoration = |opcode| matches!(opcode, op::DECORATE | op::MEMBER_DECORATE);
         self.heads.retain(|i| !(is_decoration(i.opcode) && i.operands.first() == Some(&id)));
     }
-}
-
-/// A literal text: four bytes a word, the first lowest, ended by a zero byte.
-fn text(words: &[u32]) -> String {
-    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).take_while(|&byte| byte != 0).collect();
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// The words of a literal text.

@@ -1,8 +1,12 @@
 //! Global variables as wgpu takes them: uniforms that are set in one block, all others private.
 
+use super::How;
 use super::code::{Code, Instruction};
 use super::images;
+use super::io::{self, Io};
+use super::memory::{Memory, place_members};
 use super::op::{self, built_in, decoration, execution_mode, storage};
+use super::textures::Samplers;
 use std::collections::HashMap;
 
 /// Name of the block of OpenGL's default-block uniforms.
@@ -20,6 +24,26 @@ pub struct Unset {
     pub ty: &'static str,
 }
 
+/// A part of a uniform that the program sets: its path and its GLSL type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Declared {
+    /// Such as `lights[1].colour`.
+    pub path: String,
+    /// Such as `vec3`.
+    pub ty: String,
+    /// Whether it is in a block of the student's own.
+    pub is_in_block: bool,
+}
+
+/// What became of the uniforms.
+#[derive(Clone, Debug, Default)]
+pub struct Uniforms {
+    /// Those that the program sets, part by part.
+    pub declared: Vec<Declared>,
+    /// Those that nothing sets.
+    pub unset: Vec<Unset>,
+}
+
 /// Where a global variable goes.
 enum Place {
     /// Member of the default block, by its number.
@@ -28,21 +52,25 @@ enum Place {
     Private,
 }
 
-/// Reworks the global variables; gives the uniforms that nothing sets.
-pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
+/// Reworks the global variables. `set` are the uniforms and blocks that the program sets, as a whole or in part.
+/// Where `is_split`, inputs and outputs become plain variables.
+pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uniforms, Vec<Io>) {
+    let How { set, is_split, .. } = how;
     images::plain_types(code);
     uncaught(code);
+    let io = if is_split { io::find(code) } else { Vec::new() };
     let names = code.names();
-    let never_set = draw_parameters(code);
+    let mut plain = draw_parameters(code);
+    plain.extend(io.iter().map(|(id, _)| *id));
     let variables: Vec<Instruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
     let mut places = HashMap::new();
     let mut members = Vec::new();
-    let mut unset = Vec::new();
+    let mut uniforms = Uniforms::default();
     let mut initials = HashMap::new();
     for variable in &variables {
         let [pointer, id, class, ..] = variable.operands[..] else { continue };
         let Some(pointee) = pointee(code, pointer) else { continue };
-        if never_set.contains(&id) {
+        if plain.contains(&id) {
             places.insert(id, (Place::Private, pointee));
         }
         if !matches!(class, storage::UNIFORM_CONSTANT | storage::UNIFORM) || !has_size(code, pointee) {
@@ -51,26 +79,89 @@ pub(super) fn rework(code: &mut Code, set: &[&str]) -> Vec<Unset> {
         let is_block = class == storage::UNIFORM;
         let name_of = |id| names.get(&id).cloned().unwrap_or_default();
         let name = name_of(if is_block { element(code, pointee) } else { id });
-        if !is_block && set.contains(&name.as_str()) && is_numeric(code, pointee) {
+        if !is_block && set.contains(&name.as_str()) && fits_block(code, pointee) {
             places.insert(id, (Place::Member(members.len() as u32), pointee));
+            declare(code, samplers, pointee, name.clone(), false, &mut uniforms.declared);
             members.push((name, pointee));
+        } else if is_block && is_set_block(code, set, pointee, &name, names.get(&id)) {
+            declare(code, samplers, pointee, name, true, &mut uniforms.declared);
         } else if name == DEPTH_RANGE {
             places.insert(id, (Place::Private, pointee));
             initials.insert(id, depth_range(code, pointee));
         } else {
             places.insert(id, (Place::Private, pointee));
-            unset.push(Unset { name, ty: if is_block { "block" } else { short_name(code, pointee) } });
+            uniforms.unset.push(Unset { name, ty: if is_block { "block" } else { short_name(code, pointee) } });
         }
     }
-    let block = (!members.is_empty()).then(|| default_block(code, &members));
+    let mut memory = Memory::default();
+    let block = (!members.is_empty()).then(|| default_block(code, &mut memory, &members));
     for variable in &variables {
         if let Some((place, pointee)) = places.get(&variable.operands[1]) {
             let initial = initials.get(&variable.operands[1]).or(variable.operands.get(3)).copied();
             replace(code, variable, place, *pointee, initial);
         }
     }
-    uses(code, &places, block);
-    unset
+    uses(code, &memory, &places, block);
+    (uniforms, io.into_iter().map(|(_, io)| io).collect())
+}
+
+/// Whether the program sets a block, by its name or, where it has no instance name, by a member's.
+fn is_set_block(code: &Code, set: &[&str], ty: u32, name: &str, instance: Option<&String>) -> bool {
+    if code.global(ty).is_none_or(|declared| declared.opcode != op::TYPE_STRUCT) {
+        return false;
+    }
+    let is_bare = instance.is_none_or(String::is_empty);
+    set.contains(&name)
+        || is_bare && io::member_names(code, ty).iter().any(|(_, member)| set.contains(&member.as_str()))
+}
+
+/// Lists the parts of a type that are scalars, vectors and matrices.
+fn declare(code: &Code, samplers: &Samplers, ty: u32, path: String, is_in_block: bool, found: &mut Vec<Declared>) {
+    let Some(declared) = code.global(ty) else { return };
+    match declared.opcode {
+        op::TYPE_STRUCT => {
+            let names: HashMap<u32, String> = io::member_names(code, ty).into_iter().collect();
+            for (number, &member) in (0..).zip(&declared.operands[1..]) {
+                let name = names.get(&number).map_or("", String::as_str);
+                declare(code, samplers, member, format!("{path}.{name}"), is_in_block, found);
+            }
+        }
+        op::TYPE_ARRAY => {
+            let length = code.global(declared.operands[2]).and_then(|length| length.operands.get(2).copied());
+            for index in 0..length.unwrap_or(0) {
+                declare(code, samplers, declared.operands[1], format!("{path}[{index}]"), is_in_block, found);
+            }
+        }
+        _ => found.push(Declared { path, ty: samplers.name(ty).unwrap_or_else(|| glsl_name(code, ty)), is_in_block }),
+    }
+}
+
+/// The name that GLSL gives to a scalar, vector or matrix.
+fn glsl_name(code: &Code, ty: u32) -> String {
+    let Some(declared) = code.global(ty) else { return String::new() };
+    let operand = |at: usize| declared.operands.get(at).copied().unwrap_or_default();
+    let prefix = |scalar: u32| match glsl_name(code, scalar).as_str() {
+        "double" => "d",
+        "int" => "i",
+        "uint" => "u",
+        "bool" => "b",
+        _ => "",
+    };
+    match declared.opcode {
+        op::TYPE_BOOL => "bool".into(),
+        op::TYPE_INT if operand(2) == 1 => "int".into(),
+        op::TYPE_INT => "uint".into(),
+        op::TYPE_FLOAT if operand(1) == 64 => "double".into(),
+        op::TYPE_FLOAT => "float".into(),
+        op::TYPE_VECTOR => format!("{}vec{}", prefix(operand(1)), operand(2)),
+        op::TYPE_MATRIX => {
+            let column = code.global(operand(1)).map_or(&[][..], |column| &column.operands[..]);
+            let (scalar, rows) = (column.get(1).copied().unwrap_or(0), column.get(2).copied().unwrap_or(0));
+            let sides = if rows == operand(2) { rows.to_string() } else { format!("{}x{rows}", operand(2)) };
+            format!("{}mat{sides}", prefix(scalar))
+        }
+        _ => "struct".into(),
+    }
 }
 
 /// Takes away what says which outputs transform feedback catches: the program catches none.
@@ -90,12 +181,17 @@ fn uncaught(code: &mut Code) {
 /// OpenGL's built-ins to those that naga knows.
 fn draw_parameters(code: &mut Code) -> Vec<u32> {
     let mut found = Vec::new();
+    let is_fragment = code.is_fragment();
     for instruction in code.heads.iter_mut().filter(|i| i.opcode == op::DECORATE) {
         let [id, decoration::BUILT_IN, which] = &mut instruction.operands[..] else { continue };
         match *which {
             built_in::VERTEX_ID => *which = built_in::VERTEX_INDEX,
             built_in::INSTANCE_ID => *which = built_in::INSTANCE_INDEX,
             built_in::BASE_VERTEX..=built_in::DRAW_INDEX => found.push(*id),
+            // Of fragments of triangles that are drawn to one layer with one sample a pixel.
+            built_in::LAYER | built_in::VIEWPORT_INDEX | built_in::POINT_COORD => found.push(*id),
+            built_in::SAMPLE_ID..=built_in::SAMPLE_MASK | built_in::HELPER_INVOCATION => found.push(*id),
+            built_in::CLIP_DISTANCE | built_in::CULL_DISTANCE if is_fragment => found.push(*id),
             _ => {}
         }
     }
@@ -122,7 +218,7 @@ fn depth_range(code: &mut Code, ty: u32) -> u32 {
     code.constant(op::CONSTANT_COMPOSITE, ty, &[near, far, far])
 }
 
-fn pointee(code: &Code, pointer: u32) -> Option<u32> {
+pub(super) fn pointee(code: &Code, pointer: u32) -> Option<u32> {
     code.global(pointer).filter(|i| i.opcode == op::TYPE_POINTER).and_then(|i| i.operands.get(2).copied())
 }
 
@@ -144,11 +240,12 @@ fn has_size(code: &Code, ty: u32) -> bool {
     })
 }
 
-/// Whether it is a scalar, vector or matrix of numbers.
-fn is_numeric(code: &Code, ty: u32) -> bool {
+/// Whether a block can hold it, as it is or with integers for truth values.
+fn fits_block(code: &Code, ty: u32) -> bool {
     code.global(ty).is_some_and(|declared| match declared.opcode {
-        op::TYPE_INT | op::TYPE_FLOAT => true,
-        op::TYPE_VECTOR | op::TYPE_MATRIX => is_numeric(code, declared.operands[1]),
+        op::TYPE_BOOL | op::TYPE_INT | op::TYPE_FLOAT => true,
+        op::TYPE_VECTOR | op::TYPE_MATRIX | op::TYPE_ARRAY => fits_block(code, declared.operands[1]),
+        op::TYPE_STRUCT => declared.operands[1..].iter().all(|&member| fits_block(code, member)),
         _ => false,
     })
 }
@@ -165,55 +262,22 @@ fn short_name(code: &Code, ty: u32) -> &'static str {
 }
 
 /// Declares the block and its variable; gives the variable.
-fn default_block(code: &mut Code, members: &[(String, u32)]) -> u32 {
+fn default_block(code: &mut Code, memory: &mut Memory, members: &[(String, u32)]) -> u32 {
     let (block, variable) = (code.fresh(), code.fresh());
     code.name(&[block], DEFAULT_BLOCK);
     code.decorate(&[block], &[decoration::BLOCK]);
     code.decorate(&[variable], &[decoration::DESCRIPTOR_SET, 0]);
     code.decorate(&[variable], &[decoration::BINDING, 0]);
-    let mut offset = 0;
-    for (number, (name, ty)) in (0..).zip(members) {
+    for (number, (name, _)) in (0..).zip(members) {
         code.name(&[block, number], name);
-        let Layout { size, alignment, column } = layout(code, *ty);
-        offset = u32::next_multiple_of(offset, alignment);
-        code.decorate(&[block, number], &[decoration::OFFSET, offset]);
-        if let Some(stride) = column {
-            code.decorate(&[block, number], &[decoration::COL_MAJOR]);
-            code.decorate(&[block, number], &[decoration::MATRIX_STRIDE, stride]);
-        }
-        offset += size;
     }
-    let types = std::iter::once(block).chain(members.iter().map(|member| member.1)).collect();
+    let own: Vec<u32> = members.iter().map(|member| memory.of(code, member.1)).collect();
+    place_members(code, block, &own);
+    let types = std::iter::once(block).chain(own).collect();
     code.globals.push(Instruction::new(op::TYPE_STRUCT, types));
     let pointer = code.ty(op::TYPE_POINTER, &[storage::UNIFORM, block]);
     code.globals.push(Instruction::new(op::VARIABLE, vec![pointer, variable, storage::UNIFORM]));
     variable
-}
-
-/// How a numeric type lies in a block, in bytes; `column` is the stride of a matrix.
-struct Layout {
-    size: u32,
-    alignment: u32,
-    column: Option<u32>,
-}
-
-fn layout(code: &Code, ty: u32) -> Layout {
-    let scalar = Layout { size: 4, alignment: 4, column: None };
-    let Some(declared) = code.global(ty) else { return scalar };
-    let operand = |at: usize| declared.operands.get(at).copied().unwrap_or_default();
-    match declared.opcode {
-        op::TYPE_INT | op::TYPE_FLOAT => Layout { size: operand(1) / 8, alignment: operand(1) / 8, column: None },
-        op::TYPE_VECTOR => {
-            let Layout { size, .. } = layout(code, operand(1));
-            let padded = if operand(2) == 2 { 2 } else { 4 };
-            Layout { size: size * operand(2), alignment: size * padded, column: None }
-        }
-        op::TYPE_MATRIX => {
-            let Layout { alignment, .. } = layout(code, operand(1));
-            Layout { size: alignment * operand(2), alignment, column: Some(alignment) }
-        }
-        _ => scalar,
-    }
 }
 
 /// Takes away a variable that becomes a member, and declares one that becomes private anew.
@@ -233,7 +297,7 @@ fn replace(code: &mut Code, variable: &Instruction, place: &Place, pointee: u32,
 }
 
 /// Leads every use of the variables, and of pointers into them, to their new places.
-fn uses(code: &mut Code, places: &HashMap<u32, (Place, u32)>, block: Option<u32>) {
+fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Place, u32)>, block: Option<u32>) {
     let mut classes: HashMap<u32, u32> = HashMap::new();
     for (id, (place, _)) in places {
         classes.insert(*id, if matches!(place, Place::Private) { storage::PRIVATE } else { storage::UNIFORM });
@@ -241,6 +305,9 @@ fn uses(code: &mut Code, places: &HashMap<u32, (Place, u32)>, block: Option<u32>
     let functions = std::mem::take(&mut code.functions);
     let mut out = Vec::with_capacity(functions.len());
     for mut instruction in functions {
+        if instruction.opcode == op::FUNCTION_CALL {
+            hand_over(code, &mut out, &mut instruction, &classes, places, block);
+        }
         let at = match instruction.opcode {
             op::LOAD | op::ACCESS_CHAIN | op::IN_BOUNDS_ACCESS_CHAIN | op::COPY_OBJECT => 2,
             _ => {
@@ -253,16 +320,17 @@ fn uses(code: &mut Code, places: &HashMap<u32, (Place, u32)>, block: Option<u32>
             out.push(instruction);
             continue;
         };
+        let own = |ty: u32| if class == storage::UNIFORM { memory.known(ty) } else { ty };
         if instruction.opcode != op::LOAD {
             classes.insert(instruction.operands[1], class);
             if let Some(pointee) = pointee(code, instruction.operands[0]) {
-                instruction.operands[0] = code.ty(op::TYPE_POINTER, &[class, pointee]);
+                instruction.operands[0] = code.ty(op::TYPE_POINTER, &[class, own(pointee)]);
             }
         }
         if let (Some((Place::Member(number), pointee)), Some(block)) = (places.get(&base), block) {
             let number = index(code, *number);
             if instruction.opcode == op::LOAD {
-                let pointer = code.ty(op::TYPE_POINTER, &[class, *pointee]);
+                let pointer = code.ty(op::TYPE_POINTER, &[class, own(*pointee)]);
                 let member = code.fresh();
                 let mut chain = Instruction::new(op::ACCESS_CHAIN, vec![pointer, member, block, number]);
                 chain.line = instruction.line;
@@ -273,9 +341,50 @@ fn uses(code: &mut Code, places: &HashMap<u32, (Place, u32)>, block: Option<u32>
                 instruction.operands.insert(at + 1, number);
             }
         }
-        out.push(instruction);
+        let (ty, id) = (instruction.operands[0], instruction.operands[1]);
+        if instruction.opcode == op::LOAD && own(ty) != ty {
+            let loaded = code.fresh();
+            (instruction.operands[0], instruction.operands[1]) = (own(ty), loaded);
+            let line = instruction.line;
+            out.push(instruction);
+            memory.value(code, &mut out, line, (ty, id), loaded);
+        } else {
+            out.push(instruction);
+        }
     }
     code.functions = out;
+}
+
+/// A sampler in the block, handed to a function by a pointer: a variable of its own takes its place.
+fn hand_over(
+    code: &mut Code,
+    out: &mut Vec<Instruction>,
+    call: &mut Instruction,
+    classes: &HashMap<u32, u32>,
+    places: &HashMap<u32, (Place, u32)>,
+    block: Option<u32>,
+) {
+    for at in 3..call.operands.len() {
+        let given = call.operands[at];
+        if classes.get(&given) != Some(&storage::UNIFORM) {
+            continue;
+        }
+        let uint = code.ty(op::TYPE_INT, &[32, 0]);
+        let mut pointer = given;
+        if let (Some((Place::Member(number), _)), Some(block)) = (places.get(&given), block) {
+            let (number, ty) = (index(code, *number), code.ty(op::TYPE_POINTER, &[storage::UNIFORM, uint]));
+            pointer = code.fresh();
+            let operands = vec![ty, pointer, block, number];
+            out.push(Instruction { opcode: op::ACCESS_CHAIN, operands, line: call.line });
+        }
+        let (loaded, variable) = (code.fresh(), code.fresh());
+        let ty = code.ty(op::TYPE_POINTER, &[storage::PRIVATE, uint]);
+        let null = code.null(uint);
+        code.globals.push(Instruction::new(op::VARIABLE, vec![ty, variable, storage::PRIVATE, null]));
+        out.push(Instruction { opcode: op::LOAD, operands: vec![uint, loaded, pointer], line: call.line });
+        out.push(Instruction { opcode: op::STORE, operands: vec![variable, loaded], line: call.line });
+        call.operands[at] = variable;
+    }
 }
 
 fn index(code: &mut Code, number: u32) -> u32 {

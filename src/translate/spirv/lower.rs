@@ -212,6 +212,23 @@ fn extended(b: &mut Builder<'_>, id: u32, ty: u32, number: u32, arguments: &[u32
             let found = b.glsl(number, argument_ty, &[x]);
             b.op_as(id, op::BITCAST, ty, &[found]);
         }
+        // With one sample a pixel, all of these are in its middle.
+        (glsl::INTERPOLATE_AT_CENTROID | glsl::INTERPOLATE_AT_SAMPLE, &[pointer, ..]) => {
+            b.op_as(id, op::LOAD, ty, &[pointer]);
+        }
+        (glsl::INTERPOLATE_AT_OFFSET, &[pointer, offset]) => {
+            let Shape { scalar, size, .. } = b.shape(ty)?;
+            let mut value = b.op(op::LOAD, ty, &[pointer]);
+            let middle = value;
+            for (axis, derivative) in [(0, op::D_PDX), (1, op::D_PDY)] {
+                let along = b.op(derivative, ty, &[middle]);
+                let by = b.op(op::COMPOSITE_EXTRACT, scalar, &[offset, axis]);
+                let times = if size == 1 { op::F_MUL } else { op::VECTOR_TIMES_SCALAR };
+                let moved = b.op(times, ty, &[along, by]);
+                value = b.op(op::F_ADD, ty, &[value, moved]);
+            }
+            b.op_as(id, op::COPY_OBJECT, ty, &[value]);
+        }
         (glsl::PACK_SNORM_4X8 | glsl::PACK_SNORM_2X16, &[x]) => return packing::pack_signed(b, id, ty, x),
         (glsl::UNPACK_HALF_2X16, &[x]) => return packing::unpack_half(b, id, ty, x),
         _ => return None,

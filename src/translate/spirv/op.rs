@@ -48,9 +48,17 @@ pub const COMPOSITE_INSERT: u16 = 82;
 pub const COPY_OBJECT: u16 = 83;
 pub const SAMPLED_IMAGE: u16 = 86;
 pub const IMAGE_SAMPLE_FIRST: u16 = 87;
+pub const IMAGE_FETCH: u16 = 95;
+pub const IMAGE_GATHER: u16 = 96;
+pub const IMAGE_DREF_GATHER: u16 = 97;
 pub const IMAGE_READ: u16 = 98;
 pub const IMAGE_WRITE: u16 = 99;
+pub const IMAGE: u16 = 100;
+pub const IMAGE_QUERY_SIZE_LOD: u16 = 103;
+pub const IMAGE_QUERY_SIZE: u16 = 104;
+pub const IMAGE_QUERY_LOD: u16 = 105;
 pub const IMAGE_LAST: u16 = 107;
+pub const CONVERT_F_TO_U: u16 = 109;
 pub const CONVERT_F_TO_S: u16 = 110;
 pub const CONVERT_U_TO_F: u16 = 112;
 pub const F_CONVERT: u16 = 115;
@@ -77,6 +85,7 @@ pub const U_MUL_EXTENDED: u16 = 151;
 pub const S_MUL_EXTENDED: u16 = 152;
 pub const SELECT: u16 = 169;
 pub const I_EQUAL: u16 = 170;
+pub const I_NOT_EQUAL: u16 = 171;
 pub const U_LESS_THAN: u16 = 176;
 pub const S_LESS_THAN: u16 = 177;
 pub const F_ORD_EQUAL: u16 = 180;
@@ -87,6 +96,8 @@ pub const BITWISE_OR: u16 = 197;
 pub const BITWISE_AND: u16 = 199;
 pub const BIT_REVERSE: u16 = 204;
 pub const BIT_COUNT: u16 = 205;
+pub const D_PDX: u16 = 207;
+pub const D_PDY: u16 = 208;
 pub const MEMORY_BARRIER: u16 = 225;
 pub const PHI: u16 = 245;
 pub const LOOP_MERGE: u16 = 246;
@@ -103,7 +114,9 @@ pub const NO_LINE: u16 = 317;
 /// Storage classes.
 pub mod storage {
     pub const UNIFORM_CONSTANT: u32 = 0;
+    pub const INPUT: u32 = 1;
     pub const UNIFORM: u32 = 2;
+    pub const OUTPUT: u32 = 3;
     pub const PRIVATE: u32 = 6;
     pub const FUNCTION: u32 = 7;
 }
@@ -112,8 +125,15 @@ pub mod storage {
 pub mod decoration {
     pub const BLOCK: u32 = 2;
     pub const COL_MAJOR: u32 = 5;
+    pub const ARRAY_STRIDE: u32 = 6;
     pub const MATRIX_STRIDE: u32 = 7;
     pub const BUILT_IN: u32 = 11;
+    pub const NO_PERSPECTIVE: u32 = 13;
+    pub const FLAT: u32 = 14;
+    pub const CENTROID: u32 = 16;
+    pub const SAMPLE: u32 = 17;
+    pub const LOCATION: u32 = 30;
+    pub const INDEX: u32 = 32;
     pub const BINDING: u32 = 33;
     pub const DESCRIPTOR_SET: u32 = 34;
     pub const OFFSET: u32 = 35;
@@ -130,6 +150,14 @@ pub mod execution_mode {
 
 /// Built-in variables.
 pub mod built_in {
+    pub const CLIP_DISTANCE: u32 = 3;
+    pub const CULL_DISTANCE: u32 = 4;
+    pub const LAYER: u32 = 9;
+    pub const VIEWPORT_INDEX: u32 = 10;
+    pub const POINT_COORD: u32 = 16;
+    pub const SAMPLE_ID: u32 = 18;
+    pub const SAMPLE_MASK: u32 = 20;
+    pub const HELPER_INVOCATION: u32 = 23;
     pub const VERTEX_ID: u32 = 5;
     pub const INSTANCE_ID: u32 = 6;
     pub const VERTEX_INDEX: u32 = 42;
@@ -163,4 +191,7 @@ pub mod glsl {
     pub const REFRACT: u32 = 72;
     pub const FIND_I_LSB: u32 = 73;
     pub const FIND_U_MSB: u32 = 75;
+    pub const INTERPOLATE_AT_CENTROID: u32 = 76;
+    pub const INTERPOLATE_AT_SAMPLE: u32 = 77;
+    pub const INTERPOLATE_AT_OFFSET: u32 = 78;
 }

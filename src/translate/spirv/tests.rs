@@ -1,8 +1,8 @@
 //! What the compiler writes for small shaders, before and after.
 
 use super::code::{Code, Instruction};
-use super::{Reworked, Unworkable, op, op::storage, rework};
-use crate::translate::glslang::{self, Reached, Request, Rules, Stage};
+use super::{How, Reworked, Unworkable, op, op::storage, rework};
+use crate::translate::glslang::{self, Reached, Request, Rules, Stage, StageText};
 use std::collections::HashSet;
 use std::ffi::CString;
 
@@ -12,21 +12,16 @@ fn words(globals: &str, body: &str) -> Vec<u32> {
         "#version 450\nuniform mat4 m;\nin vec4 a;\nout vec4 c;\n{globals}\n\
          void main() {{ c = vec4(0.0); gl_Position = m * a;\n{body}\n}}\n"
     );
-    let outcome = glslang::compile(&Request {
-        vertex: &CString::new(text).expect("no NUL"),
-        fragment: None,
-        preamble: c"",
-        rules: Rules::SpirV,
-        version: None,
-        emit: Stage::Vertex,
-    });
-    assert_eq!(outcome.reached, Reached::Done, "{}{}", outcome.vertex_log, outcome.link_log);
+    let text = CString::new(text).expect("no NUL");
+    let stages = [StageText::plain(Stage::Vertex, &text)];
+    let outcome = glslang::compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Vertex });
+    assert_eq!(outcome.reached, Reached::Done, "{}{}", outcome.log(Stage::Vertex), outcome.link_log);
     outcome.spirv
 }
 
 /// The reworked shader, which naga must take and find valid.
 fn reworked(globals: &str, body: &str) -> (Code, Reworked) {
-    let done = rework(&words(globals, body), &["m"], false).expect("whole words");
+    let done = rework(&words(globals, body), How { set: &["m"], ..How::default() }).expect("whole words");
     let options = naga::front::spv::Options { adjust_coordinate_space: false, ..Default::default() };
     let module = naga::front::spv::Frontend::new(done.words.iter().copied(), &options).parse().expect("naga takes it");
     use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -56,8 +51,8 @@ fn code_comes_out_as_it_went_in() {
 fn cut_words_are_refused() {
     let whole = words("", "");
     // The first instruction behind the five words of the header is an `OpCapability` of two words.
-    assert_eq!(rework(&whole[..6], &[], false).err(), Some(Unworkable::Damaged));
-    assert_eq!(rework(&whole[..3], &[], false).err(), Some(Unworkable::Damaged));
+    assert_eq!(rework(&whole[..6], How::default()).err(), Some(Unworkable::Damaged));
+    assert_eq!(rework(&whole[..3], How::default()).err(), Some(Unworkable::Damaged));
 }
 
 #[test]
@@ -95,7 +90,9 @@ fn copies_that_explode_are_refused() {
     let cases = |inner: &str| (0..60).map(|k| format!("case {k}: {inner}\n")).collect::<String>();
     let inner = format!("switch (int(a.y)) {{ {} }}", cases("c.x += sin(c.x);"));
     let outer = format!("switch (int(a.x)) {{ {} }}", cases(&inner));
-    let Err(Unworkable::Cases(Some(line))) = rework(&words("", &outer), &[], false) else { panic!("it is refused") };
+    let Err(Unworkable::Cases(Some(line))) = rework(&words("", &outer), How::default()) else {
+        panic!("it is refused")
+    };
     // The body begins on line 7 of the text, and an inner switch with its 60 cases has 61 lines.
     assert_eq!((line - 7) % 61, 0, "line {line} begins an inner switch");
 }
@@ -109,7 +106,7 @@ fn a_uniform_that_is_set_is_a_member_and_others_are_private() {
         code.globals.iter().filter(|i| i.opcode == op::VARIABLE).map(|variable| variable.operands[2]).collect();
     assert_eq!(classes.iter().filter(|&&class| class == storage::UNIFORM).count(), 1);
     assert_eq!(classes.iter().filter(|&&class| class == storage::PRIVATE).count(), 4);
-    let mut unset: Vec<_> = done.unset.iter().map(|unset| (unset.name.as_str(), unset.ty)).collect();
+    let mut unset: Vec<_> = done.uniforms.unset.iter().map(|unset| (unset.name.as_str(), unset.ty)).collect();
     unset.sort_unstable();
     assert_eq!(unset, [("B", "block"), ("list", "array"), ("q", "bool"), ("s", "struct")]);
 }
@@ -139,8 +136,8 @@ fn textures_are_plain_variables() {
 #[test]
 fn damaged_words_are_refused() {
     let whole = words("struct S { vec3 v; float a[3]; }; S s;", "s.v = a.xyz; s.a[int(a.x)] = 1.0; c = s.v.xyzz;");
-    assert!(rework(&whole, &[], false).is_ok());
-    let refused = |words: &[u32]| rework(words, &[], false).err() == Some(Unworkable::Damaged);
+    assert!(rework(&whole, How::default()).is_ok());
+    let refused = |words: &[u32]| rework(words, How::default()).err() == Some(Unworkable::Damaged);
     let place = |opcode: u16| {
         let mut at = 5;
         while whole[at] as u16 != opcode {

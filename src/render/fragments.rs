@@ -1,0 +1,295 @@
+//! A fragment stage behind captured vertices: a vertex stage of ours passes on what was captured, so that it does not
+//! matter where the numbers come from.
+//!
+//! Every pass is drawn upside down: row 0 of the target is the bottom one, as in OpenGL, so that `gl_FragCoord`, `dFdy`
+//! and `gl_FrontFacing` are those of OpenGL.
+
+use super::buffers::{Uniforms, capture_group, capture_layout};
+use super::scene::{Batch, State};
+use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader, UniformBlock};
+use naga::ScalarKind;
+use std::borrow::Cow;
+use std::fmt::Write;
+use wgpu::util::DeviceExt;
+
+/// The format of depths.
+pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Bytes of what is added to `gl_FragCoord`.
+pub(super) const SHIFT_STRIDE: u64 = 8;
+
+/// A fragment stage and its pipelines.
+#[derive(Debug)]
+pub(super) struct FragmentStage {
+    pass_on: wgpu::ShaderModule,
+    module: wgpu::ShaderModule,
+    /// What it is fed.
+    pub inputs: Vec<Attribute>,
+    /// What it gives.
+    pub outputs: Vec<Attribute>,
+    blocks: Vec<UniformBlock>,
+    /// Whether it reads `gl_FragCoord`.
+    pub is_placed: bool,
+    is_fixed: bool,
+    pub reads_textures: bool,
+    pipelines: Vec<(Key, wgpu::RenderPipeline)>,
+}
+
+/// What tells pipelines of one stage apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Key {
+    /// How fragments are kept.
+    pub state: State,
+    /// The formats of the targets.
+    pub targets: Vec<Option<wgpu::TextureFormat>>,
+    /// Whether there is a target for depths.
+    pub has_depth: bool,
+    /// Bytes of a record.
+    pub stride: u64,
+    /// For each input, its slot in a record behind the position.
+    pub slots: Vec<usize>,
+    /// Whether `gl_FragCoord` is moved for each vertex by itself.
+    pub moves_each: bool,
+}
+
+/// What a fragment stage reads besides its inputs, for the batches of one pass.
+pub(super) struct FragmentData {
+    uniforms: Uniforms,
+    header: Option<Header>,
+}
+
+/// The header of a pass.
+struct Header {
+    buffer: wgpu::Buffer,
+    readback: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl FragmentStage {
+    pub fn new(device: &wgpu::Device, shader: &Shader) -> Self {
+        let module =
+            |label, source| device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source });
+        Self {
+            pass_on: module("pass on", wgpu::ShaderSource::Wgsl(Cow::Owned(pass_on(shader)))),
+            module: module("fragment stage", wgpu::ShaderSource::Naga(Cow::Owned(shader.module.clone()))),
+            inputs: shader.inputs.clone(),
+            outputs: shader.outputs.clone(),
+            blocks: shader.uniforms.clone(),
+            is_placed: shader.shift.is_some(),
+            is_fixed: shader.is_fixed,
+            reads_textures: shader.reads_textures,
+            pipelines: Vec::new(),
+        }
+    }
+
+    /// Whether it has a group for header and textures.
+    fn has_group(&self) -> bool {
+        !self.is_fixed || self.reads_textures
+    }
+
+    /// Whether the order of a triangle's corners is seen.
+    pub fn is_flat(&self) -> bool {
+        self.inputs.iter().any(is_flat)
+    }
+
+    /// The pipeline for passes of this kind.
+    pub fn pipeline(&mut self, device: &wgpu::Device, data: &FragmentData, key: &Key) -> &wgpu::RenderPipeline {
+        let known = self.pipelines.iter().position(|(known, _)| known == key);
+        let place = known.unwrap_or_else(|| {
+            self.pipelines.push((key.clone(), self.make(device, data, key)));
+            self.pipelines.len() - 1
+        });
+        &self.pipelines[place].1
+    }
+
+    fn make(&self, device: &wgpu::Device, data: &FragmentData, key: &Key) -> wgpu::RenderPipeline {
+        let header = capture_layout(device, self.reads_textures);
+        let mut groups = vec![Some(&data.uniforms.layout)];
+        groups.extend(self.has_group().then_some(Some(&header)));
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("fragments"),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        let attribute = |shader_location: usize, offset, format| wgpu::VertexAttribute {
+            format,
+            offset,
+            shader_location: shader_location as u32,
+        };
+        let mut attributes = vec![attribute(0, 0, wgpu::VertexFormat::Float32x4)];
+        attributes.extend(
+            self.inputs
+                .iter()
+                .zip(&key.slots)
+                .enumerate()
+                .map(|(number, (input, slot))| attribute(number + 1, (*slot as u64 + 1) * CAPTURE_SLOT, format(input))),
+        );
+        let shift = [attribute(self.inputs.len() + 1, 0, wgpu::VertexFormat::Float32x2)];
+        let (array_stride, step_mode) = (key.stride, wgpu::VertexStepMode::Vertex);
+        let mut buffers = vec![Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes: &attributes })];
+        let each = if key.moves_each { step_mode } else { wgpu::VertexStepMode::Instance };
+        buffers.extend(self.is_placed.then_some(Some(wgpu::VertexBufferLayout {
+            array_stride: SHIFT_STRIDE,
+            step_mode: each,
+            attributes: &shift,
+        })));
+        let targets: Vec<_> = key.targets.iter().map(|format| format.map(wgpu::ColorTargetState::from)).collect();
+        let depth_compare =
+            if key.state.tests_depth { wgpu::CompareFunction::Less } else { wgpu::CompareFunction::Always };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("fragments"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &self.pass_on,
+                entry_point: None,
+                compilation_options: Default::default(),
+                buffers: &buffers,
+            },
+            primitive: wgpu::PrimitiveState {
+                // Upside down, what runs anticlockwise runs clockwise.
+                front_face: wgpu::FrontFace::Cw,
+                cull_mode: key.state.culls_back.then_some(wgpu::Face::Back),
+                ..Default::default()
+            },
+            depth_stencil: key.has_depth.then(|| wgpu::DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(key.state.tests_depth),
+                depth_compare: Some(depth_compare),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: None,
+                compilation_options: Default::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+impl FragmentData {
+    /// For a pass that paints frames, or one that does not.
+    pub fn new(
+        device: &wgpu::Device,
+        stage: &FragmentStage,
+        batches: &[&Batch],
+        textures: Option<&wgpu::Buffer>,
+        is_frame: bool,
+    ) -> Self {
+        let header = stage.has_group().then(|| {
+            let mut words = [0_u32; CAPTURE_HEADER as usize / 4];
+            words[4] = u32::from(is_frame);
+            let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("header"),
+                contents: bytemuck::cast_slice(&words),
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            });
+            let readback = device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("header, read back"),
+                size: CAPTURE_HEADER,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            });
+            let layout = capture_layout(device, stage.reads_textures);
+            let group = capture_group(device, &layout, &buffer, textures.filter(|_| stage.reads_textures));
+            Header { buffer, readback, group }
+        });
+        Self { uniforms: Uniforms::new(device, &stage.blocks, batches), header }
+    }
+
+    /// Binds what the batch of this number reads.
+    pub fn bind(&self, pass: &mut wgpu::RenderPass<'_>, batch: usize) {
+        let offsets: Vec<u32> = self.uniforms.strides.iter().map(|stride| stride * batch as u32).collect();
+        pass.set_bind_group(0, &self.uniforms.group, &offsets);
+        if let Some(header) = &self.header {
+            pass.set_bind_group(1, &header.group, &[]);
+        }
+    }
+
+    /// Has the header read back behind the pass.
+    pub fn copy_header(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(header) = &self.header {
+            encoder.copy_buffer_to_buffer(&header.buffer, 0, &header.readback, 0, CAPTURE_HEADER);
+        }
+    }
+
+    /// Where the header is read back to.
+    pub fn header(&self) -> Option<&wgpu::Buffer> {
+        self.header.as_ref().map(|header| &header.readback)
+    }
+}
+
+fn is_flat(input: &Attribute) -> bool {
+    input.qualifiers.interpolation == Interpolation::Flat || input.kind != Some(ScalarKind::Float)
+}
+
+fn format(input: &Attribute) -> wgpu::VertexFormat {
+    use wgpu::VertexFormat as F;
+    match (input.kind, input.size) {
+        (Some(ScalarKind::Sint), 1) => F::Sint32,
+        (Some(ScalarKind::Sint), 2) => F::Sint32x2,
+        (Some(ScalarKind::Sint), 3) => F::Sint32x3,
+        (Some(ScalarKind::Sint), _) => F::Sint32x4,
+        (Some(ScalarKind::Uint), 1) => F::Uint32,
+        (Some(ScalarKind::Uint), 2) => F::Uint32x2,
+        (Some(ScalarKind::Uint), 3) => F::Uint32x3,
+        (Some(ScalarKind::Uint), _) => F::Uint32x4,
+        (_, 1) => F::Float32,
+        (_, 2) => F::Float32x2,
+        (_, 3) => F::Float32x3,
+        (_, _) => F::Float32x4,
+    }
+}
+
+/// A vertex stage in WGSL that passes on a record: OpenGL's clip range of z, [−w, w], becomes wgpu's [0, w], and up
+/// becomes down.
+///
+/// What a fixed fragment stage paints is bounded here: beyond ±2²⁰ a value is painted as if it were that, white or black
+/// at every pixel that shows any of it, as it is anyway, but the driver's conversion to 8 bits goes through an `i32` and
+/// would make black of what that cannot hold.
+fn pass_on(fragment: &Shader) -> String {
+    let ty = |input: &Attribute| {
+        let scalar = match input.kind {
+            Some(ScalarKind::Sint) => "i32",
+            Some(ScalarKind::Uint) => "u32",
+            _ => "f32",
+        };
+        if input.size == 1 { scalar.to_owned() } else { format!("vec{}<{scalar}>", input.size) }
+    };
+    let (mut taken, mut given, mut values) = (String::new(), String::new(), String::new());
+    for (number, input) in fragment.inputs.iter().enumerate() {
+        let interpolation = match input.qualifiers.interpolation {
+            _ if is_flat(input) => "flat, first",
+            Interpolation::NoPerspective if input.qualifiers.centroid => "linear, centroid",
+            Interpolation::NoPerspective => "linear, center",
+            _ if input.qualifiers.centroid => "perspective, centroid",
+            _ => "perspective, center",
+        };
+        let (ty, at) = (ty(input), number + 1);
+        let is_bounded = fragment.is_fixed && !is_flat(input);
+        let one = if is_bounded { bounded(&format!("v{number}"), &ty) } else { format!("v{number}") };
+        // Writing to a text cannot fail.
+        let _ = write!(taken, ", @location({at}) v{number}: {ty}");
+        let _ = write!(given, "\n    @location({number}) @interpolate({interpolation}) v{number}: {ty},");
+        let _ = write!(values, ", {one}");
+    }
+    if let Some(location) = fragment.shift {
+        let _ = write!(taken, ", @location({}) shift: vec2f", location + 1);
+        let _ = write!(given, "\n    @location({location}) @interpolate(flat, first) shift: vec2f,");
+        values.push_str(", shift");
+    }
+    format!(
+        "struct Vertex {{\n    @builtin(position) position: vec4f,{given}\n}}\n\
+         @vertex fn pass_on(@location(0) p: vec4f{taken}) -> Vertex {{\n    \
+         return Vertex(vec4f(p.x, -p.y, (p.z + p.w) * 0.5, p.w){values});\n}}\n"
+    )
+}
+
+/// The value within ±2²⁰; what is no number stays none.
+fn bounded(value: &str, ty: &str) -> String {
+    format!("select({value}, sign({value}) * 1048576.0, abs({value}) > {ty}(1048576.0))")
+}

@@ -1,0 +1,213 @@
+//! A fragment stage on its own: one pixel of a target of floats for each probe, whose inputs are given.
+
+use super::device::Device;
+use super::fragments::{FragmentData, FragmentStage, Key};
+use super::scene::{Batch, State};
+use crate::translate::{Attribute, CAPTURE_SLOT};
+use naga::ScalarKind;
+use wgpu::util::DeviceExt;
+
+/// Pixels of a row of the target.
+const SIDE: u32 = 64;
+
+/// What the target is cleared to: no shader computes just this.
+const NOTHING: f64 = -1.234_567_890_123e38;
+
+/// What a fragment stage computed for one pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pixel {
+    /// Whether it was thrown away.
+    pub is_discarded: bool,
+    /// The outputs in the order of the file, as four numbers each; integers as their values.
+    pub outputs: Vec<[f32; 4]>,
+}
+
+/// The pass over all probes.
+pub(super) struct Pixels {
+    readbacks: Vec<wgpu::Buffer>,
+    pub data: FragmentData,
+}
+
+/// Inputs that are no student's.
+const PLACE: &str = "gl_FragCoord";
+const FACING: &str = "gl_FrontFacing";
+
+impl Pixels {
+    pub fn submit(
+        device: &Device,
+        stage: &mut FragmentStage,
+        batches: &[Batch],
+        textures: Option<&wgpu::Buffer>,
+    ) -> Self {
+        let drawn: Vec<&Batch> = batches.iter().collect();
+        let data = FragmentData::new(&device.device, stage, &drawn, textures, false);
+        let count: u32 = batches.iter().map(Batch::vertices).sum();
+        let size = wgpu::Extent3d { width: SIDE, height: count.div_ceil(SIDE).max(1), depth_or_array_layers: 1 };
+        let [records, shifts] = corners(stage, batches, size.height).map(|contents| {
+            device.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("probes"),
+                contents: &contents,
+                usage: wgpu::BufferUsages::VERTEX,
+            })
+        });
+        let formats: Vec<_> = stage.outputs.iter().map(format).collect();
+        let textures: Vec<_> = formats
+            .iter()
+            .map(|&format| {
+                device.device.create_texture(&wgpu::TextureDescriptor {
+                    label: Some("probes"),
+                    size,
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension: wgpu::TextureDimension::D2,
+                    format,
+                    usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+                    view_formats: &[],
+                })
+            })
+            .collect();
+        let views: Vec<_> = textures.iter().map(|texture| texture.create_view(&Default::default())).collect();
+        let targets = stage.outputs.iter().map(|output| output.location as usize + 1).max().unwrap_or(0);
+        let at = |location: usize| stage.outputs.iter().position(|output| output.location as usize == location);
+        let places: Vec<Option<usize>> = (0..targets).map(at).collect();
+        let key = Key {
+            state: State::default(),
+            targets: places.iter().map(|place| place.map(|place| formats[place])).collect(),
+            has_depth: false,
+            stride: (stage.inputs.len() as u64 + 1) * CAPTURE_SLOT,
+            slots: (0..stage.inputs.len()).collect(),
+            moves_each: true,
+        };
+        let is_placed = stage.is_placed;
+        let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        if targets > 0 {
+            let pipeline = stage.pipeline(&device.device, &data, &key);
+            let clear = wgpu::Color { r: NOTHING, g: NOTHING, b: NOTHING, a: NOTHING };
+            let attachment = |view| wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
+            };
+            let attachments: Vec<_> = places.iter().map(|place| place.map(|place| attachment(&views[place]))).collect();
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("probes"),
+                color_attachments: &attachments,
+                ..Default::default()
+            });
+            pass.set_pipeline(pipeline);
+            pass.set_vertex_buffer(0, records.slice(..));
+            if is_placed {
+                pass.set_vertex_buffer(1, shifts.slice(..));
+            }
+            let mut first = 0;
+            for (number, batch) in batches.iter().enumerate().filter(|(_, batch)| batch.vertices() > 0) {
+                data.bind(&mut pass, number);
+                pass.draw(first..first + 3 * batch.vertices(), 0..1);
+                first += 3 * batch.vertices();
+            }
+        }
+        let readbacks = textures
+            .iter()
+            .map(|texture| {
+                let bytes_per_row = SIDE * CAPTURE_SLOT as u32;
+                let readback = device.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("probes, read back"),
+                    size: u64::from(bytes_per_row) * u64::from(size.height),
+                    usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                    mapped_at_creation: false,
+                });
+                let layout =
+                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes_per_row), rows_per_image: None };
+                let into = wgpu::TexelCopyBufferInfo { buffer: &readback, layout };
+                encoder.copy_texture_to_buffer(texture.as_image_copy(), into, size);
+                readback
+            })
+            .collect();
+        data.copy_header(&mut encoder);
+        device.queue.submit([encoder.finish()]);
+        Self { readbacks, data }
+    }
+
+    /// Where each output is read back to.
+    pub fn readbacks(&self) -> &[wgpu::Buffer] {
+        &self.readbacks
+    }
+}
+
+/// The pixels of each batch from what was read back of each output.
+pub(super) fn split(stage: &FragmentStage, batches: &[Batch], outputs: &[Vec<u32>]) -> Vec<Vec<Pixel>> {
+    let mut number = 0;
+    let mut next = || {
+        let words = |output: &Vec<u32>| -> [u32; 4] { std::array::from_fn(|axis| output[4 * number + axis]) };
+        let all: Vec<[u32; 4]> = outputs.iter().map(words).collect();
+        number += 1;
+        let value = |(output, words): (&Attribute, &[u32; 4])| {
+            words.map(|word| match output.kind {
+                Some(ScalarKind::Sint) => word.cast_signed() as f32,
+                Some(ScalarKind::Uint) => word as f32,
+                _ => f32::from_bits(word),
+            })
+        };
+        let outputs: Vec<[f32; 4]> = stage.outputs.iter().zip(&all).map(value).collect();
+        let is_untouched = |(output, value): (&Attribute, &[f32; 4])| {
+            output.kind == Some(ScalarKind::Float) && value.iter().all(|component| *component == NOTHING as f32)
+        };
+        Pixel { is_discarded: stage.outputs.iter().zip(&outputs).any(is_untouched), outputs }
+    };
+    batches.iter().map(|batch| (0..batch.vertices()).map(|_| next()).collect()).collect()
+}
+
+/// The records of three corners around the middle of each probe's pixel, and what is added to its `gl_FragCoord`.
+fn corners(stage: &FragmentStage, batches: &[Batch], rows: u32) -> [Vec<u8>; 2] {
+    let (mut records, mut shifts): (Vec<u32>, Vec<f32>) = (Vec::new(), Vec::new());
+    let mut number = 0;
+    for batch in batches {
+        let column = |name: &str| batch.attributes.iter().find(|(own, _)| own == name).map(|(_, column)| column);
+        let inputs: Vec<_> = stage.inputs.iter().map(|input| (input, column(&input.name))).collect();
+        let (place, facing) = (column(PLACE), column(FACING));
+        for vertex in 0..batch.vertices() as usize {
+            let middle = [number % SIDE, number / SIDE].map(|at| f64::from(at) + 0.5);
+            number += 1;
+            let shift: [f64; 2] = std::array::from_fn(|axis| {
+                place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied()).map_or(0.0, |at| at - middle[axis])
+            });
+            let given = |axis: usize| place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied());
+            // Window depth d is (z/w + 1)/2, and `gl_FragCoord.w` is 1/w.
+            let w = given(3).filter(|inverse| *inverse > 0.0).map_or(1.0, f64::recip);
+            let z = given(2).map_or(0.0, |depth| 2.0 * depth - 1.0);
+            let is_back = facing.and_then(|facing| facing.iter().nth(vertex)?.first().copied()) == Some(0.0);
+            let mut around = [[-0.4, -0.4], [0.4, -0.4], [0.0, 0.4]];
+            if is_back {
+                around.swap(0, 1);
+            }
+            for [dx, dy] in around {
+                let x = (middle[0] + dx) / f64::from(SIDE) * 2.0 - 1.0;
+                let y = (middle[1] + dy) / f64::from(rows) * 2.0 - 1.0;
+                records.extend([x * w, y * w, z * w, w].map(|number| (number as f32).to_bits()));
+                for (input, column) in &inputs {
+                    let numbers = column.and_then(|column| column.iter().nth(vertex)).unwrap_or_default();
+                    let number = |axis: usize| numbers.get(axis).copied().unwrap_or(if axis == 3 { 1.0 } else { 0.0 });
+                    records.extend([0, 1, 2, 3].map(number).map(|number| match input.kind {
+                        Some(ScalarKind::Sint) => (number as i32).cast_unsigned(),
+                        Some(ScalarKind::Uint) => number as u32,
+                        _ => (number as f32).to_bits(),
+                    }));
+                }
+                shifts.extend(shift.map(|number| number as f32));
+            }
+        }
+    }
+    if records.is_empty() {
+        (records, shifts) = (vec![0; 4], vec![0.0; 2]);
+    }
+    [bytemuck::cast_slice(&records).to_vec(), bytemuck::cast_slice(&shifts).to_vec()]
+}
+
+fn format(output: &Attribute) -> wgpu::TextureFormat {
+    match output.kind {
+        Some(ScalarKind::Sint) => wgpu::TextureFormat::Rgba32Sint,
+        Some(ScalarKind::Uint) => wgpu::TextureFormat::Rgba32Uint,
+        _ => wgpu::TextureFormat::Rgba32Float,
+    }
+}

@@ -1,0 +1,72 @@
+//! What the vertex stage hands over and the fragment stage takes: by name and type, or by location where both give one.
+//!
+//! A driver says of it what it likes, without a line, and takes a fragment stage that reads what nobody writes.
+
+use super::entry::Attribute;
+use super::interface::place;
+use super::module::Shader;
+use super::{Refusal, spirv::Interpolation};
+use crate::diagnostic::{Diagnostic, Stage};
+use crate::language::Text;
+use crate::source::Source;
+
+/// From this version on the fragment stage's qualifiers count, and the vertex stage's do not matter.
+const FREE_INTERPOLATION: i32 = 440;
+
+/// Holds the inputs of the fragment stage against the outputs of the vertex stage, at GLSL version `version`.
+pub(super) fn check(vertex: &Shader, fragment: &Shader, source: &Source, version: i32) -> Result<(), Refusal> {
+    let errors: Vec<Diagnostic> =
+        fragment.inputs.iter().filter_map(|input| error(input, &vertex.outputs, source, version)).collect();
+    if errors.is_empty() { Ok(()) } else { Err(Refusal::Rejected(errors)) }
+}
+
+fn error(input: &Attribute, outputs: &[Attribute], source: &Source, version: i32) -> Option<Diagnostic> {
+    let name = &input.name;
+    let at = |message| Some(place(Diagnostic::error(Stage::Link, message), source, name));
+    let Some(output) = outputs.iter().find(|output| output.name == *name) else {
+        let diagnostic = at(Text::new(
+            format!("The fragment shader reads `{name}`, and the vertex shader has no output of this name."),
+            format!("フラグメントシェーダが `{name}` を読みますが、頂点シェーダにこの名前の出力変数がありません。"),
+        ))?;
+        let written: Vec<_> = outputs.iter().map(|output| format!("`{} {}`", output.ty, output.name)).collect();
+        return Some(if written.is_empty() {
+            diagnostic
+        } else {
+            diagnostic.hint(Text::new(
+                format!("The vertex shader writes {}.", written.join(", ")),
+                format!("頂点シェーダが出力するのは {} です。", written.join("、")),
+            ))
+        });
+    };
+    if (output.kind, output.width, output.size) != (input.kind, input.width, input.size) {
+        return at(Text::new(
+            format!("`{name}` has type {} here, but the vertex shader writes {}.", input.ty, output.ty),
+            format!("`{name}` はここでは {} 型ですが、頂点シェーダが出力するのは {} 型です。", input.ty, output.ty),
+        ));
+    }
+    let differs = version < FREE_INTERPOLATION && output.qualifiers != input.qualifiers;
+    let of = |attribute: &Attribute| {
+        let interpolation = match attribute.qualifiers.interpolation {
+            Interpolation::Smooth => "",
+            Interpolation::NoPerspective => "noperspective",
+            Interpolation::Flat => "flat",
+        };
+        let centroid = if attribute.qualifiers.centroid { "centroid" } else { "" };
+        let words: Vec<&str> = [interpolation, centroid].into_iter().filter(|word| !word.is_empty()).collect();
+        if words.is_empty() { "smooth".to_owned() } else { words.join(" ") }
+    };
+    differs.then(|| {
+        at(Text::new(
+            format!(
+                "`{name}` is `{}` here and `{}` in the vertex shader; before GLSL 4.40 drivers refuse to link the two.",
+                of(input),
+                of(output)
+            ),
+            format!(
+                "`{name}` はここでは `{}`、頂点シェーダでは `{}` です。GLSL 4.40 より前ではドライバがリンクを拒否します。",
+                of(input),
+                of(output)
+            ),
+        ))
+    })?
+}

@@ -1,0 +1,424 @@
+//! Textures that the program sets: a sampler is the number of a texture, and every lookup a call of a function that reads
+//! it in plain arithmetic (`textures.glsl`).
+//!
+//! So samplers may stand in structures and arrays, be chosen by an index and be handed to functions, which naga takes in
+//! no other way; what a lookup gives is that of the reference's rules, and depends on no driver.
+
+use super::code::{Code, Instruction};
+use super::lower::{Builder, rewrite};
+use super::op::{self, decoration, storage};
+use crate::translate::glslang::{Reached, Request, Rules, Stage, StageText, compile};
+use std::collections::HashMap;
+use std::ffi::CString;
+use std::sync::OnceLock;
+
+/// What the names of the functions end with that read textures; no GLSL has such a name.
+pub const OURS: &str = "@ours";
+
+/// Bind group and binding of the textures.
+pub const TEXTURES: (u32, u32) = (1, 1);
+
+/// What a sampler's or image's type is made of (SPIR-V specification, `OpTypeImage`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Kind {
+    dimension: u32,
+    has_layers: bool,
+    compares: bool,
+    scalar: Texel,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Texel {
+    Float,
+    Int,
+    Uint,
+}
+
+const CUBE: u32 = 3;
+const RECTANGLE: u32 = 4;
+
+impl Kind {
+    /// How many coordinates there are, layers aside.
+    fn axes(self) -> u32 {
+        match self.dimension {
+            0 => 1,
+            2 => 3,
+            _ => 2,
+        }
+    }
+
+    /// As `textures.glsl` has it.
+    fn mode(self) -> u32 {
+        let bit = |is: bool, bit: u32| if is { bit } else { 0 };
+        self.axes()
+            | bit(self.has_layers, 4)
+            | bit(self.dimension == CUBE, 8)
+            | bit(self.compares, 16)
+            | bit(self.dimension == RECTANGLE, 32)
+    }
+
+    /// The name that GLSL gives to its sampler.
+    fn name(self) -> String {
+        let prefix = match self.scalar {
+            Texel::Float => "",
+            Texel::Int => "i",
+            Texel::Uint => "u",
+        };
+        let dimension = ["1D", "2D", "3D", "Cube", "2DRect", "Buffer"].get(self.dimension as usize).unwrap_or(&"");
+        let array = if self.has_layers { "Array" } else { "" };
+        format!("{prefix}sampler{dimension}{array}{}", if self.compares { "Shadow" } else { "" })
+    }
+}
+
+/// The types that were samplers and images, by id.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Samplers(HashMap<u32, Kind>);
+
+impl Samplers {
+    /// The name of the type, where it is one of these.
+    pub fn name(&self, ty: u32) -> Option<String> {
+        self.0.get(&ty).map(|kind| kind.name())
+    }
+
+    /// Makes numbers of them. Buffers, and what has several samples, are none.
+    pub fn take(code: &mut Code) -> Self {
+        let mut found: HashMap<u32, Kind> = HashMap::new();
+        let scalars: HashMap<u32, Texel> = code
+            .globals
+            .iter()
+            .filter_map(|i| match (i.opcode, &i.operands[..]) {
+                (op::TYPE_FLOAT, [id, ..]) => Some((*id, Texel::Float)),
+                (op::TYPE_INT, [id, _, 1]) => Some((*id, Texel::Int)),
+                (op::TYPE_INT, [id, ..]) => Some((*id, Texel::Uint)),
+                _ => None,
+            })
+            .collect();
+        for declared in &mut code.globals {
+            let kind = match (declared.opcode, &declared.operands[..]) {
+                (op::TYPE_IMAGE, &[_, texel, dimension @ 0..=RECTANGLE, depth, layers, 0, 1, ..]) => {
+                    let scalar = scalars.get(&texel).copied().unwrap_or(Texel::Float);
+                    Some(Kind { dimension, has_layers: layers == 1, compares: depth == 1, scalar })
+                }
+                (op::TYPE_SAMPLED_IMAGE, [_, image, ..]) => found.get(image).copied(),
+                _ => None,
+            };
+            if let Some(kind) = kind {
+                found.insert(declared.operands[0], kind);
+                declared.opcode = op::TYPE_INT;
+                declared.operands = vec![declared.operands[0], 32, 0];
+            }
+        }
+        for pointer in code.globals.iter_mut().filter(|i| i.opcode == op::TYPE_POINTER) {
+            if found.contains_key(&pointer.operands[2]) {
+                pointer.operands[1] = storage::PRIVATE;
+            }
+        }
+        Self(found)
+    }
+}
+
+/// Replaces the lookups; gives whether there are any.
+pub(super) fn lower(code: &mut Code, samplers: &Samplers, is_fragment: bool) -> bool {
+    let is_lookup = |i: &Instruction| (op::IMAGE_SAMPLE_FIRST..=op::IMAGE_LAST).contains(&i.opcode);
+    if samplers.0.is_empty() || !code.functions.iter().any(is_lookup) {
+        return false;
+    }
+    let Some(functions) = splice(code, is_fragment) else { return false };
+    rewrite(code, |builder, instruction| {
+        let mut look = LookUp { b: builder, samplers, functions: &functions };
+        look.lowered(instruction)
+    });
+    true
+}
+
+struct LookUp<'a, 'b> {
+    b: &'a mut Builder<'b>,
+    samplers: &'a Samplers,
+    /// By name: the id, and the type of the result.
+    functions: &'a HashMap<String, (u32, u32)>,
+}
+
+/// The optional operands of an instruction on images (SPIR-V specification, section 3.14).
+#[derive(Default)]
+struct Operands {
+    bias: Option<u32>,
+    level: Option<u32>,
+    gradient: Option<[u32; 2]>,
+    offset: Option<u32>,
+}
+
+impl Operands {
+    fn read(words: &[u32]) -> Self {
+        let mut read = Self::default();
+        let Some((mask, mut rest)) = words.split_first() else { return read };
+        let mut next = || {
+            let (first, others) = rest.split_first()?;
+            rest = others;
+            Some(*first)
+        };
+        if mask & 1 != 0 {
+            read.bias = next();
+        }
+        if mask & 2 != 0 {
+            read.level = next();
+        }
+        if mask & 4 != 0 {
+            read.gradient = next().zip(next()).map(|(x, y)| [x, y]);
+        }
+        if mask & 24 != 0 {
+            read.offset = next();
+        }
+        read
+    }
+}
+
+impl LookUp<'_, '_> {
+    fn lowered(&mut self, instruction: &Instruction) -> Option<()> {
+        if !(op::IMAGE_SAMPLE_FIRST..=op::IMAGE_LAST).contains(&instruction.opcode) {
+            return None;
+        }
+        let [ty, id, texture, rest @ ..] = &instruction.operands[..] else { return None };
+        let (ty, id, texture) = (*ty, *id, *texture);
+        let kind = self.samplers.0.get(&self.b.type_of(texture)?).copied()?;
+        match (instruction.opcode, rest) {
+            (op::IMAGE, _) => {
+                self.b.op_as(id, op::COPY_OBJECT, ty, &[texture]);
+            }
+            (first @ op::IMAGE_SAMPLE_FIRST..op::IMAGE_FETCH, [at, rest @ ..]) => {
+                let number = first - op::IMAGE_SAMPLE_FIRST;
+                let (is_compared, is_projected) = (number & 2 != 0, number & 4 != 0);
+                let (reference, rest) =
+                    if is_compared { (rest.first().copied(), rest.get(1..)?) } else { (None, rest) };
+                let (at, reference) = self.place(kind, *at, reference, is_projected)?;
+                let operands = Operands::read(rest);
+                let detail = self.detail(kind, texture, at, &operands)?;
+                let (offset, mode) = (self.offset(operands.offset), self.int(kind.mode()));
+                let reference = reference.unwrap_or_else(|| self.float(0.0));
+                let found = self.call("look_up", &[texture, at, detail, offset, reference, mode])?;
+                self.give(kind, id, ty, found, is_compared);
+            }
+            (op::IMAGE_FETCH, [at, rest @ ..]) => {
+                let operands = Operands::read(rest);
+                let mut at = self.ivec3(*at);
+                if let Some(offset) = operands.offset {
+                    let by = self.ivec3(offset);
+                    let ivec3 = self.b.ints(3, true);
+                    at = self.b.op(op::I_ADD, ivec3, &[at, by]);
+                }
+                let level = operands.level.unwrap_or_else(|| self.int(0));
+                let found = self.call("fetch", &[texture, at, level])?;
+                self.give(kind, id, ty, found, false);
+            }
+            (op::IMAGE_GATHER | op::IMAGE_DREF_GATHER, [at, third, rest @ ..]) => {
+                let is_compared = instruction.opcode == op::IMAGE_DREF_GATHER;
+                let operands = Operands::read(rest);
+                let (at, _) = self.place(kind, *at, None, false)?;
+                let (offset, mode) = (self.offset(operands.offset), self.int(kind.mode()));
+                let (reference, component) =
+                    if is_compared { (*third, self.int(0)) } else { (self.float(0.0), *third) };
+                let found = self.call("gather", &[texture, at, offset, reference, component, mode])?;
+                self.give(kind, id, ty, found, false);
+            }
+            (op::IMAGE_QUERY_SIZE_LOD | op::IMAGE_QUERY_SIZE, _) => {
+                let mode = self.int(kind.mode());
+                let found = self.call("extent", &[texture, mode])?;
+                let size = self.b.shape(ty)?.size;
+                if size == 1 {
+                    self.b.op_as(id, op::COMPOSITE_EXTRACT, ty, &[found, 0]);
+                } else {
+                    let order: Vec<u32> = (0..size).collect();
+                    self.b.op_as(id, op::VECTOR_SHUFFLE, ty, &[&[found, found], &order[..]].concat());
+                }
+            }
+            (op::IMAGE_QUERY_LOD, [at, ..]) => {
+                let (at, _) = self.place(kind, *at, None, false)?;
+                let detail = self.detail(kind, texture, at, &Operands::default())?;
+                let none = self.float(0.0);
+                self.b.op_as(id, op::COMPOSITE_CONSTRUCT, ty, &[none, detail]);
+            }
+            // Levels and samples: one.
+            _ => {
+                let one = self.int(1);
+                self.b.op_as(id, op::COPY_OBJECT, ty, &[one]);
+            }
+        }
+        Some(())
+    }
+
+    fn call(&mut self, name: &str, arguments: &[u32]) -> Option<u32> {
+        let &(function, ty) = self.functions.get(name)?;
+        Some(self.b.op(op::FUNCTION_CALL, ty, &[&[function], arguments].concat()))
+    }
+
+    fn int(&mut self, value: u32) -> u32 {
+        let int = self.b.ints(1, true);
+        self.b.code.constant(op::CONSTANT, int, &[value])
+    }
+
+    fn float(&mut self, value: f64) -> u32 {
+        let float = self.b.code.ty(op::TYPE_FLOAT, &[32]);
+        self.b.float(float, value)
+    }
+
+    /// Coordinates as four floats and the reference, both divided where they are projected.
+    fn place(&mut self, kind: Kind, at: u32, reference: Option<u32>, is_projected: bool) -> Option<(u32, Option<u32>)> {
+        let float = self.b.code.ty(op::TYPE_FLOAT, &[32]);
+        let given = self.b.shape(self.b.type_of(at)?)?.size;
+        let mut parts: Vec<u32> = if given == 1 {
+            vec![at]
+        } else {
+            (0..given).map(|axis| self.b.op(op::COMPOSITE_EXTRACT, float, &[at, axis])).collect()
+        };
+        let mut reference = reference;
+        if is_projected {
+            let by = *parts.get(kind.axes() as usize)?;
+            parts.truncate(kind.axes() as usize);
+            for part in parts.iter_mut().chain(&mut reference) {
+                *part = self.b.op(op::F_DIV, float, &[*part, by]);
+            }
+        }
+        let zero = self.float(0.0);
+        parts.resize(4, zero);
+        let vec4 = self.b.sized(float, 4);
+        Some((self.b.op(op::COMPOSITE_CONSTRUCT, vec4, &parts), reference))
+    }
+
+    /// The level of detail. Outside of fragments it is 0 where none is given.
+    fn detail(&mut self, kind: Kind, texture: u32, at: u32, operands: &Operands) -> Option<u32> {
+        let float = self.b.code.ty(op::TYPE_FLOAT, &[32]);
+        if let Some(level) = operands.level {
+            return Some(level);
+        }
+        let mode = self.int(kind.mode());
+        let mut detail = match operands.gradient {
+            Some(gradient) => {
+                let [(x, _), (y, _)] =
+                    [self.place(kind, gradient[0], None, false)?, self.place(kind, gradient[1], None, false)?];
+                self.call("detail_along", &[texture, x, y, mode])?
+            }
+            None if self.functions.contains_key("detail_here") => self.call("detail_here", &[texture, at, mode])?,
+            None => self.float(0.0),
+        };
+        if let Some(bias) = operands.bias {
+            detail = self.b.op(op::F_ADD, float, &[detail, bias]);
+        }
+        Some(detail)
+    }
+
+    /// Whole numbers as three.
+    fn ivec3(&mut self, value: u32) -> u32 {
+        let int = self.b.ints(1, true);
+        let size = self.b.type_of(value).and_then(|ty| self.b.shape(ty)).map_or(1, |shape| shape.size);
+        let mut parts: Vec<u32> = match size {
+            1 => vec![value],
+            _ => (0..size).map(|axis| self.b.op(op::COMPOSITE_EXTRACT, int, &[value, axis])).collect(),
+        };
+        let zero = self.int(0);
+        parts.resize(3, zero);
+        let ivec3 = self.b.ints(3, true);
+        self.b.op(op::COMPOSITE_CONSTRUCT, ivec3, &parts)
+    }
+
+    fn offset(&mut self, offset: Option<u32>) -> u32 {
+        match offset {
+            Some(offset) => self.ivec3(offset),
+            None => {
+                let ivec3 = self.b.ints(3, true);
+                self.b.code.null(ivec3)
+            }
+        }
+    }
+
+    /// Gives four floats as what the instruction gives.
+    fn give(&mut self, kind: Kind, id: u32, ty: u32, found: u32, is_single: bool) {
+        match (is_single, kind.scalar) {
+            (true, _) => self.b.op_as(id, op::COMPOSITE_EXTRACT, ty, &[found, 0]),
+            (false, Texel::Float) => self.b.op_as(id, op::COPY_OBJECT, ty, &[found]),
+            (false, Texel::Int) => self.b.op_as(id, op::CONVERT_F_TO_S, ty, &[found]),
+            (false, Texel::Uint) => self.b.op_as(id, op::CONVERT_F_TO_U, ty, &[found]),
+        };
+    }
+}
+
+/// What the compiler makes of `textures.glsl`, once a process.
+fn library() -> Option<&'static Code> {
+    static LIBRARY: OnceLock<Option<Code>> = OnceLock::new();
+    LIBRARY
+        .get_or_init(|| {
+            let text = CString::new(include_str!("textures/textures.glsl")).ok()?;
+            let stages = [StageText::plain(Stage::Fragment, &text)];
+            let outcome = compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Fragment });
+            let code = (outcome.reached == Reached::Done).then(|| Code::parse(&outcome.spirv)).flatten();
+            debug_assert!(code.is_some(), "{}{}", outcome.log(Stage::Fragment), outcome.link_log);
+            code
+        })
+        .as_ref()
+}
+
+/// Adds the functions of the library; gives their ids and the types of their results, by name.
+fn splice(code: &mut Code, is_fragment: bool) -> Option<HashMap<String, (u32, u32)>> {
+    let library = library()?;
+    let names = library.names();
+    let name = |id: u32| names.get(&id).and_then(|name| name.split('(').next()).unwrap_or_default();
+    let is_left_out = |id: u32| name(id) == "main" || !is_fragment && name(id) == "detail_here";
+    let first = code.bound();
+    code.reserve(library.bound());
+    // naga knows one type without a value.
+    let void = |code: &Code| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
+    let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(library)?, void(code)?);
+    let moved = |id: u32| match id {
+        id if id == own_set => set,
+        id if id == own_void => void,
+        id => id + first,
+    };
+    for head in library.heads.iter().filter(|head| matches!(head.opcode, op::DECORATE | op::MEMBER_DECORATE)) {
+        code.heads.push(renumbered(head, &moved));
+    }
+    for global in library.globals.iter().filter(|global| global.opcode != op::TYPE_VOID) {
+        // Inputs and outputs are those of its own `main`.
+        if global.opcode == op::VARIABLE && global.operands[2] != storage::UNIFORM {
+            code.heads.retain(|head| head.operands.first() != Some(&(global.operands[1] + first)));
+            continue;
+        }
+        if global.opcode == op::VARIABLE {
+            code.decorate(&[global.operands[1] + first], &[decoration::DESCRIPTOR_SET, TEXTURES.0]);
+        }
+        code.globals.push(renumbered(global, &moved));
+    }
+    let mut functions = HashMap::new();
+    let mut is_kept = false;
+    for instruction in &library.functions {
+        if instruction.opcode == op::FUNCTION {
+            let (ty, id) = (instruction.operands[0], instruction.operands[1]);
+            is_kept = !is_left_out(id);
+            if is_kept {
+                functions.insert(name(id).to_owned(), (moved(id), moved(ty)));
+                code.name(&[moved(id)], &format!("{}{OURS}", name(id)));
+            }
+        }
+        if is_kept {
+            code.functions.push(Instruction { line: None, ..renumbered(instruction, &moved) });
+        }
+    }
+    Some(functions)
+}
+
+/// The instruction with other ids. Which operands are ids, the specification says.
+fn renumbered(instruction: &Instruction, moved: &dyn Fn(u32) -> u32) -> Instruction {
+    let leading = match instruction.opcode {
+        op::DECORATE | op::MEMBER_DECORATE | op::TYPE_INT | op::TYPE_FLOAT | op::SELECTION_MERGE => 1,
+        op::CONSTANT | op::TYPE_VECTOR | op::TYPE_MATRIX | op::VARIABLE | op::LOOP_MERGE => 2,
+        op::COMPOSITE_EXTRACT => 3,
+        op::COMPOSITE_INSERT | op::VECTOR_SHUFFLE => 4,
+        _ => usize::MAX,
+    };
+    let is_literal = |at: usize| match instruction.opcode {
+        op::TYPE_POINTER => at == 1,
+        op::FUNCTION => at == 2,
+        op::EXT_INST => at == 3,
+        _ => at >= leading,
+    };
+    let operands = instruction.operands.iter().enumerate();
+    let operands = operands.map(|(at, &word)| if is_literal(at) { word } else { moved(word) }).collect();
+    Instruction { opcode: instruction.opcode, operands, line: instruction.line }
+}
