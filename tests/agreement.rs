@@ -2,9 +2,13 @@
 
 #[path = "agreement/fragments.rs"]
 mod fragments;
+#[path = "agreement/hostile.rs"]
+mod hostile;
 mod opengl;
 #[path = "agreement/programs.rs"]
 mod programs;
+#[path = "agreement/scenes.rs"]
+mod scenes;
 
 use ggrade::cross_check::Opinion;
 use ggrade::render::{AdapterKind, Device, Frames, Renderer, Rendering, Sample, Scene};
@@ -39,7 +43,7 @@ impl Bench {
         let interface = ggrade::homework::interface(assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
-        let renderer = Renderer::new(device, fixed).unwrap();
+        let renderer = Renderer::new(device, &fixed).unwrap();
         Self { gl, renderer, interface, assignment }
     }
 
@@ -58,8 +62,9 @@ impl Bench {
             width: scene.width,
             height: scene.height,
             background: scene.background,
-            frames: poses.iter().map(batch).collect(),
+            frames: poses.iter().map(|pose| vec![batch(pose)]).collect(),
             probes: Vec::new(),
+            ..Scene::default()
         }
     }
 
@@ -267,7 +272,7 @@ fn agrees_with_opengl(bench: &mut Bench, path: &Path, source: &Source, poses: &[
     let background = bench.assignment.scene.background;
     let drawn = bench.draw(&program, poses);
     if let Ok(captured) = drawn.iter().map(|(_, captured)| captured.clone()).collect::<Result<Vec<_>, _>>() {
-        let checked = programs::interpreted(source, &bench.scene(poses).frames, &captured);
+        let checked = programs::interpreted(source, &bench.scene(poses).frames.concat(), &captured);
         assert_eq!(checked.opinion, Opinion::Agrees, "{}: {checked:?}", path.display());
     }
     for ((picture, captured), (frames, index, samples)) in drawn.into_iter().zip(all_frames(&renderings)) {

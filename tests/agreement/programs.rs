@@ -53,7 +53,7 @@ fn generated_programs_agree() {
         (0..VERTICES).map(|_| [(); 2].map(|()| [(); 3].map(|()| random.float()))).collect();
     let [positions, normals] = [0, 1].map(|which| places.iter().map(|place| place[which]).collect::<Vec<_>>());
     let mut scene = bench.scene(&poses(bench.assignment, 1, 1));
-    for batch in &mut scene.frames {
+    for batch in scene.frames.iter_mut().flatten() {
         for (name, values) in &mut batch.attributes {
             let drawn = if name == "pv" { &positions } else { &normals };
             let numbers = drawn.iter().flatten().map(|number| f64::from(*number)).collect();
@@ -107,6 +107,7 @@ fn run(bench: &mut Bench, source: &Source, scene: &Scene, mesh: Mesh<'_>) -> Opt
     let captured: Vec<Vec<Vertex>> = scene
         .frames
         .iter()
+        .flatten()
         .map(|batch| {
             let matrix = |value: &Value| std::array::from_fn(|at| value.numbers()[at] as f32);
             let uniforms: Vec<_> = batch.uniforms.iter().map(|(name, value)| (name.as_str(), matrix(value))).collect();
@@ -114,7 +115,7 @@ fn run(bench: &mut Bench, source: &Source, scene: &Scene, mesh: Mesh<'_>) -> Opt
         })
         .collect();
     Some([
-        ("OpenGL", interpreted(source, &scene.frames, &captured)),
-        ("wgpu", cross_checked(source, &scene.frames, &rendering.frame_samples)),
+        ("OpenGL", interpreted(source, &scene.frames.concat(), &captured)),
+        ("wgpu", cross_checked(source, &scene.frames.concat(), &rendering.frame_samples)),
     ])
 }

@@ -84,7 +84,7 @@ impl Driver {
     }
 
     /// A texture, bound to the unit that is active.
-    fn texture(&self, from: &Texels) -> glow::Texture {
+    pub(super) fn texture(&self, from: &Texels) -> glow::Texture {
         let gl = self.gl();
         let [width, height] = [from.width, from.height].map(|side| i32::try_from(side).expect("a side"));
         assert_eq!(from.texels.len(), from.width * from.height, "a texel for each place");

@@ -8,10 +8,12 @@
 mod context;
 mod driver;
 mod fragments;
+mod scenes;
 
 pub use context::Version;
 use driver::{Driver, Linked};
 pub use fragments::{Given, Texels};
+pub use scenes::{Draw, Kind, Window};
 
 /// One 4 × 4 matrix, column after column.
 pub type Matrix = [f32; 16];
@@ -158,6 +160,21 @@ impl OpenGl {
         untouched: [f32; 4],
     ) -> Result<Vec<[f32; 4]>, Rejection> {
         self.driver.shade(fragment, given, side, untouched)
+    }
+
+    /// Draws a scene; the outputs from location 0 on, each as rows from below.
+    ///
+    /// # Errors
+    /// The driver refuses the program.
+    pub fn scene(
+        &self,
+        texts: [&str; 2],
+        draws: &[Draw],
+        textures: &[(&str, Texels)],
+        window: Window,
+        outputs: u32,
+    ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {
+        self.driver.scene(texts, draws, textures, window, outputs)
     }
 
     /// Draws one pose.

@@ -1,0 +1,432 @@
+//! Programs of which the fragment stage is handed in: what ggrade paints and computes, against a real OpenGL driver.
+
+use super::opengl::{Draw, Kind, OpenGl, Texels, Version, Window};
+use ggrade::render::{AdapterKind, Batch, Device, Pixel, Renderer, Scene, State};
+use ggrade::source;
+use ggrade::translate::{self, Interface, Linked, Program, Refusal, Stage, Variable};
+use reference::interpreter::{Filter, Scalar, Texture, Type, Wrap};
+use reference::{Value, Values};
+
+/// Pixels of a row of the window, and rows. Not square, and no multiple of 16 rows.
+const SIZE: [usize; 2] = [120, 90];
+/// Largest difference of a channel, in 1/255: rounding at .5.
+const PIXEL_TOLERANCE: f32 = 1.01 / 255.0;
+/// Share of the pixels that may differ more: those at which a decision hangs on the last bit of an interpolated value.
+const DOUBTFUL: usize = 500;
+/// The same for numbers that are computed from the same inputs.
+const NUMBER_TOLERANCE: f32 = 1e-4;
+
+/// A homework with a fixed vertex stage, and what it draws.
+pub struct Homework {
+    vertex: &'static str,
+    draws: Vec<Draw>,
+    textures: Vec<(&'static str, Texels)>,
+}
+
+fn kind(kind: Kind) -> Type {
+    match kind {
+        Kind::Float(size) => Type::Vector(Scalar::Float, size),
+        Kind::Int(size) => Type::Vector(Scalar::Int, size),
+        Kind::Uint(size) => Type::Vector(Scalar::Uint, size),
+        Kind::Bool(size) => Type::Vector(Scalar::Bool, size),
+        Kind::Matrix(columns, rows) => Type::Matrix(Scalar::Float, columns, rows),
+    }
+}
+
+fn batch(draw: &Draw) -> Batch {
+    let uniform = |(path, of, numbers): &(String, Kind, Vec<f64>)| {
+        (path.clone(), Value::new(kind(*of), numbers.clone()).expect("as many numbers as the type has"))
+    };
+    let attribute = |(name, of, numbers): &(String, Kind, Vec<f64>)| {
+        (name.clone(), Values { kind: kind(*of), numbers: numbers.clone() })
+    };
+    Batch {
+        uniforms: draw.uniforms.iter().map(uniform).collect(),
+        attributes: draw.attributes.iter().map(attribute).collect(),
+        triangles: draw.triangles.clone(),
+        state: State { tests_depth: draw.tests_depth, culls_back: draw.culls_back },
+    }
+}
+
+impl Homework {
+    fn interface(&self) -> Interface {
+        let variable =
+            |(name, of, _): &(String, Kind, Vec<f64>)| Variable { name: name.clone(), ty: kind(*of).to_string() };
+        let first = &self.draws[0];
+        let sampler = |(name, _): &(&str, Texels)| Variable { name: (*name).into(), ty: "sampler2D".into() };
+        Interface {
+            inputs: first.attributes.iter().map(variable).collect(),
+            uniforms: first.uniforms.iter().map(variable).chain(self.textures.iter().map(sampler)).collect(),
+            output: Variable { name: "colour".into(), ty: "vec4".into() },
+            constants: Vec::new(),
+            fragment: c"".to_owned(),
+        }
+    }
+
+    pub fn translate(&self, fragment: &str) -> Result<Linked, Refusal> {
+        let program =
+            Program::new(self.interface(), Some((Stage::Vertex, self.vertex))).expect("the fixed stage is right");
+        let source = source::read_stage(Stage::Fragment, "a.frag", fragment.as_bytes()).expect("a text");
+        program.translate(&[(Stage::Fragment, &source)]).map_err(|refused| refused.refusal)
+    }
+
+    pub fn scene(&self) -> Scene {
+        let [width, height] = SIZE.map(|side| side as u32);
+        let draw = |draw: &Draw| {
+            let mut batch = batch(draw);
+            let sampler = Type::named("sampler2D").unwrap();
+            for (number, (name, _)) in self.textures.iter().enumerate() {
+                let value = Value::new(sampler.clone(), vec![number as f64]).expect("one number");
+                batch.uniforms.push(((*name).to_owned(), value));
+            }
+            batch
+        };
+        let frames = vec![self.draws.iter().map(draw).collect()];
+        let textures = self.textures.iter().map(|(_, from)| texture(from)).collect();
+        Scene { width, height, background: [51, 102, 153, 0], frames, textures, ..Scene::default() }
+    }
+}
+
+fn texture(from: &Texels) -> Texture {
+    let texels = from.texels.iter().map(|texel| texel.map(f64::from)).collect();
+    let filter = if from.is_linear { Filter::Linear } else { Filter::Nearest };
+    let wrap = if from.repeats { Wrap::Repeat } else { Wrap::ClampToEdge };
+    Texture {
+        magnify: filter,
+        minify: filter,
+        wrap: [wrap; 3],
+        ..Texture::two_dimensional(from.width, from.height, texels)
+    }
+}
+
+/// Numbers that follow one another without a pattern: Knuth's MMIX generator.
+fn numbers(seed: u64, count: usize, low: f64, high: f64) -> Vec<f64> {
+    let mut random = super::programs::Random(seed);
+    let mut next = || f64::from((low + (high - low) * (random.next() % 10_007) as f64 / 10_007.0) as f32);
+    (0..count).map(|_| next()).collect()
+}
+
+/// A wavy sheet in perspective, in front of another: triangles by index, seen from the front and from behind.
+pub fn sheets() -> Homework {
+    const CELLS: u32 = 6;
+    let places = |seed: u64| {
+        let jitter = numbers(seed, 3 * 49, -0.08, 0.08);
+        (0..=CELLS)
+            .flat_map(|row| (0..=CELLS).map(move |column| [column, row]))
+            .zip(jitter.chunks(3).map(<[f64]>::to_vec).collect::<Vec<_>>())
+            .flat_map(|([column, row], jitter)| {
+                let at = |n: u32| f64::from(n) / f64::from(CELLS) * 2.0 - 1.0;
+                [at(column) + jitter[0], at(row) + jitter[1], jitter[2] * 6.0].map(|x| f64::from(x as f32))
+            })
+            .collect::<Vec<f64>>()
+    };
+    let triangles = |flip: bool| -> Vec<[u32; 3]> {
+        let cell = |number: u32| {
+            let (row, column) = (number / CELLS, number % CELLS);
+            let a = row * (CELLS + 1) + column;
+            let (b, c, d) = (a + 1, a + CELLS + 1, a + CELLS + 2);
+            // Some run the other way round.
+            if flip && number.is_multiple_of(3) { [[a, c, b], [b, c, d]] } else { [[a, b, c], [b, d, c]] }
+        };
+        (0..CELLS * CELLS).flat_map(cell).collect()
+    };
+    let draw = |seed: u64, turn: f64, back: f64| {
+        let (sin, cos) = turn.sin_cos();
+        // Column after column: a turn about y and a step back, then a projection with near 1 and far 10.
+        let projection =
+            [1.2, 0.0, 0.0, 0.0, 0.0, 1.6, 0.0, 0.0, 0.0, 0.0, -11.0 / 9.0, -1.0, 0.0, 0.0, -20.0 / 9.0, 0.0];
+        let view = [cos, 0.0, -sin, 0.0, 0.0, 1.0, 0.0, 0.0, sin, 0.0, cos, 0.0, 0.1, 0.05, -back, 1.0];
+        let matrix = |numbers: [f64; 16]| numbers.map(|x| f64::from(x as f32)).to_vec();
+        let mat3 = numbers(seed + 9, 9, -1.0, 1.0);
+        Draw {
+            uniforms: [
+                ("projection", Kind::Matrix(4, 4), matrix(projection)),
+                ("view", Kind::Matrix(4, 4), matrix(view)),
+                ("lights[0].on", Kind::Bool(1), vec![1.0]),
+                ("lights[1].on", Kind::Bool(1), vec![0.0]),
+                ("lights[0].at", Kind::Float(3), numbers(seed + 1, 3, -2.0, 2.0)),
+                ("lights[1].at", Kind::Float(3), numbers(seed + 2, 3, -2.0, 2.0)),
+                ("lights[0].colours[0]", Kind::Float(3), vec![0.25, 0.5, 0.75]),
+                ("lights[0].colours[1]", Kind::Float(3), vec![0.5, 0.25, 0.0]),
+                ("lights[1].colours[1]", Kind::Float(3), vec![1.0, 0.0, 0.5]),
+                ("turn", Kind::Matrix(3, 3), mat3),
+                ("squeeze", Kind::Matrix(2, 2), numbers(seed + 4, 4, -1.0, 1.0)),
+                ("count", Kind::Int(1), vec![-3.0]),
+                ("mask", Kind::Uint(2), vec![6.0, 4_000_000_000.0]),
+                ("weights[0]", Kind::Float(1), vec![0.25]),
+                ("weights[1]", Kind::Float(1), vec![0.5]),
+                ("weights[2]", Kind::Float(1), vec![0.125]),
+                ("switches", Kind::Bool(3), vec![1.0, 0.0, 1.0]),
+                ("Surface.ambient", Kind::Float(4), numbers(seed + 5, 4, 0.0, 1.0)),
+                ("Surface.shine", Kind::Float(1), vec![3.5]),
+                ("Surface.basis", Kind::Matrix(4, 4), numbers(seed + 6, 16, -1.0, 1.0)),
+                ("unused", Kind::Float(1), vec![1.0]),
+            ]
+            .map(|(path, kind, numbers)| (path.to_owned(), kind, numbers))
+            .to_vec(),
+            attributes: [
+                ("place", Kind::Float(3), places(seed)),
+                ("paint", Kind::Float(2), numbers(seed + 3, 2 * 49, 0.0, 1.0)),
+                ("label", Kind::Int(1), (0..49).map(|n| f64::from(n * 7 % 5 - 2)).collect()),
+                ("mark", Kind::Uint(2), (0..98).map(|n| f64::from(n * 3 % 11)).collect()),
+            ]
+            .map(|(name, kind, numbers)| (name.to_owned(), kind, numbers))
+            .to_vec(),
+            triangles: triangles(seed == 1),
+            tests_depth: true,
+            culls_back: seed == 2,
+        }
+    };
+    let picture = |seed: u64, is_linear: bool, repeats: bool| Texels {
+        width: 6,
+        height: 5,
+        texels: numbers(seed, 30, 0.0, 1.0).iter().map(|&x| [x, 1.0 - x, x * x, 0.5].map(|x| x as f32)).collect(),
+        is_linear,
+        repeats,
+    };
+    Homework {
+        vertex: VERTEX,
+        draws: vec![draw(1, 0.6, 2.6), draw(2, -0.4, 2.9)],
+        textures: vec![
+            ("first", picture(21, true, true)),
+            ("second", picture(22, false, false)),
+            ("skin.map", picture(23, false, true)),
+            ("pair[0]", picture(24, true, false)),
+            ("pair[1]", picture(25, true, true)),
+        ],
+    }
+}
+
+const VERTEX: &str = "#version 410
+in vec4 place;
+in vec3 paint;
+in int label;
+in uvec2 mark;
+uniform mat4 projection, view;
+uniform mat3 turn;
+out vec3 normal;
+out vec2 uv;
+noperspective out vec2 screen;
+flat out int number;
+flat out uvec2 marks;
+flat out vec3 tint;
+centroid out float wave;
+out mat3 frame;
+out float steps[2];
+out Bundle { vec3 at; vec4 clip; } bundle;
+void main() {
+    vec4 eye = view * place;
+    gl_Position = projection * eye;
+    normal = turn * place.xyz + vec3(0.0, 0.0, paint.z);
+    uv = paint.xy;
+    screen = paint.yx * 3.0;
+    number = label;
+    marks = mark;
+    tint = vec3(paint.xy, place.w);
+    wave = sin(place.x * 4.0);
+    frame = turn * (1.0 + place.x);
+    steps = float[2](place.x, place.y);
+    bundle.at = eye.xyz;
+    bundle.clip = gl_Position;
+}
+";
+
+/// What stands above each program's `main`.
+const HEAD: &str = "in vec3 normal;\nin vec2 uv;\nnoperspective in vec2 screen;\nflat in int number;\nflat in uvec2 marks;\n\
+    flat in vec3 tint;\ncentroid in float wave;\nin mat3 frame;\nin float steps[2];\nin Bundle { vec3 at; vec4 clip; } own;\n\
+    struct Light { bool on; vec3 at; vec3 colours[2]; };\nuniform Light lights[2];\nuniform mat3 turn;\nuniform mat2 squeeze;\n\
+    uniform int count;\nuniform uvec2 mask;\nuniform float weights[3];\nuniform bvec3 switches;\n\
+    layout(std140) uniform Surface { vec4 ambient; float shine; mat4 basis; } surface;\n\
+    struct Skin { float gloss; sampler2D map; };\nuniform sampler2D first, second, pair[2];\nuniform Skin skin;\n\
+    out vec4 colour;\n";
+
+/// Bodies of `main`, each with what only fragment stages have, or only homeworks with uniforms of all types.
+const BODIES: &[(&str, &str)] = &[
+    ("smooth", "colour = vec4(abs(normal), 1.0);"),
+    ("noperspective", "colour = vec4(fract(screen), fract(uv * 3.0).x, 1.0);"),
+    ("flat", "colour = vec4(float(number + 2) / 4.0, vec2(marks) / 11.0, 1.0);"),
+    ("flat-vector", "colour = vec4(tint, 1.0);"),
+    ("centroid", "colour = vec4(wave * 0.5 + 0.5);"),
+    ("matrix", "colour = vec4(abs(frame * vec3(0.3, 0.2, 0.1)), 1.0);"),
+    ("array", "colour = vec4(abs(steps[0]), abs(steps[1]), 0.0, 1.0);"),
+    ("block", "colour = vec4(abs(own.at) * 0.3, own.clip.w * 0.2);"),
+    ("place", "colour = vec4(gl_FragCoord.xy / vec2(120.0, 90.0), gl_FragCoord.z, gl_FragCoord.w);"),
+    ("checker", "ivec2 at = ivec2(gl_FragCoord.xy); colour = vec4((at.x / 5 + at.y / 3) % 2 == 0 ? 1.0 : 0.25);"),
+    ("depth", "colour = vec4(vec3(gl_FragCoord.z * gl_FragCoord.z), 1.0);"),
+    ("facing", "colour = gl_FrontFacing ? vec4(1.0, 0.5, 0.0, 1.0) : vec4(0.0, 0.5, 1.0, 1.0);"),
+    ("discard", "if (fract(gl_FragCoord.x * 0.25) < 0.5) discard; colour = vec4(uv, 0.5, 1.0);"),
+    ("discard-in-function", "colour = vec4(kept(uv.x), 0.0, 0.0, 1.0);"),
+    ("derivatives", "colour = vec4(abs(dFdx(uv)) * 8.0, abs(dFdy(uv)) * 8.0);"),
+    ("derivatives-signed", "colour = vec4(dFdx(own.at.xy) * 8.0 + 0.5, dFdy(own.at.yz) * 8.0 + 0.5);"),
+    ("facet", "colour = vec4(normalize(cross(dFdx(own.at), dFdy(own.at))) * 0.5 + 0.5, 1.0);"),
+    ("fwidth", "colour = vec4(fwidth(uv.x * 5.0));"),
+    ("dfdy-of-place", "colour = vec4(dFdy(gl_FragCoord.y), dFdx(gl_FragCoord.x), dFdx(gl_FragCoord.y), 1.0);"),
+    (
+        "structs",
+        "vec3 c = vec3(0.0); for (int i = 0; i < 2; i++) if (lights[i].on) c += lights[i].colours[1] * \
+        max(dot(normalize(normal), normalize(lights[i].at)), 0.0) + lights[i].colours[0] * 0.2; colour = vec4(c, 1.0);",
+    ),
+    (
+        "struct-copy",
+        "Light l = lights[0]; Light m = lights[1]; colour = vec4(l.colours[0] * float(l.on) + m.colours[1] * float(!m.on), 1.0);",
+    ),
+    ("struct-array-copy", "Light l[2] = lights; colour = vec4(l[0].colours[1], l[1].on ? 1.0 : 0.5);"),
+    ("matrices", "colour = vec4(abs(turn * normal), abs((squeeze * uv).x));"),
+    ("integers", "colour = vec4(float(-count) * 0.25, float(mask.x) / 8.0, float(mask.y >> 31), 1.0);"),
+    ("array-by-variable", "int i = number & 1; colour = vec4(weights[i], weights[2], weights[int(mask.x) - 5], 1.0);"),
+    ("array-copy", "float w[3] = weights; w[1] += 0.125; colour = vec4(w[0], w[1], w[2], 1.0);"),
+    ("bools", "colour = vec4(vec3(switches), any(switches) && !all(switches) ? 1.0 : 0.0);"),
+    ("std140", "colour = surface.ambient * 0.5 + vec4(surface.shine * 0.1) + abs(surface.basis[2]) * 0.25;"),
+    (
+        "loop",
+        "float x = uv.x; for (int i = 0; i < 12; i++) { x = x * x * 1.5 - 0.7; if (x > 1.0) break; } colour = vec4(abs(x));",
+    ),
+    (
+        "fractal",
+        "vec2 z = vec2(0.0), c = own.at.xy * 1.5; int n = 0; while (n < 40 && dot(z, z) < 4.0) \
+        { z = vec2(z.x * z.x - z.y * z.y, 2.0 * z.x * z.y) + c; n++; } colour = vec4(float(n) / 40.0);",
+    ),
+    (
+        "switch",
+        "switch (number) { case -2: colour = vec4(1.0); break; case 0: colour = vec4(0.5); case 1: colour = vec4(0.2); break; default: colour = vec4(0.7); }",
+    ),
+    ("early-return", "colour = vec4(0.2); if (uv.x > 0.5) return; colour = vec4(uv, 1.0, 1.0);"),
+    ("huge", "colour = vec4(1e30, -1e30, 3e9, 1.0);"),
+    ("gradient-edge", "float e = abs(fract(uv.x * 4.0) - 0.5) / fwidth(uv.x * 4.0); colour = vec4(min(e, 1.0));"),
+    ("written-depth", "gl_FragDepth = fract(gl_FragCoord.x / 16.0); colour = vec4(uv, 1.0, 1.0);"),
+    ("texture", "colour = texture(first, uv * 2.0 - 0.5);"),
+    ("texture-nearest", "colour = texture(second, uv * 1.4 - 0.2);"),
+    ("textures-mixed", "colour = mix(texture(first, uv), texture(second, uv), 0.25);"),
+    ("texture-in-struct", "colour = texture(skin.map, uv * 3.0) * (1.0 + skin.gloss);"),
+    ("texture-in-array", "colour = texture(pair[0], uv) * 0.5 + texture(pair[1], -uv) * 0.5;"),
+    (
+        "texture-as-argument",
+        "colour = looked(first, uv) * 0.5 + looked(skin.map, uv) * 0.25 + looked(pair[1], uv) * 0.25;",
+    ),
+    ("texture-fetch", "colour = texelFetch(second, ivec2(uv * 4.9), 0);"),
+    ("texture-size", "colour = vec4(vec2(textureSize(first, 0)) / 8.0, 0.0, 1.0);"),
+    ("texture-lod", "colour = textureLod(first, uv, 0.0) * 0.5 + textureOffset(second, uv, ivec2(1, -1)) * 0.5;"),
+    (
+        "texture-proj",
+        "colour = textureProj(first, vec3(uv, 1.5)) * 0.5 + textureProj(second, vec4(uv, 9.0, 0.7)) * 0.5;",
+    ),
+    ("texture-gather", "colour = textureGather(second, uv, 1);"),
+    ("texture-gradient", "colour = textureGrad(first, uv, dFdx(uv), dFdy(uv)) + texture(second, uv, 0.5) * 0.1;"),
+    (
+        "texture-in-loop",
+        "colour = vec4(0.0); for (int x = -1; x <= 1; x++) for (int y = -1; y <= 1; y++) \
+        colour += texture(first, uv + vec2(x, y) / vec2(textureSize(first, 0))) / 9.0;",
+    ),
+    ("point", "colour = vec4(uv, float(gl_PointCoord.x > -1.0), 1.0);"),
+];
+
+/// A function that throws fragments away.
+const KEPT: &str = "float kept(float x) { if (x < 0.4) { discard; } return x; }\n\
+    vec4 looked(sampler2D map, vec2 at) { return texture(map, at); }\n";
+
+fn text(body: &str) -> String {
+    format!("#version 410\n{HEAD}{KEPT}void main() {{\n{body}\n}}\n")
+}
+
+pub fn renderer() -> Renderer {
+    let assignment = ggrade::homework::assignment("ggsample06").unwrap();
+    let interface = ggrade::homework::interface(&assignment).unwrap();
+    let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
+    let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
+    Renderer::new(device, &fixed).unwrap()
+}
+
+#[test]
+fn fragment_stages_paint_what_opengl_paints() {
+    let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
+    let mut renderer = renderer();
+    let homework = sheets();
+    let scene = homework.scene();
+    let window = Window {
+        width: SIZE[0],
+        height: SIZE[1],
+        background: scene.background.map(|channel| f32::from(channel) / 255.0),
+        is_float: false,
+    };
+    let mut wrong = Vec::new();
+    for (name, body) in BODIES {
+        let text = text(body);
+        let linked = homework.translate(&text).unwrap_or_else(|refusal| panic!("{name}: {refusal:?}"));
+        let rendering = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+        assert_eq!(rendering.of_fragments.ran_out, None, "{name}");
+        let ours = rendering.frames.picture(0);
+        let theirs = gl.scene([homework.vertex, &text], &homework.draws, &homework.textures, window, 1);
+        let theirs = theirs.unwrap_or_else(|rejection| panic!("{name}: {rejection:?}")).remove(0);
+        let painted = ours.rgba.chunks_exact(4).filter(|pixel| pixel[3] != 0).count();
+        let differing = (0..SIZE[1])
+            .flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)))
+            .filter(|(x, y)| {
+                let at = ((SIZE[1] - 1 - y) * SIZE[0] + x) * 4;
+                let theirs = &theirs[y * SIZE[0] + x];
+                (0..3).any(|axis| (f32::from(ours.rgba[at + axis]) / 255.0 - theirs[axis]).abs() > PIXEL_TOLERANCE)
+            })
+            .count();
+        if differing > SIZE[0] * SIZE[1] / DOUBTFUL || painted < SIZE[0] * SIZE[1] / 8 {
+            wrong.push(format!("{name}: {differing} pixels differ, {painted} are painted"));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {} differ\n{}", wrong.len(), BODIES.len(), wrong.join("\n"));
+}
+
+#[test]
+fn probes_of_fragment_stages_are_what_opengl_computes() {
+    let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
+    let renderer = renderer();
+    let homework = sheets();
+    let fragment = "#version 410\nin vec3 normal;\nflat in int number;\nin mat3 frame;\nuniform Light { vec4 a; } l;\n\
+        struct Lamp { bool on; vec3 at; vec3 colours[2]; };\nuniform Lamp lights[2];\n\
+        layout(location = 1) out vec3 second;\nlayout(location = 0) out vec4 colour;\nlayout(location = 2) out ivec2 third;\n\
+        void main() {\n  if (number == 3) discard;\n  colour = vec4(normal * 5.0, float(gl_FrontFacing)) + float(lights[0].on) + dFdx(normal.x);\n\
+        second = frame * normal + gl_FragCoord.xyz;\n  third = ivec2(number, 7);\n}\n";
+    let linked = homework.translate(fragment).unwrap_or_else(|refusal| panic!("{refusal:?}"));
+    let normals = numbers(5, 3 * 70, -2.0, 2.0);
+    let columns: Vec<Vec<f64>> = (0..3).map(|column| numbers(6 + column, 3 * 70, -1.0, 1.0)).collect();
+    let labels: Vec<f64> = (0..70).map(|n| f64::from(n % 5)).collect();
+    let places: Vec<f64> = (0..70).flat_map(|n| [f64::from(n) + 0.5, 40.5, 0.25, 1.0]).collect();
+    let facing: Vec<f64> = (0..70).map(|n| f64::from(n % 3 / 2)).collect();
+    let column =
+        |name: &str, kind: Type, numbers: &[f64]| (name.to_owned(), Values { kind, numbers: numbers.to_vec() });
+    let vec3 = || Type::Vector(Scalar::Float, 3);
+    let probes = Batch {
+        uniforms: batch(&homework.draws[0]).uniforms,
+        attributes: vec![
+            column("normal", vec3(), &normals),
+            column("number", Type::INT, &labels),
+            column("frame[0]", vec3(), &columns[0]),
+            column("frame[1]", vec3(), &columns[1]),
+            column("frame[2]", vec3(), &columns[2]),
+            column("gl_FragCoord", Type::VEC4, &places),
+            column("gl_FrontFacing", Type::FLOAT, &facing),
+        ],
+        ..Batch::default()
+    };
+    let scene = Scene { pixels: vec![probes], ..Scene::default() };
+    let rendering = renderer.compute_pixels(&linked.fragment, &scene).unwrap();
+    let outputs: Vec<&str> = linked.fragment.outputs.iter().map(|output| output.name.as_str()).collect();
+    let output = |pixel: &Pixel, name: &str| pixel.outputs[outputs.iter().position(|own| *own == name).unwrap()];
+    assert_eq!(rendering.pixels[0].len(), 70);
+    for (index, pixel) in rendering.pixels[0].iter().enumerate() {
+        assert_eq!(pixel.is_discarded, index % 5 == 3, "pixel {index}");
+        if pixel.is_discarded {
+            continue;
+        }
+        let normal: Vec<f32> = normals[3 * index..3 * index + 3].iter().map(|x| *x as f32).collect();
+        let frame = |column: usize, row: usize| columns[column][3 * index + row] as f32;
+        let place = [index as f32 + 0.5, 40.5, 0.25];
+        let front = f32::from(u8::from(index % 3 == 2));
+        let colour = [normal[0] * 5.0 + 1.0, normal[1] * 5.0 + 1.0, normal[2] * 5.0 + 1.0, front + 1.0];
+        let second: [f32; 3] = std::array::from_fn(|row| {
+            (0..3).map(|column| frame(column, row) * normal[column]).sum::<f32>() + place[row]
+        });
+        let near = |a: &[f32], b: &[f32]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= NUMBER_TOLERANCE);
+        assert!(near(&output(pixel, "colour"), &colour), "pixel {index}: {pixel:?}, not {colour:?}");
+        assert!(near(&output(pixel, "second")[..3], &second), "pixel {index}: {pixel:?}, not {second:?}");
+        assert_eq!(output(pixel, "third")[..2], [(index % 5) as f32, 7.0], "pixel {index}");
+    }
+    drop(gl);
+}

@@ -1,0 +1,244 @@
+//! Whole draws: meshes with attributes and uniforms of any type, depth test and culling, several outputs.
+#![allow(unsafe_code, reason = "OpenGL is a C library")]
+
+use super::Rejection;
+use super::driver::{Driver, Linked};
+use super::fragments::Texels;
+use glow::HasContext;
+
+/// A scalar, vector or matrix: what its components are, and how many there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Float(u8),
+    Int(u8),
+    Uint(u8),
+    Bool(u8),
+    /// Columns and rows.
+    Matrix(u8, u8),
+}
+
+/// A uniform by path, column after column.
+pub type Uniform = (String, Kind, Vec<f64>);
+
+/// One draw.
+#[derive(Clone, Debug, Default)]
+pub struct Draw {
+    pub uniforms: Vec<Uniform>,
+    /// By name: the type, and number after number.
+    pub attributes: Vec<(String, Kind, Vec<f64>)>,
+    pub triangles: Vec<[u32; 3]>,
+    pub tests_depth: bool,
+    pub culls_back: bool,
+}
+
+/// Where it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    pub width: usize,
+    pub height: usize,
+    pub background: [f32; 4],
+    /// 32 bits a channel, or 8.
+    pub is_float: bool,
+}
+
+impl Driver {
+    /// The outputs at locations 0 to `outputs` - 1 after the draws, each as rows from below.
+    pub fn scene(
+        &self,
+        [vertex, fragment]: [&str; 2],
+        draws: &[Draw],
+        textures: &[(&str, Texels)],
+        window: Window,
+        outputs: u32,
+    ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {
+        let program = self.link(vertex, fragment, &[])?;
+        let gl = self.gl();
+        let [width, height] = [window.width, window.height].map(|side| i32::try_from(side).expect("a side"));
+        let mut pictures = Vec::new();
+        // SAFETY: see the head of `driver.rs`. Each slice that is read into has 16 bytes for each pixel, and no corner
+        // names a vertex that the buffers do not have.
+        unsafe {
+            let framebuffer = gl.create_framebuffer().expect("a framebuffer");
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(framebuffer));
+            let renderbuffer = |format, attachment| {
+                let buffer = gl.create_renderbuffer().expect("a renderbuffer");
+                gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
+                gl.renderbuffer_storage(glow::RENDERBUFFER, format, width, height);
+                gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, attachment, glow::RENDERBUFFER, Some(buffer));
+                buffer
+            };
+            let format = if window.is_float { glow::RGBA32F } else { glow::RGBA8 };
+            let mut buffers: Vec<_> =
+                (0..outputs).map(|number| renderbuffer(format, glow::COLOR_ATTACHMENT0 + number)).collect();
+            buffers.push(renderbuffer(glow::DEPTH_COMPONENT32F, glow::DEPTH_ATTACHMENT));
+            assert_eq!(gl.check_framebuffer_status(glow::FRAMEBUFFER), glow::FRAMEBUFFER_COMPLETE);
+            gl.draw_buffers(&(0..outputs).map(|number| glow::COLOR_ATTACHMENT0 + number).collect::<Vec<_>>());
+            gl.viewport(0, 0, width, height);
+            let [red, green, blue, alpha] = window.background;
+            gl.clear_color(red, green, blue, alpha);
+            gl.clear_depth_f32(1.0);
+            gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
+            gl.use_program(Some(program.name()));
+            let mut bound = Vec::new();
+            for (unit, (name, texels)) in (0..).zip(textures) {
+                gl.active_texture(glow::TEXTURE0 + unit);
+                bound.push(self.texture(texels));
+                gl.uniform_1_i32(gl.get_uniform_location(program.name(), name).as_ref(), unit.cast_signed());
+            }
+            for draw in draws {
+                self.draw_scene(program, draw);
+            }
+            for number in 0..outputs {
+                let mut pixels = vec![[0.0_f32; 4]; window.width * window.height];
+                gl.read_buffer(glow::COLOR_ATTACHMENT0 + number);
+                let into = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(&mut pixels)));
+                gl.read_pixels(0, 0, width, height, glow::RGBA, glow::FLOAT, into);
+                pictures.push(pixels);
+            }
+            self.check("draw a scene");
+            gl.active_texture(glow::TEXTURE0);
+            gl.delete_framebuffer(framebuffer);
+            buffers.into_iter().for_each(|buffer| gl.delete_renderbuffer(buffer));
+            bound.into_iter().for_each(|texture| gl.delete_texture(texture));
+        }
+        self.delete(program);
+        Ok(pictures)
+    }
+
+    fn draw_scene(&self, program: Linked, draw: &Draw) {
+        let gl = self.gl();
+        let count = draw.attributes.first().map_or(0, |(_, kind, numbers)| numbers.len() / components(*kind));
+        let given = !draw.triangles.is_empty();
+        let corners: Vec<u32> =
+            if given { draw.triangles.concat() } else { (0..u32::try_from(count).expect("a count")).collect() };
+        assert!(corners.iter().all(|corner| (*corner as usize) < count), "a corner without a vertex");
+        // SAFETY: see `scene`. Every buffer holds `count` vertices.
+        unsafe {
+            let array = gl.create_vertex_array().expect("a vertex array");
+            gl.bind_vertex_array(Some(array));
+            let mut buffers = Vec::new();
+            for (name, kind, numbers) in &draw.attributes {
+                let buffer = gl.create_buffer().expect("a buffer");
+                gl.bind_buffer(glow::ARRAY_BUFFER, Some(buffer));
+                gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, &bytes(*kind, numbers), glow::STATIC_DRAW);
+                buffers.push(buffer);
+                let Some(location) = gl.get_attrib_location(program.name(), name) else { continue };
+                gl.enable_vertex_attrib_array(location);
+                let size = i32::try_from(components(*kind)).expect("a size");
+                match kind {
+                    Kind::Int(_) => gl.vertex_attrib_pointer_i32(location, size, glow::INT, 0, 0),
+                    Kind::Uint(_) => gl.vertex_attrib_pointer_i32(location, size, glow::UNSIGNED_INT, 0, 0),
+                    _ => gl.vertex_attrib_pointer_f32(location, size, glow::FLOAT, false, 0, 0),
+                }
+            }
+            let indices = gl.create_buffer().expect("a buffer");
+            gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(indices));
+            gl.buffer_data_u8_slice(glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&corners), glow::STATIC_DRAW);
+            let blocks = self.set_values(program, &draw.uniforms);
+            let switch = |what, on: bool| if on { gl.enable(what) } else { gl.disable(what) };
+            switch(glow::DEPTH_TEST, draw.tests_depth);
+            switch(glow::CULL_FACE, draw.culls_back);
+            let corners = i32::try_from(corners.len()).expect("a count");
+            gl.draw_elements(glow::TRIANGLES, corners, glow::UNSIGNED_INT, 0);
+            switch(glow::DEPTH_TEST, false);
+            switch(glow::CULL_FACE, false);
+            gl.bind_vertex_array(None);
+            gl.delete_vertex_array(array);
+            buffers.into_iter().chain([indices]).chain(blocks).for_each(|buffer| gl.delete_buffer(buffer));
+        }
+    }
+
+    /// Sets uniforms by path, those of blocks as well; gives the buffers of the blocks.
+    fn set_values(&self, program: Linked, uniforms: &[Uniform]) -> Vec<glow::Buffer> {
+        let gl = self.gl();
+        let name = program.name();
+        let mut blocks: Vec<Vec<u8>> = Vec::new();
+        // SAFETY: see `scene`. A path that the program does not have is skipped.
+        unsafe {
+            let active: Vec<String> = (0..gl.get_active_uniforms(name))
+                .map(|index| gl.get_active_uniform(name, index).map(|uniform| uniform.name).unwrap_or_default())
+                .collect();
+            for (path, kind, numbers) in uniforms {
+                if let Some(location) = gl.get_uniform_location(name, path) {
+                    self.set_value(&location, *kind, numbers);
+                    continue;
+                }
+                let Some(index) = active.iter().position(|own| own == path) else { continue };
+                let of = |what| gl.get_active_uniforms_parameter(name, &[index as u32], what)[0];
+                let (block, offset, stride) =
+                    (of(glow::UNIFORM_BLOCK_INDEX), of(glow::UNIFORM_OFFSET), of(glow::UNIFORM_MATRIX_STRIDE));
+                let (Ok(block), Ok(offset)) = (usize::try_from(block), usize::try_from(offset)) else { continue };
+                let size = gl.get_active_uniform_block_parameter_i32(name, block as u32, glow::UNIFORM_BLOCK_DATA_SIZE);
+                blocks.resize_with(blocks.len().max(block + 1), Vec::new);
+                blocks[block].resize(usize::try_from(size).expect("a size"), 0);
+                let (rows, stride) = match kind {
+                    Kind::Matrix(_, rows) => (usize::from(*rows), usize::try_from(stride).expect("a stride")),
+                    _ => (numbers.len(), 0),
+                };
+                for (column, numbers) in numbers.chunks(rows).enumerate() {
+                    let bytes = bytes(*kind, numbers);
+                    let at = offset + column * stride;
+                    blocks[block][at..at + bytes.len()].copy_from_slice(&bytes);
+                }
+            }
+            blocks
+                .into_iter()
+                .zip(0..)
+                .map(|(bytes, number)| {
+                    let buffer = gl.create_buffer().expect("a buffer");
+                    gl.bind_buffer(glow::UNIFORM_BUFFER, Some(buffer));
+                    gl.buffer_data_u8_slice(glow::UNIFORM_BUFFER, &bytes, glow::STATIC_DRAW);
+                    gl.uniform_block_binding(name, number, number);
+                    gl.bind_buffer_base(glow::UNIFORM_BUFFER, number, Some(buffer));
+                    buffer
+                })
+                .collect()
+        }
+    }
+
+    fn set_value(&self, location: &glow::UniformLocation, kind: Kind, numbers: &[f64]) {
+        let gl = self.gl();
+        let at = Some(location);
+        let floats: Vec<f32> = numbers.iter().map(|number| *number as f32).collect();
+        let ints: Vec<i32> = numbers.iter().map(|number| *number as i32).collect();
+        let uints: Vec<u32> = numbers.iter().map(|number| *number as u32).collect();
+        // SAFETY: see `scene`. Each slice has the numbers of one value.
+        unsafe {
+            match kind {
+                Kind::Float(1) => gl.uniform_1_f32_slice(at, &floats),
+                Kind::Float(2) => gl.uniform_2_f32_slice(at, &floats),
+                Kind::Float(3) => gl.uniform_3_f32_slice(at, &floats),
+                Kind::Float(_) => gl.uniform_4_f32_slice(at, &floats),
+                Kind::Int(1) | Kind::Bool(1) => gl.uniform_1_i32_slice(at, &ints),
+                Kind::Int(2) | Kind::Bool(2) => gl.uniform_2_i32_slice(at, &ints),
+                Kind::Int(3) | Kind::Bool(3) => gl.uniform_3_i32_slice(at, &ints),
+                Kind::Int(_) | Kind::Bool(_) => gl.uniform_4_i32_slice(at, &ints),
+                Kind::Uint(1) => gl.uniform_1_u32_slice(at, &uints),
+                Kind::Uint(2) => gl.uniform_2_u32_slice(at, &uints),
+                Kind::Uint(3) => gl.uniform_3_u32_slice(at, &uints),
+                Kind::Uint(_) => gl.uniform_4_u32_slice(at, &uints),
+                Kind::Matrix(2, 2) => gl.uniform_matrix_2_f32_slice(at, false, &floats),
+                Kind::Matrix(3, 3) => gl.uniform_matrix_3_f32_slice(at, false, &floats),
+                Kind::Matrix(4, 4) => gl.uniform_matrix_4_f32_slice(at, false, &floats),
+                Kind::Matrix(3, 2) => gl.uniform_matrix_3x2_f32_slice(at, false, &floats),
+                Kind::Matrix(..) => panic!("no test has such a matrix"),
+            }
+        }
+    }
+}
+
+fn components(kind: Kind) -> usize {
+    match kind {
+        Kind::Float(size) | Kind::Int(size) | Kind::Uint(size) | Kind::Bool(size) => size.into(),
+        Kind::Matrix(columns, rows) => usize::from(columns) * usize::from(rows),
+    }
+}
+
+fn bytes(kind: Kind, numbers: &[f64]) -> Vec<u8> {
+    let word = |number: &f64| match kind {
+        Kind::Int(_) => (*number as i32).to_ne_bytes(),
+        Kind::Uint(_) | Kind::Bool(_) => (*number as u32).to_ne_bytes(),
+        _ => (*number as f32).to_ne_bytes(),
+    };
+    numbers.iter().flat_map(word).collect()
+}
