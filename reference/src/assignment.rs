@@ -1,6 +1,7 @@
 //! An assignment: its folder, read and checked.
 
 mod check;
+mod error;
 
 use crate::accepted::Answer;
 use crate::advice::Advice;
@@ -13,7 +14,8 @@ use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
 use crate::typeset::Typeset;
 use crate::{Folder, Text, Value, manifest};
-use std::fmt;
+pub use error::AssignmentError;
+pub(crate) use error::{both, error};
 use std::sync::{Arc, OnceLock};
 
 /// A homework as data.
@@ -145,23 +147,6 @@ pub struct Constant {
     pub line: String,
 }
 
-/// Why a folder is not an assignment.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AssignmentError {
-    /// Where: a file, an entry of `assignment.toml`.
-    pub place: String,
-    /// What is wrong there.
-    pub message: String,
-}
-
-impl fmt::Display for AssignmentError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.message)
-    }
-}
-
-impl std::error::Error for AssignmentError {}
-
 /// Name of the file that describes an assignment.
 pub const MANIFEST: &str = "assignment.toml";
 
@@ -203,13 +188,21 @@ impl Assignment {
     /// # Errors
     /// Whatever in a file contradicts itself or the others, with its place.
     pub fn load(folder: Folder) -> Result<Self, AssignmentError> {
-        let text = folder.text(MANIFEST)?;
-        let manifest: manifest::Manifest = toml::from_str(text).map_err(|e| error(MANIFEST, e.to_string()))?;
-        let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
-        let mut assignment = check::assignment(manifest, &line_at, &folder)?;
+        let mut assignment = Self::read(&folder).map_err(|error| error.located(&folder))?;
         assignment.digest = folder.digest();
         assignment.folder = Arc::new(folder);
         Ok(assignment)
+    }
+
+    fn read(folder: &Folder) -> Result<Self, AssignmentError> {
+        let text = folder.text(MANIFEST)?;
+        let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
+        let manifest: manifest::Manifest = toml::from_str(text).map_err(|e| {
+            let place =
+                e.span().map_or(MANIFEST.to_owned(), |span| format!("{MANIFEST}, line {}", line_at(span.start)));
+            error(place, e.message().to_owned())
+        })?;
+        check::assignment(manifest, &line_at, folder)
     }
 
     /// The mistake with this id.
@@ -283,19 +276,16 @@ impl Assignment {
         let mut other = self.clone();
         for (name, value) in changed {
             let found = other.constants.iter().position(|c| c.name == *name);
-            let place = found.ok_or_else(|| error(*name, "is not a constant of the assignment"))?;
+            let place =
+                found.ok_or_else(|| error(format!("constant `{name}`"), "is not a constant of the assignment"))?;
             if other.constants[place].value.kind() != value.kind() {
-                return Err(error(*name, "has another type"));
+                return Err(error(format!("constant `{name}`"), "has another type"));
             }
             other.constants[place].value = value.clone();
             other.equation.constants[place].1 = value.clone();
         }
         Ok(other)
     }
-}
-
-pub(crate) fn error(place: impl Into<String>, message: impl Into<String>) -> AssignmentError {
-    AssignmentError { place: place.into(), message: message.into() }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The folder of an assignment: its files, read once, wherever they come from.
 
-use crate::assignment::{AssignmentError, MANIFEST, error};
+use crate::Text;
+use crate::assignment::{AssignmentError, MANIFEST, both, error};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,13 +28,33 @@ impl Folder {
     /// It is no folder, has no `assignment.toml`, is too large, or a file cannot be read, or leads out of it.
     pub fn read(folder: &Path) -> Result<Self, AssignmentError> {
         let shown = folder.display();
-        let unreadable = |e: io::Error| error(MANIFEST, format!("the folder {shown} cannot be read: {e}"));
+        let unreadable = |e: io::Error| {
+            error(
+                MANIFEST,
+                both(
+                    format!("the folder {shown} cannot be read: {e}"),
+                    format!("フォルダ {shown} を読み込めません: {e}"),
+                ),
+            )
+        };
         let root = fs::canonicalize(folder).map_err(unreadable)?;
         if !root.is_dir() {
-            return Err(error(MANIFEST, format!("{shown} is no folder: name the folder that {MANIFEST} is in")));
+            return Err(error(
+                MANIFEST,
+                both(
+                    format!("{shown} is no folder: name the folder that {MANIFEST} is in"),
+                    format!("{shown} はフォルダではありません。{MANIFEST} のあるフォルダを指定してください"),
+                ),
+            ));
         }
         if fs::symlink_metadata(root.join(MANIFEST)).is_err() {
-            return Err(error(MANIFEST, format!("is not in the folder {shown}: every assignment has one")));
+            return Err(error(
+                MANIFEST,
+                both(
+                    format!("is not in the folder {shown}: every assignment has one"),
+                    format!("フォルダ {shown} にありません。どの課題にも必要なファイルです"),
+                ),
+            ));
         }
         let mut reading = Reading { root: &root, bytes: 0, files: BTreeMap::new() };
         reading.folder(&root, "", 0)?;
@@ -50,7 +71,17 @@ impl Folder {
     /// # Errors
     /// There is no such file.
     pub fn bytes(&self, name: &str) -> Result<&[u8], AssignmentError> {
-        self.files.get(name).map(Vec::as_slice).ok_or_else(|| error(name, "is not in the folder"))
+        self.files.get(name).map(Vec::as_slice).ok_or_else(|| {
+            let files: Vec<_> = self.files.keys().map(String::as_str).collect();
+            let message = both(
+                format!("is not in the folder, which has {}: add it, or correct the name", files.join(", ")),
+                format!(
+                    "フォルダにありません (あるもの: {})。ファイルを追加するか、名前を直してください",
+                    files.join(", ")
+                ),
+            );
+            AssignmentError { file: name.to_owned(), line: None, entry: None, message }
+        })
     }
 
     /// A file as text.
@@ -61,10 +92,20 @@ impl Folder {
         let bytes = self.bytes(name)?;
         let line = |at: usize| bytes[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
         let place = |at: usize| format!("{name}, line {}", line(at));
-        let text = std::str::from_utf8(bytes)
-            .map_err(|e| error(place(e.valid_up_to()), "is not UTF-8: save the file in that encoding"))?;
+        let text = std::str::from_utf8(bytes).map_err(|e| {
+            error(
+                place(e.valid_up_to()),
+                both("is not UTF-8: save the file in that encoding", "UTF-8 ではありません。UTF-8 で保存してください"),
+            )
+        })?;
         match text.find('\0') {
-            Some(at) => Err(error(place(at), "has a NUL, which no text has: remove it")),
+            Some(at) => Err(error(
+                place(at),
+                both(
+                    "has a NUL, which no text has: remove it",
+                    "NUL 文字があります。テキストには使えないので、取り除いてください",
+                ),
+            )),
             None => Ok(text),
         }
     }
@@ -89,6 +130,14 @@ impl fmt::Debug for Folder {
     }
 }
 
+fn at(file: &str, message: Text) -> AssignmentError {
+    AssignmentError { file: file.to_owned(), line: None, entry: None, message }
+}
+
+fn cannot_read(file: &str, e: &io::Error) -> AssignmentError {
+    at(file, both(format!("cannot be read: {e}"), format!("読み込めません: {e}")))
+}
+
 /// A folder that is being read.
 struct Reading<'a> {
     root: &'a Path,
@@ -98,12 +147,18 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     fn folder(&mut self, folder: &Path, before: &str, depth: usize) -> Result<(), AssignmentError> {
-        let unreadable = |e: io::Error| error(before.trim_end_matches('/'), e.to_string());
+        let unreadable = |e: io::Error| cannot_read(before.trim_end_matches('/'), &e);
         for entry in fs::read_dir(folder).map_err(unreadable)? {
             let entry = entry.map_err(unreadable)?;
             let Ok(name) = entry.file_name().into_string() else {
                 let shown = format!("{before}{}", entry.file_name().to_string_lossy());
-                return Err(error(shown, "has a name that is not UTF-8: rename it"));
+                return Err(at(
+                    &shown,
+                    both(
+                        "has a name that is not UTF-8: rename it",
+                        "ファイル名が UTF-8 ではありません。名前を変えてください",
+                    ),
+                ));
             };
             if name.starts_with('.') || name.ends_with('~') {
                 continue;
@@ -114,29 +169,44 @@ impl Reading<'_> {
     }
 
     fn entry(&mut self, path: &Path, name: String, depth: usize) -> Result<(), AssignmentError> {
-        let unreadable = |e: io::Error| error(&name, format!("cannot be read: {e}"));
+        let unreadable = |e: io::Error| cannot_read(&name, &e);
         // A link is followed, but not out of the folder: what is outside is not handed on with it.
         let target = fs::canonicalize(path).map_err(unreadable)?;
         if !target.starts_with(self.root) {
-            return Err(error(&name, "is a link that leads out of the folder: put the file itself here"));
+            return Err(at(
+                &name,
+                both(
+                    "is a link that leads out of the folder: put the file itself here",
+                    "フォルダの外を指すリンクです。ファイルそのものを置いてください",
+                ),
+            ));
         }
         let metadata = fs::metadata(&target).map_err(unreadable)?;
         if metadata.is_dir() {
             if depth == MAX_DEPTH {
-                return Err(error(&name, format!("folders stand in one another more than {MAX_DEPTH} deep")));
+                return Err(at(
+                    &name,
+                    both(
+                        format!("folders stand in one another more than {MAX_DEPTH} deep: put it higher"),
+                        format!("フォルダの入れ子が {MAX_DEPTH} 段を超えています。浅くしてください"),
+                    ),
+                ));
             }
             return self.folder(path, &format!("{name}/"), depth + 1);
         }
         if !metadata.is_file() {
-            return Err(error(&name, "is no file: remove it"));
+            return Err(at(&name, both("is no file: remove it", "通常のファイルではありません。取り除いてください")));
         }
         self.bytes += metadata.len();
         if self.bytes > MAX_BYTES || self.files.len() == MAX_FILES {
-            let message = format!(
-                "the folder has more than {MAX_FILES} files or {} MiB: is it the folder of an assignment?",
-                MAX_BYTES >> 20
+            let room = MAX_BYTES >> 20;
+            let message = both(
+                format!("the folder has more than {MAX_FILES} files or {room} MiB: is it the folder of an assignment?"),
+                format!(
+                    "フォルダのファイルが {MAX_FILES} 個または {room} MiB を超えています。課題のフォルダか確かめてください"
+                ),
             );
-            return Err(error(&name, message));
+            return Err(at(&name, message));
         }
         let bytes = fs::read(&target).map_err(unreadable)?;
         self.files.insert(name, bytes);

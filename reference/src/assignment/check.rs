@@ -8,7 +8,7 @@ mod scene;
 mod solution;
 mod typeset;
 
-use super::{Assignment, AssignmentError, HandedIn, MANIFEST, error};
+use super::{Assignment, AssignmentError, HandedIn, MANIFEST, both, error};
 use crate::Folder;
 use crate::accepted::Answer;
 use crate::interpreter::{Program, Stage};
@@ -85,8 +85,10 @@ fn answers_are_defined(assignment: &Assignment) -> Checked<()> {
     };
     for pose in assignment.scene.all_poses() {
         let undefined = |name: &str| {
-            let message =
-                "the colour or the position is undefined, or no number: look at divisions, roots, powers and branches";
+            let message = both(
+                "the colour or the position is undefined, or no number: look at divisions, roots, powers and branches",
+                "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐を確かめてください",
+            );
             Err(error(format!("{name}, at t = {}", pose.t), message))
         };
         if !is_number(assignment.corners(&pose, &right, assignment.equation.colour)) {
@@ -101,11 +103,17 @@ fn answers_are_defined(assignment: &Assignment) -> Checked<()> {
 
 fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> Checked<Vec<HandedIn>> {
     if files.is_empty() {
-        return Err(error("file", "nothing is handed in"));
+        return Err(error(
+            "file",
+            both("nothing is handed in: write [[file]]", "提出するファイルがありません。[[file]] を書いてください"),
+        ));
     }
     let handed_in = |file: manifest::File| {
         if file.stage != manifest::Stage::Vertex {
-            return Err(error(format!("file `{}`", file.name), "only vertex shaders can be handed in"));
+            return Err(error(
+                format!("file `{}`", file.name),
+                both("only vertex shaders can be handed in", "提出できるのは頂点シェーダだけです"),
+            ));
         }
         let fixed = file.fixed.iter().map(|f| Ok((f.stage, read(&f.file)?))).collect::<Checked<_>>()?;
         let solution = super::Solution { text: read(&file.solution)?, name: file.solution };
@@ -129,17 +137,26 @@ fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> 
 
 fn rubric(lines: &[manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {
     if lines.len() > MAX_LINES {
-        return Err(error("rubric", "has too many lines"));
+        return Err(error("rubric", both("has more than 64 lines", "64 行を超えています")));
     }
     let mut ids = HashSet::new();
     for line in lines {
         let place = format!("rubric line `{}`", line.id);
         solution.definition(&line.judges, &|| place.clone())?;
         if !line.points.is_finite() || line.points <= 0.0 {
-            return Err(error(place, "is worth nothing"));
+            return Err(error(
+                place,
+                both(
+                    "is worth nothing: write `points` above 0",
+                    "点がありません。`points` を 0 より大きくしてください",
+                ),
+            ));
         }
         if !ids.insert(line.id.clone()) {
-            return Err(error(place, "stands twice"));
+            return Err(error(
+                place,
+                both("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください"),
+            ));
         }
     }
     Ok(ids)
@@ -151,5 +168,15 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> Checked<()> {
-    if lines.contains(line) { Ok(()) } else { Err(error(place, format!("there is no rubric line `{line}`"))) }
+    if lines.contains(line) {
+        Ok(())
+    } else {
+        Err(error(
+            place,
+            both(
+                format!("there is no rubric line `{line}`: correct the name, or add it"),
+                format!("採点の行 `{line}` はありません。名前を直すか、追加してください"),
+            ),
+        ))
+    }
 }

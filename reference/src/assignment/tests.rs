@@ -32,6 +32,11 @@ fn line_of(text: &str) -> usize {
     ggsample06().text(MANIFEST).expect("text").lines().position(|line| line.contains(text)).expect(text) + 1
 }
 
+/// The place of an entry of `assignment.toml`.
+fn entry(kind: &str, id: &str) -> String {
+    format!("assignment.toml, line {}, {kind} `{id}`", line_of(&format!("id = \"{id}\"")))
+}
+
 #[test]
 fn the_built_in_assignment_is_what_the_homework_says() {
     let a = assignment("ggsample06").expect("built in");
@@ -62,7 +67,7 @@ fn a_folder_loads_as_the_built_in_one() {
     let loaded = Assignment::load(folder).expect("the same files");
     assert_eq!((loaded.id.as_str(), loaded.digest), ("ggsample06", ggsample06().digest()));
     let error = Folder::read(Path::new("/nonexistent")).expect_err("no folder");
-    assert_eq!(error.place, MANIFEST);
+    assert_eq!(error.file, MANIFEST);
 }
 
 #[test]
@@ -83,27 +88,44 @@ fn what_contradicts_itself_is_refused_with_its_place() {
     assert!(broken("cycle = 5", "cycles = 5").contains("unknown field `cycles`"));
     assert_eq!(
         broken("keeps = { ambient = 0.5 }", "keeps = { ambient = 1.5 }"),
-        "mistake `ambient-added`: keeps 1.5 of `ambient`: not a fraction"
+        format!("{}: keeps 1.5 of `ambient`: write a fraction, 0 to 1", entry("mistake", "ambient-added"))
     );
     assert!(broken("title = { en = \"No ambient term\", ", "title = { ").contains("missing field `en`"));
     assert_eq!(
         broken("ja = \"環境光の項がない\"", "ja = \" \""),
-        "mistake `ambient-missing`: the title needs 1 to 60 characters in each language"
+        format!("{}: the title needs 1 to 60 characters in each language", entry("mistake", "ambient-missing"))
     );
     assert_eq!(
         broken("en = \"No ambient term\"", "en = \"Handed in unchanged\""),
-        "mistake `ambient-missing`: another mistake has the same title"
+        format!(
+            "{}: another mistake has the same title: lists name it by the title alone",
+            entry("mistake", "ambient-missing")
+        )
     );
     assert_eq!(
         broken("name = \"kshi\"", "name = \"shininess\""),
-        "constant `shininess`: solution.vert has no `const type shininess = …;`"
+        format!(
+            "assignment.toml, line {}, constant `shininess`: solution.vert has no `const type shininess = …;`: write it there, or \
+             correct the name",
+            line_of("name = \"kshi\"")
+        )
     );
-    assert_eq!(broken("id = \"ambient-added\"", "id = \"ambient-missing\""), "mistake `ambient-missing`: stands twice");
+    assert_eq!(
+        broken("id = \"ambient-added\"", "id = \"ambient-missing\""),
+        format!("{}: stands twice: give one another name", entry("mistake", "ambient-missing"))
+    );
     assert_eq!(
         broken("far = 15", "far = 0.5"),
-        "scene: the camera, the window or the number of poses makes no picture"
+        format!(
+            "assignment.toml, line {}, scene: the camera, the window or the number of poses makes no picture: look at `near`, \
+             `far`, `fovy` and `poses`",
+            line_of("[scene]")
+        )
     );
-    assert_eq!(broken("starter = \"starter.vert\"", "starter = \"other.vert\""), "other.vert: is not in the folder");
+    assert_eq!(
+        broken("starter = \"starter.vert\"", "starter = \"other.vert\""),
+        "other.vert: is not in the folder, which has assignment.toml, fixed.frag, solution.vert, starter.vert: add it, or correct the name"
+    );
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::Checked;
 use super::solution::Solution;
 use crate::advice::{Advice, Circumstance};
-use crate::assignment::{Constant, Interface, error};
+use crate::assignment::{Constant, Interface, both, error};
 use crate::{Value, manifest};
 
 /// An entry whose names are known.
@@ -19,17 +19,38 @@ pub(super) fn advice(
     }
     let manifest::Circumstance { scaled, stretched, constants: changed } = entry.when;
     if let Some(name) = scaled.keys().find(|name| !interface.inputs.iter().any(|input| input.name == **name)) {
-        return Err(error(place, format!("there is no input `{name}`")));
+        return Err(error(
+            place,
+            both(
+                format!("there is no input `{name}`: add it, or correct the name"),
+                format!("入力 `{name}` はありません。追加するか、名前を直してください"),
+            ),
+        ));
     }
     let value = |(name, numbers): (String, Vec<f64>)| {
         let constant = constants.iter().find(|constant| constant.name == name);
         let value = constant.and_then(|constant| Value::new(constant.value.kind().clone(), numbers.clone()));
-        let wrong = || error(&place, format!("there is no constant `{name}` with {} numbers", numbers.len()));
+        let wrong = || {
+            let count = numbers.len();
+            error(
+                &place,
+                both(
+                    format!("there is no constant `{name}` with {count} numbers"),
+                    format!("数が {count} 個の定数 `{name}` はありません"),
+                ),
+            )
+        };
         value.map(|value| (name.clone(), value)).ok_or_else(wrong)
     };
     let constants = changed.into_iter().map(value).collect::<Checked<Vec<_>>>()?;
     if scaled.is_empty() && stretched.is_none() && constants.is_empty() {
-        return Err(error(place, "`when` changes nothing"));
+        return Err(error(
+            place,
+            both(
+                "`when` changes nothing: write what is different",
+                "`when` で変わるものがありません。何が異なるかを書いてください",
+            ),
+        ));
     }
     Ok(Advice {
         id: entry.id,

@@ -83,7 +83,7 @@ fn lies_in(name: &str, path: &str) -> bool {
 }
 
 impl Reader<'_> {
-    fn wrong(&self, at: usize, place: &str, message: impl Into<String>) -> AssignmentError {
+    fn wrong(&self, at: usize, place: &str, message: impl Into<crate::Text>) -> AssignmentError {
         error(format!("{}, {place}", solution::place(MANIFEST, (self.line_at)(at))), message)
     }
 

@@ -3,7 +3,7 @@
 use super::solution::{self, Solution};
 use super::{Checked, known_line};
 use crate::Text;
-use crate::assignment::{Constant, MANIFEST, error};
+use crate::assignment::{Constant, MANIFEST, both, error};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine, TermState};
 use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
@@ -25,11 +25,20 @@ pub(super) fn all(
     for entry in &entries {
         let place = || format!("mistake `{}`", entry.id);
         if !ids.insert(entry.id.clone()) {
-            return Err(error(place(), "stands twice"));
+            return Err(error(
+                place(),
+                both("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください"),
+            ));
         }
         // Lists name a mistake by its title alone.
         if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
-            return Err(error(place(), "another mistake has the same title"));
+            return Err(error(
+                place(),
+                both(
+                    "another mistake has the same title: lists name it by the title alone",
+                    "同じ title の mistake があります。一覧では title だけで区別します",
+                ),
+            ));
         }
     }
     let general = general(rubric, solution)?.into_iter().filter(|entry| !ids.contains(&entry.id));
@@ -69,7 +78,13 @@ fn mistake(
     for (line, fraction) in &entry.keeps {
         known_line(lines, line, &place)?;
         if !(0.0..=1.0).contains(fraction) {
-            return Err(error(place, format!("keeps {fraction} of `{line}`: not a fraction")));
+            return Err(error(
+                place,
+                both(
+                    format!("keeps {fraction} of `{line}`: write a fraction, 0 to 1"),
+                    format!("`{line}` の {fraction} を残すことになっています。0 から 1 の数にしてください"),
+                ),
+            ));
         }
     }
     let fit = match entry.fit {
@@ -77,7 +92,10 @@ fn mistake(
         Some(f) => {
             solution.parameter(&f.name, &place)?;
             if !(f.from > 0.0 && f.from < f.example && f.example < f.to && f.to.is_finite()) {
-                return Err(error(place, "`fit` needs 0 < from < example < to"));
+                return Err(error(
+                    place,
+                    both("`fit` needs 0 < from < example < to", "`fit` では 0 < from < example < to としてください"),
+                ));
             }
             let of = f.of.map(|name| {
                 let is_it = |constant: &Constant| constant.name == name && *constant.value.kind() == Type::FLOAT;
@@ -98,7 +116,13 @@ fn mistake(
         forms.push(form(texts, solution, free, &at, &format!("{place}, form {number}"))?);
     }
     if fit.is_some() && !forms.iter().any(|f| f.free) {
-        return Err(error(place, "no form uses the name in `fit`"));
+        return Err(error(
+            place,
+            both(
+                "no form uses the name in `fit`: use it, or remove `fit`",
+                "どの form も `fit` の名前を使っていません。使うか、`fit` を取り除いてください",
+            ),
+        ));
     }
     Ok(Mistake {
         id: entry.id,
@@ -130,7 +154,13 @@ fn title(title: &Text, place: &str) -> Checked<()> {
     for wording in [&title.en, &title.ja] {
         let length = wording.chars().count();
         if wording.trim().is_empty() || length > LONGEST_TITLE || wording.contains(['\n', '{', '⟨']) {
-            return Err(error(place, format!("the title needs 1 to {LONGEST_TITLE} characters in each language")));
+            return Err(error(
+                place,
+                both(
+                    format!("the title needs 1 to {LONGEST_TITLE} characters in each language"),
+                    format!("title は、どちらの言語でも 1 文字以上 {LONGEST_TITLE} 文字以下にしてください"),
+                ),
+            ));
         }
     }
     Ok(())
@@ -139,7 +169,13 @@ fn title(title: &Text, place: &str) -> Checked<()> {
 fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> Checked<Alternative> {
     let manifest::When { forms: of_forms, lacks, term } = entry.when;
     if let Some(form) = of_forms.iter().find(|form| **form >= forms) {
-        return Err(error(place, format!("`instead` speaks of form {form}, and there are {forms}")));
+        return Err(error(
+            place,
+            both(
+                format!("`instead` speaks of form {form}, and there are {forms}: they count from 0"),
+                format!("`instead` に form {form} とありますが、form は {forms} 個です (0 から数えます)"),
+            ),
+        ));
     }
     let mut when = Vec::new();
     if !of_forms.is_empty() {
@@ -153,10 +189,19 @@ fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> Check
         TermState::Absent => Condition::Absent,
     }));
     if when.is_empty() {
-        return Err(error(place, "`instead` has no condition"));
+        return Err(error(
+            place,
+            both("`instead` has no condition: write `when`", "`instead` に条件がありません。`when` を書いてください"),
+        ));
     }
     if entry.seen.is_none() && entry.equation.is_none() && entry.look.is_none() {
-        return Err(error(place, "`instead` says nothing"));
+        return Err(error(
+            place,
+            both(
+                "`instead` says nothing: write `seen`, `equation` or `look`",
+                "`instead` に文がありません。`seen`、`equation`、`look` のいずれかを書いてください",
+            ),
+        ));
     }
     Ok(Alternative { when, seen: entry.seen, equation: entry.equation, look: entry.look })
 }
@@ -180,7 +225,13 @@ fn form(
         overrides.push(Override { definition, text: text.clone(), formula });
     }
     if overrides.is_empty() {
-        return Err(error(place, "replaces nothing"));
+        return Err(error(
+            place,
+            both(
+                "replaces nothing: write `{ definition = \"expression\" }`",
+                "置き換えるものがありません。`{ 定義 = \"式\" }` と書いてください",
+            ),
+        ));
     }
     overrides.sort_by_key(|o| o.definition);
     Ok(Form { overrides, free })

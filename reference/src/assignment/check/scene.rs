@@ -1,7 +1,7 @@
 //! The scenes of an assignment.
 
 use super::{Checked, solution};
-use crate::assignment::{AssignmentError, MANIFEST, error};
+use crate::assignment::{AssignmentError, MANIFEST, both, error};
 use crate::feed::Expression;
 use crate::interpreter::Type;
 use crate::manifest::{self, Depth, Poses};
@@ -19,15 +19,31 @@ const LONGEST_SIDE: u32 = 8_192;
 
 /// All scenes as one. `line_at`: the line of the manifest in which a byte of it stands.
 pub(super) fn scene(scenes: &manifest::Scenes, line_at: &dyn Fn(usize) -> u32) -> Checked<Scene> {
-    let [first, ..] = &scenes.0[..] else { return Err(error("scene", "there is none: write [scene]")) };
-    let missing = |key: &str| error("scene", format!("`{key}` is missing"));
+    let [first, ..] = &scenes.0[..] else {
+        return Err(error("scene", both("there is none: write [scene]", "ありません。[scene] を書いてください")));
+    };
+    let missing = |key: &str| {
+        error("scene", both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")))
+    };
     let [width, height] = first.window.ok_or_else(|| missing("window"))?;
     if !(1..=LONGEST_SIDE).contains(&width) || !(1..=LONGEST_SIDE).contains(&height) {
-        return Err(error("scene", format!("the window has to be 1 to {LONGEST_SIDE} pixels wide and high")));
+        return Err(error(
+            "scene",
+            both(
+                format!("the window has to be 1 to {LONGEST_SIDE} pixels wide and high"),
+                format!("ウィンドウの幅と高さは 1 画素以上 {LONGEST_SIDE} 画素以下にしてください"),
+            ),
+        ));
     }
     for other in &scenes.0[1..] {
         if other.window.is_some() || other.background.is_some() || other.cycle.is_some() {
-            return Err(error("scene", "`window`, `background` and `cycle` are those of the first scene: remove them"));
+            return Err(error(
+                "scene",
+                both(
+                    "`window`, `background` and `cycle` are those of the first scene: remove them",
+                    "`window`、`background`、`cycle` は最初の scene のものを使います。取り除いてください",
+                ),
+            ));
         }
     }
     let views = scenes.0.iter().map(|own| Reader { own, first, line_at }.view()).collect::<Checked<Vec<_>>>()?;
@@ -40,12 +56,21 @@ pub(super) fn scene(scenes: &manifest::Scenes, line_at: &dyn Fn(usize) -> u32) -
     };
     let sum: usize = scene.views.iter().map(|view| view.times.len()).sum();
     if sum > MOST_POSES {
-        return Err(error("scene", format!("there are {sum} poses: use at most {MOST_POSES}")));
+        return Err(error(
+            "scene",
+            both(
+                format!("there are {sum} poses: use at most {MOST_POSES}"),
+                format!("ポーズが {sum} 個あります。{MOST_POSES} 個以下にしてください"),
+            ),
+        ));
     }
     for pose in scene.all_poses() {
         let is_seen = |matrix: glam::DMat4| matrix.is_finite();
         if !scene.instances(&pose).iter().all(|instance| is_seen(instance.moment.matrices.model_view_projection)) {
-            let message = "the camera or a model has no matrix there: look at `eye`, `target`, `up` and `model`";
+            let message = both(
+                "the camera or a model has no matrix there: look at `eye`, `target`, `up` and `model`",
+                "カメラまたはモデルの行列を作れません。`eye`、`target`、`up`、`model` を確かめてください",
+            );
             return Err(error(format!("scene, at t = {}", pose.t), message));
         }
     }
@@ -61,13 +86,22 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn get<T>(&self, key: &str, of: impl Fn(&manifest::Scene) -> Option<T>) -> Checked<T> {
-        of(self.own).or_else(|| of(self.first)).ok_or_else(|| error("scene", format!("`{key}` is missing")))
+        of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
+            error(
+                "scene",
+                both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")),
+            )
+        })
     }
 
     fn view(&self) -> Checked<View> {
         let point = |key, of: fn(&manifest::Scene) -> Option<&manifest::Point>| -> Checked<Point> {
-            let point =
-                of(self.own).or_else(|| of(self.first)).ok_or_else(|| error("scene", format!("`{key}` is missing")))?;
+            let point = of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
+                error(
+                    "scene",
+                    both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")),
+                )
+            })?;
             match point {
                 manifest::Point::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
                 manifest::Point::Expression(text) => {
@@ -96,7 +130,13 @@ impl Reader<'_> {
             && (1..=MOST_POSES).contains(&view.times.len())
             && view.times.iter().all(|t| (0.0..1.0).contains(t));
         if !sane {
-            return Err(error("scene", "the camera, the window or the number of poses makes no picture"));
+            return Err(error(
+                "scene",
+                both(
+                    "the camera, the window or the number of poses makes no picture: look at `near`, `far`, `fovy` and `poses`",
+                    "カメラ、ウィンドウ、またはポーズの数が正しくないため、絵になりません。`near`、`far`、`fovy`、`poses` を確かめてください",
+                ),
+            ));
         }
         Ok(view)
     }
@@ -106,9 +146,25 @@ impl Reader<'_> {
         let scene = if shows(self.own) { self.own } else { self.first };
         let said = [scene.draw.is_some(), scene.mesh.is_some(), scene.triangle.is_some()];
         match said.iter().filter(|said| **said).count() {
-            0 => return Err(error("scene", "nothing is drawn: write `mesh = { torus = {} }`, or [[scene.draw]]")),
+            0 => {
+                return Err(error(
+                    "scene",
+                    both(
+                        "nothing is drawn: write `mesh = { torus = {} }`, or [[scene.draw]]",
+                        "描くものがありません。`mesh = { torus = {} }` または [[scene.draw]] を書いてください",
+                    ),
+                ));
+            }
             1 => {}
-            _ => return Err(error("scene", "write one of `draw`, `mesh` and `triangle`")),
+            _ => {
+                return Err(error(
+                    "scene",
+                    both(
+                        "write one of `draw`, `mesh` and `triangle`",
+                        "`draw`、`mesh`、`triangle` のうち 1 つだけを書いてください",
+                    ),
+                ));
+            }
         }
         let draws = match (&scene.draw, &scene.mesh, &scene.triangle) {
             (Some(draws), ..) => draws.iter().map(|draw| self.draw(draw)).collect::<Checked<Vec<_>>>()?,
@@ -123,7 +179,13 @@ impl Reader<'_> {
         };
         let count: u32 = draws.iter().map(|draw| draw.instances.min(MOST_INSTANCES + 1)).sum();
         if count == 0 || count > MOST_INSTANCES {
-            return Err(error("scene", format!("{count} things are drawn: draw 1 to {MOST_INSTANCES}")));
+            return Err(error(
+                "scene",
+                both(
+                    format!("{count} things are drawn: draw 1 to {MOST_INSTANCES}"),
+                    format!("描くものが {count} 個あります。1 個以上 {MOST_INSTANCES} 個以下にしてください"),
+                ),
+            ));
         }
         Ok(draws)
     }
@@ -161,7 +223,10 @@ impl Reader<'_> {
         let said =
             [(model, turn), (self.own.model.as_ref(), self.own.turn), (self.first.model.as_ref(), self.first.turn)];
         match said.into_iter().find(|(model, turn)| model.is_some() || turn.is_some()) {
-            Some((Some(_), Some(_))) => Err(error("scene", "write one of `model` and `turn`")),
+            Some((Some(_), Some(_))) => Err(error(
+                "scene",
+                both("write one of `model` and `turn`", "`model` と `turn` は、どちらか一方だけを書いてください"),
+            )),
             Some((Some(text), None)) => {
                 expression(text, &Type::MAT4, "scene, `model`", self.line_at).map(Model::Expression)
             }

@@ -2,7 +2,7 @@
 
 use super::{Checked, listed};
 use crate::Value;
-use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, error};
+use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS};
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Type};
 use crate::manifest::{self, Manifest};
@@ -29,8 +29,15 @@ impl<'a> Solution<'a> {
         let draft = Draft::read(&file.solution.text, Stage::Vertex, &names);
         let draft = draft.map_err(|refusal| refused(&file.solution.name, &refusal))?;
         let first = draft.formulas().first().map(Formula::cell);
-        let first =
-            first.ok_or_else(|| error(&file.solution.name, "`main` defines nothing: write `type name = …;`"))?;
+        let first = first.ok_or_else(|| {
+            error(
+                &file.solution.name,
+                both(
+                    "`main` defines nothing: write `type name = …;`",
+                    "`main` に定義がありません。`型 名前 = …;` と書いてください",
+                ),
+            )
+        })?;
         let solution = Self { file, draft, first };
         if solution.draft.formulas().len() > MAX_DEFINITIONS {
             return Err(solution.wrong(0, format!("there are more than {MAX_DEFINITIONS} definitions")));
@@ -42,7 +49,7 @@ impl<'a> Solution<'a> {
         Ok(solution)
     }
 
-    pub(super) fn wrong(&self, line: u32, message: impl Into<String>) -> AssignmentError {
+    pub(super) fn wrong(&self, line: u32, message: impl Into<crate::Text>) -> AssignmentError {
         error(place(&self.file.solution.name, line), message)
     }
 
@@ -55,7 +62,13 @@ impl<'a> Solution<'a> {
         let found = self.definitions().iter().position(|cell| cell.name == name);
         found.ok_or_else(|| {
             let known = listed(self.definitions().iter().map(|cell| cell.name.as_str()));
-            error(place(), format!("there is no definition `{name}` in {}, which has {known}", self.file.solution.name))
+            error(
+                place(),
+                both(
+                    format!("there is no definition `{name}` in {}, which has {known}", self.file.solution.name),
+                    format!("{} に定義 `{name}` はありません (あるもの: {known})", self.file.solution.name),
+                ),
+            )
         })
     }
 
@@ -78,7 +91,15 @@ impl<'a> Solution<'a> {
 
     /// A name for what is free in a mistake's forms.
     pub(super) fn parameter(&self, name: &str, place: &str) -> Checked<()> {
-        let taken = || error(place, format!("`{name}` is taken, means something in GLSL, or is not a name"));
+        let taken = || {
+            error(
+                place,
+                both(
+                    format!("`{name}` is taken, means something in GLSL, or is not a name"),
+                    format!("`{name}` は、すでに使われているか、GLSL で意味を持つか、名前として使えません"),
+                ),
+            )
+        };
         self.draft.is_free(name).then_some(()).ok_or_else(taken)
     }
 
@@ -102,7 +123,13 @@ impl<'a> Solution<'a> {
         let parameter = self.draft.cells().len() - 1;
         if let Some(used) = formula.uses().iter().find(|used| **used >= cell && **used != parameter) {
             let used = &self.draft.cells()[*used].name;
-            return Err(error(place(), format!("uses `{used}`, which is defined later: use only {}", allowed(self))));
+            return Err(error(
+                place(),
+                both(
+                    format!("uses `{used}`, which is defined later: use only {}", allowed(self)),
+                    format!("後で定義される `{used}` を使っています。使えるのは {} です", allowed(self)),
+                ),
+            ));
         }
         self.few_enough(&formula, place)?;
         let is_free = formula.uses().contains(&parameter);
@@ -141,7 +168,15 @@ impl<'a> Solution<'a> {
         let starters = read(&self.file.starter_name, &self.file.starter)?;
         let constant = |entry: &manifest::Constant| {
             let (name, file) = (&entry.name, &self.file.solution.name);
-            let missing = || error(format!("constant `{name}`"), format!("{file} has no `const type {name} = …;`"));
+            let missing = || {
+                error(
+                    format!("constant `{name}`"),
+                    both(
+                        format!("{file} has no `const type {name} = …;`: write it there, or correct the name"),
+                        format!("{file} に `const 型 {name} = …;` がありません。書くか、名前を直してください"),
+                    ),
+                )
+            };
             let (cell, numbers) = ours.iter().find(|(cell, _)| cell.name == *name).ok_or_else(missing)?;
             if let Some((other, theirs)) = starters.iter().find(|(cell, _)| cell.name == *name)
                 && (theirs != numbers || other.kind != cell.kind)

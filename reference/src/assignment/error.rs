@@ -1,0 +1,154 @@
+//! Why a folder is not an assignment: the file, the line, what is wrong, and what to write instead.
+
+use super::MANIFEST;
+use crate::{Folder, Text};
+use std::fmt;
+
+/// Why a folder is not an assignment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AssignmentError {
+    /// The file, by its name in the folder.
+    pub file: String,
+    /// The line in it, from 1, where it is known.
+    pub line: Option<u32>,
+    /// What in the file it is about, such as an entry of `assignment.toml`.
+    pub entry: Option<String>,
+    /// What is wrong there, and what to try.
+    pub message: Text,
+}
+
+impl AssignmentError {
+    /// The place and the message, in both languages.
+    pub fn text(&self) -> Text {
+        let Self { file, line, entry, message } = self;
+        let entry = |separator: &str| entry.as_ref().map(|entry| format!("{separator}{entry}")).unwrap_or_default();
+        let (en, ja) = match line {
+            Some(line) => (format!("{file}, line {line}"), format!("{file} の {line} 行目")),
+            None => (file.clone(), file.clone()),
+        };
+        Text { en: format!("{en}{}: {}", entry(", "), message.en), ja: format!("{ja}{}: {}", entry("、"), message.ja) }
+    }
+
+    /// The same with the line of the entry, where the error was found without one.
+    pub(super) fn located(self, folder: &Folder) -> Self {
+        let is_known = self.line.is_some() || self.file != MANIFEST;
+        let line = self.line.or_else(|| {
+            let entry = self.entry.as_deref().filter(|_| !is_known)?;
+            line_of(folder.text(MANIFEST).ok()?, entry)
+        });
+        Self { line, ..self }
+    }
+}
+
+impl fmt::Display for AssignmentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text().en)
+    }
+}
+
+impl std::error::Error for AssignmentError {}
+
+/// A message in both languages.
+pub(crate) fn both(en: impl Into<String>, ja: impl Into<String>) -> Text {
+    Text { en: en.into(), ja: ja.into() }
+}
+
+/// What the interpreter or a parser says; it speaks English.
+impl From<String> for Text {
+    fn from(en: String) -> Self {
+        Self { ja: en.clone(), en }
+    }
+}
+
+impl From<&str> for Text {
+    fn from(en: &str) -> Self {
+        en.to_owned().into()
+    }
+}
+
+/// An error at a place: `FILE`, `FILE, line N`, either of them with `, ENTRY` behind it, or an entry of `assignment.toml`
+/// alone, such as ``mistake `gamma` ``. The name of a file has a dot and no space.
+pub(crate) fn error(place: impl Into<String>, message: impl Into<Text>) -> AssignmentError {
+    let place = place.into();
+    let message = message.into();
+    let (first, rest) = place.split_once(", ").unwrap_or((&place, ""));
+    let is_file = first.contains('.') && !first.contains([' ', '`']);
+    if !is_file {
+        return AssignmentError { file: MANIFEST.into(), line: None, entry: Some(place), message };
+    }
+    let (line, rest) = match rest.strip_prefix("line ") {
+        Some(numbered) => {
+            let (number, rest) = numbered.split_once(", ").unwrap_or((numbered, ""));
+            (number.parse().ok(), rest)
+        }
+        None => (None, rest),
+    };
+    let entry = (!rest.is_empty()).then(|| rest.to_owned());
+    AssignmentError { file: first.to_owned(), line, entry, message }
+}
+
+/// The line of the manifest at which an entry begins: the one that names it (`id = "gamma"`), or the head of its table.
+fn line_of(manifest: &str, entry: &str) -> Option<u32> {
+    let (kind, name) = match entry.split_once(" `") {
+        Some((kind, rest)) => (kind, rest.split('`').next()),
+        None => (entry.split(',').next()?, None),
+    };
+    let kind = kind.split_whitespace().next()?.trim_end_matches(',');
+    let head = |line: &str| {
+        let line = line.trim();
+        let inner = line.strip_prefix("[[").and_then(|l| l.split("]]").next());
+        inner.or_else(|| line.strip_prefix('[').and_then(|l| l.split(']').next())).map(str::to_owned)
+    };
+    let mut first = None;
+    let mut is_inside = false;
+    for (number, line) in (1..).zip(manifest.lines()) {
+        if let Some(found) = head(line) {
+            is_inside = found == kind || found.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
+            if is_inside && (first.is_none() || name.is_some_and(|name| found == format!("{kind}.{name}"))) {
+                first = Some(number);
+            }
+        }
+        let Some(name) = name.filter(|_| is_inside) else { continue };
+        if let Some((key, value)) = line.split_once('=')
+            && ["id", "name"].contains(&key.trim())
+            && value.trim().starts_with(&format!("\"{name}\""))
+        {
+            return Some(number);
+        }
+    }
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "id = \"x\"\n[scene]\nfar = 1\n[[mistake]]\nid = \"one\"\n[mistake.seen]\nen = \"\"\n\n\
+                        [[mistake]]\nkeeps = {}\nid = \"two\"\n[definition.h]\nslide = 1\n";
+
+    #[test]
+    fn an_entry_is_found_by_its_name() {
+        assert_eq!(line_of(TEXT, "mistake `one`, form 0"), Some(5));
+        assert_eq!(line_of(TEXT, "mistake `two`"), Some(11));
+        assert_eq!(line_of(TEXT, "scene"), Some(2));
+        assert_eq!(line_of(TEXT, "scene, `eye`"), Some(2));
+        assert_eq!(line_of(TEXT, "definition `h`"), Some(12));
+        assert_eq!(line_of(TEXT, "rubric line `x`"), None);
+    }
+
+    #[test]
+    fn a_place_is_a_file_or_an_entry() {
+        let found = |place: &str| {
+            let AssignmentError { file, line, entry, .. } = error(place, "wrong");
+            (file, line, entry)
+        };
+        assert_eq!(found("a.vert"), ("a.vert".into(), None, None));
+        assert_eq!(found("a.vert, line 7"), ("a.vert".into(), Some(7), None));
+        assert_eq!(found("a.vert, at t = 0.5"), ("a.vert".into(), None, Some("at t = 0.5".into())));
+        let entry = "mistake `m`, form 0, `h`";
+        assert_eq!(found(&format!("{MANIFEST}, line 3, {entry}")), (MANIFEST.into(), Some(3), Some(entry.into())));
+        assert_eq!(found("uniform `a.b`"), (MANIFEST.into(), None, Some("uniform `a.b`".into())));
+        let text = error("a.vert, line 7", both("wrong", "誤り")).text();
+        assert_eq!((text.en.as_str(), text.ja.as_str()), ("a.vert, line 7: wrong", "a.vert の 7 行目: 誤り"));
+    }
+}
