@@ -3,6 +3,7 @@
 use divan::Bencher;
 use ggrade::compare;
 use ggrade::cross_check;
+use ggrade::expected;
 use ggrade::grade::{Grader, Order};
 use ggrade::hand_in::HandIn;
 use ggrade::homework;
@@ -76,7 +77,7 @@ fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
 
 #[divan::bench]
 fn compare_25_frames(bencher: Bencher<'_, '_>) {
-    let expected = homework::expected_frames(assignment());
+    let (expected, _) = expected::prepared(assignment(), None, None).expect("in memory");
     let mut renderer = renderer();
     let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
     let rendering = renderer.render(&shader(&read(&text()), &interface()), &scene).expect("a rendering");
@@ -96,7 +97,7 @@ fn make_probes(bencher: Bencher<'_, '_>) {
 
 #[divan::bench(sample_count = 30)]
 fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
-    let grader = RefCell::new(Grader::new(assignment().clone(), AdapterKind::Software).expect("a grader"));
+    let grader = RefCell::new(Grader::open(assignment().clone(), AdapterKind::Software).expect("a grader"));
     bencher.with_inputs(text).bench_local_refs(|text| {
         grader
             .borrow_mut()
@@ -143,5 +144,5 @@ void main() {
 
 #[divan::bench(sample_count = 5)]
 fn start_a_grader() -> Grader {
-    Grader::new(assignment().clone(), AdapterKind::Software).expect("a grader")
+    Grader::open(assignment().clone(), AdapterKind::Software).expect("a grader")
 }

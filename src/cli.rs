@@ -1,10 +1,12 @@
 //! The command line's types, and nothing else.
 
+mod assignment;
 mod batch;
 mod format;
 mod serve;
 mod watch;
 
+pub use assignment::{Action, Assignment, Check};
 pub use batch::Batch;
 pub use format::{Format, Reading};
 pub use serve::{LogFormat, Serve};
@@ -42,6 +44,8 @@ pub enum Command {
     Serve(Serve),
     /// Grade a folder of samples and hold each report against the expected one beside it
     Corpus(Corpus),
+    /// List assignments, or check the folder of one
+    Assignment(Assignment),
     /// Check this machine and say what to install
     Doctor(Doctor),
     /// Grade what the parent process sends (started by the other commands)
@@ -52,9 +56,9 @@ pub enum Command {
 /// Which homework, on which adapter.
 #[derive(Clone, Debug, Args)]
 pub struct Machine {
-    /// The assignment
-    #[arg(long, value_name = "ID", default_value = "ggsample06")]
-    pub assignment: String,
+    /// The assignment: the name of a built-in one, or the folder of one [default: the built-in one whose file it is]
+    #[arg(long, value_name = "NAME|FOLDER")]
+    pub assignment: Option<String>,
     /// What renders: Mesa's software driver, or a real graphics card
     #[arg(long, value_enum, default_value_t)]
     pub adapter: AdapterKind,
@@ -73,8 +77,8 @@ pub struct Sandbox {
 
 impl Corpus {
     /// The folder of the samples: those of the assignment where none is named.
-    pub fn folder(&self) -> PathBuf {
-        self.folder.clone().unwrap_or_else(|| PathBuf::from("submissions").join(&self.machine.assignment))
+    pub fn folder(&self, assignment: &reference::Assignment) -> PathBuf {
+        self.folder.clone().unwrap_or_else(|| PathBuf::from("submissions").join(&assignment.id))
     }
 }
 
@@ -158,18 +162,18 @@ pub struct Doctor {
 /// Grade what the parent process sends.
 #[derive(Debug, Args)]
 pub struct Worker {
-    /// Homework and adapter.
-    #[command(flatten)]
-    pub machine: Machine,
+    /// What renders
+    #[arg(long, value_enum, default_value_t)]
+    pub adapter: AdapterKind,
     /// Bytes of memory that one submission may take over what the worker has
     #[arg(long, value_name = "BYTES", default_value_t = 768 << 20)]
     pub memory: u64,
     /// CPU seconds that one submission may take
     #[arg(long, value_name = "SECONDS", default_value_t = 3)]
     pub cpu_seconds: u64,
-    /// Grade the handed-out file before the first submission
+    /// Grade nothing: end once the first assignment is read
     #[arg(long)]
-    pub warm_up: bool,
+    pub rehearse: bool,
     /// Grade nothing: enter the sandbox, try this, and exit with 0 where it was refused, with 1 where it was not
     #[arg(long, value_enum, value_name = "WHAT")]
     pub attempt: Option<Attempt>,

@@ -1,5 +1,6 @@
 //! What each command of the command line does.
 
+pub mod assignment;
 pub mod batch;
 pub mod corpus;
 pub mod doctor;
@@ -12,11 +13,14 @@ mod view;
 pub mod watch;
 pub mod worker;
 
+use crate::choice;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::sandbox::Pool;
-use std::path::Path;
+use reference::Assignment;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// How a run of ggrade ends; the codes are a contract.
@@ -85,6 +89,12 @@ fn file_fault(action: &Text, path: &Path, error: &std::io::Error) -> Fault {
         format!("cannot {} {}: {error}", action.en, path.display()),
         format!("{} を{}できません: {error}", path.display(), action.ja),
     ))
+}
+
+/// The assignment that is asked for; none where there is no such assignment, which is told.
+fn assignment(asked: Option<&str>, files: &[PathBuf], language: Language) -> Option<Arc<Assignment>> {
+    let names: Vec<&str> = files.iter().filter_map(|file| file.file_name()?.to_str()).collect();
+    choice::assignment(asked, &names).inspect_err(|text| anstream::eprintln!("ggrade: {}", text.get(language))).ok()
 }
 
 /// The time that a grading may take; none for a number that is none.

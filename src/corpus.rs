@@ -82,7 +82,8 @@ fn check_one(sample: &Path, pool: &Pool, cross_check: bool) -> Result<Checked, F
         Err(error) => return Err(unreadable(&path, &error.to_string())),
     };
     let order = Order { seed: SEED, cross_check, ..Order::default() };
-    let answer = pool.grade(Submission { hand_in: &hand_in, order, wants_frames: false });
+    let answer =
+        pool.grade(Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: false });
     let cross_check = answer.as_ref().ok().and_then(|answer| answer.report.cross_check.clone());
     let found = answer.map(|answer| Expectation::of(&answer.report));
     Ok(Checked { sample: sample.into(), expected, found, cross_check })

@@ -9,6 +9,7 @@ use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
 use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
 use crate::diagnostic::{Diagnostic, Stage};
+use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::homework;
@@ -74,35 +75,29 @@ struct Probing {
 }
 
 impl Grader {
-    /// Opens the device, and warms the compiler and the reference meanwhile.
-    pub fn new(assignment: Arc<Assignment>, adapter: AdapterKind) -> Result<Self, Fault> {
+    /// A grader of its own device, which computes what is expected.
+    pub fn open(assignment: Arc<Assignment>, adapter: AdapterKind) -> Result<Self, Fault> {
+        let (expected, _) = expected::prepared(&assignment, None, None)?;
+        Self::new(Device::open(adapter)?, assignment, expected)
+    }
+
+    /// A grader on an open device. `expected` are the assignment's right pictures, in the order of [`expected::frames`].
+    pub fn new(device: Device, assignment: Arc<Assignment>, expected: Vec<ExpectedFrame>) -> Result<Self, Fault> {
         let interface = homework::interface(&assignment)?;
         let starter = &assignment.files[0].starter;
-        let (device, fixed, expected) = std::thread::scope(|scope| {
-            let device = scope.spawn(|| Device::open(adapter));
-            let expected = scope.spawn(|| homework::expected_frames(&assignment));
-            let fixed = translate::fixed_stage(&interface, starter);
-            (device.join(), fixed, expected.join())
+        let environment = environment(&device);
+        let renderer = Renderer::new(device, &translate::fixed_stage(&interface, starter)?)?;
+        let mut expected = expected;
+        let mut others = expected.split_off(assignment.scene.all_poses().len().min(expected.len()));
+        let poses = expected.len();
+        let accepted = assignment.accepted().iter().map(|answer| {
+            let rest = others.split_off(poses.min(others.len()));
+            (answer.clone(), std::mem::replace(&mut others, rest))
         });
-        let panicked = |_| Fault::new(Text::new("start-up panicked", "起動処理が異常終了しました"));
-        let device = device.map_err(panicked)??;
-        let environment = Environment {
-            ggrade: env!("CARGO_PKG_VERSION").into(),
-            renderer: device.renderer.clone(),
-            driver: device.driver.clone(),
-        };
-        let renderer = Renderer::new(device, &fixed?)?;
-        let expected = expected.map_err(panicked)?;
-        let frames = |answer: &Answer| (answer.clone(), homework::accepted_frames(&assignment, answer));
-        let accepted = assignment.accepted().iter().map(frames).collect();
+        let accepted = accepted.collect();
         let probes = assignment.judging_probes();
         let beyond = advice::beyond(&assignment, &probes);
         Ok(Self { assignment, interface, renderer, expected, accepted, probes, environment, beyond, last: None })
-    }
-
-    /// What grades.
-    pub fn environment(&self) -> &Environment {
-        &self.environment
     }
 
     /// Grades one hand-in.
@@ -268,6 +263,7 @@ impl Grader {
         let max_score = self.assignment.max_score();
         Report {
             assignment: self.assignment.id.clone(),
+            assignment_digest: self.assignment.digest.clone(),
             sources: Vec::new(),
             verdict: if diagnosis.is_right { Verdict::Correct } else { Verdict::Wrong },
             score,
@@ -284,6 +280,15 @@ impl Grader {
             hints,
             elapsed_ms: 0.0,
         }
+    }
+}
+
+/// What grades on a device.
+pub fn environment(device: &Device) -> Environment {
+    Environment {
+        ggrade: env!("CARGO_PKG_VERSION").into(),
+        renderer: device.renderer.clone(),
+        driver: device.driver.clone(),
     }
 }
 

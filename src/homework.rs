@@ -4,13 +4,12 @@ mod terms;
 
 pub use terms::{Terms, term_pictures};
 
-use crate::compare::ExpectedFrame;
+use crate::expected;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::render::{Batch, Scene};
 use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
-use reference::accepted::Answer;
 use reference::assignment::Input;
 use reference::interpreter::Type;
 use reference::probes::ProbeSet;
@@ -19,17 +18,6 @@ use reference::scene::{Pose, Vertex};
 use reference::{Assignment, Value, Values};
 use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// The built-in assignment with this id.
-pub fn assignment(id: &str) -> Result<Arc<Assignment>, Fault> {
-    reference::assignment(id).cloned().ok_or_else(|| {
-        let known: Vec<_> = reference::assignment::names().collect();
-        Fault::new(Text::new(
-            format!("there is no assignment `{id}` (there is: {})", known.join(", ")),
-            format!("課題 `{id}` はありません (あるもの: {})", known.join(", ")),
-        ))
-    })
-}
 
 /// The interface of the assignment's only file.
 pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
@@ -45,22 +33,6 @@ pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
         constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
         fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
     })
-}
-
-/// The reference's frames of all poses.
-pub fn expected_frames(assignment: &Assignment) -> Vec<ExpectedFrame> {
-    let background = assignment.scene.background;
-    let poses = assignment.scene.all_poses();
-    let right = assignment.equation.right();
-    // One at a time: all of them together are larger than what is kept.
-    poses.iter().map(|pose| ExpectedFrame::new(pose.t, &assignment.frame(pose, &right), background)).collect()
-}
-
-/// The frames of an answer that is right beside the solution.
-pub fn accepted_frames(assignment: &Assignment, answer: &Answer) -> Vec<ExpectedFrame> {
-    let background = assignment.scene.background;
-    let poses = assignment.scene.all_poses();
-    poses.iter().map(|pose| ExpectedFrame::new(pose.t, &assignment.frame_of(answer, pose), background)).collect()
 }
 
 /// What is drawn for a submission: the course's animation and the probes, set after set.
@@ -93,23 +65,23 @@ pub fn batch(assignment: &Assignment, uniforms: &[Value], vertices: &[Vertex]) -
     Batch { uniforms, attributes: interface.inputs.iter().map(attribute).collect(), ..Batch::default() }
 }
 
-/// What is drawn once a process, by the id of the assignment.
+/// What is drawn once a process, by the digest of the assignment.
 type Drawn<T> = Mutex<Vec<(String, Arc<[T]>)>>;
 
 fn once<T>(drawn: &Drawn<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
     let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, known)) = drawn.iter().find(|(id, _)| *id == assignment.id) {
+    if let Some((_, known)) = drawn.iter().find(|(digest, _)| *digest == assignment.digest) {
         return Arc::clone(known);
     }
     let new = draw();
-    drawn.push((assignment.id.clone(), Arc::clone(&new)));
+    drawn.push((assignment.digest.clone(), Arc::clone(&new)));
     new
 }
 
 /// The reference's frames as pictures, drawn once a process.
 pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
     static DRAWN: Drawn<Picture> = Mutex::new(Vec::new());
-    once(&DRAWN, assignment, || assignment.frames().into_iter().map(picture).collect())
+    once(&DRAWN, assignment, || expected::of_solution(assignment).map(picture).collect())
 }
 
 /// A right picture; its alpha says where it may be drawn otherwise.

@@ -16,6 +16,7 @@ pub mod report;
 pub mod source;
 pub mod translate;
 
+pub mod expected;
 pub mod grade;
 pub mod homework;
 pub mod sandbox;
@@ -24,6 +25,7 @@ pub mod batch;
 pub mod corpus;
 pub mod service;
 
+pub mod choice;
 pub mod cli;
 pub mod command;
 pub mod excerpt;

@@ -12,6 +12,7 @@ fn main() -> ExitCode {
         Command::Watch(arguments) => command::watch::run(&arguments),
         Command::Serve(arguments) => command::serve::run(&arguments),
         Command::Corpus(arguments) => command::corpus::run(&arguments),
+        Command::Assignment(arguments) => command::assignment::run(&arguments),
         Command::Doctor(arguments) => command::doctor::run(&arguments),
         Command::Worker(arguments) => command::worker::run(&arguments),
     };

@@ -180,6 +180,9 @@ pub struct Report {
     pub cross_check: Option<CrossCheck>,
     /// Id of the assignment.
     pub assignment: String,
+    /// The digest of its folder: one that was changed since is another assignment. Empty in reports of old.
+    #[serde(default)]
+    pub assignment_digest: String,
     /// What was handed in: the files in the order of the assignment. A report of the first version has one, as `source`.
     #[serde(alias = "source", deserialize_with = "one_or_several")]
     pub sources: Vec<SourceInfo>,

@@ -5,7 +5,8 @@
 //! worker that crashes or takes too long costs nothing but itself. `docs/security.md` tells what is promised.
 //!
 //! Here, in the parent: [`pool`] grades, [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
-//! pipes, [`ending`] what its end means, [`memory`] whether this machine gives it enough.
+//! pipes, [`library`] what it needs to know of an assignment, [`ending`] what its end means, [`memory`] whether this
+//! machine gives it enough.
 //! There, in the worker: [`worker`] serves, [`confine`], [`files`] and
 //! [`syscalls`] are the walls, [`preflight`] leans against them.
 
@@ -15,6 +16,7 @@ mod confine;
 mod ending;
 mod environment;
 mod files;
+mod library;
 mod memory;
 mod pool;
 mod preflight;
@@ -29,9 +31,12 @@ pub use pool::{Answer, Pool, Submission};
 pub use preflight::Attempt;
 pub use protection::{Layer, LayerState, Policy, Protection, Reach};
 
+use crate::expected;
 use crate::render::AdapterKind;
+use reference::Assignment;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The environment that a worker has, for what is to be measured or compared outside of one.
@@ -42,8 +47,8 @@ pub fn driver_settings(adapter: AdapterKind) -> Vec<(&'static str, OsString)> {
 /// How workers grade.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Id of the assignment.
-    pub assignment: String,
+    /// The assignment that every worker reads at its start.
+    pub assignment: Arc<Assignment>,
     /// The adapter that renders.
     pub adapter: AdapterKind,
     /// Longest time for one submission.
@@ -58,6 +63,10 @@ pub struct Settings {
     pub spares: usize,
     /// Whether a worker grades the handed-out file before it is called ready.
     pub warm_up: bool,
+    /// The folder that keeps an assignment's right pictures; none keeps none.
+    pub cache: Option<PathBuf>,
+    /// How long it has to take to compute the right pictures for them to be kept.
+    pub keep_above: Duration,
     /// What to do where the sandbox is not closed.
     pub policy: Policy,
     /// The program whose command `worker` is a worker; none is this program.
@@ -66,9 +75,9 @@ pub struct Settings {
 
 impl Settings {
     /// The usual settings for an assignment.
-    pub fn new(assignment: &str) -> Self {
+    pub fn new(assignment: Arc<Assignment>) -> Self {
         Self {
-            assignment: assignment.into(),
+            assignment,
             adapter: AdapterKind::Software,
             deadline: Duration::from_secs(2),
             cpu_seconds: None,
@@ -76,6 +85,8 @@ impl Settings {
             gradings_per_worker: 500,
             spares: 1,
             warm_up: true,
+            cache: expected::cache::folder(),
+            keep_above: expected::KEEP_ABOVE,
             policy: Policy::Required,
             program: None,
         }

@@ -300,6 +300,15 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<Shader, Fault>
     fixed(Stage::Fragment, &interface.fragment, interface)
 }
 
+/// The same before any assignment is known.
+pub fn warm_up() {
+    let output = Variable { name: "colour".into(), ty: "vec4".into() };
+    let fragment = c"#version 410 core\nin vec4 colour; out vec4 fragment; void main() { fragment = colour; }";
+    let interface =
+        Interface { inputs: vec![], uniforms: vec![], output, constants: vec![], fragment: fragment.to_owned() };
+    warm(&interface, "#version 410 core\nout vec4 colour; void main() { gl_Position = colour = vec4(0.0); }");
+}
+
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
 pub fn warm(interface: &Interface, vertex: &str) -> Outcome {
     let vertex = text::c_text(vertex);

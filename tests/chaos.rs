@@ -98,7 +98,7 @@ fn grade_all(pool: &Pool, files: &[Vec<u8>], done: &AtomicUsize) -> Vec<(usize, 
 fn grade(pool: &Pool, name: &str, bytes: &[u8]) -> Result<Report, String> {
     let hand_in = HandIn::of_one(name, bytes);
     let order = Order { seed: 7, ..Order::default() };
-    let answer = pool.grade(Submission { hand_in: &hand_in, order, wants_frames: true });
+    let answer = pool.grade(Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true });
     let mut report = answer.map(workers::timeless).map_err(|fault| fault.message.en)?;
     assert_eq!(report.source().name, name, "the report of another submission");
     let quiet = SourceInfo { name: "quiet".into(), ..report.source().clone() };

@@ -1,5 +1,8 @@
 //! The command line by what a person sees of it: exit codes, output, files.
 
+#[path = "cli/folders.rs"]
+mod folders;
+
 use assert_cmd::Command;
 use predicates::prelude::*;
 use std::path::{Path, PathBuf};
@@ -109,6 +112,7 @@ fn the_json_report_has_the_fields_of_the_contract_in_their_order() {
         [
             "schema",
             "assignment",
+            "assignment_digest",
             "source",
             "sources",
             "verdict",
@@ -227,13 +231,13 @@ fn an_unwritable_folder_ends_with_3_and_is_named() {
 }
 
 #[test]
-fn an_unknown_assignment_ends_with_3_and_the_known_ones_are_named() {
+fn an_unknown_assignment_is_a_usage_error_and_the_known_ones_are_named() {
     ggrade()
         .arg("grade")
         .arg(sample_like("accepted/answers", "plain-int-zero"))
         .args(["--assignment", "ggsample99"])
         .assert()
-        .code(3)
+        .code(2)
         .stderr(predicate::str::contains("ggsample06"));
 }
 

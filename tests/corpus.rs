@@ -163,7 +163,7 @@ fn what_agrees_with_an_accepted_answer_is_right() {
     .map(sample);
     let mut judged = Vec::new();
     for accepted in ["", "accepted = [\"phong.vert\"]\n"] {
-        let mut grader = Grader::new(homework(accepted), AdapterKind::Software).unwrap();
+        let mut grader = Grader::open(homework(accepted), AdapterKind::Software).unwrap();
         for bytes in [&right, &phong, &both] {
             let report = grader
                 .grade(&HandIn::of_one("ggsample06.vert", bytes.as_slice()), Order { seed: 1, ..Order::default() })

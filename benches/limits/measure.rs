@@ -56,7 +56,7 @@ fn cost<T>(work: impl FnOnce() -> T) -> f64 {
 /// Medians of a whole grading and of the bare driver's part of it, in CPU milliseconds, taken in turns.
 pub fn grade_and_bare(shaders: &[Submission]) -> (f64, f64) {
     let assignment = reference::assignment("ggsample06").expect("the assignment");
-    let mut grader = Grader::new(assignment.clone(), AdapterKind::Software).expect("a grader");
+    let mut grader = Grader::open(assignment.clone(), AdapterKind::Software).expect("a grader");
     let bare = Bare::open();
     let (mut grades, mut bares) = (Vec::new(), Vec::new());
     // The first two of each warm the device.
@@ -77,8 +77,13 @@ pub fn grade_and_bare(shaders: &[Submission]) -> (f64, f64) {
 fn start() -> Pool {
     // A busy machine slows what is measured by the clock, and is to end nothing.
     let deadline = Duration::from_secs(60);
-    let settings = Settings { program: Some(program()), deadline, ..Settings::new("ggsample06") };
-    Pool::start(settings, WORKERS).unwrap_or_else(|fault| panic!("{}", fault.message.en))
+    let settings = Settings {
+        program: Some(program()),
+        deadline,
+        ..Settings::new(reference::assignment("ggsample06").expect("the assignment").clone())
+    };
+    let pool = Pool::start(settings, WORKERS).and_then(|pool| pool.warm().map(|()| pool));
+    pool.unwrap_or_else(|fault| panic!("{}", fault.message.en))
 }
 
 /// ggrade itself.
@@ -117,6 +122,7 @@ fn grade_all(pool: &Pool, submissions: &[Submission], count: usize, after: impl 
                     }
                     let Submission { name, text } = &submissions[index % submissions.len()];
                     let submission = sandbox::Submission {
+                        assignment: pool.assignment(),
                         hand_in: &HandIn::of_one(name, text.as_bytes()),
                         order: ORDER,
                         wants_frames: false,

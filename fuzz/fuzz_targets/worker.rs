@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 static POOL: LazyLock<Pool> = LazyLock::new(|| {
     let program = std::env::var_os("GGRADE").expect("GGRADE names the program").into();
-    Pool::start(Settings { program: Some(program), ..Settings::new("ggsample06") }, 1).expect("workers")
+    Pool::start(Settings { program: Some(program), ..Settings::new(reference::assignment("ggsample06").expect("built in").clone()) }, 1).expect("workers")
 });
 
 /// The deadline, and what ending a worker may take.
@@ -26,7 +26,7 @@ fuzz_target!(|bytes: &[u8]| {
     let order = Order { seed: 1, ..Order::default() };
     let grade = || {
         let start = Instant::now();
-        let answer = POOL.grade(Submission { hand_in: &HandIn::of_one("a.vert", file), order, wants_frames: true });
+        let answer = POOL.grade(Submission { assignment: POOL.assignment(), hand_in: &HandIn::of_one("a.vert", file), order, wants_frames: true });
         (answer, start.elapsed())
     };
     let (answer, took) = grade();

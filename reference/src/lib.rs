@@ -40,6 +40,9 @@ mod text;
 pub mod typeset;
 mod value;
 
+/// Names the code of this crate: what other code computed has another name.
+pub const ENGINE: &str = env!("GGRADE_ENGINE");
+
 pub use assignment::{Assignment, AssignmentError, assignment, assignments};
 pub use folder::Folder;
 pub use text::Text;

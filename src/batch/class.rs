@@ -5,9 +5,11 @@ use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Report;
 use crate::source::Source;
+use reference::Assignment;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Who handed in.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -124,10 +126,10 @@ pub struct Refused {
 }
 
 /// A graded class.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Class {
-    /// Id of the assignment.
-    pub assignment: String,
+    /// The homework.
+    pub assignment: Arc<Assignment>,
     /// Title, such as the name of the archive or folder.
     pub title: String,
     /// Everyone, in the order of the input.

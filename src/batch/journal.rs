@@ -31,6 +31,9 @@ pub struct Header {
     pub schema: String,
     /// Id of the assignment.
     pub assignment: String,
+    /// The digest of its folder; empty where an older version of ggrade did not write it.
+    #[serde(default)]
+    pub assignment_digest: String,
     /// Version of ggrade.
     pub ggrade: String,
     /// Seed of the fresh probes, one for the whole class.
@@ -216,6 +219,7 @@ mod tests {
         Header {
             schema: SCHEMA.into(),
             assignment: "ggsample06".into(),
+            assignment_digest: String::new(),
             ggrade: "0.1.0".into(),
             seed: 7,
             hints: Hints::default(),

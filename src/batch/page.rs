@@ -35,6 +35,7 @@ impl Pages {
             };
         }
         let page = Page {
+            assignment: &self.assignment,
             report,
             sources,
             pictures: is_drawn.then_some(&pictures),

@@ -212,7 +212,8 @@ impl Run<'_> {
             return members.into_iter().map(|member| self.finish(member, &Judged::without(member.nothing()))).collect();
         };
         let wants_frames = self.portraits.is_some() || self.pages.is_some();
-        let mut answer = guarded(|| pool.grade(Submission { hand_in, order: self.order, wants_frames }));
+        let assignment = pool.assignment();
+        let mut answer = guarded(|| pool.grade(Submission { assignment, hand_in, order: self.order, wants_frames }));
         let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
         let mut last: Option<Judged> = None;
         for member in members {

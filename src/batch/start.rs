@@ -76,6 +76,11 @@ fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
     let option = |name: &str| Text::verbatim(format!("--{name}"));
     compare(Text::new("version of ggrade", "ggrade のバージョン"), found.ggrade.clone(), wanted.ggrade.clone());
     compare(option("assignment"), found.assignment.clone(), wanted.assignment.clone());
+    if !found.assignment_digest.is_empty() {
+        let short = |digest: &str| digest.chars().take(12).collect::<String>();
+        let what = Text::new("files of the assignment (digest)", "課題のファイル (ダイジェスト)");
+        compare(what, short(&found.assignment_digest), short(&wanted.assignment_digest));
+    }
     compare(option("seed"), found.seed.to_string(), wanted.seed.to_string());
     compare(option("hints"), name(&found.hints), name(&wanted.hints));
     compare(option("deadline"), found.deadline.to_string(), wanted.deadline.to_string());

@@ -50,7 +50,7 @@ pub fn render(class: &Class, changes: Option<&Changes>, written: &Written, width
     writer.mistakes(class);
     writer.troubles(class);
     if let Some(changes) = changes {
-        writer.changes(changes);
+        writer.changes(&class.assignment, changes);
     }
     writer.written(written);
     writer.out
@@ -103,9 +103,9 @@ impl Writer {
             (Language::Ja, _) => format!("{count} 名"),
         };
         let title = plain(&class.title).replace('\n', " ");
-        let facts = paint(DIM, &format!("{} · {people}", class.assignment));
+        let facts = paint(DIM, &format!("{} · {people}", class.assignment.id));
         self.out.push('\n');
-        if title.is_empty() || title == class.assignment {
+        if title.is_empty() || title == class.assignment.id {
             return self.line(&facts);
         }
         for line in wrap(&title, self.width) {

@@ -41,10 +41,10 @@ pub struct Serve {
     #[arg(long = "trusted-proxy", value_name = "ADDRESS")]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub trusted_proxies: Vec<String>,
-    /// The assignment [default: ggsample06]
-    #[arg(long, value_name = "ID")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub assignment: Option<String>,
+    /// The assignment: the name of a built-in one, or the folder of one [default: the only built-in one]
+    #[arg(long, value_name = "NAME|FOLDER")]
+    #[serde(skip)]
+    pub assignment: Vec<String>,
     /// Files graded at once [default: one per processor]
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -12,9 +12,11 @@ use crate::batch::portrait::Portraits;
 use crate::batch::run;
 use crate::batch::standing::Standing;
 use crate::batch::start::{self, Mode, NotBegun};
+use crate::choice;
 use crate::cli::Batch;
 use crate::fault::Fault;
 use session::{Session, Wanted};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Grades a class.
@@ -33,7 +35,7 @@ pub fn run(arguments: &Batch) -> Result<Outcome, Fault> {
 }
 
 fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result<Outcome, NotBegun> {
-    let assignment = crate::homework::assignment(&arguments.machine.assignment)?;
+    let assignment = choice::assignment(arguments.machine.assignment.as_deref(), &[]).map_err(NotBegun::Usage)?;
     begin::outside(arguments)?;
     let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
     let before = arguments.compare.as_deref().map(begin::read_earlier).transpose()?;
@@ -56,7 +58,7 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
         _ => Mode::New,
     };
     let found = start::earlier(&folder, &arguments.out, mode)?;
-    let header = begin::header(arguments, found.as_ref(), before.as_ref());
+    let header = begin::header(arguments, &assignment, found.as_ref(), before.as_ref());
     if let Some(found) = &found {
         start::same_conditions(&arguments.out, &found.header, &header)?;
     }
@@ -71,7 +73,7 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
         return Ok(Outcome::Interrupted);
     }
     let class = Class {
-        assignment: assignment.id.clone(),
+        assignment: Arc::clone(&assignment),
         title: if title.is_empty() { assignment.id.clone() } else { title },
         entries: entries.into_iter().flatten().collect(),
         refused: intake.refused,

@@ -8,6 +8,8 @@ use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::parallel;
 use crate::sandbox::{Pool, Settings};
+use reference::Assignment;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Longer than the usual deadline: a busy machine must not change what a sample is.
@@ -19,15 +21,13 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
         anstream::eprintln!("ggrade: expected reports are not written in CI");
         return Ok(Outcome::Usage);
     }
-    let settings = Settings {
-        adapter: arguments.machine.adapter,
-        deadline: DEADLINE,
-        ..Settings::new(&arguments.machine.assignment)
-    };
+    let Some(assignment) = assignment(arguments) else { return Ok(Outcome::Usage) };
+    let folder = arguments.folder(&assignment);
+    let settings = Settings { adapter: arguments.machine.adapter, deadline: DEADLINE, ..Settings::new(assignment) };
     let workers = parallel::processors();
     let pool = Pool::start(arguments.sandbox.apply(settings), workers)?;
     warn(&pool, language(None));
-    let results = corpus::check(&arguments.folder(), &pool, arguments.cross_check)?;
+    let results = corpus::check(&folder, &pool, arguments.cross_check)?;
     let disputed = cross_checked(&results, arguments.all);
     let mut differing = 0;
     for checked in &results {
@@ -51,6 +51,14 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
         ))));
     }
     Ok(if differing == 0 && disputed == 0 { Outcome::FullMarks } else { Outcome::Graded })
+}
+
+/// The assignment that is asked for, or else the one whose samples they are by the names of the folders that they are in.
+fn assignment(arguments: &Corpus) -> Option<Arc<Assignment>> {
+    let folders = arguments.folder.iter().flat_map(|folder| folder.components());
+    let mut names = folders.filter_map(|folder| folder.as_os_str().to_str());
+    let named = names.find(|name| reference::assignment::names().any(|known| known == *name));
+    super::assignment(arguments.machine.assignment.as_deref().or(named), &[], language(None))
 }
 
 /// Says where the interpreter disagrees with the driver, and how many samples those are.

@@ -8,6 +8,8 @@ use crate::language::{Language, Text};
 use crate::render::AdapterKind;
 use crate::report::{Environment, Verdict};
 use crate::sandbox::{Policy, Pool, Settings, Submission};
+use reference::Assignment;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Checks the machine by what it is for: opens the device in a worker, and grades the handed-out file of every homework.
@@ -34,8 +36,8 @@ pub fn run(arguments: &Doctor) -> Result<Outcome, Fault> {
 }
 
 /// Gradings on this machine, whatever the sandbox lacks: that is said once, and apart.
-fn settings(assignment: &reference::Assignment) -> Settings {
-    Settings { policy: Policy::BestEffort, ..Settings::new(&assignment.id).for_one_grading() }
+fn settings(assignment: &Arc<Assignment>) -> Settings {
+    Settings { policy: Policy::BestEffort, ..Settings::new(Arc::clone(assignment)).for_one_grading() }
 }
 
 /// Says of each layer of the sandbox whether it holds, and what a worker could do in spite of all.
@@ -67,15 +69,15 @@ fn check_sandbox(language: Language) -> bool {
 }
 
 /// Grades the handed-out file, which every homework has, and says how that went.
-fn check_assignment(assignment: &reference::Assignment, language: Language) -> bool {
+fn check_assignment(assignment: &Arc<Assignment>, language: Language) -> bool {
     let start = Instant::now();
-    let pool = match Pool::start(settings(assignment), 1) {
+    let pool = match Pool::start(settings(assignment), 1).and_then(|pool| pool.warm().map(|()| pool)) {
         Ok(pool) => pool,
         Err(fault) => return complain(&fault, language),
     };
     let warm = start.elapsed();
     let hand_in = handed_out(assignment);
-    let submission = Submission { hand_in: &hand_in, order: Order::default(), wants_frames: false };
+    let submission = Submission { assignment, hand_in: &hand_in, order: Order::default(), wants_frames: false };
     let start = Instant::now();
     match pool.grade(submission) {
         Ok(answer) if answer.report.verdict == Verdict::Wrong => {

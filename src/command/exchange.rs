@@ -4,24 +4,24 @@
 //! is no file, and where ggrade itself fails.
 
 use super::files::{self, NotTaken};
+use super::grade::Wish;
 use super::{Outcome, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome as Became, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
 use crate::batch::portrait::Portraits;
-use crate::cli::Grade;
 use crate::fault::Fault;
-use crate::language::{Language, Text};
+use crate::language::Text;
 use crate::report::Verdict;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
-use std::time::Duration;
+use std::sync::Arc;
 
 /// Grades one hand-in and writes it in `format`.
-pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, language: Language) -> Result<Outcome, Fault> {
-    let class = class(arguments, format, deadline, language).for_students().into_owned();
+pub(super) fn run(wish: &Wish<'_>, format: Format) -> Result<Outcome, Fault> {
+    let class = class(wish, format).for_students().into_owned();
     let variable = |name| std::env::var(name).ok();
     let scale = vpl::Scale::from_variables(variable("VPL_GRADEMIN").as_deref(), variable("VPL_GRADEMAX").as_deref());
-    grade::put(arguments, &exchange::single(format, &class, scale)?.unwrap_or_default())?;
+    grade::put(wish.arguments, &exchange::single(format, &class, scale)?.unwrap_or_default())?;
     if format == Format::Github {
         append_summary(&class)?;
     }
@@ -34,7 +34,8 @@ pub(super) fn run(arguments: &Grade, format: Format, deadline: Duration, languag
 }
 
 /// The hand-in as a class of one.
-fn class(arguments: &Grade, format: Format, deadline: Duration, language: Language) -> Class {
+fn class(wish: &Wish<'_>, format: Format) -> Class {
+    let Wish { arguments, assignment, language, .. } = wish;
     let name = files::names(&arguments.files);
     let mut entry = Entry {
         student: Student { key: "submission".into(), name: name.clone(), moodle: None },
@@ -46,14 +47,14 @@ fn class(arguments: &Grade, format: Format, deadline: Duration, language: Langua
         shares_with: vec![],
     };
     let mut class = Class {
-        assignment: arguments.machine.assignment.clone(),
+        assignment: Arc::clone(assignment),
         title: name,
         entries: vec![],
         refused: vec![],
         expected_portrait: vec![],
-        language,
+        language: *language,
     };
-    if let Err(became) = fill(&mut entry, &mut class, arguments, format, deadline) {
+    if let Err(became) = fill(&mut entry, &mut class, wish, format) {
         entry.outcome = became;
     }
     class.entries.push(entry);
@@ -61,15 +62,9 @@ fn class(arguments: &Grade, format: Format, deadline: Duration, language: Langua
 }
 
 /// Grades the hand-in; what became of it where there is no report.
-fn fill(
-    entry: &mut Entry,
-    class: &mut Class,
-    arguments: &Grade,
-    format: Format,
-    deadline: Duration,
-) -> Result<(), Became> {
-    let assignment = crate::homework::assignment(&class.assignment).map_err(Became::Fault)?;
-    let (hand_in, places) = files::taken(&arguments.files, &assignment).map_err(|why| match &why {
+fn fill(entry: &mut Entry, class: &mut Class, wish: &Wish<'_>, format: Format) -> Result<(), Became> {
+    let Wish { arguments, assignment, .. } = wish;
+    let (hand_in, places) = files::taken(&arguments.files, assignment).map_err(|why| match &why {
         NotTaken::Unfit(why) => Became::NotGraded(why.clone()),
         NotTaken::Unreadable(path, error) => match error.kind() {
             ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => {
@@ -85,15 +80,15 @@ fn fill(
     entry.places = places;
     let wants_portrait = format == Format::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
-    let answer = grade::grade(arguments, deadline, &hand_in, wants_frames, class.language).map_err(Became::Fault)?;
+    let answer = grade::grade(wish, &hand_in, wants_frames).map_err(Became::Fault)?;
     entry.sources = hand_in.readable();
     if wants_portrait && !answer.frames.is_empty() {
-        let portraits = Portraits::new(&assignment).map_err(Became::Fault)?;
+        let portraits = Portraits::new(assignment).map_err(Became::Fault)?;
         entry.portrait = portraits.of(&answer.frames).map_err(Became::Fault)?;
         class.expected_portrait = portraits.expected;
     }
     if arguments.frames.is_some() {
-        grade::pictures(arguments, &answer.report, &entry.sources, answer.frames).map_err(Became::Fault)?;
+        grade::pictures(wish, &answer.report, &entry.sources, answer.frames).map_err(Became::Fault)?;
     }
     entry.outcome = Became::Graded(Box::new(answer.report));
     Ok(())

@@ -10,28 +10,36 @@ use crate::language::Language;
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
 use crate::sandbox::{Answer, Pool, Settings, Submission};
 use crate::source::Source;
+use reference::Assignment;
 use std::io::Write;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Grades one hand-in and writes its report.
 pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
+    let asked = arguments.machine.assignment.as_deref();
+    let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(Outcome::Usage) };
+    let wish = Wish { arguments, assignment, deadline, language };
     match arguments.format {
-        Format::Reading(reading) => run_for_reading(arguments, reading, deadline, language),
-        Format::Exchange(format) => exchange::run(arguments, format, deadline, language),
+        Format::Reading(reading) => run_for_reading(&wish, reading),
+        Format::Exchange(format) => exchange::run(&wish, format),
     }
 }
 
-fn run_for_reading(
-    arguments: &Grade,
-    reading: Reading,
-    deadline: Duration,
-    language: Language,
-) -> Result<Outcome, Fault> {
-    // An unknown one is named before a file is read.
-    let assignment = crate::homework::assignment(&arguments.machine.assignment)?;
-    let hand_in = match files::taken(&arguments.files, &assignment) {
+/// What is to be graded, and how.
+pub(super) struct Wish<'a> {
+    pub arguments: &'a Grade,
+    pub assignment: Arc<Assignment>,
+    pub deadline: Duration,
+    pub language: Language,
+}
+
+fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<Outcome, Fault> {
+    let Wish { arguments, assignment, language, .. } = wish;
+    let language = *language;
+    let hand_in = match files::taken(&arguments.files, assignment) {
         Ok((hand_in, _)) => hand_in,
         Err(why) => {
             anstream::eprintln!("ggrade: {}", why.message().get(language));
@@ -39,10 +47,11 @@ fn run_for_reading(
         }
     };
     let wants_frames = arguments.frames.is_some() || reading == Reading::Html;
-    let Answer { report, frames } = grade(arguments, deadline, &hand_in, wants_frames, language)?;
+    let Answer { report, frames } = grade(wish, &hand_in, wants_frames)?;
     let sources = hand_in.readable();
-    let pictures = pictures(arguments, &report, &sources, frames)?;
+    let pictures = pictures(wish, &report, &sources, frames)?;
     let view = View {
+        assignment,
         report: &report,
         sources: &sources,
         equation: assignment.typeset.as_ref(),
@@ -55,25 +64,20 @@ fn run_for_reading(
 }
 
 /// Grades a hand-in in a worker.
-pub(super) fn grade(
-    arguments: &Grade,
-    deadline: Duration,
-    hand_in: &HandIn,
-    wants_frames: bool,
-    language: Language,
-) -> Result<Answer, Fault> {
+pub(super) fn grade(wish: &Wish<'_>, hand_in: &HandIn, wants_frames: bool) -> Result<Answer, Fault> {
+    let Wish { arguments, assignment, deadline, language } = wish;
     let settings =
-        Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
+        Settings { adapter: arguments.machine.adapter, deadline: *deadline, ..Settings::new(Arc::clone(assignment)) };
     let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
-    warn(&pool, language);
+    warn(&pool, *language);
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
     let order = Order { seed, hints: arguments.hints, cross_check: arguments.cross_check };
-    pool.grade(Submission { hand_in, order, wants_frames })
+    pool.grade(Submission { assignment, hand_in, order, wants_frames })
 }
 
 /// The pictures, where any were drawn; written into the folder that was asked for.
 pub(super) fn pictures(
-    arguments: &Grade,
+    wish: &Wish<'_>,
     report: &Report,
     sources: &[Source],
     frames: Vec<Picture>,
@@ -81,11 +85,11 @@ pub(super) fn pictures(
     if frames.is_empty() {
         return Ok(None);
     }
-    let assignment = crate::homework::assignment(&report.assignment)?;
+    let Wish { arguments, assignment, .. } = wish;
     let pictures = Pictures {
         yours: frames,
-        expected: crate::homework::expected_pictures(&assignment),
-        terms: crate::homework::term_pictures(&assignment, report.explanation.as_deref(), sources.first()),
+        expected: crate::homework::expected_pictures(assignment),
+        terms: crate::homework::term_pictures(assignment, report.explanation.as_deref(), sources.first()),
         cycle: assignment.scene.cycle,
     };
     if let Some(folder) = &arguments.frames {

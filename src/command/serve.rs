@@ -20,6 +20,8 @@ pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
             return Ok(Outcome::Usage);
         }
     };
+    let asked = config.assignment.as_deref();
+    let Some(assignment) = super::assignment(asked, &[], language(None)) else { return Ok(Outcome::Usage) };
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
@@ -29,7 +31,7 @@ pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
     }
     log(&config)?;
     runtime.block_on(async {
-        let started = server::start(config).await?;
+        let started = server::start(config, assignment).await?;
         welcome(&started);
         started.serve().await
     })?;

@@ -8,11 +8,14 @@ use crate::language::Language;
 use crate::report::html::Page;
 use crate::report::{Pictures, Report, json, text};
 use crate::source::Source;
+use reference::Assignment;
 use reference::typeset::Typeset;
 use std::io::IsTerminal;
 
 /// Everything that a report is shown with.
 pub(super) struct View<'a> {
+    /// The homework.
+    pub assignment: &'a Assignment,
     /// The report.
     pub report: &'a Report,
     /// The files that can be read as text.
@@ -31,6 +34,7 @@ impl View<'_> {
         match format {
             Reading::Json => Ok(json::render(self.report, self.language)),
             Reading::Html => Page {
+                assignment: self.assignment,
                 report: self.report,
                 sources: self.sources,
                 pictures: self.pictures,
@@ -43,6 +47,7 @@ impl View<'_> {
                 Ok(text::render(
                     self.report,
                     &text::Options {
+                        assignment: self.assignment,
                         language: self.language,
                         width: width(std::io::stdout().is_terminal()),
                         colour,

@@ -41,10 +41,10 @@ async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
             return Ok(Outcome::Nothing);
         }
     }
+    let asked = arguments.machine.assignment.as_deref();
+    let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(Outcome::Usage) };
     let mut saves = Saves::of(&arguments.files);
-    let settings =
-        Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(&arguments.machine.assignment) };
-    let assignment = crate::homework::assignment(&settings.assignment)?;
+    let settings = Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(Arc::clone(&assignment)) };
     // The spare is for the save after an endless loop, which costs a worker.
     let pool = Arc::new(Pool::start(arguments.sandbox.apply(settings), 1)?);
     warn(&pool, language);
@@ -122,7 +122,8 @@ impl Session {
         };
         let (pool, order) = (Arc::clone(&self.pool), self.order);
         let graded = tokio::task::spawn_blocking(move || {
-            let answer = pool.grade(Submission { hand_in: &hand_in, order, wants_frames: false });
+            let assignment = pool.assignment();
+            let answer = pool.grade(Submission { assignment, hand_in: &hand_in, order, wants_frames: false });
             (answer, hand_in)
         });
         let (answer, hand_in) = match graded.await {
@@ -141,11 +142,22 @@ impl Session {
 
     fn show(&mut self, report: Report, hand_in: &HandIn) {
         let sources = hand_in.readable();
+        let assignment = self.pool.assignment();
         // Neither an equation nor pictures: it is shown in a terminal.
-        let view = View { report: &report, sources: &sources, equation: None, pictures: None, language: self.language };
+        let view = View {
+            assignment,
+            report: &report,
+            sources: &sources,
+            equation: None,
+            pictures: None,
+            language: self.language,
+        };
         match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
-                let change = self.last.as_ref().map(|last| change::between(&last.for_student(), &report.for_student()));
+                let change = self
+                    .last
+                    .as_ref()
+                    .map(|last| change::between(assignment, &last.for_student(), &report.for_student()));
                 self.screen.report(&document, change.as_ref().map(|change| change.get(self.language)));
                 let is_correct = report.verdict == Verdict::Correct;
                 self.outcome = if is_correct { Outcome::FullMarks } else { Outcome::Graded };

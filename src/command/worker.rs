@@ -10,10 +10,9 @@ use std::io;
 /// Grades what the parent sends until it closes the pipe.
 pub fn run(arguments: &Worker) -> Result<Outcome, Fault> {
     let job = worker::Job {
-        assignment: crate::homework::assignment(&arguments.machine.assignment)?,
-        adapter: arguments.machine.adapter,
+        adapter: arguments.adapter,
         limits: Limits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
-        warm_up: arguments.warm_up,
+        rehearsal: arguments.rehearse,
     };
     match arguments.attempt {
         Some(attempt) => try_to_escape(job, attempt),

@@ -38,6 +38,7 @@ pub fn unfinished(
         .collect();
     Report {
         assignment: assignment.id.clone(),
+        assignment_digest: assignment.digest.clone(),
         sources,
         verdict,
         score: 0.0,

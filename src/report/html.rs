@@ -19,6 +19,7 @@ use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::source::Source;
 use askama::Template;
+use reference::Assignment;
 use reference::typeset::Typeset;
 
 /// The script of the moving pictures, for a `Content-Security-Policy` that names it by its hash.
@@ -33,6 +34,8 @@ pub const SYMBOLS: &str = include_str!("html/templates/symbols.html");
 /// What goes into a page; what is not there is left out of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Page<'a> {
+    /// The homework.
+    pub assignment: &'a Assignment,
     /// The report.
     pub report: &'a Report,
     /// The student's files as text, those that can be read so.
@@ -55,6 +58,7 @@ impl Page<'_> {
             _ => None,
         };
         let body = Body::of(&Part {
+            assignment: self.assignment,
             report: self.report,
             source: Lines::of(self.sources),
             gallery: gallery.as_ref(),
@@ -90,6 +94,8 @@ impl<'a> Lines<'a> {
 /// A report as a part of a larger page, which brings [`SYMBOLS`], the styles and the script.
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'a> {
+    /// The homework.
+    pub assignment: &'a Assignment,
     /// The report.
     pub report: &'a Report,
     /// The student's files.

@@ -32,6 +32,7 @@ pub fn staff_view(report: &Report, language: Language) -> View<'_> {
     View {
         schema: SCHEMA,
         assignment: &report.assignment,
+        assignment_digest: &report.assignment_digest,
         source: report.source(),
         sources: &report.sources,
         verdict: report.verdict,
@@ -73,6 +74,7 @@ impl Serialize for Number {
 pub struct View<'a> {
     schema: &'static str,
     assignment: &'a str,
+    assignment_digest: &'a str,
     source: &'a SourceInfo,
     sources: &'a [SourceInfo],
     verdict: Verdict,

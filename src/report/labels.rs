@@ -4,20 +4,19 @@ use super::Verdict;
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Severity, Stage};
 use crate::language::Language;
+use reference::Assignment;
 
 /// The title of a mistake, as lists name it; its id where the assignment does not know it, as in an old report.
-pub(crate) fn mistake_title<'a>(assignment: &str, id: &'a str, language: Language) -> &'a str {
-    let known = reference::assignment(assignment).and_then(|assignment| assignment.mistake(id));
-    known.map_or(id, |mistake| match language {
+pub(crate) fn mistake_title<'a>(assignment: &'a Assignment, id: &'a str, language: Language) -> &'a str {
+    assignment.mistake(id).map_or(id, |mistake| match language {
         Language::En => &mistake.title.en,
         Language::Ja => &mistake.title.ja,
     })
 }
 
 /// The name of a line of the rubric; its id where the assignment does not know it.
-pub(crate) fn rubric_label<'a>(assignment: &str, id: &'a str, language: Language) -> &'a str {
-    let lines = reference::assignment(assignment).map_or(&[][..], |assignment| &assignment.rubric);
-    let known = lines.iter().find(|line| line.id == id);
+pub(crate) fn rubric_label<'a>(assignment: &'a Assignment, id: &'a str, language: Language) -> &'a str {
+    let known = assignment.rubric.iter().find(|line| line.id == id);
     known.map_or(id, |line| match language {
         Language::En => &line.label.en,
         Language::Ja => &line.label.ja,

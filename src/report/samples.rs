@@ -35,6 +35,11 @@ pub(crate) fn source(name: &str) -> Source {
     source::readable(&HandedInFile::new(name, SOURCE)).unwrap()
 }
 
+/// The homework that they are of.
+pub(crate) fn assignment() -> &'static reference::Assignment {
+    reference::assignment("ggsample06").expect("built in")
+}
+
 pub(crate) fn correct() -> Report {
     let fine = || Text::new("Right in every frame and probe.", "すべてのフレームと検査点で正しい結果です。");
     let line = |id: &str, en: &str, ja: &str, points: f64| RubricLine {
@@ -49,6 +54,7 @@ pub(crate) fn correct() -> Report {
     };
     Report {
         assignment: "ggsample06".into(),
+        assignment_digest: "0123456789abcdef".into(),
         sources: vec![SourceInfo {
             name: "ggsample06.vert".into(),
             stage: Some(reference::assignment::Stage::Vertex),

@@ -9,10 +9,13 @@ use super::{Report, Verdict};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use anstyle::{AnsiColor, Style};
+use reference::Assignment;
 
 /// How to write a report.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
+    /// The homework.
+    pub assignment: &'a Assignment,
     /// The language of every word.
     pub language: Language,
     /// Columns of the terminal; below 40 the lines may not fit.
@@ -48,7 +51,7 @@ pub fn render(report: &Report, options: &Options) -> String {
     if matches!(report.verdict, Verdict::Rejected | Verdict::Stopped) {
         writer.diagnostics(report, options.excerpts);
     } else {
-        writer.rubric(report);
+        writer.rubric(options.assignment, report);
         writer.advice(report);
         writer.measurements(report);
         writer.diagnostics(report, options.excerpts);

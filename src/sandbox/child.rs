@@ -2,15 +2,18 @@
 
 use super::channel::{Channel, Lost};
 use super::ending::Ending;
+use super::library::{Library, Turn};
 use super::protection::{Policy, Protection};
-use super::protocol::{self, Body, Hello, Longest, Reply, Request};
+use super::protocol::{self, Body, Demand, Hello, Load, Longest, Outcome, Reply, Request};
 use super::{Settings, environment, memory, schedule};
+use crate::expected::Pack;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::Environment;
 use nix::sys::signal::{Signal, killpg};
 use nix::unistd::Pid;
+use reference::Assignment;
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -18,6 +21,15 @@ use std::time::{Duration, Instant};
 
 /// How long a worker may take to open its device.
 const START_DEADLINE: Duration = Duration::from_secs(10);
+
+/// How long a worker may take to read an assignment: its pictures may be shaded pixel by pixel, on a busy machine.
+const LOAD_DEADLINE: Duration = Duration::from_secs(60);
+
+/// The longest packed pictures.
+const PICTURES_BYTES: usize = 128 << 20;
+
+/// How many assignments one worker reads.
+const MOST_ASSIGNMENTS: usize = 16;
 
 /// How long a worker that has closed its output may take to die: the kernel has its memory to tidy up.
 const DYING: Duration = Duration::from_millis(300);
@@ -37,6 +49,8 @@ pub(super) struct Worker {
     pub protection: Protection,
     /// How many submissions it has met.
     pub gradings: u32,
+    /// The digests of the assignments that it has read.
+    assignments: Vec<String>,
 }
 
 /// Why there is no worker.
@@ -68,13 +82,9 @@ impl Worker {
         command
             .arg0("ggrade")
             .arg("worker")
-            .args(["--assignment", &settings.assignment])
             .args(["--adapter", settings.adapter.name()])
             .args(["--memory", &limits.memory.to_string()])
             .args(["--cpu-seconds", &limits.cpu_seconds.to_string()]);
-        if settings.warm_up {
-            command.arg("--warm-up");
-        }
         let mut process = command
             .env_clear()
             .envs(environment::variables(settings.adapter))
@@ -93,6 +103,7 @@ impl Worker {
             environment: Environment::default(),
             protection: Protection::default(),
             gradings: 0,
+            assignments: Vec::new(),
         })
     }
 
@@ -121,6 +132,50 @@ impl Worker {
         Ok(())
     }
 
+    /// Whether it has read this assignment.
+    pub fn has_read(&self, assignment: &Assignment) -> bool {
+        self.assignments.contains(&assignment.digest)
+    }
+
+    /// Whether it may read another assignment.
+    pub fn may_read(&self, assignment: &Assignment, library: &Library) -> bool {
+        self.assignments.len() < MOST_ASSIGNMENTS && (self.gradings == 0 || library.is_settled(assignment))
+    }
+
+    /// Has it read an assignment, with the right pictures where they are known.
+    pub fn read(&mut self, assignment: &Assignment, library: &Library, settings: &Settings) -> Result<(), NotStarted> {
+        let turn = library.turn(assignment, settings);
+        let given = if let Turn::Given(pack) = &turn { Some(pack.bytes()) } else { None };
+        let (mut load, body) = Load::new(0, &assignment.folder, given);
+        load.warm_up = settings.warm_up;
+        if let Turn::ForAll(_) = turn {
+            load.wants_pictures_above_ms = u64::try_from(settings.keep_above.as_millis()).ok();
+        }
+        let failed = |fault: Fault, transient| NotStarted { fault, transient }.explained(settings);
+        let message = protocol::encode(&Demand::Load(load), &body);
+        let message = message.map_err(|error| failed(cannot_read(assignment, &error.to_string()), false))?;
+        let longest = Longest { head: REPORT_BYTES, body: PICTURES_BYTES };
+        let answered = self.channel.exchange::<Reply>(&message, longest, Instant::now() + LOAD_DEADLINE);
+        let (reply, body) = answered.map_err(|lost| {
+            let how = match lost {
+                Lost::Timeout => format!("not read after {} s", LOAD_DEADLINE.as_secs()),
+                Lost::Garbled(detail) => detail,
+                Lost::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
+            };
+            failed(cannot_read(assignment, format!("{how} {}", self.channel.tail()).trim_end()), true)
+        })?;
+        match reply.outcome {
+            Outcome::Loaded => {}
+            Outcome::Failed(fault) => return Err(failed(fault, false)),
+            Outcome::Graded { .. } => return Err(failed(cannot_read(assignment, "another answer"), true)),
+        }
+        if let Turn::ForAll(maker) = turn {
+            maker.done(assignment, (!body.is_empty()).then(|| Pack::of_bytes(&body)), settings);
+        }
+        self.assignments.push(assignment.digest.clone());
+        Ok(())
+    }
+
     /// Its process, which is also its process group.
     pub fn id(&self) -> u32 {
         self.process.id()
@@ -135,8 +190,8 @@ impl Worker {
         deadline: Duration,
     ) -> Result<(Reply, Body), Ending> {
         self.gradings += 1;
-        let message =
-            protocol::encode(request, &hand_in.concatenated()).map_err(|error| Ending::Garbled(error.to_string()))?;
+        let message = protocol::encode(&Demand::Grade(request.clone()), &hand_in.concatenated())
+            .map_err(|error| Ending::Garbled(error.to_string()))?;
         let before = schedule::cpu_time(self.id());
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
         match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline) {
@@ -188,6 +243,18 @@ fn cannot_start(detail: &str) -> Fault {
         format!("採点プロセスを起動できません: {detail}"),
     ))
     .remedy(Text::new("`ggrade doctor` checks the machine.", "`ggrade doctor` でこのマシンを調べられます。"))
+}
+
+fn cannot_read(assignment: &Assignment, detail: &str) -> Fault {
+    let id = &assignment.id;
+    Fault::new(Text::new(
+        format!("the grading process cannot read the assignment {id}: {detail}"),
+        format!("採点プロセスが課題 {id} を読み込めません: {detail}"),
+    ))
+    .remedy(Text::new(
+        "`ggrade assignment check FOLDER` checks the folder, `ggrade doctor` the machine.",
+        "`ggrade assignment check フォルダ` で課題のフォルダを、`ggrade doctor` でこのマシンを調べられます。",
+    ))
 }
 
 fn not_closed(protection: &Protection) -> Fault {

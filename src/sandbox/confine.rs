@@ -122,12 +122,17 @@ pub(super) struct Meter {
 impl Meter {
     /// Gives the next file its own share of memory and CPU time; the size of the process beforehand.
     pub fn next(&self, adapter: AdapterKind) -> io::Result<u64> {
+        self.give(self.limits, adapter)
+    }
+
+    /// Gives what comes next such a share.
+    pub fn give(&self, limits: Limits, adapter: AdapterKind) -> io::Result<u64> {
         let usage = getrusage(UsageWho::RUSAGE_SELF)?;
         let used = (usage.user_time().tv_sec() + usage.system_time().tv_sec()).unsigned_abs();
-        soft(Resource::RLIMIT_CPU, used + 1 + self.limits.cpu_seconds)?;
+        soft(Resource::RLIMIT_CPU, used + 1 + limits.cpu_seconds)?;
         let size = self.size()?;
         if adapter == AdapterKind::Software {
-            soft(Resource::RLIMIT_AS, size + self.limits.memory)?;
+            soft(Resource::RLIMIT_AS, size + limits.memory)?;
         }
         Ok(size)
     }

@@ -12,6 +12,7 @@ use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::{Environment, Picture, Report, Verdict};
+use reference::Assignment;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -26,6 +27,8 @@ const LEFT_TO_CONFIRM: f64 = 0.4;
 /// What is to be graded.
 #[derive(Clone, Copy, Debug)]
 pub struct Submission<'a> {
+    /// The homework.
+    pub assignment: &'a Arc<Assignment>,
     /// Its files.
     pub hand_in: &'a HandIn,
     /// How it is to be graded.
@@ -43,12 +46,11 @@ pub struct Answer {
     pub frames: Vec<Picture>,
 }
 
-/// Workers for one assignment. Any number of threads may grade at once; each takes a worker of its own, and those for
+/// Workers. Any number of threads may grade at once, for any assignments; each takes a worker of its own, and those for
 /// whom there is none wait.
 #[derive(Debug)]
 pub struct Pool {
     settings: Settings,
-    assignment: Arc<reference::Assignment>,
     roster: Roster,
     next_id: AtomicU64,
     environment: Environment,
@@ -56,13 +58,24 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// Starts a pool in which `workers` submissions are graded at once, and waits for its first worker.
+    /// Starts a pool in which `workers` submissions are graded at once, and waits until its first worker is confined and
+    /// has a device. While that one reads the assignment, submissions can come already.
     pub fn start(settings: Settings, workers: usize) -> Result<Self, Fault> {
-        let assignment = crate::homework::assignment(&settings.assignment)?;
-        let roster = Roster::start(settings.clone(), workers)?;
-        let found = roster.idle(|worker| (worker.environment.clone(), worker.protection.clone())).pop();
-        let (environment, protection) = found.unwrap_or_default();
-        Ok(Self { settings, assignment, roster, next_id: AtomicU64::new(1), environment, protection })
+        let (roster, environment, protection) = Roster::start(settings.clone(), workers)?;
+        Ok(Self { settings, roster, next_id: AtomicU64::new(1), environment, protection })
+    }
+
+    /// The assignment that every worker reads at its start.
+    pub fn assignment(&self) -> &Arc<Assignment> {
+        &self.settings.assignment
+    }
+
+    /// Waits until a worker has read the assignment, and nothing but a submission is missing.
+    pub fn warm(&self) -> Result<(), Fault> {
+        let place = self.roster.place();
+        let worker = place.take(Wanted::Any)?;
+        place.give_back(worker);
+        Ok(())
     }
 
     /// What grades.
@@ -104,6 +117,19 @@ impl Pool {
         }
     }
 
+    fn stopped(&self, submission: Submission<'_>, ending: &Ending, environment: Environment) -> Report {
+        let message = ending.message(self.settings.deadline, self.settings.memory);
+        crate::grade::unfinished(
+            submission.assignment,
+            crate::grade::sources(submission.assignment, submission.hand_in),
+            Verdict::Stopped,
+            vec![Diagnostic::error(Stage::Run, message)],
+            environment,
+        )
+    }
+}
+
+impl Submission<'_> {
     /// The whole frames of which `tiles` are the painted parts; none where they do not fit.
     fn paste(&self, tiles: &[Tile], body: &[u8]) -> Option<Vec<Picture>> {
         let scene = &self.assignment.scene;
@@ -128,17 +154,6 @@ impl Pool {
         let scene = &self.assignment.scene;
         scene.all_poses().len() * scene.width as usize * scene.height as usize * 4
     }
-
-    fn stopped(&self, submission: Submission<'_>, ending: &Ending, environment: Environment) -> Report {
-        let message = ending.message(self.settings.deadline, self.settings.memory);
-        crate::grade::unfinished(
-            &self.assignment,
-            crate::grade::sources(&self.assignment, submission.hand_in),
-            Verdict::Stopped,
-            vec![Diagnostic::error(Stage::Run, message)],
-            environment,
-        )
-    }
 }
 
 /// One submission on its way through one or more workers.
@@ -160,10 +175,21 @@ impl Grading<'_> {
     fn attempt(&mut self, wanted: Wanted) -> Result<Attempted, Fault> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
+        let Submission { assignment, hand_in, order, wants_frames } = self.submission;
+        if !worker.has_read(assignment) {
+            if !worker.may_read(assignment, self.pool.roster.library()) {
+                self.place.give_up(worker);
+                worker = self.place.take(Wanted::Fresh)?;
+            }
+            if let Err(failure) = worker.read(assignment, self.pool.roster.library(), settings) {
+                self.place.give_up(worker);
+                return if failure.transient { Ok(Attempted::NotDone(failure.fault)) } else { Err(failure.fault) };
+            }
+        }
         let was_fresh = worker.gradings == 0;
-        let Submission { hand_in, order, wants_frames } = self.submission;
-        let request = Request::new(next_id.fetch_add(1, Ordering::Relaxed), hand_in, order, wants_frames);
-        let frames_bytes = if wants_frames { self.pool.frames_bytes() } else { 0 };
+        let id = next_id.fetch_add(1, Ordering::Relaxed);
+        let request = Request::new(id, &assignment.digest, hand_in, order, wants_frames);
+        let frames_bytes = if wants_frames { self.submission.frames_bytes() } else { 0 };
         let start = Instant::now();
         // Confirming a crash takes what it left of the deadline: no file has twice the time.
         let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
@@ -180,7 +206,11 @@ impl Grading<'_> {
 
     fn answered(&mut self, worker: Worker, was_fresh: bool, reply: Reply, body: &[u8]) -> Result<Attempted, Fault> {
         let (report, frames) = match reply.outcome {
-            Outcome::Graded { report, frames } => (*report, self.pool.paste(&frames, body)),
+            Outcome::Graded { report, frames } => (*report, self.submission.paste(&frames, body)),
+            Outcome::Loaded => {
+                self.place.give_up(worker);
+                return Ok(Attempted::NotDone(Ending::Garbled("the answer to another question".into()).fault()));
+            }
             Outcome::Failed(fault) => {
                 self.place.give_up(worker);
                 if let Some(shortage) = self.shortage(&fault.message).filter(|_| is_for_want_of_memory(&fault)) {

@@ -2,8 +2,11 @@
 
 use super::Settings;
 use super::child::{NotStarted, Worker, end_group};
+use super::library::Library;
+use super::protection::Protection;
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::report::Environment;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -33,6 +36,7 @@ struct Shared {
     settings: Settings,
     /// How many may grade at once.
     places: usize,
+    library: Library,
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -47,6 +51,8 @@ struct State {
     ordered: usize,
     starting: Vec<u32>,
     ushers: usize,
+    /// What the first worker said of itself.
+    greeting: Option<(Environment, Protection)>,
     /// Starts that failed in a row, and the last one's fault where no further try is made.
     failures: u32,
     fault: Option<Fault>,
@@ -60,19 +66,28 @@ pub(super) struct Place<'a> {
 }
 
 impl Roster {
-    /// Starts workers for `places` callers and the spares, and waits for the first.
-    pub fn start(settings: Settings, places: usize) -> Result<Self, Fault> {
-        let shared = Shared { settings, places: places.max(1), state: Mutex::default(), changed: Condvar::new() };
+    /// Starts workers for `places` callers and the spares, and waits until the first is confined and has a device. That it
+    /// has read the assignment is for callers to wait for.
+    pub fn start(settings: Settings, places: usize) -> Result<(Self, Environment, Protection), Fault> {
+        let shared = Shared {
+            settings,
+            places: places.max(1),
+            library: Library::default(),
+            state: Mutex::default(),
+            changed: Condvar::new(),
+        };
         let shared = Arc::new(shared);
         let for_keeper = Arc::clone(&shared);
         // Workers die with the thread that has started them, so it is this one for as long as there is a pool.
         let keeper = std::thread::Builder::new().name("keeper".into()).spawn(move || keep(&for_keeper));
         let roster = Self { keeper: Some(keeper.map_err(|error| no_thread(&error))?), shared };
-        let place = roster.place();
-        let first = place.take(Wanted::Any)?;
-        place.give_back(first);
-        drop(place);
-        Ok(roster)
+        let (environment, protection) = roster.shared.greeting()?;
+        Ok((roster, environment, protection))
+    }
+
+    /// What is known of the assignments.
+    pub fn library(&self) -> &Library {
+        &self.shared.library
     }
 
     /// Waits for a place.
@@ -197,6 +212,21 @@ impl Shared {
         self.changed.wait(state).unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// What the first worker says of itself, once there is one.
+    fn greeting(&self) -> Result<(Environment, Protection), Fault> {
+        let mut state = self.lock();
+        self.order(&mut state);
+        loop {
+            if let Some(greeting) = &state.greeting {
+                return Ok(greeting.clone());
+            }
+            if let Some(fault) = state.fault.take() {
+                return Err(fault);
+            }
+            state = self.wait(state);
+        }
+    }
+
     fn target(&self) -> usize {
         self.places + self.settings.spares
     }
@@ -255,7 +285,12 @@ fn keep(shared: &Arc<Shared>) {
 
 /// Waits until the worker is ready, and has it join the others.
 fn receive(shared: &Shared, mut worker: Worker) {
-    let greeted = worker.greet(&shared.settings);
+    let greeted = worker.greet(&shared.settings).and_then(|()| {
+        let greeting = (worker.environment.clone(), worker.protection.clone());
+        shared.lock().greeting.get_or_insert(greeting);
+        shared.changed.notify_all();
+        worker.read(&shared.settings.assignment, &shared.library, &shared.settings)
+    });
     let process = worker.id();
     let mut state = shared.lock();
     state.starting.retain(|&other| other != process);

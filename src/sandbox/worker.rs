@@ -1,39 +1,46 @@
-//! The child's side: a confined process with a warm device, one submission after the other.
+//! The child's side: a confined process with a warm device, which reads assignments, and grades one submission after the
+//! other.
 
 use super::confine::{self, Confined, Meter, lower};
 use super::preflight::{self, Attempt};
 use super::protection::{Layer, Protection};
-use super::protocol::{Hello, Outcome, REQUEST, Reply, Request, Tile, receive, send};
+use super::protocol::{Demand, Hello, Load, Outcome, REQUEST, Reply, Request, Tile, receive, send};
 use super::{Limits, syscalls};
+use crate::expected::{self, Pack};
 use crate::fault::Fault;
 use crate::grade::{self, Graded, Grader, Order};
-use crate::render::{AdapterKind, Frames};
+use crate::language::Text;
+use crate::render::{AdapterKind, Device, Frames};
+use crate::translate;
 use nix::sys::resource::Resource;
-use reference::Assignment;
+use reference::{Assignment, Folder};
+use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Stack of the thread that grades: translators recurse over the student's nesting.
 const STACK_BYTES: usize = 256 << 20;
 
+/// What reading an assignment may take: its pictures may be shaded pixel by pixel, which takes seconds.
+const LOADING: Limits = Limits { memory: 1 << 30, cpu_seconds: 120 };
+
 /// What a worker is started for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Job {
-    /// The homework.
-    pub assignment: Arc<Assignment>,
     /// What renders.
     pub adapter: AdapterKind,
     /// What one submission may take.
     pub limits: Limits,
-    /// Whether to grade the handed-out file first, so that nobody's grading is slower than the next one's.
-    pub warm_up: bool,
+    /// Whether to end once the first assignment is read.
+    pub rehearsal: bool,
 }
 
 /// Serves the parent on standard input and output until it closes them.
 pub fn run(job: Job) -> io::Result<()> {
     let confined = confine::enter(job.limits, job.adapter)?;
-    on_large_stack(move || serve(&job, confined))
+    on_large_stack(move || serve(job, confined))
 }
 
 /// Enters the sandbox as [`run`] does, tries one forbidden thing there, and gives what came of it.
@@ -41,7 +48,7 @@ pub fn attempt(job: Job, attempt: Attempt) -> io::Result<io::Result<()>> {
     let confined = confine::enter(job.limits, job.adapter)?;
     on_large_stack(move || {
         let Confined { layers, meter, .. } = confined;
-        let _ready = prepare(&job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
+        let _ready = prepare(job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
         meter.next(job.adapter)?;
         Ok(attempt.make())
     })
@@ -52,26 +59,42 @@ fn on_large_stack<T: Send + 'static>(work: impl FnOnce() -> io::Result<T> + Send
     thread.spawn(work)?.join().map_err(|_| io::Error::other("the grader panicked"))?
 }
 
-fn serve(job: &Job, confined: Confined) -> io::Result<()> {
+fn serve(job: Job, confined: Confined) -> io::Result<()> {
     let Confined { mut output, layers, meter } = confined;
-    let (mut grader, protection) = match prepare(job, layers) {
+    let (device, protection) = match prepare(job, layers) {
         Ok(ready) => ready,
         Err(fault) => return send(&mut output, &Hello::Failed(fault), 0, |_| Ok(())),
     };
-    let hello = Hello::Ready { environment: grader.environment().clone(), protection };
-    let size = meter.size()?;
+    let hello = Hello::Ready { environment: grade::environment(&device), protection };
     send(&mut output, &hello, 0, |_| Ok(()))?;
+    let size = meter.size()?;
+    let mut desk = Desk { job, output, meter, device, graders: HashMap::new(), size };
     let mut input = io::stdin().lock();
-    while answer(&mut input, &mut output, &mut grader, job, &meter, size)? {}
-    Ok(())
+    loop {
+        let (demand, body) = match receive::<Demand>(&mut input, REQUEST) {
+            Ok(message) => message,
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(()),
+            Err(error) => return Err(error),
+        };
+        match demand {
+            Demand::Load(load) => desk.load(&load, &body)?,
+            Demand::Grade(request) => desk.grade(&request, &body)?,
+        }
+        if job.rehearsal {
+            return Ok(());
+        }
+    }
 }
 
-/// Makes the device warm, and closes the sandbox around it.
-fn prepare(job: &Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Protection), Fault> {
-    let mut grader = Grader::new(Arc::clone(&job.assignment), job.adapter)?;
-    if job.warm_up {
-        grader.grade(&grade::handed_out(&job.assignment), Order::default())?;
-    }
+/// Opens the device, warms the compiler meanwhile, and closes the sandbox around them. What is read after that, the
+/// assignment's folder included, is read inside.
+fn prepare(job: Job, mut layers: Vec<super::LayerState>) -> Result<(Device, Protection), Fault> {
+    let device = std::thread::scope(|scope| {
+        let device = scope.spawn(|| Device::open(job.adapter));
+        translate::warm_up();
+        device.join()
+    });
+    let device = device.map_err(|_| Fault::new(Text::new("start-up panicked", "起動処理が異常終了しました")))??;
     let filtered = syscalls::restrict(job.adapter);
     if filtered.is_err() {
         // Without filters this at least keeps new processes away, and new threads with them.
@@ -80,46 +103,83 @@ fn prepare(job: &Job, mut layers: Vec<super::LayerState>) -> Result<(Grader, Pro
     let open = preflight::open();
     let filtered = filtered.and_then(|detail| syscalls::make_deadly().map(|()| detail));
     layers.push(confine::state(Layer::SystemCalls, filtered));
-    Ok((grader, Protection { layers, open }))
+    Ok((device, Protection { layers, open }))
 }
 
-/// Grades one submission; false where the parent has closed the pipe. `start` is the size of the process before the first.
-fn answer(
-    input: &mut impl Read,
-    output: &mut File,
-    grader: &mut Grader,
-    job: &Job,
-    meter: &Meter,
-    start: u64,
-) -> io::Result<bool> {
-    let (request, bytes) = match receive::<Request>(input, REQUEST) {
-        Ok(message) => message,
-        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => return Ok(false),
-        Err(error) => return Err(error),
-    };
-    meter.next(job.adapter)?;
-    let graded = grader.grade(&request.hand_in(&bytes)?, request.order);
-    let spent = meter.size()? > start + job.limits.memory;
-    let reply = |outcome| Reply { id: request.id, spent, outcome };
-    let Graded { report, frames } = match graded {
-        Ok(graded) => graded,
-        Err(fault) => return send(output, &reply(Outcome::Failed(fault)), 0, |_| Ok(())).map(|()| true),
-    };
-    let frames = frames.filter(|_| request.wants_frames).unwrap_or_default();
-    let tiles = tiles(&frames);
-    let length = tiles.iter().map(|tile| tile.width as usize * tile.height as usize * 4).sum();
-    let graded = Outcome::Graded { report: Box::new(report), frames: tiles.clone() };
-    // Row by row from where the device left them: a copy of all would be as large as everything else.
-    send(output, &reply(graded), length, |to| {
-        for (index, tile) in (0..).zip(&tiles) {
-            let left = tile.x.saturating_sub(frames.area(index).x) as usize * 4;
-            for y in tile.y..tile.y + tile.height {
-                to.write_all(&frames.row(index, y)[left..left + tile.width as usize * 4])?;
-            }
+/// A worker that is ready: its device, and the assignments that it has read.
+struct Desk {
+    job: Job,
+    output: File,
+    meter: Meter,
+    device: Device,
+    /// By the digest of the assignment.
+    graders: HashMap<String, Grader>,
+    /// The size of the process before the first submission.
+    size: u64,
+}
+
+impl Desk {
+    fn load(&mut self, load: &Load, body: &[u8]) -> io::Result<()> {
+        self.meter.give(LOADING, self.job.adapter)?;
+        let (folder, pictures) = load.folder(body)?;
+        let loaded = self.read(load, folder, pictures);
+        self.size = self.size.max(self.meter.size()?);
+        let (outcome, pack) = match loaded {
+            Ok(pack) => (Outcome::Loaded, pack),
+            Err(fault) => (Outcome::Failed(fault), None),
+        };
+        let body = pack.as_ref().map(Pack::bytes).unwrap_or_default();
+        let reply = Reply { id: load.id, spent: false, outcome };
+        send(&mut self.output, &reply, body.len(), |to| to.write_all(body))
+    }
+
+    /// Reads an assignment; gives its pictures where they are wanted.
+    fn read(&mut self, load: &Load, folder: Folder, pictures: Option<&[u8]>) -> Result<Option<Pack>, Fault> {
+        let assignment = Assignment::load(folder).map_err(|error| {
+            let why = error.text();
+            Fault::new(Text::new(why.en, why.ja))
+        })?;
+        let given = pictures.map(Pack::of_bytes);
+        let above = load.wants_pictures_above_ms.map(Duration::from_millis);
+        let (expected, pack) = expected::prepared(&assignment, given.as_ref(), above)?;
+        let assignment = Arc::new(assignment);
+        let mut grader = Grader::new(self.device.clone(), Arc::clone(&assignment), expected)?;
+        if load.warm_up {
+            grader.grade(&grade::handed_out(&assignment), Order::default())?;
         }
-        Ok(())
-    })?;
-    Ok(true)
+        self.graders.insert(assignment.digest.clone(), grader);
+        Ok(pack)
+    }
+
+    /// Grades one submission.
+    fn grade(&mut self, request: &Request, body: &[u8]) -> io::Result<()> {
+        self.meter.next(self.job.adapter)?;
+        let unread = || Fault::new(Text::verbatim("the assignment was not read"));
+        let hand_in = request.hand_in(body)?;
+        let grader = self.graders.get_mut(&request.assignment).ok_or_else(unread);
+        let graded = grader.and_then(|grader| grader.grade(&hand_in, request.order));
+        let spent = self.meter.size()? > self.size + self.job.limits.memory;
+        let reply = |outcome| Reply { id: request.id, spent, outcome };
+        let output = &mut self.output;
+        let Graded { report, frames } = match graded {
+            Ok(graded) => graded,
+            Err(fault) => return send(output, &reply(Outcome::Failed(fault)), 0, |_| Ok(())),
+        };
+        let frames = frames.filter(|_| request.wants_frames).unwrap_or_default();
+        let tiles = tiles(&frames);
+        let length = tiles.iter().map(|tile| tile.width as usize * tile.height as usize * 4).sum();
+        let graded = Outcome::Graded { report: Box::new(report), frames: tiles.clone() };
+        // Row by row from where the device left them: a copy of all would be as large as everything else.
+        send(output, &reply(graded), length, |to| {
+            for (index, tile) in (0..).zip(&tiles) {
+                let left = tile.x.saturating_sub(frames.area(index).x) as usize * 4;
+                for y in tile.y..tile.y + tile.height {
+                    to.write_all(&frames.row(index, y)[left..left + tile.width as usize * 4])?;
+                }
+            }
+            Ok(())
+        })
+    }
 }
 
 /// The frames' parts without their margins of background.

@@ -21,7 +21,7 @@ pub struct Config {
     pub database: String,
     pub public_url: Option<String>,
     pub trusted_proxies: Vec<String>,
-    pub assignment: String,
+    pub assignment: Option<String>,
     pub workers: usize,
     pub sandbox: Policy,
     pub single_use_workers: bool,
@@ -68,7 +68,7 @@ impl Default for Config {
             database: "ggrade.db".into(),
             public_url: None,
             trusted_proxies: Vec::new(),
-            assignment: "ggsample06".into(),
+            assignment: None,
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
             single_use_workers: false,
@@ -112,6 +112,18 @@ impl Config {
             figment = figment.merge(Toml::file_exact(path));
         }
         figment = figment.merge(environment()).merge(Serialized::defaults(flags));
+        match flags.assignment.as_slice() {
+            [] => {}
+            [one] => figment = figment.merge(Serialized::default("assignment", one)),
+            [..] => {
+                return Err(Fault::new(Text::new(
+                    "--assignment stands more than once: one service serves one assignment. Start a service for each, with \
+                     its own --listen and --database",
+                    "--assignment が複数あります。1 つのサービスで扱える課題は 1 つです。課題ごとに --listen と --database を\
+                     変えてサービスを起動してください",
+                )));
+            }
+        }
         let config: Self = figment.extract().map_err(|error| {
             Fault::new(Text::new(format!("the configuration: {error}"), format!("設定に誤りがあります: {error}")))
         })?;

@@ -98,7 +98,8 @@ impl Gallery {
             let hand_in = state.store.hand_in(&submission.id).await?.ok_or_else(Problem::not_found)?;
             let order = Order { seed: submission.seed, hints: submission.hints, ..Order::default() };
             self.in_turn(state, move |state| {
-                let submission = sandbox::Submission { hand_in: &hand_in, order, wants_frames: true };
+                let assignment = &state.assignment;
+                let submission = sandbox::Submission { assignment, hand_in: &hand_in, order, wants_frames: true };
                 let frames = state.pool.grade(submission)?.frames;
                 frames.iter().map(pictures::png).collect()
             })

@@ -13,6 +13,7 @@ use super::{Config, State, app, metrics, upkeep};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{Pool, Settings};
+use reference::Assignment;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use tokio::net::TcpListener;
@@ -35,7 +36,7 @@ pub struct Started {
 }
 
 /// Opens the database, starts the workers, takes over what was left, and listens; serves nothing yet.
-pub async fn start(mut config: Config) -> Result<Started, Fault> {
+pub async fn start(mut config: Config, assignment: Arc<Assignment>) -> Result<Started, Fault> {
     metrics::install();
     let store = open(&config).await?;
     let one_time_token = match has_teacher(&config, &store).await? {
@@ -47,8 +48,8 @@ pub async fn start(mut config: Config) -> Result<Started, Fault> {
     }
     let listener = TcpListener::bind(config.listen).await.map_err(|error| cannot_listen(config.listen, &error))?;
     let address = listener.local_addr().map_err(|error| cannot_listen(config.listen, &error))?;
-    let pool = pool(&config).await?;
-    let state = State::new(config, store, Arc::new(pool), Clock::system()).await?;
+    let pool = pool(&config, &assignment).await?;
+    let state = State::serving(assignment, config, store, Arc::new(pool), Clock::system()).await?;
     let graders = Graders::start(&state).await.map_err(|error| database(&error))?;
     tokio::spawn(upkeep::run(state.clone()));
     Ok(Started { address, state, one_time_token, listener, graders })
@@ -95,11 +96,11 @@ async fn has_teacher(config: &Config, store: &Store) -> Result<bool, Fault> {
 }
 
 /// One worker more than files are graded at once draws pictures for who looks at reports.
-async fn pool(config: &Config) -> Result<Pool, Fault> {
+async fn pool(config: &Config, assignment: &Arc<Assignment>) -> Result<Pool, Fault> {
     let settings = Settings {
         deadline: Config::span(config.deadline),
         policy: config.sandbox,
-        ..Settings::new(&config.assignment)
+        ..Settings::new(Arc::clone(assignment))
     };
     let settings = if config.single_use_workers { settings.with_single_use_workers() } else { settings };
     let workers = config.workers + 1;

@@ -64,11 +64,6 @@ pub struct Shared {
 
 impl State {
     /// The state of a service; `teacher_token` goes before the configured one.
-    pub async fn new(config: Config, store: Store, pool: Arc<dyn Judge>, clock: Clock) -> Result<Self, Fault> {
-        Self::serving(crate::homework::assignment(&config.assignment)?, config, store, pool, clock).await
-    }
-
-    /// The same for an assignment that is at hand.
     pub async fn serving(
         assignment: Arc<Assignment>,
         config: Config,

@@ -92,7 +92,7 @@ fn reports_that_differ_are_told_apart() {
 pub fn hand_in(pool: &Pool, name: &str, bytes: &[u8]) -> Answer {
     let order = Order { seed: 7, ..Order::default() };
     let hand_in = HandIn::of_one(name, bytes);
-    let submission = Submission { hand_in: &hand_in, order, wants_frames: true };
+    let submission = Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true };
     pool.grade(submission).unwrap_or_else(|fault| panic!("{name}: {fault}"))
 }
 

@@ -1,5 +1,6 @@
 //! Worker processes: their limits, their ends, and that nothing of them is left.
 
+mod assignments;
 mod endings;
 mod life;
 mod walls;

@@ -28,6 +28,7 @@ fn this_kernel_closes_the_sandbox() {
 fn the_kernel_says_so_too() {
     let _alone = alone();
     let pool = Pool::start(settings(), 1).unwrap();
+    pool.warm().unwrap();
     let worker = pool.idle_processes()[0];
     let status = std::fs::read_to_string(format!("/proc/{worker}/status")).unwrap();
     let field = |name: &str| {

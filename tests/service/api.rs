@@ -5,11 +5,14 @@ use crate::cluster::Database;
 use crate::{on_both, right, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
+use reference::{Assignment, Folder};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 on_both!(
     a_file_comes_back_as_its_report,
     the_same_file_is_answered_from_the_store_in_its_own_name,
+    a_changed_folder_is_another_assignment,
     a_form_is_taken_as_well,
     pictures_can_be_seen_later,
     every_error_is_a_problem_in_both_languages,
@@ -56,6 +59,29 @@ async fn the_same_file_is_answered_from_the_store_in_its_own_name(database: Data
     assert_eq!(first["report"]["elapsed_ms"], second["report"]["elapsed_ms"]);
     let gentle = bench.hand_in("?hints=gentle", bytes).await.json();
     assert_ne!(first["report"]["elapsed_ms"], gentle["report"]["elapsed_ms"]);
+    bench.finish().await;
+}
+
+async fn a_changed_folder_is_another_assignment(database: Database) {
+    let bench = Bench::new(database).await;
+    let bytes = right_and_new();
+    let first = bench.hand_in("?name=first.vert", bytes.clone()).await.json();
+    assert_eq!(first["report"]["max_score"], 100);
+    let built_in = &first["report"]["assignment_digest"];
+
+    let mut folder = Folder::clone(&bench.state.assignment.folder);
+    let manifest = folder.text("assignment.toml").expect("text").replacen("points = 10", "points = 60", 1);
+    folder.files.insert("assignment.toml".into(), manifest.into());
+    let changed = Arc::new(Assignment::load(folder).expect("an assignment"));
+    let digest = changed.digest.clone();
+    let bench = bench.restarted(changed).await;
+    let second = bench.hand_in("?name=second.vert", bytes.clone()).await.json();
+    assert_eq!(second["report"]["max_score"], 150, "the report of the folder as it was");
+    assert_eq!(second["report"]["assignment_digest"], digest);
+    assert_ne!(*built_in, digest);
+    // What was said before the change stays what it was.
+    let before = bench.get(first["links"]["self"].as_str().expect("a link")).await.json();
+    assert_eq!(before["report"]["max_score"], 100);
     bench.finish().await;
 }
 

@@ -76,6 +76,20 @@ impl Bench {
         Self { app: app(state.clone()), state, graders, _database: database }
     }
 
+    /// The same service after a restart with another assignment.
+    pub async fn restarted(mut self, assignment: Arc<reference::Assignment>) -> Self {
+        self.state.end();
+        if let Some(graders) = self.graders.take() {
+            graders.finish().await;
+        }
+        self.state.store.close().await;
+        let Self { app, state, _database: database, .. } = self;
+        let (config, pool) = (state.config.clone(), Arc::clone(&state.pool));
+        // The old process is gone, and with it what it held.
+        drop((app, state));
+        Self::serving(assignment, database, config, pool, Clock::system()).await
+    }
+
     /// Sends a request.
     pub async fn send(&self, request: Request<Body>) -> Reply {
         send(&self.app, request).await

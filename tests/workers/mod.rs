@@ -7,10 +7,11 @@ use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::Report;
 use ggrade::sandbox::{Answer, Pool, Settings, Submission};
+use reference::Assignment;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// The program under test.
@@ -27,7 +28,12 @@ pub fn alone() -> MutexGuard<'static, ()> {
 
 /// Settings whose workers are the program under test.
 pub fn settings() -> Settings {
-    Settings { program: Some(GGRADE.into()), deadline: PATIENT, ..Settings::new("ggsample06") }
+    Settings { program: Some(GGRADE.into()), deadline: PATIENT, ..Settings::new(ggsample06().clone()) }
+}
+
+/// The homework.
+pub fn ggsample06() -> &'static Arc<Assignment> {
+    reference::assignment("ggsample06").unwrap()
 }
 
 /// The bytes of a sample.
@@ -44,6 +50,7 @@ pub fn honest() -> Vec<u8> {
 /// Grades bytes with a fixed seed and without frames.
 pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<Answer, ggrade::fault::Fault> {
     pool.grade(Submission {
+        assignment: pool.assignment(),
         hand_in: &HandIn::of_one("ggsample06.vert", bytes),
         order: Order { seed: 7, ..Order::default() },
         wants_frames: false,
@@ -73,12 +80,12 @@ pub struct Impostor {
 }
 
 impl Impostor {
-    /// `script` may use `$real` (the program under test), `$folder` (a place for notes), `hello "$@"` (says hello as a
-    /// worker does) and `note` (writes a line for [`Self::notes`]).
+    /// `script` may use `$real` (the program under test), `$folder` (a place for notes), `hello "$@"` (says hello and reads
+    /// the assignment as a worker does) and `note` (writes a line for [`Self::notes`]).
     pub fn new(script: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let lines = format!(
-            "#!/bin/sh\nreal='{GGRADE}'\nfolder='{}'\nhello() {{ \"$real\" \"$@\" </dev/null; }}\n\
+            "#!/bin/sh\nreal='{GGRADE}'\nfolder='{}'\nhello() {{ \"$real\" \"$@\" --rehearse; }}\n\
              note() {{ echo >>\"$folder\"/notes; }}\n{script}\n",
             folder.path().display()
         );

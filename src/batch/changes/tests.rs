@@ -9,6 +9,7 @@ fn header(version: &str) -> Header {
     Header {
         schema: crate::batch::journal::SCHEMA.into(),
         assignment: "ggsample06".into(),
+        assignment_digest: String::new(),
         ggrade: version.into(),
         seed: 1,
         hints: crate::diagnose::Hints::default(),
@@ -44,7 +45,7 @@ fn changes(before: &[(&str, Outcome)], after: &[(&str, Outcome)]) -> Changes {
         shares_with: Vec::new(),
     });
     let class = Class {
-        assignment: "ggsample06".into(),
+        assignment: reference::assignment("ggsample06").unwrap().clone(),
         title: String::new(),
         entries: entries.collect(),
         refused: Vec::new(),

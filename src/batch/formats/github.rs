@@ -58,7 +58,7 @@ fn line(entry: &Entry, class: &Class) -> String {
     let standing = Standing::of(&entry.outcome);
     let score = entry.report().map(|report| format!(" {}", wording::points(report.score, report.max_score)));
     let titles = |report: &Report| {
-        let titles = report.mistakes.iter().map(|id| mistake_title(&report.assignment, id, class.language));
+        let titles = report.mistakes.iter().map(|id| mistake_title(&class.assignment, id, class.language));
         titles.collect::<Vec<_>>().join(" · ")
     };
     let mistakes = entry.report().map(titles).unwrap_or_default();
@@ -78,8 +78,13 @@ const LOG_WIDTH: usize = 100;
 fn full_report(entry: &Entry, class: &Class) -> String {
     let Some(report) = entry.report() else { return String::new() };
     let excerpts = excerpt::excerpt(&entry.sources, &report.diagnostics, class.language, false);
-    let options =
-        report::text::Options { language: class.language, width: LOG_WIDTH, colour: false, excerpts: Some(&excerpts) };
+    let options = report::text::Options {
+        assignment: &class.assignment,
+        language: class.language,
+        width: LOG_WIDTH,
+        colour: false,
+        excerpts: Some(&excerpts),
+    };
     visible(&report::text::render(report, &options))
 }
 

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 /// The class as one document. A lost point is a failure, a failure of ours an error, nothing handed in a skipped case.
 pub fn render(class: &Class) -> Result<String, Fault> {
-    let mut document = quick_junit::Report::new(one_line(&format!("ggrade {}: {}", class.assignment, class.title)));
+    let mut document = quick_junit::Report::new(one_line(&format!("ggrade {}: {}", class.assignment.id, class.title)));
     document.add_test_suites(class.entries.iter().map(|entry| suite(entry, class)));
     let skipped = format!(" skipped=\"{}\"", document.skipped);
     // The root is written first, and Jenkins' schema knows this attribute for suites only.
@@ -44,7 +44,7 @@ fn suite(entry: &Entry, class: &Class) -> TestSuite {
         }
     }
     for case in &mut suite.test_cases {
-        case.set_classname(one_line(&format!("{}.{}", class.assignment, student.key)));
+        case.set_classname(one_line(&format!("{}.{}", class.assignment.id, student.key)));
     }
     suite
 }

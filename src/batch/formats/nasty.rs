@@ -23,7 +23,7 @@ pub(super) fn class() -> Class {
         .remedy(Text::new("install mesa-vulkan-drivers", "mesa-vulkan-drivers を入れてください"));
     let outcomes = reports.into_iter().chain([not_graded, Outcome::Fault(fault)]);
     Class {
-        assignment: "ggsample06".into(),
+        assignment: reference::assignment("ggsample06").unwrap().clone(),
         title: format!("class {NASTY}"),
         entries: outcomes.enumerate().map(|(index, outcome)| entry(index, outcome)).collect(),
         refused: vec![],

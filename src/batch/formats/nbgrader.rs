@@ -29,7 +29,7 @@ const COLUMNS: [&str; 11] = [
 pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
     let max_score = class.entries.iter().find_map(Entry::report).map(|report| report.max_score);
     let header = COLUMNS.map(str::to_owned).to_vec();
-    let rows = class.entries.iter().map(|entry| row(entry, &class.assignment, max_score));
+    let rows = class.entries.iter().map(|entry| row(entry, &class.assignment.id, max_score));
     let mut bytes = Vec::new();
     let mut writer = WriterBuilder::new().terminator(Terminator::Any(b'\n')).from_writer(&mut bytes);
     write(&mut writer, std::iter::once(header).chain(rows))?;

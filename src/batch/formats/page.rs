@@ -21,7 +21,7 @@ use crate::batch::class::{Class, Entry, Outcome};
 use crate::batch::standing::Standing;
 use crate::batch::statistics;
 use crate::fault::Fault;
-use crate::language::Text;
+use crate::language::{Language, Text};
 use crate::report::html::BASE_STYLE;
 use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
@@ -151,7 +151,7 @@ impl Page {
             words,
             title: one_line(&class.title),
             assignment: title(class),
-            assignment_id: one_line(&class.assignment),
+            assignment_id: one_line(&class.assignment.id),
             overview: words.overview(class.entries.len(), reports().count()),
             mean: averages.map(|averages| number((averages.mean * 10.0).round() / 10.0)),
             max_score: number(max_score),
@@ -191,11 +191,13 @@ fn policy(style: &str) -> String {
     )
 }
 
-/// The homework's title, or its id where it is none of ours.
+/// The homework's title.
 fn title(class: &Class) -> String {
-    let known = reference::assignment(&class.assignment);
-    let title = known.map(|assignment| Text::new(&assignment.title.en, &assignment.title.ja));
-    title.map_or_else(|| one_line(&class.assignment), |title| title.get(class.language).to_owned())
+    let title = &class.assignment.title;
+    match class.language {
+        Language::En => title.en.clone(),
+        Language::Ja => title.ja.clone(),
+    }
 }
 
 /// The lines of the rubric, in the order in which the reports have them.

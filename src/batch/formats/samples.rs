@@ -52,7 +52,7 @@ pub(super) fn class(language: Language) -> Class {
         }
     });
     Class {
-        assignment: "ggsample06".into(),
+        assignment: reference::assignment("ggsample06").unwrap().clone(),
         title: "class.zip".into(),
         entries: entries.collect(),
         refused: vec![Refused {

@@ -7,9 +7,10 @@ use crate::language::Language;
 use crate::report::labels::{mistake_title, rubric_label};
 use crate::report::wrap::{columns, pad, plain};
 use anstyle::Style;
+use reference::Assignment;
 
 impl Writer {
-    pub(super) fn changes(&mut self, changes: &Changes) {
+    pub(super) fn changes(&mut self, assignment: &Assignment, changes: &Changes) {
         let since = &changes.before;
         let heading = match self.language {
             Language::En => format!("Since ggrade {}, seed {}", since.ggrade, since.seed),
@@ -33,7 +34,7 @@ impl Writer {
             (&changes.unclear, "!", ODD),
         ] {
             for change in list.iter().take(LISTED) {
-                self.change(&changes.after.assignment, change, &paint(style, sign));
+                self.change(assignment, change, &paint(style, sign));
             }
             self.more(list.len());
         }
@@ -41,7 +42,7 @@ impl Writer {
         self.students(self.text("No longer there", "いなくなった学生"), &changes.gone);
     }
 
-    fn change(&mut self, assignment: &str, change: &Change, sign: &str) {
+    fn change(&mut self, assignment: &Assignment, change: &Change, sign: &str) {
         let (before, after) = (&change.before, &change.after);
         let name = plain(&change.student.name).replace('\n', " ");
         let points = |grade: &Grade| grade.score.map_or("–".into(), number);
@@ -71,7 +72,7 @@ impl Writer {
     }
 
     /// `Specular` and `20 → 40  Phong's reflection vector → –`: a line of the rubric, and what changed in it.
-    fn rubric_line(&self, assignment: &str, line: &LineChange) -> (String, String) {
+    fn rubric_line(&self, assignment: &Assignment, line: &LineChange) -> (String, String) {
         let points = |earned: &Option<Earned>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
         let mistake = |earned: &Option<Earned>| {
             let id = earned.as_ref().and_then(|earned| earned.mistake.as_deref());

@@ -23,7 +23,7 @@ fn class(language: Language) -> Class {
     outcomes.push(Outcome::Fault(Fault::new(Text::verbatim("no processor"))));
     let names = ["佐藤 花子", "b", "c", "d", "evil\u{1b}[2J\nname", "f"];
     Class {
-        assignment: "ggsample06".into(),
+        assignment: reference::assignment("ggsample06").unwrap().clone(),
         title: "課題6\u{202e}".into(),
         entries: names.into_iter().zip(outcomes).map(|(name, outcome)| entry(name, outcome)).collect(),
         refused: vec![Refused { path: "../\u{7}x.vert".into(), reason: Text::verbatim("leads out of the archive") }],

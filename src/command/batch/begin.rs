@@ -11,6 +11,7 @@ use crate::command::{file_fault, language, writing};
 use crate::language::{Language, Text};
 use crate::report::wrap::plain;
 use crate::slots::Slot;
+use reference::Assignment;
 use std::path::Path;
 
 /// Refuses an output folder that a later run would read as part of the input.
@@ -79,14 +80,20 @@ pub(super) fn tell_empty(intake: &Intake, language: Language) {
 
 /// What this run grades with. A run that goes on keeps what was not asked for otherwise, and one that compares takes the
 /// seed: then the fresh probes are the same ones.
-pub(super) fn header(arguments: &Batch, found: Option<&Found>, before: Option<&Found>) -> Header {
+pub(super) fn header(
+    arguments: &Batch,
+    assignment: &Assignment,
+    found: Option<&Found>,
+    before: Option<&Found>,
+) -> Header {
     let earlier = found.map(|found| &found.header);
     let seed = earlier.or(before.map(|before| &before.header)).map(|header| header.seed);
     let seed = arguments.seed.or(seed).unwrap_or_else(crate::grade::random_seed);
     let asked = arguments.lang.or(earlier.map(|header| header.language));
     Header {
         schema: journal::SCHEMA.into(),
-        assignment: arguments.machine.assignment.clone(),
+        assignment: assignment.id.clone(),
+        assignment_digest: assignment.digest.clone(),
         ggrade: env!("CARGO_PKG_VERSION").into(),
         seed,
         hints: arguments.hints,

@@ -164,8 +164,11 @@ impl Session<'_> {
 
     fn pool(&self, threads: usize) -> Result<Pool, Fault> {
         let machine = &self.arguments.machine;
-        let settings =
-            Settings { adapter: machine.adapter, deadline: self.deadline, ..Settings::new(&machine.assignment) };
+        let settings = Settings {
+            adapter: machine.adapter,
+            deadline: self.deadline,
+            ..Settings::new(Arc::clone(self.assignment))
+        };
         let pool = Pool::start(self.arguments.sandbox.apply(settings), threads)?;
         warn(&pool, self.header.language);
         Ok(pool)

@@ -3,9 +3,10 @@
 use crate::language::{Language, Text};
 use crate::report::labels::mistake_title;
 use crate::report::{Report, RubricLine, Verdict};
+use reference::Assignment;
 
 /// What is different in `after`: the score, the lines of the rubric, the mistakes.
-pub(super) fn between(before: &Report, after: &Report) -> Text {
+pub(super) fn between(assignment: &Assignment, before: &Report, after: &Report) -> Text {
     let score = score(before, after);
     let (mut en, mut ja) = (vec![score.en], vec![score.ja]);
     for line in &after.rubric {
@@ -20,7 +21,7 @@ pub(super) fn between(before: &Report, after: &Report) -> Text {
     {
         let missing: Vec<_> = other.mistakes.iter().filter(|mistake| !report.mistakes.contains(mistake)).collect();
         let titled = |language| {
-            let titles = missing.iter().map(|id| mistake_title(&other.assignment, id, language));
+            let titles = missing.iter().map(|id| mistake_title(assignment, id, language));
             titles.collect::<Vec<_>>().join(", ")
         };
         if !missing.is_empty() {
@@ -61,6 +62,10 @@ mod tests {
     use crate::hand_in::HandIn;
     use crate::report::Environment;
 
+    fn ggsample06() -> &'static Assignment {
+        reference::assignment("ggsample06").unwrap()
+    }
+
     fn report(verdict: Verdict, specular: f64, mistakes: &[&str]) -> Report {
         let line = |id: &str, en: &str, ja: &str, points, max_points| RubricLine {
             id: id.into(),
@@ -74,7 +79,7 @@ mod tests {
         };
         let rubric =
             vec![line("shape", "Shape", "形", 10.0, 10.0), line("specular", "Specular", "鏡面反射光", specular, 40.0)];
-        let assignment = reference::assignment("ggsample06").unwrap();
+        let assignment = ggsample06();
         let sources = crate::grade::sources(assignment, &HandIn::of_one("x.vert", ""));
         Report {
             score: 10.0 + specular,
@@ -89,7 +94,7 @@ mod tests {
     fn a_gain_names_the_line_and_the_mistake_that_is_mended() {
         let before = report(Verdict::Wrong, 20.5, &["specular-phong", "gamma"]);
         let after = report(Verdict::Wrong, 40.0, &["gamma"]);
-        let change = between(&before, &after);
+        let change = between(ggsample06(), &before, &after);
         assert_eq!(
             change.en,
             "Since the last save 30.5 → 50 / 50 (+19.5) · Specular 20.5 → 40 · mended: Phong's reflection vector instead \
@@ -100,7 +105,7 @@ mod tests {
                 "前回の保存から 30.5 → 50 / 50 (+19.5) · 鏡面反射光 20.5 → 40 · 解消: 中間ベクトルではなく"
             )
         );
-        let back = between(&after, &before).en;
+        let back = between(ggsample06(), &after, &before).en;
         assert!(back.starts_with("Since the last save 50 → 30.5 / 50 (−19.5) · Specular 40 → 20.5 · new: Phong's"));
     }
 
@@ -108,8 +113,8 @@ mod tests {
     fn a_file_that_begins_or_ceases_to_run_is_told_first() {
         let before = report(Verdict::Rejected, 0.0, &[]);
         let after = report(Verdict::Correct, 40.0, &[]);
-        assert!(between(&before, &after).en.starts_with("It runs now: 10 → 50 / 50"));
-        assert!(between(&after, &before).en.starts_with("It no longer runs: 50 → 10 / 50"));
-        assert_eq!(between(&after, &after).en, "The score stays 50 / 50");
+        assert!(between(ggsample06(), &before, &after).en.starts_with("It runs now: 10 → 50 / 50"));
+        assert!(between(ggsample06(), &after, &before).en.starts_with("It no longer runs: 50 → 10 / 50"));
+        assert_eq!(between(ggsample06(), &after, &after).en, "The score stays 50 / 50");
     }
 }

@@ -11,6 +11,7 @@ use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
 use crate::report::{Advice, Hints, Report, RubricLine, Verdict};
 use askama::Template;
+use reference::Assignment;
 use reference::typeset::{Given, Typeset};
 
 /// How much of its points a line or a whole file earned, as a teacher marks it.
@@ -83,10 +84,10 @@ struct Rubric {
 }
 
 impl Rubric {
-    fn of(report: &Report, line: &RubricLine, language: Language) -> Self {
+    fn of(assignment: &Assignment, report: &Report, line: &RubricLine, language: Language) -> Self {
         let labels = Labels::of(language);
         let shown = line.mistake.as_ref().filter(|_| report.hints > Hints::None);
-        let titled = |id: &String| (mistake_title(&report.assignment, id, language).to_owned(), id.clone());
+        let titled = |id: &String| (mistake_title(assignment, id, language).to_owned(), id.clone());
         Self {
             id: line.id.clone(),
             mark: Mark::of(line.points, line.max_points),
@@ -285,7 +286,8 @@ impl<'a> Body<'a> {
         let labels = Labels::of(language);
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let gallery = part.gallery.filter(|_| is_drawn);
-        let rubric: Vec<Rubric> = report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect();
+        let rubric: Vec<Rubric> =
+            report.rubric.iter().map(|line| Rubric::of(part.assignment, report, line, language)).collect();
         let messages = report.diagnostics.iter().map(|d| Message::of(report, d, labels, language));
         let messages: Vec<Message> = messages.collect();
         let agree = report.frames.iter().filter(|frame| frame.agrees()).count();

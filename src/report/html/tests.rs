@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
-    let assignment = reference::assignment("ggsample06").expect("built in");
+    let assignment = samples::assignment();
     let equation = assignment.typeset.as_ref();
     let sources: Vec<Source> = report.sources.iter().map(|source| samples::source(&source.name)).collect();
-    let page = Page { report, sources: &sources, pictures: Some(&pictures), equation, language };
+    let page = Page { assignment, report, sources: &sources, pictures: Some(&pictures), equation, language };
     page.render().expect("a page")
 }
 
@@ -146,8 +146,14 @@ fn terms_are_shown_when_there_are_pictures_of_them() {
     let mut pictures = samples::pictures();
     pictures.terms = Arc::new([TermPictures { yours: None, ..pictures.terms[0].clone() }]);
     let report = samples::wrong();
-    let page =
-        Page { report: &report, sources: &[], pictures: Some(&pictures), equation: None, language: Language::En };
+    let page = Page {
+        assignment: samples::assignment(),
+        report: &report,
+        sources: &[],
+        pictures: Some(&pictures),
+        equation: None,
+        language: Language::En,
+    };
     let html = page.render().expect("a page");
     assert!(html.contains(Labels::of(Language::En).unknown));
     assert!(!html.contains("href=\"#L"), "without a source there is no line to go to");
@@ -167,8 +173,14 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
     let pictures =
         Pictures { yours: vec![noise(), noise()], expected: vec![noise(), noise()].into(), ..Pictures::default() };
     let report = samples::wrong();
-    let page =
-        Page { report: &report, sources: &[], pictures: Some(&pictures), equation: None, language: Language::En };
+    let page = Page {
+        assignment: samples::assignment(),
+        report: &report,
+        sources: &[],
+        pictures: Some(&pictures),
+        equation: None,
+        language: Language::En,
+    };
     let html = page.render().expect("a page");
     assert!(html.len() < 1_000_000, "{} bytes", html.len());
     assert!(html.contains(Labels::of(Language::En).reduced));

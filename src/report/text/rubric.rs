@@ -5,18 +5,19 @@ use crate::report::labels::mistake_title;
 use crate::report::wrap::{columns, pad, plain};
 use crate::report::{Report, RubricLine, Verdict};
 use anstyle::Style;
+use reference::Assignment;
 
 /// Columns of a bar.
 const BAR: usize = 10;
 
 impl Writer {
-    pub(super) fn rubric(&mut self, report: &Report) {
+    pub(super) fn rubric(&mut self, assignment: &Assignment, report: &Report) {
         let labels = report.rubric.iter().map(|line| columns(line.label.get(self.language)));
         let column = labels.max().unwrap_or(0);
         let full = report.verdict == Verdict::Correct;
         self.gap();
         for line in &report.rubric {
-            self.rubric_line(report, line, column);
+            self.rubric_line(assignment, line, column);
             if !full {
                 self.paragraph(2, line.message.get(self.language));
                 self.gap();
@@ -27,7 +28,7 @@ impl Writer {
         }
     }
 
-    fn rubric_line(&mut self, report: &Report, line: &RubricLine, column: usize) {
+    fn rubric_line(&mut self, assignment: &Assignment, line: &RubricLine, column: usize) {
         let (mark, style) = mark(line.points, line.max_points);
         let label = pad(&plain(line.label.get(self.language)), column);
         let points = format!("{} / {}", number(line.points), number(line.max_points));
@@ -39,7 +40,7 @@ impl Writer {
             pad(&points, 7),
         );
         let used = 2 + column + 2 + BAR + 2 + columns(&points).max(7) + 2;
-        let title = |id| plain(mistake_title(&report.assignment, id, self.language));
+        let title = |id| plain(mistake_title(assignment, id, self.language));
         let mistake = line.mistake.as_deref().map(title).unwrap_or_default();
         if used + columns(&mistake) <= self.width {
             let mistake = self.paint(DIM, &mistake);

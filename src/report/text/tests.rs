@@ -3,7 +3,7 @@ use super::*;
 use crate::report::samples;
 
 fn text(report: &Report, language: Language, width: usize) -> String {
-    render(report, &Options { language, width, colour: false, excerpts: None })
+    render(report, &Options { assignment: samples::assignment(), language, width, colour: false, excerpts: None })
 }
 
 /// Without the line breaks and indents that the width decides.
@@ -90,7 +90,13 @@ fn rejected_and_stopped_show_their_diagnostics_and_no_empty_tables() {
 
 #[test]
 fn excerpts_take_the_place_of_the_bare_diagnostics() {
-    let options = Options { language: Language::En, width: 80, colour: false, excerpts: Some("EXCERPT\n") };
+    let options = Options {
+        assignment: samples::assignment(),
+        language: Language::En,
+        width: 80,
+        colour: false,
+        excerpts: Some("EXCERPT\n"),
+    };
     let text = render(&samples::rejected(), &options);
     assert!(text.contains("\nEXCERPT\n") && !text.contains("not declared"));
 }
@@ -98,7 +104,13 @@ fn excerpts_take_the_place_of_the_bare_diagnostics() {
 #[test]
 fn colour_adds_nothing_but_colour() {
     for report in samples::all() {
-        let options = Options { language: Language::Ja, width: 80, colour: true, excerpts: None };
+        let options = Options {
+            assignment: samples::assignment(),
+            language: Language::Ja,
+            width: 80,
+            colour: true,
+            excerpts: None,
+        };
         let coloured = render(&report, &options);
         assert!(coloured.contains('\u{1b}'));
         let bare: String = coloured

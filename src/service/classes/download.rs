@@ -263,7 +263,7 @@ fn class(
         candidate.entry(outcome.unwrap_or_else(|| candidate.nothing()), portrait, None)
     });
     Ok(Class {
-        assignment: state.assignment.id.clone(),
+        assignment: Arc::clone(&state.assignment),
         title,
         entries: entries.collect(),
         refused,

@@ -138,7 +138,8 @@ async fn check(state: &State, id: &str) -> Result<(), StoreError> {
 async fn cross_check(state: &State, submission: &Submission, hand_in: HandIn) -> CrossCheck {
     let order = Order { seed: submission.seed, hints: submission.hints, cross_check: true };
     let graded = state.gallery.in_turn(state, move |state| {
-        let submission = sandbox::Submission { hand_in: &hand_in, order, wants_frames: false };
+        let assignment = &state.assignment;
+        let submission = sandbox::Submission { assignment, hand_in: &hand_in, order, wants_frames: false };
         Ok(state.pool.grade(submission).map(|answer| answer.report))
     });
     match graded.await {

@@ -156,11 +156,12 @@ async fn grade(state: &State, job: Job) {
 }
 
 async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
-    let pool = Arc::clone(&state.pool);
+    let (pool, assignment) = (Arc::clone(&state.pool), Arc::clone(&state.assignment));
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { seed, hints, .. } = &job.submission;
         let order = Order { seed: *seed, hints: *hints, ..Order::default() };
-        pool.grade(sandbox::Submission { hand_in: &job.hand_in, order, wants_frames: false })
+        let hand_in = &job.hand_in;
+        pool.grade(sandbox::Submission { assignment: &assignment, hand_in, order, wants_frames: false })
     });
     match graded.await {
         Ok(answer) => answer.map(|answer| answer.report),

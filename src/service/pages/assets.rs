@@ -9,7 +9,8 @@ use axum::response::{IntoResponse, Response};
 use reference::Assignment;
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
-use std::sync::LazyLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 /// One file.
 #[derive(Debug)]
@@ -41,7 +42,7 @@ impl Asset {
 }
 
 static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
-    let mut assets = vec![
+    vec![
         Asset::text("base.css", BASE_STYLE),
         Asset::text("report.css", REPORT_STYLE),
         Asset::text("report.js", SCRIPT),
@@ -59,56 +60,86 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("student.js", include_str!("assets/student.js")),
         Asset::text("live.js", include_str!("assets/live.js")),
         Asset::text("icon.svg", include_str!("assets/icon.svg")),
-    ];
-    assets.extend(reference::assignments().flat_map(|assignment| of_assignment(assignment)));
-    assets
+    ]
 });
 
-/// How the pictures of an assignment move, and the right ones.
-fn of_assignment(assignment: &Assignment) -> Vec<Asset> {
+/// What is drawn for each assignment, by its digest.
+static DRAWN: Mutex<BTreeMap<String, Arc<[Asset]>>> = Mutex::new(BTreeMap::new());
+
+/// How the pictures of an assignment move, and the right ones; drawn once.
+fn of_assignment(assignment: &Assignment) -> Arc<[Asset]> {
+    let mut drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
+    Arc::clone(drawn.entry(assignment.digest.clone()).or_insert_with(|| draw(assignment).into()))
+}
+
+fn draw(assignment: &Assignment) -> Vec<Asset> {
     let expected = expected_pictures(assignment);
     let size = |side: u32| side as usize;
     let (width, height) = expected.first().map_or((4, 3), |first| (size(first.width), size(first.height)));
     let motion = Motion::of(expected.len().max(1), width, height).opening_with(telling_pose(assignment));
-    let mut assets = vec![Asset::new(motion_name(&assignment.id), motion.style(assignment.scene.cycle).into_bytes())];
+    let style = motion.style(assignment.scene.cycle).into_bytes();
+    let mut assets = vec![Asset::new(motion_name(assignment), style)];
     match expected_sheet(&expected, 1) {
-        Ok(sheet) => assets.push(Asset::new(expected_name(&assignment.id), sheet)),
+        Ok(sheet) => assets.push(Asset::new(expected_name(assignment), sheet)),
         Err(fault) => tracing::error!(assignment = %assignment.id, fault = %fault.message.en, "no expected pictures"),
     }
     assets
 }
 
 /// Name of the style that moves the pictures of an assignment.
-pub(super) fn motion_name(assignment: &str) -> String {
-    format!("motion-{assignment}.css")
+fn motion_name(assignment: &Assignment) -> String {
+    format!("motion-{}.css", assignment.id)
 }
 
 /// Name of the sheet of the right pictures of an assignment.
-pub(super) fn expected_name(assignment: &str) -> String {
-    format!("expected-{assignment}.png")
+fn expected_name(assignment: &Assignment) -> String {
+    format!("expected-{}.png", assignment.id)
 }
 
 /// Makes all assets now, so that no student waits for the pictures.
-pub fn warm() {
+pub fn warm(assignment: &Assignment) {
     LazyLock::force(&ASSETS);
+    of_assignment(assignment);
 }
 
 /// The address of an asset; where there is none, one that answers "not found".
 pub(super) fn address(name: &str) -> &'static str {
-    ASSETS.iter().find(|asset| asset.name == name).map_or("/assets/none", |asset| asset.address.as_str())
+    ASSETS.iter().find(|asset| asset.name == name).map_or(NONE, |asset| asset.address.as_str())
 }
+
+/// The address of the style that moves the pictures of an assignment.
+pub(super) fn motion(assignment: &Assignment) -> String {
+    address_of(assignment, &motion_name(assignment))
+}
+
+/// The address of the sheet of the right pictures of an assignment.
+pub(super) fn expected(assignment: &Assignment) -> String {
+    address_of(assignment, &expected_name(assignment))
+}
+
+fn address_of(assignment: &Assignment, name: &str) -> String {
+    let drawn = of_assignment(assignment);
+    drawn.iter().find(|asset| asset.name == name).map_or(NONE, |asset| asset.address.as_str()).to_owned()
+}
+
+/// The address of what there is not.
+const NONE: &str = "/assets/none";
 
 /// `GET /assets/{name}`.
 pub(super) async fn serve(Path(name): Path<String>) -> Response {
     let address = format!("/assets/{name}");
-    let Some(asset) = ASSETS.iter().find(|asset| asset.address == address) else {
-        return StatusCode::NOT_FOUND.into_response();
+    let is_it = |asset: &&Asset| asset.address == address;
+    let drawn = || {
+        let drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
+        drawn.values().flat_map(|assets| assets.iter()).find(is_it).map(|asset| (asset.kind, asset.content.clone()))
     };
+    let fixed = ASSETS.iter().find(is_it).map(|asset| (asset.kind, asset.content.clone()));
+    let Some((kind, content)) = fixed.or_else(drawn) else { return StatusCode::NOT_FOUND.into_response() };
     let headers = [
-        (header::CONTENT_TYPE, HeaderValue::from_static(asset.kind)),
+        (header::CONTENT_TYPE, HeaderValue::from_static(kind)),
         (header::CACHE_CONTROL, HeaderValue::from_static("public, max-age=31536000, immutable")),
     ];
-    (headers, asset.content.as_ref()).into_response()
+    (headers, content).into_response()
 }
 
 #[cfg(test)]

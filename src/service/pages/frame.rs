@@ -4,6 +4,7 @@ use super::assets;
 use super::moment::Moment;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
+use crate::report::labels::mistake_title;
 use crate::service::State;
 use crate::service::clock::Millis;
 use crate::service::course::Course;
@@ -11,6 +12,8 @@ use crate::service::errors::Problem;
 use axum::extract::{FromRequestParts, OriginalUri};
 use axum::http::Uri;
 use axum::http::request::Parts;
+use reference::Assignment;
+use std::sync::Arc;
 
 use crate::service::language::of_request;
 
@@ -22,7 +25,8 @@ pub struct Frame {
     /// The course, with the time zone of every date.
     pub course: Course,
     uri: Uri,
-    assignment: String,
+    /// The homework; none on a page that is of none.
+    assignment: Option<Arc<Assignment>>,
 }
 
 /// A language to switch to.
@@ -35,18 +39,8 @@ pub(super) struct Tongue {
 
 impl Frame {
     /// The frame of a page at an address.
-    pub fn new(language: Language, course: Course, uri: Uri) -> Self {
-        Self {
-            language,
-            course,
-            uri,
-            assignment: reference::assignment::names().next().map(str::to_owned).unwrap_or_default(),
-        }
-    }
-
-    /// The same for a page of this assignment.
-    pub fn of(self, assignment: &str) -> Self {
-        Self { assignment: assignment.to_owned(), ..self }
+    pub fn new(language: Language, course: Course, uri: Uri, assignment: Option<Arc<Assignment>>) -> Self {
+        Self { language, course, uri, assignment }
     }
 
     /// The wording of this page's language.
@@ -102,8 +96,13 @@ impl Frame {
     }
 
     /// The address of the style that moves the assignment's pictures.
-    pub fn motion(&self) -> &'static str {
-        assets::address(&assets::motion_name(&self.assignment))
+    pub fn motion(&self) -> Option<String> {
+        self.assignment.as_deref().map(assets::motion)
+    }
+
+    /// The title of a mistake; its id where the homework does not know it.
+    pub(super) fn mistake_title<'a>(&'a self, id: &'a str) -> &'a str {
+        self.assignment.as_deref().map_or(id, |assignment| mistake_title(assignment, id, self.language))
     }
 
     /// The signs that reports refer to.
@@ -130,7 +129,8 @@ impl FromRequestParts<State> for Frame {
     async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Problem> {
         let uri =
             parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
-        Ok(Self::new(of_request(&parts.headers, &uri), state.store.course().await?, uri))
+        let language = of_request(&parts.headers, &uri);
+        Ok(Self::new(language, state.store.course().await?, uri, Some(Arc::clone(&state.assignment))))
     }
 }
 
@@ -140,12 +140,16 @@ mod tests {
 
     #[test]
     fn a_switch_of_language_stays_on_the_page() {
-        let frame =
-            Frame::new(Language::En, Course::default(), Uri::from_static("/teacher/x?verdict=wrong&lang=en&q=a%22b"));
+        let frame = Frame::new(
+            Language::En,
+            Course::default(),
+            Uri::from_static("/teacher/x?verdict=wrong&lang=en&q=a%22b"),
+            None,
+        );
         let [ja, en] = frame.tongues();
         assert_eq!(ja.href, "/teacher/x?verdict=wrong&q=a%22b&lang=ja");
         assert!(!ja.is_current && en.is_current);
-        let [ja, _] = Frame::new(Language::Ja, Course::default(), Uri::from_static("/")).tongues();
+        let [ja, _] = Frame::new(Language::Ja, Course::default(), Uri::from_static("/"), None).tongues();
         assert_eq!(ja.href, "/?lang=ja");
     }
 }

@@ -79,7 +79,7 @@ pub(super) async fn desk(
         )
     });
     let desk = Desk {
-        frame: frame.of(&id),
+        frame,
         homework: std::sync::Arc::clone(&state.assignment),
         standing: Standing {
             settings: &settings,

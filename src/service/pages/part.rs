@@ -12,6 +12,7 @@ use crate::report::{Report, Verdict};
 use crate::service::State;
 use crate::source::Source;
 use askama::Template;
+use reference::Assignment;
 use reference::typeset::Typeset;
 use serde::Serialize;
 
@@ -37,6 +38,7 @@ struct LineMark {
 
 /// A report with its pictures at the addresses of a submission; none where it has no pictures to show.
 pub(super) fn part(
+    assignment: &Assignment,
     frame: &Frame,
     report: &Report,
     source: Lines<'_>,
@@ -45,7 +47,7 @@ pub(super) fn part(
     level: u8,
 ) -> Result<String, Fault> {
     let has_footer = level == 1;
-    let part = Part { report, source, gallery, equation, language: frame.language, level, has_footer };
+    let part = Part { assignment, report, source, gallery, equation, language: frame.language, level, has_footer };
     let view = View {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),
@@ -111,7 +113,7 @@ pub(super) fn gallery(state: &State, id: &str, report: &Report, sources: &[Sourc
     }
     Some(Gallery {
         yours: format!("/r/{id}/yours.png"),
-        expected: assets::address(&assets::expected_name(&report.assignment)).into(),
+        expected: assets::expected(&state.assignment).into(),
         difference: format!("/r/{id}/difference.png"),
         is_reduced: false,
         terms: terms::addresses(state, id, report, sources),

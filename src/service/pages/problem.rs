@@ -21,7 +21,7 @@ struct View {
 /// A problem as a page; its button leads to the pages among which `path` is, the teacher's or the student's.
 pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String> {
     let is_teachers = path == "/teacher" || path.starts_with("/teacher/");
-    let frame = Frame::new(language, Course::default(), Uri::from_static("/"));
+    let frame = Frame::new(language, Course::default(), Uri::from_static("/"), None);
     let heading = match problem.status.as_u16() {
         401 | 403 => frame.say("Not possible here", "この操作はできません"),
         404 => frame.say("Nothing here", "ページが見つかりません"),

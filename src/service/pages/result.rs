@@ -55,7 +55,6 @@ pub(super) async fn page(
     frame: Frame,
 ) -> Result<Response, Problem> {
     let Stored { submission, report, cross_check } = stored(&state, &id).await?;
-    let frame = frame.of(&submission.assignment);
     let Some(mut report) = report else { return waiting(&state, frame, &submission) };
     if teacher.is_some() {
         report.cross_check = cross_check;
@@ -63,7 +62,8 @@ pub(super) async fn page(
     let sources = state.store.hand_in(&id).await?.unwrap_or_default().readable();
     let gallery = part::gallery(&state, &id, &report, &sources);
     let equation = state.assignment.typeset.as_ref();
-    let part = part::part(&frame, &report, Lines::of(&sources), gallery.as_ref(), equation, 1).map_err(internal)?;
+    let part = part::part(&state.assignment, &frame, &report, Lines::of(&sources), gallery.as_ref(), equation, 1);
+    let part = part.map_err(internal)?;
     let receipt = match submission.via {
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
         Via::Editor | Via::Batch => None,
@@ -157,7 +157,8 @@ async fn beside_editor(
     let sources = state.store.hand_in(&submission.id).await?.unwrap_or_default().readable();
     let gallery = part::gallery(state, &submission.id, report, &sources);
     let equation = state.assignment.typeset.as_ref();
-    part::part(frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2).map_err(internal)
+    let part = part::part(&state.assignment, frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2);
+    part.map_err(internal)
 }
 
 /// A report with its files.

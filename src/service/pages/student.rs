@@ -72,7 +72,7 @@ struct View<'a> {
     several: String,
     can_hand_in: bool,
     grades_drafts: bool,
-    expected: &'static str,
+    expected: String,
     task: Vec<Piece>,
     picture: &'a str,
     equation: Option<&'a Typeset>,
@@ -143,7 +143,7 @@ impl Desk<'_> {
             most: MAX_UPLOAD,
             too_large: too_large().detail.get(language).to_owned(),
             several,
-            expected: assets::address(&assets::expected_name(id)),
+            expected: assets::expected(&homework),
             task: pieces(task.map_or(draw_this, |task| language.of(&task.text))),
             picture: task
                 .map_or(self.frame.say("What a right answer draws", "正しい答えが描く画像"), |task| {

@@ -26,7 +26,7 @@ pub fn summary(class: &Class, limit: usize) -> String {
     } else {
         rows.push(&format!("{}\n\n{}", counts(class), heading(language)));
         for entry in &class.entries {
-            rows.push(&row(entry, language));
+            rows.push(&row(entry, class));
         }
     }
     if !class.refused.is_empty() {
@@ -86,7 +86,8 @@ fn heading(language: Language) -> &'static str {
     }
 }
 
-fn row(entry: &Entry, language: Language) -> String {
+fn row(entry: &Entry, class: &Class) -> String {
+    let language = class.language;
     let report = entry.report();
     let score = report.map(|report| wording::points(report.score, report.max_score)).unwrap_or_default();
     let detail = match report {
@@ -96,7 +97,7 @@ fn row(entry: &Entry, language: Language) -> String {
                 format!("{}: {}", markdown(&place), rich(error.message.get(language)))
             }
             None => {
-                let title = |id: &String| markdown(mistake_title(&report.assignment, id, language));
+                let title = |id: &String| markdown(mistake_title(&class.assignment, id, language));
                 report.mistakes.iter().map(title).collect::<Vec<_>>().join(" · ")
             }
         },

@@ -43,11 +43,11 @@ impl Rules {
             );
             rules.add(id, "Stage", "error", texts(short, full.get(language), help.get(language)));
         }
-        for mistake in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.mistakes) {
+        for mistake in &class.assignment.mistakes {
             let title = mistake_title(&class.assignment, &mistake.id, language);
             rules.add(&mistake.id, "Mistake", "warning", described(title, mistake, language));
         }
-        for advice in reference::assignment(&class.assignment).map_or(&[][..], |assignment| &assignment.advice) {
+        for advice in &class.assignment.advice {
             let text = advice.message.fill(&[]);
             let text = Text::new(text.en, text.ja).get(language).to_owned();
             rules.add(&advice.id, "Advice", "note", texts(&text, &text, &text));

@@ -165,7 +165,7 @@ async fn view_one(
             at: frame.moment(batch.created_at),
             events: format!("/api/v1/batches/{}/events", batch.id),
             progress: state.store.progress(&batch.id).await?,
-            table: Table::of(&frame, &state.assignment.id, &everyone, filter),
+            table: Table::of(&frame, &everyone, filter),
             refused: batch.refused.iter().map(|refused| (refused.path.clone(), said(&refused.reason))).collect(),
             formats: formats(&frame),
             files: format!("/api/v1/batches/{}/files", batch.id),
@@ -173,7 +173,7 @@ async fn view_one(
             title: batch.title,
             id: batch.id,
             problem,
-            frame: frame.of(&state.assignment.id),
+            frame,
         }
         .render(),
     )

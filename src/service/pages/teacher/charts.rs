@@ -1,7 +1,6 @@
 //! Charts as numbers that a template draws: scores, and mistakes over time.
 
 use super::super::frame::Frame;
-use crate::report::labels::mistake_title;
 use crate::service::classes::Person;
 use crate::service::clock::Millis;
 use std::collections::HashMap;
@@ -138,7 +137,7 @@ pub(super) struct Trend {
 }
 
 /// The mistakes, the most frequent first.
-pub(super) fn trends(frame: &Frame, assignment: &str, people: &[&Person]) -> Vec<Trend> {
+pub(super) fn trends(frame: &Frame, people: &[&Person]) -> Vec<Trend> {
     let mut standing: HashMap<&str, usize> = HashMap::new();
     for best in people.iter().filter_map(|person| person.best()) {
         for mistake in &best.mistakes {
@@ -159,7 +158,7 @@ pub(super) fn trends(frame: &Frame, assignment: &str, people: &[&Person]) -> Vec
     let most = standing.values().copied().max().unwrap_or(0).max(1);
     let trend = |id: &str| {
         let people = standing.get(id).copied().unwrap_or(0);
-        let title = mistake_title(assignment, id, frame.language).to_owned();
+        let title = frame.mistake_title(id).to_owned();
         Trend { id: id.to_owned(), title, people, percent: 100 * people / most, bars: spark(&handed_in[id], from, to) }
     };
     ids.into_iter().take(DRAWN).map(trend).collect()
@@ -227,8 +226,13 @@ mod tests {
     fn a_mistake_counts_by_people_and_its_history_by_files() {
         let people =
             [person("a", &[(0, 10.0, "gamma"), (10, 20.0, "unchanged")]), person("b", &[(20, 20.0, "unchanged")])];
-        let frame = Frame::new(Language::En, Course::default(), Uri::from_static("/"));
-        let trends = trends(&frame, "ggsample06", &people.iter().collect::<Vec<_>>());
+        let frame = Frame::new(
+            Language::En,
+            Course::default(),
+            Uri::from_static("/"),
+            reference::assignment("ggsample06").cloned(),
+        );
+        let trends = trends(&frame, &people.iter().collect::<Vec<_>>());
         let found: Vec<_> = trends.iter().map(|trend| (trend.title.as_str(), trend.people, trend.bars.len())).collect();
         assert_eq!(found, [("Handed in unchanged", 2, 2), ("Gamma or another curve on the colour", 0, 1)]);
         assert_eq!(trends[0].percent, 100);

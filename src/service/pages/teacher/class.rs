@@ -66,7 +66,6 @@ pub(in crate::service::pages) async fn page(
     Query(filter): Query<Filter>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let frame = frame.of(&state.assignment.id);
     let People { mut class, mut apart } = people(&state).await?;
     // Pseudonyms follow an order that says nothing of names, and stay as they are when others join.
     class.sort_by(|a, b| a.key.cmp(&b.key));
@@ -79,7 +78,7 @@ pub(in crate::service::pages) async fn page(
         listed.iter().filter_map(|person| person.best()).flat_map(|best| best.mistakes.iter().cloned()).collect();
     mistakes.sort_unstable();
     mistakes.dedup();
-    let mut mistakes = titled(&frame, id, &mistakes);
+    let mut mistakes = titled(&frame, &mistakes);
     mistakes.sort();
     let course = charts::course(&everyone).map(|course| {
         let (from, to) = (frame.moment(course.from).text, frame.moment(course.to).text);
@@ -106,9 +105,9 @@ pub(in crate::service::pages) async fn page(
             has_roster: state.store.has_roster().await?,
             histogram: charts::histogram(&everyone),
             course,
-            trends: charts::trends(&frame, id, &everyone),
+            trends: charts::trends(&frame, &everyone),
             mistakes,
-            table: Table::of(&frame, id, listed, &filter),
+            table: Table::of(&frame, listed, &filter),
             formats: formats(&frame),
             files: "/api/v1/class/files",
             of_batch: "",

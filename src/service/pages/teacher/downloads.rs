@@ -122,7 +122,7 @@ pub(in crate::service::pages) async fn page(
             made,
             notes,
             problem,
-            frame: frame.of(&state.assignment.id),
+            frame,
         }
         .render(),
     )

@@ -59,7 +59,6 @@ pub(in crate::service::pages) async fn page(
     Query(whom): Query<Whom>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let frame = frame.of(&state.assignment.id);
     let people = people(&state).await?;
     let person = people.all().find(|person| person.key == whom.key).cloned().ok_or_else(Problem::not_found)?;
     let best = person.best().map(|best| best.row.submission.id.clone());
@@ -93,7 +92,7 @@ fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> A
         max_score: part::points(row.row.max_score),
         is_best: best == Some(submission.id.as_str()),
         portrait: student::draws(row.row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
-        mistakes: titled(frame, &submission.assignment, &row.mistakes),
+        mistakes: titled(frame, &row.mistakes),
         is_disputed: row.differs,
         file: if hidden { String::new() } else { submission.name.clone() },
         at: frame.moment(submission.received_at),

@@ -162,7 +162,7 @@ fn line(frame: &Frame, row: &Compared) -> Row {
         mark: student::mark(*verdict, Some(*score)).id(),
         word: part::verdict(frame, *verdict),
         score: number(*score),
-        mistakes: titled(frame, &row.submission.assignment, mistakes),
+        mistakes: titled(frame, mistakes),
     };
     Row {
         href: format!("/r/{}", row.submission.id),

@@ -4,7 +4,6 @@ use super::super::frame::Frame;
 use super::super::moment::Moment;
 use super::super::{part, student};
 use super::word;
-use crate::report::labels::mistake_title;
 use crate::service::classes::Person;
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Deserialize;
@@ -208,7 +207,7 @@ pub(super) struct Row {
 impl Table {
     /// The people that a filter takes, the one page of them that it asks for. `people` stand in an order that says nothing
     /// of their names: pseudonyms are numbered by it.
-    pub fn of(frame: &Frame, assignment: &str, people: &[&Person], filter: &Filter) -> Self {
+    pub fn of(frame: &Frame, people: &[&Person], filter: &Filter) -> Self {
         let mut chosen: Vec<(usize, &Person)> =
             people.iter().copied().enumerate().filter(|(_, person)| filter.takes(person)).collect();
         let (falls, id) = match filter.sort.strip_prefix('-') {
@@ -239,17 +238,17 @@ impl Table {
             }
         };
         let pager = Pager::new(chosen.len(), &filter.page, |page| filter.with("page", page));
-        let rows = pager.of(&chosen).iter().map(|(index, person)| row(frame, assignment, filter, *index, person));
+        let rows = pager.of(&chosen).iter().map(|(index, person)| row(frame, filter, *index, person));
         Self { headers: Column::ALL.map(header).into(), rows: rows.collect(), pager }
     }
 }
 
 /// Titles and ids of mistakes, in the reader's language.
-pub(super) fn titled(frame: &Frame, assignment: &str, ids: &[String]) -> Vec<(String, String)> {
-    ids.iter().map(|id| (mistake_title(assignment, id, frame.language).to_owned(), id.clone())).collect()
+pub(super) fn titled(frame: &Frame, ids: &[String]) -> Vec<(String, String)> {
+    ids.iter().map(|id| (frame.mistake_title(id).to_owned(), id.clone())).collect()
 }
 
-fn row(frame: &Frame, assignment: &str, filter: &Filter, index: usize, person: &Person) -> Row {
+fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
     let best = person.best();
     let shown = best.or(person.rows.first());
     let anonymous = filter.is_anonymous();
@@ -269,7 +268,7 @@ fn row(frame: &Frame, assignment: &str, filter: &Filter, index: usize, person: &
         word: word(frame, person.standing()),
         score: part::points(best.and_then(|best| best.row.score)),
         max_score: part::points(best.and_then(|best| best.row.max_score)),
-        mistakes: shown.map(|row| titled(frame, assignment, &row.mistakes)).unwrap_or_default(),
+        mistakes: shown.map(|row| titled(frame, &row.mistakes)).unwrap_or_default(),
         is_disputed: person.is_disputed(),
         note: note.map(|note| note.get(frame.language).replace('`', "")).unwrap_or_default(),
         attempts: person.rows.len(),
@@ -286,12 +285,17 @@ mod tests {
     use axum::http::Uri;
 
     fn frame() -> Frame {
-        Frame::new(Language::Ja, Course::default(), Uri::from_static("/teacher"))
+        Frame::new(
+            Language::Ja,
+            Course::default(),
+            Uri::from_static("/teacher"),
+            reference::assignment("ggsample06").cloned(),
+        )
     }
 
     fn shown(people: &[Person], filter: &Filter) -> Vec<String> {
         let people: Vec<&Person> = people.iter().collect();
-        Table::of(&frame(), "ggsample06", &people, filter).rows.into_iter().map(|row| row.number).collect()
+        Table::of(&frame(), &people, filter).rows.into_iter().map(|row| row.number).collect()
     }
 
     fn sorted(sort: &str) -> Filter {
@@ -331,7 +335,7 @@ mod tests {
         let people = class();
         let people: Vec<&Person> = people.iter().collect();
         let filter = Filter { q: "s&1".into(), ..sorted("score") };
-        let headers = Table::of(&frame(), "ggsample06", &people, &filter).headers;
+        let headers = Table::of(&frame(), &people, &filter).headers;
         let score = headers.iter().find(|header| header.sorted.is_some()).expect("the sorted column");
         assert_eq!((score.sorted, score.href.as_str()), (Some("ascending"), "?q=s%261&sort=%2Dscore"));
     }

@@ -1,0 +1,240 @@
+//! Assignments in folders: graded as a built-in one, and named by file and line where they are broken.
+
+use super::{ggrade, sample_like};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+const MANIFEST: &str = "assignment.toml";
+
+/// A copy of the built-in homework's folder, in a folder called `toon`.
+struct Copy {
+    /// What the copy stands in, beside what is not part of it.
+    around: TempDir,
+}
+
+impl Copy {
+    fn new() -> Self {
+        let copy = Self { around: tempfile::tempdir().unwrap() };
+        fs::create_dir(copy.folder()).unwrap();
+        let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments/ggsample06");
+        for entry in fs::read_dir(original).unwrap() {
+            let entry = entry.unwrap();
+            fs::copy(entry.path(), copy.folder().join(entry.file_name())).unwrap();
+        }
+        copy
+    }
+
+    fn folder(&self) -> PathBuf {
+        self.around.path().join("toon")
+    }
+
+    fn path(&self, file: &str) -> PathBuf {
+        self.folder().join(file)
+    }
+
+    /// Replaces a text of a file, which has to be there.
+    fn replace(self, file: &str, from: &str, to: &str) -> Self {
+        let text = fs::read_to_string(self.path(file)).unwrap();
+        assert!(text.contains(from), "{file} has no {from}");
+        fs::write(self.path(file), text.replacen(from, to, 1)).unwrap();
+        self
+    }
+
+    /// The line on which a text of a file stands.
+    fn line(&self, file: &str, text: &str) -> usize {
+        let content = fs::read_to_string(self.path(file)).unwrap();
+        content.lines().position(|line| line.contains(text)).unwrap() + 1
+    }
+
+    /// What `ggrade grade` says of the broken folder, in a language.
+    fn said(&self, language: &str) -> String {
+        let output = ggrade()
+            .arg("grade")
+            .arg(sample_like("accepted/answers", "plain-int-zero"))
+            .arg("--assignment")
+            .arg(self.folder())
+            .args(["--lang", language])
+            .output()
+            .unwrap();
+        assert!(output.stdout.is_empty(), "no report");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        said
+    }
+
+    /// Holds what is said of the broken folder against its place and a part of the message, in both languages.
+    fn is_refused(&self, file: &str, line: Option<usize>, en: &str, ja: &str) {
+        let place = |english: bool| match (line, english) {
+            (Some(line), true) => format!("{file}, line {line}"),
+            (Some(line), false) => format!("{file} の {line} 行目"),
+            (None, _) => file.to_owned(),
+        };
+        for (language, part) in [("en", en), ("ja", ja)] {
+            let said = self.said(language);
+            assert!(
+                said.contains(&place(language == "en")) && said.contains(part),
+                "{place} in {said}",
+                place = place(true)
+            );
+            assert!(said.contains("toon"), "the folder is named: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_folder_is_graded_as_the_built_in_assignment() {
+    let copy = Copy::new().replace(MANIFEST, "points = 10", "points = 60");
+    let file = sample_like("accepted/answers", "plain-int-zero");
+    let report = |assignment: &Path| -> serde_json::Value {
+        let output =
+            ggrade().arg("grade").arg(&file).arg("--assignment").arg(assignment).args(["--format", "json"]).output();
+        serde_json::from_slice(&output.unwrap().stdout).unwrap()
+    };
+    let (ours, theirs) = (report(Path::new("ggsample06")), report(&copy.folder()));
+    assert_eq!((&ours["verdict"], &ours["score"]), (&"correct".into(), &100.into()));
+    assert_eq!((&theirs["verdict"], &theirs["score"]), (&"correct".into(), &150.into()));
+    assert_eq!(ours["assignment"], theirs["assignment"]);
+    let digest = |report: &serde_json::Value| report["assignment_digest"].as_str().unwrap().to_owned();
+    assert_eq!(digest(&ours).len(), 64);
+    assert_ne!(digest(&ours), digest(&theirs), "a changed folder is another assignment");
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let copy = Copy::new();
+    fs::remove_file(copy.path("starter.vert")).unwrap();
+    copy.is_refused("starter.vert", None, "is not in the folder, which has assignment.toml", "フォルダにありません");
+    fs::remove_file(copy.path(MANIFEST)).unwrap();
+    copy.is_refused(MANIFEST, None, "every assignment has one", "どの課題にも必要");
+}
+
+#[test]
+fn a_description_that_is_not_toml_is_named_by_its_line() {
+    let copy = Copy::new().replace(MANIFEST, "[scene]", "[scene");
+    copy.is_refused(MANIFEST, Some(copy.line(MANIFEST, "[scene")), "", "");
+}
+
+#[test]
+fn an_unknown_key_is_named_with_those_that_there_are() {
+    let copy = Copy::new().replace(MANIFEST, "background =", "backgrund =");
+    let expected = "unknown field `backgrund`, expected";
+    copy.is_refused(MANIFEST, Some(copy.line(MANIFEST, "backgrund")), expected, expected);
+}
+
+#[test]
+fn a_definition_that_the_solution_lacks_is_named_with_those_that_it_has() {
+    let copy = Copy::new().replace(MANIFEST, "{ facing = \"nh\" }", "{ facings = \"nh\" }");
+    copy.is_refused(
+        MANIFEST,
+        Some(copy.line(MANIFEST, "facings")),
+        "there is no definition `facings` in solution.vert, which has `p`",
+        "solution.vert に定義 `facings` はありません",
+    );
+}
+
+#[test]
+fn a_solution_that_does_not_compile_is_named_by_its_line() {
+    let copy = Copy::new().replace("solution.vert", "normalize(l + v)", "normalize(l + vv)");
+    let expected = "there is no variable vv";
+    copy.is_refused("solution.vert", Some(copy.line("solution.vert", "(l + vv)")), expected, expected);
+}
+
+#[test]
+fn a_solution_of_undefined_values_is_refused() {
+    let copy = Copy::new().replace("solution.vert", "float lambert = max(nl, 0.0);", "float lambert = pow(nl, 2.0);");
+    copy.is_refused("solution.vert", None, "is undefined, or no number: look at", "未定義か、数になりません");
+}
+
+#[test]
+fn what_is_no_text_is_named_by_its_line() {
+    let copy = Copy::new();
+    let mut bytes = fs::read(copy.path("fixed.frag")).unwrap();
+    let line = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;
+    bytes.extend([b'/', b'/', 0xff]);
+    fs::write(copy.path("fixed.frag"), &bytes).unwrap();
+    copy.is_refused("fixed.frag", Some(line), "is not UTF-8", "UTF-8 ではありません");
+    *bytes.last_mut().unwrap() = 0;
+    fs::write(copy.path("fixed.frag"), &bytes).unwrap();
+    copy.is_refused("fixed.frag", Some(line), "has a NUL", "NUL 文字があります");
+}
+
+#[test]
+fn a_link_out_of_the_folder_is_refused() {
+    let copy = Copy::new();
+    fs::write(copy.around.path().join("secret.txt"), "secret").unwrap();
+    std::os::unix::fs::symlink("../secret.txt", copy.path("notes.txt")).unwrap();
+    copy.is_refused("notes.txt", None, "leads out of the folder", "フォルダの外を指すリンク");
+    // Within the folder a link is as good as the file.
+    fs::remove_file(copy.path("notes.txt")).unwrap();
+    std::os::unix::fs::symlink("solution.vert", copy.path("notes.txt")).unwrap();
+    ggrade()
+        .arg("grade")
+        .arg(sample_like("accepted/answers", "plain-int-zero"))
+        .arg("--assignment")
+        .arg(copy.folder())
+        .assert()
+        .code(0);
+}
+
+#[test]
+fn what_contradicts_itself_is_named_by_its_entry() {
+    let copy = Copy::new().replace(MANIFEST, "keeps = { ambient = 0.5 }", "keeps = { ambient = 1.5 }");
+    let line = copy.line(MANIFEST, "id = \"ambient-added\"");
+    copy.is_refused(MANIFEST, Some(line), "mistake `ambient-added`: keeps 1.5", "0 から 1 の数");
+}
+
+#[test]
+fn a_folder_is_checked_by_its_own_files() {
+    let check = |copy: &Copy| ggrade().args(["assignment", "check"]).arg(copy.folder()).output().unwrap();
+    let copy = Copy::new();
+    let output = check(&copy);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("ok   the solution: Correct, 100 of 100 points"), "{said}");
+    assert!(said.contains("ok   what is handed out: Wrong, 0 of 100 points"), "{said}");
+    // What is handed out must leave something to do.
+    fs::copy(copy.path("solution.vert"), copy.path("starter.vert")).unwrap();
+    let output = check(&copy);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("FAIL what is handed out: Correct"), "{said}");
+}
+
+#[test]
+fn the_built_in_assignments_are_listed_with_their_files() {
+    let output = ggrade().args(["assignment", "list"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(said.lines().any(|line| line.starts_with("ggsample06  ggsample06.vert  ")), "{said}");
+}
+
+#[test]
+fn every_command_says_what_is_wrong_with_a_folder() {
+    let copy = Copy::new();
+    fs::remove_file(copy.path("solution.vert")).unwrap();
+    let file = sample_like("accepted/answers", "plain-int-zero");
+    let out = copy.around.path().join("out");
+    for arguments in [
+        vec!["batch".into(), file.clone().into_os_string(), "--out".into(), out.into()],
+        vec!["watch".into(), file.clone().into_os_string()],
+        vec!["corpus".into(), "submissions/ggsample06/accepted".into()],
+        vec!["serve".into(), "--listen".into(), "127.0.0.1:0".into()],
+    ] {
+        let output = ggrade().args(&arguments).arg("--assignment").arg(copy.folder()).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(said.contains("solution.vert"), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn a_service_of_several_assignments_is_refused_with_what_to_do() {
+    let output = ggrade()
+        .args(["serve", "--listen", "127.0.0.1:0", "--assignment", "ggsample06", "--assignment", "ggsample06"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("Start a service for each"), "{said}");
+}
