@@ -146,7 +146,8 @@ fn numbers_are_short() {
 #[test]
 fn with_several_files_a_place_names_its_own() {
     let report = samples::two_files();
-    let options = Options { language: Language::En, width: 80, colour: false, excerpts: None };
+    let options =
+        Options { assignment: samples::assignment(), language: Language::En, width: 80, colour: false, excerpts: None };
     let text = render(&report, &options);
     assert!(text.contains("ggsample11.vert, ggsample11.frag"), "{text}");
     assert!(text.contains("warning · ggsample11.vert, line 12, column 9"), "{text}");
