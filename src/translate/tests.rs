@@ -1,6 +1,6 @@
 //! Valid shaders that take more than the two passes, and what only drivers refuse.
 
-use super::{Interface, Refusal, Translation, translate};
+use super::{Interface, Program, Refusal, Stage, Translation, translate};
 use crate::diagnostic::Severity;
 use crate::{homework, source};
 
@@ -151,4 +151,70 @@ fn parts_of_uniforms_are_held_against_what_the_program_sets() {
         place(&[("ambient.x", "float")]).1,
         "`ambient` is declared as `vec4`, but the program passes a `struct`"
     );
+}
+
+/// The program of a homework with this fixed vertex shader, or one of which both stages are handed in.
+fn program(vertex: Option<&str>) -> Program {
+    let mut interface = interface();
+    interface.fragment = c"".to_owned();
+    Program::new(interface, vertex.map(|text| (Stage::Vertex, text))).expect("the fixed stage is right")
+}
+
+/// Line and message of the first error of these stages; none where they are taken.
+fn refused(program: &Program, texts: &[(Stage, &str)]) -> Option<(Stage, Option<u32>, String)> {
+    let read = |(stage, text): &(Stage, &str)| source::read_stage(*stage, "a", text.as_bytes()).expect("a text");
+    let sources: Vec<_> = texts.iter().map(read).collect();
+    let stages: Vec<_> = texts.iter().zip(&sources).map(|((stage, _), source)| (*stage, source)).collect();
+    let refused = program.translate(&stages).err()?;
+    match refused.refusal {
+        Refusal::Rejected(diagnostics) => Some((refused.stage, diagnostics[0].line, diagnostics[0].message.en.clone())),
+        other => panic!("{other:?}"),
+    }
+}
+
+const FIXED: &str = "#version 330\nin vec4 pv;\nuniform mat4 mc;\nout vec3 n;\nflat out int k;\n\
+    void main() { n = pv.xyz; k = 1; gl_Position = mc * pv; }\n";
+
+#[test]
+fn a_fragment_stage_takes_what_the_vertex_stage_hands_over() {
+    let program = program(Some(FIXED));
+    let refused = |version: &str, input: &str, body: &str| {
+        let text = format!("#version {version}\n{input}\nout vec4 c;\nvoid main() {{ c = {body}; }}\n");
+        refused(&program, &[(Stage::Fragment, &text)])
+    };
+    assert_eq!(refused("330", "in vec3 n;", "vec4(n, 1.0)"), None);
+    assert_eq!(refused("330", "flat in int k;", "vec4(float(k))"), None);
+    // What is declared and not read needs nobody who writes it.
+    assert_eq!(refused("330", "in vec3 other;", "vec4(1.0)"), None);
+    let missing = refused("330", "in vec3 other;", "vec4(other, 1.0)").expect("nobody writes it");
+    assert_eq!((missing.0, missing.1), (Stage::Fragment, Some(2)), "{missing:?}");
+    let wider = refused("330", "in vec4 n;", "n").expect("it is a vec3");
+    assert_eq!((wider.1, &*wider.2), (Some(2), "`n` has type vec4 here, but the vertex shader writes vec3."));
+    for version in ["330", "410"] {
+        let differs = refused(version, "flat in vec3 n;", "vec4(n, 1.0)").expect("a qualifier that the other has not");
+        assert_eq!(differs.1, Some(2), "{differs:?}");
+        assert!(refused(version, "noperspective in vec3 n;", "vec4(n, 1.0)").is_some());
+        assert!(refused(version, "centroid in vec3 n;", "vec4(n, 1.0)").is_some());
+    }
+    assert_eq!(refused("440", "flat in vec3 n;", "vec4(n, 1.0)"), None);
+    let broken = refused("330", "in vec3 n;\n", "n + x").expect("an undeclared name");
+    assert_eq!((broken.0, broken.1), (Stage::Fragment, Some(5)));
+}
+
+#[test]
+fn between_two_stages_that_are_handed_in_the_names_are_free() {
+    let program = program(None);
+    let vertex = "#version 410\nin vec4 pv;\nuniform mat4 mc;\nout Own { vec3 a; mat3 b; } own;\nout float unread;\n\
+        void main() { own.a = pv.xyz; own.b = mat3(mc); unread = 1.0; gl_Position = mc * pv; }\n";
+    let fragment = "#version 410\nin Own { vec3 a; mat3 b; } mine;\nuniform mat4 mw;\nout vec4 c;\n\
+        void main() { c = mw * vec4(mine.b * mine.a, 1.0); }\n";
+    assert_eq!(refused(&program, &[(Stage::Vertex, vertex), (Stage::Fragment, fragment)]), None);
+    let broken = vertex.replace("own.a = pv.xyz", "own.a = pw.xyz");
+    let first = refused(&program, &[(Stage::Vertex, &broken), (Stage::Fragment, fragment)]).expect("a wrong name");
+    assert_eq!((first.0, first.1), (Stage::Vertex, Some(6)));
+    let other = fragment
+        .replace("uniform mat4 mw", "uniform mat3 mw")
+        .replace("mw * vec4(mine.b * mine.a, 1.0)", "vec4(mw * mine.b * mine.a, 1.0)");
+    let wrong = refused(&program, &[(Stage::Vertex, vertex), (Stage::Fragment, &other)]).expect("another type");
+    assert_eq!((wrong.0, wrong.1), (Stage::Fragment, Some(3)));
 }
