@@ -126,7 +126,7 @@ fn a_second_ctrl_c_ends_at_once() {
     let place = Place::new();
     place.hand_in("a", &sample(RIGHT));
     for number in 0..8 {
-        let mut endless = sample("hostile/loops/counter-forgotten.vert");
+        let mut endless = sample("hostile/stopped/loops/counter-forgotten.vert");
         endless.extend(format!("// {number}\n").bytes());
         place.hand_in(&format!("endless-{number}"), &endless);
     }

@@ -174,6 +174,7 @@ async fn the_page_takes_and_shows_each_file(database: Database) {
     let report = bench.get(reply.header("location")).await;
     let text = report.text();
     assert_eq!(report.all(".listing").len(), 2, "{text}");
+    assert!(!text.contains("?from="), "the editor is for one file");
     assert!(text.contains("<a href=\"#F2L2\">ggsample11.frag, line 2, column 28</a>"), "{text}");
     let starter = bench.get("/a/ggsample06/starter").await;
     assert!(starter.header("content-disposition").contains("ggsample06.zip"), "{starter:?}");

@@ -75,7 +75,8 @@ pub(super) async fn page(
             back: format!("/a/{assignment}"),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
-            again: (sources.len() == state.assignment.files.len()).then(|| format!("/a/{assignment}?from={id}")),
+            again: (sources.len() == 1 && state.assignment.files.len() == 1)
+                .then(|| format!("/a/{assignment}?from={id}")),
             address: format!("/r/{id}"),
             source: format!("/r/{id}/source"),
             receipt,
