@@ -135,10 +135,24 @@ fn an_expectation_without_a_sample_is_an_error() {
 }
 
 #[test]
-fn a_sample_without_an_expectation_is_a_difference() {
+fn a_sample_without_an_expectation_is_a_difference_until_it_is_blessed() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("new.vert"), "void main() {}").unwrap();
-    Command::cargo_bin("ggrade").unwrap().arg("corpus").arg(folder.path()).assert().code(1);
+    let corpus = |more: &[&str]| {
+        let mut command = Command::cargo_bin("ggrade").unwrap();
+        command.env_remove("CI").arg("corpus").arg(folder.path()).args(more).assert()
+    };
+    corpus(&[]).code(1);
+    corpus(&["--bless"]).code(1).stderr(predicates::str::contains("1 expected reports were written anew"));
+    corpus(&[]).code(0);
+
+    // The wording is held.
+    let expectation = folder.path().join("new.json");
+    let text = std::fs::read_to_string(&expectation).unwrap();
+    let other = text.replace("not judged", "not looked at");
+    assert_ne!(other, text);
+    std::fs::write(&expectation, other).unwrap();
+    corpus(&[]).code(1).stdout(predicates::str::contains("expected  not looked at"));
 }
 
 /// The homework, with the reflection vector as right as the half vector where `accepted` says so.

@@ -5,7 +5,7 @@ use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
 use crate::cross_check::Opinion;
 use crate::fault::Fault;
-use crate::language::{Language, Text};
+use crate::language::Language;
 use crate::parallel;
 use crate::sandbox::{Pool, Settings};
 use reference::Assignment;
@@ -46,9 +46,7 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
     let agreeing = results.len() - differing;
     anstream::println!("{agreeing} of {} samples are as expected", results.len());
     if arguments.bless && differing > 0 {
-        return Err(Fault::new(Text::verbatim(format!(
-            "{differing} expected reports were written anew: look at them"
-        ))));
+        anstream::eprintln!("ggrade: {differing} expected reports were written anew: look at them");
     }
     Ok(if differing == 0 && disputed == 0 { Outcome::FullMarks } else { Outcome::Graded })
 }
