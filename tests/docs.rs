@@ -84,3 +84,44 @@ fn every_mistake_of_the_table_has_two_samples() {
         }
     }
 }
+
+/// The rooms of the pipeline, in the order in which they may know one another. Finding the slot of a file reads it as text.
+const PIPELINE: [&str; 7] = ["hand_in", "source", "slots", "translate", "render", "compare", "diagnose"];
+
+/// Who calls the pipeline.
+const ABOVE: [&str; 9] =
+    ["grade", "sandbox", "batch", "service", "corpus", "command", "cli", "report::html", "report::json"];
+
+/// What the code of a room imports: the paths behind `crate::`, comments and tests left out.
+fn imports(room: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut paths = vec![root.join(room).with_extension("rs"), root.join(room)];
+    assert!(paths[0].is_file(), "there is no {room}");
+    let mut imports = Vec::new();
+    while let Some(path) = paths.pop() {
+        if path.is_dir() {
+            paths.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|extension| extension == "rs") && !path.ends_with("tests.rs") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+            let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+            imports.extend(lines.flat_map(|line| line.split("crate::").skip(1).map(str::to_owned)));
+        }
+    }
+    imports
+}
+
+/// `docs/architecture.md`, "Who may know whom".
+#[test]
+fn a_room_knows_only_what_stands_before_it() {
+    for (place, room) in PIPELINE.iter().enumerate() {
+        let after = PIPELINE[place + 1..].iter().chain(&ABOVE);
+        for other in after {
+            let known = imports(room).into_iter().find(|path| {
+                path.strip_prefix(other)
+                    .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+            });
+            assert_eq!(known, None, "{room} knows {other}");
+        }
+    }
+}
