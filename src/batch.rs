@@ -1,7 +1,7 @@
 //! Many files → many reports, in and out of the formats that courses use.
 //!
 //! [`intake`] finds what was handed in, [`run`] grades it on all cores and writes each result into a [`journal`] as it
-//! comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`same`] knows which submissions are the
+//! comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`shared_answers`] knows which submissions are the
 //! same, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it.
 
 pub mod anonymous;
@@ -11,14 +11,14 @@ pub mod folder;
 pub mod formats;
 pub mod intake;
 pub mod journal;
-pub mod lines;
+pub mod json_lines;
 pub mod output;
 pub mod page;
 pub mod portrait;
 pub mod progress;
+pub mod resume;
 pub mod run;
-pub mod same;
+pub mod shared_answers;
 pub mod standing;
-pub mod start;
 pub mod statistics;
 pub mod summary;

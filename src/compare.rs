@@ -39,7 +39,7 @@ pub struct ExpectedFrame {
     height: u32,
     background: Pixel,
     /// The pixels that are not certainly outside, row by row from the left.
-    runs: Vec<Run>,
+    runs: Vec<PixelRun>,
     /// The runs of each row, as a range of `runs`.
     rows: Vec<Range<usize>>,
 }
@@ -52,7 +52,7 @@ const RGB: Pixel = Pixel::from_ne_bytes([255, 255, 255, 0]);
 
 /// Neighbours in a row that lie alike with respect to the triangle.
 #[derive(Clone, Debug)]
-struct Run {
+struct PixelRun {
     coverage: Coverage,
     columns: Range<usize>,
     /// What is expected there, without alpha.
@@ -63,7 +63,7 @@ impl ExpectedFrame {
     /// Prepares the reference's frame of pose `t`.
     pub fn new(t: f64, frame: &Frame, background: [u8; 4]) -> Self {
         let width = frame.width.max(1) as usize;
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<PixelRun> = Vec::new();
         let mut rows = Vec::new();
         for (coverage, pixels) in frame.coverage.chunks_exact(width).zip(frame.pixels.chunks_exact(width)) {
             let first = runs.len();
@@ -74,7 +74,7 @@ impl ExpectedFrame {
                 if alike[0] != Coverage::Outside {
                     let pixels =
                         pixels[columns.clone()].iter().map(|pixel| Pixel::from_ne_bytes(*pixel) & RGB).collect();
-                    runs.push(Run { coverage: alike[0], columns, pixels });
+                    runs.push(PixelRun { coverage: alike[0], columns, pixels });
                 }
             }
             rows.push(first..runs.len());
@@ -120,7 +120,7 @@ struct Tally {
 
 impl Tally {
     /// `row`: the columns `shown` of a row that is background elsewhere.
-    fn row(&mut self, row: &[Pixel], shown: Range<usize>, runs: &[Run]) {
+    fn row(&mut self, row: &[Pixel], shown: Range<usize>, runs: &[PixelRun]) {
         let mut left = 0;
         for run in runs {
             let Overlap { columns, before, expected, after } = run.overlap(&shown);
@@ -218,7 +218,7 @@ struct Overlap<'a> {
     after: &'a [Pixel],
 }
 
-impl Run {
+impl PixelRun {
     fn overlap(&self, shown: &Range<usize>) -> Overlap<'_> {
         let start = self.columns.start.clamp(shown.start, shown.end);
         let end = self.columns.end.clamp(start, shown.end);

@@ -9,7 +9,7 @@ mod directives;
 mod encoding;
 mod kind;
 pub(crate) mod lookalikes;
-mod odd;
+mod stray_characters;
 #[cfg(test)]
 mod tests;
 
@@ -95,10 +95,10 @@ pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<
     facts.encoding = Some(decoded.encoding);
     let mut source = Source::new(facts, &decoded.text);
     source.notes = decoded.notes;
-    source.notes.extend(odd::in_comments(&source));
+    source.notes.extend(stray_characters::in_comments(&source));
     let mut diagnostics: Vec<_> = kind::wrong_text(&source, stage).map(in_words).into_iter().collect();
     if diagnostics.is_empty() {
-        let (errors, warnings) = odd::in_code(&source);
+        let (errors, warnings) = stray_characters::in_code(&source);
         source.notes.splice(0..0, warnings);
         diagnostics = errors;
     }

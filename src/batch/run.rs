@@ -6,7 +6,7 @@ use super::intake::{self, StudentWork};
 use super::journal::{Journal, Record, RecordOf};
 use super::page::Pages;
 use super::portrait::Portraits;
-use super::same::{self, Content, HandOut};
+use super::shared_answers::{self, Content, HandOut};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
 use crate::hand_in::HandIn;
@@ -45,14 +45,14 @@ pub fn candidates(hand_ins: Vec<StudentWork>, assignment: &Assignment) -> Vec<Ca
         candidates.push(candidate);
         answers.push(answer);
     }
-    for (index, others) in same::others(&answers).into_iter().enumerate() {
+    for (index, others) in shared_answers::others(&answers).into_iter().enumerate() {
         let keys = others.into_iter().map(|other| candidates[other].hand_in.student.key.clone());
         candidates[index].shares_with = keys.collect();
     }
     candidates
 }
 
-fn candidate(work: StudentWork, hand_out: &HandOut) -> (Candidate, Option<same::Print>) {
+fn candidate(work: StudentWork, hand_out: &HandOut) -> (Candidate, Option<shared_answers::Print>) {
     let none =
         |hand_in| Candidate { hand_in, sha256: None, sources: Vec::new(), content: None, shares_with: Vec::new() };
     let intake::Content::Files { hand_in, .. } = &work.content else { return (none(work), None) };

@@ -9,9 +9,9 @@ use crate::batch::class::Class;
 use crate::batch::intake;
 use crate::batch::output::{self, Given};
 use crate::batch::portrait::Portraits;
+use crate::batch::resume::{self, Mode, NotBegun};
 use crate::batch::run;
 use crate::batch::standing::Standing;
-use crate::batch::start::{self, Mode, NotBegun};
 use crate::choice;
 use crate::cli::Batch;
 use crate::fault::Fault;
@@ -57,10 +57,10 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
         (_, true) => Mode::Force,
         _ => Mode::New,
     };
-    let found = start::earlier(&folder, &arguments.out, mode)?;
+    let found = resume::earlier(&folder, &arguments.out, mode)?;
     let header = begin::header(arguments, &assignment, found.as_ref(), before.as_ref());
     if let Some(found) = &found {
-        start::same_conditions(&arguments.out, &found.header, &header)?;
+        resume::same_conditions(&arguments.out, &found.header, &header)?;
     }
     let intake = if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.slots)? } else { intake };
     let title = arguments.title.clone().unwrap_or(intake.title);

@@ -2,9 +2,9 @@
 
 mod base;
 mod body;
+mod cache;
 mod film;
 mod listing;
-mod memo;
 mod player;
 pub(crate) mod rich;
 mod sheet;

@@ -5,13 +5,13 @@
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
+mod datetime;
 mod frame;
 mod hand_in;
 mod join;
-mod moment;
-mod part;
 mod problem;
 mod receipt;
+mod report_fragment;
 mod result;
 mod standing;
 mod student;

@@ -5,7 +5,7 @@ use crate::diagnostic::Severity;
 use encoding_rs::{EUC_JP, SHIFT_JIS};
 
 mod hostile;
-mod odd_characters;
+mod stray_characters;
 mod wrong_files;
 
 /// A vertex shader with a comment at the end of line 1, a declaration after line 3 and code inside `main` on line 6.

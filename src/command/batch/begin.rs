@@ -5,7 +5,7 @@ use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::worksheet;
 use crate::batch::intake::Intake;
 use crate::batch::journal::{self, Found, Header, Unreadable};
-use crate::batch::start::NotBegun;
+use crate::batch::resume::NotBegun;
 use crate::cli::Batch;
 use crate::command::{file_fault, language, writing};
 use crate::language::{Language, Text};

@@ -8,9 +8,9 @@ use crate::batch::journal::{self, Found, Header, Journal, Record, RecordOf};
 use crate::batch::page::Pages;
 use crate::batch::portrait::Portraits;
 use crate::batch::progress::Progress;
+use crate::batch::resume::{self, NotBegun};
 use crate::batch::run::{Candidate, Run, Wants};
-use crate::batch::start::{self, NotBegun};
-use crate::batch::{anonymous, lines, output, summary};
+use crate::batch::{anonymous, json_lines, output, summary};
 use crate::cli::Batch;
 use crate::command::interrupt::Interrupt;
 use crate::command::{Outcome, report_fault, warn, width};
@@ -61,10 +61,10 @@ impl Session<'_> {
         let records: HashMap<&str, &Record> = found.records.iter().map(|r| (r.student.key.as_str(), r)).collect();
         let of = |candidate: &Candidate| records.get(candidate.hand_in.student.key.as_str());
         if !records.is_empty() && candidates.iter().all(|candidate| of(candidate).is_none()) {
-            return Err(NotBegun::Usage(start::other_class(&self.arguments.out)));
+            return Err(NotBegun::Usage(resume::other_class(&self.arguments.out)));
         }
         let keys: HashSet<&str> = candidates.iter().map(|candidate| candidate.hand_in.student.key.as_str()).collect();
-        start::forget(self.folder, &found.records, &keys)?;
+        resume::forget(self.folder, &found.records, &keys)?;
         let entries: Vec<Option<Entry>> =
             candidates.iter().map(|candidate| candidate.reuse(of(candidate)?, self.folder, wants)).collect();
         let (kept, torn) = (entries.iter().flatten().count(), found.torn);
@@ -178,7 +178,7 @@ impl Session<'_> {
     fn tell(&self, entry: &Entry) {
         if self.arguments.json_lines {
             // A reader that closes the pipe early has what it wanted.
-            let _ = std::io::stdout().lock().write_all(lines::line(entry, self.header.language).as_bytes());
+            let _ = std::io::stdout().lock().write_all(json_lines::line(entry, self.header.language).as_bytes());
         }
     }
 

@@ -1,7 +1,7 @@
 //! The sheets of a right answer, from which those of a submission are made: most of what is handed in is right, and a right
 //! answer draws nearly every pixel as it is expected.
 
-use super::memo::Memo;
+use super::cache::PictureCache;
 use super::sheet::Grid;
 use super::shots::Shots;
 use crate::fault::Fault;
@@ -24,7 +24,7 @@ pub(super) struct Base {
 impl Base {
     /// The base for these pictures.
     pub fn of(expected: &Arc<[Picture]>, grid: Grid) -> Result<Arc<Self>, Fault> {
-        static MADE: Memo<[Picture], Arc<Base>> = Memo::new();
+        static MADE: PictureCache<[Picture], Arc<Base>> = PictureCache::new();
         MADE.get(expected, 0, || {
             let shots = Shots::of(expected).ok_or_else(mismatched)?;
             let (yours, difference) = (shots.sheet(grid, 1), shots.difference(&shots, grid, 1));

@@ -1,7 +1,7 @@
 //! The moving pictures as files: each a sheet of all poses, and the style that moves it.
 
 use super::base::Base;
-use super::memo::Memo;
+use super::cache::PictureCache;
 use super::sheet::{Grid, Step};
 use super::shots::Shots;
 use crate::fault::Fault;
@@ -74,7 +74,7 @@ impl Film {
 
     /// Where a page that holds all pictures itself finds them.
     pub fn embedded(&self, pictures: &Pictures) -> Result<Gallery, Fault> {
-        static TERMS: Memo<[TermPictures], Arc<[Term]>> = Memo::new();
+        static TERMS: PictureCache<[TermPictures], Arc<[Term]>> = PictureCache::new();
         let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&Raster::opaque(picture)?)?));
         let term = |term: &TermPictures| {
             let yours = term.yours.as_ref().map(address);
@@ -99,7 +99,7 @@ pub fn expected_sheet(expected: &[Picture], finest: usize) -> Result<Vec<u8>, Fa
 
 /// It inside a page.
 fn expected_address(expected: &Arc<[Picture]>, finest: usize) -> Result<Arc<str>, Fault> {
-    static MADE: Memo<[Picture], Arc<str>> = Memo::new();
+    static MADE: PictureCache<[Picture], Arc<str>> = PictureCache::new();
     MADE.get(expected, finest, || Ok(inline(&expected_sheet(expected, finest)?).into()))
 }
 

@@ -1,7 +1,7 @@
 //! What every page has around its content: language, time zone, address, assets.
 
 use super::assets;
-use super::moment::Moment;
+use super::datetime::Moment;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
 use crate::report::labels::mistake_title;

@@ -1,8 +1,8 @@
 //! The receipt of a file that was handed in: what came, when, and as which attempt.
 
+use super::datetime::Moment;
 use super::frame::Frame;
-use super::moment::Moment;
-use super::part;
+use super::report_fragment;
 use crate::report::Report;
 use crate::service::State;
 use crate::service::errors::Problem;
@@ -38,8 +38,8 @@ pub(super) async fn receipt(
     };
     let score = match (report, submission.state) {
         (Some(report), _) => {
-            let (score, most) = (part::points(Some(report.score)), part::points(Some(report.max_score)));
-            format!("{score} / {most} · {}", part::verdict(frame, report.verdict))
+            let (score, most) = (report_fragment::points(Some(report.score)), report_fragment::points(Some(report.max_score)));
+            format!("{score} / {most} · {}", report_fragment::verdict(frame, report.verdict))
         }
         (None, Progress::Failed) => frame
             .say(

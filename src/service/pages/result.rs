@@ -1,7 +1,7 @@
 //! The page of a report, and its pictures.
 
 use super::frame::Frame;
-use super::{internal, part, receipt, shown};
+use super::{internal, receipt, report_fragment, shown};
 use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::report::html::Lines;
@@ -60,9 +60,10 @@ pub(super) async fn page(
         report.cross_check = cross_check;
     }
     let sources = state.store.hand_in(&id).await?.unwrap_or_default().readable();
-    let gallery = part::gallery(&state, &id, &report, &sources);
+    let gallery = report_fragment::gallery(&state, &id, &report, &sources);
     let equation = state.assignment.typeset.as_ref();
-    let part = part::part(&state.assignment, &frame, &report, Lines::of(&sources), gallery.as_ref(), equation, 1);
+    let part =
+        report_fragment::render(&state.assignment, &frame, &report, Lines::of(&sources), gallery.as_ref(), equation, 1);
     let part = part.map_err(internal)?;
     let receipt = match submission.via {
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
@@ -156,9 +157,10 @@ async fn beside_editor(
     report: &Report,
 ) -> Result<String, Problem> {
     let sources = state.store.hand_in(&submission.id).await?.unwrap_or_default().readable();
-    let gallery = part::gallery(state, &submission.id, report, &sources);
+    let gallery = report_fragment::gallery(state, &submission.id, report, &sources);
     let equation = state.assignment.typeset.as_ref();
-    let part = part::part(&state.assignment, frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2);
+    let part =
+        report_fragment::render(&state.assignment, frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2);
     part.map_err(internal)
 }
 

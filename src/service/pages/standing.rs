@@ -1,7 +1,7 @@
 //! What a student may still hand in, and until when.
 
+use super::datetime;
 use super::frame::Frame;
-use super::moment;
 use crate::language::Language;
 use crate::service::clock::Millis;
 use crate::service::store::Assignment;
@@ -98,7 +98,7 @@ impl Standing<'_> {
     }
 
     fn until(&self, frame: &Frame, at: Millis, template: &'static str, over: &'static str, closes: bool) -> Until {
-        let text = template.replace('%', &moment::span(at - self.now, frame.language));
+        let text = template.replace('%', &datetime::span(at - self.now, frame.language));
         Until { at, template, text, over, closes }
     }
 

@@ -1,9 +1,9 @@
 //! The page on which a student works: an editor, what came of it, and the attempts so far.
 
 use super::assets;
+use super::datetime::Moment;
 use super::frame::Frame;
-use super::moment::Moment;
-use super::part;
+use super::report_fragment;
 use super::standing::{Fact, Standing};
 use crate::language::Language;
 use crate::report::Verdict;
@@ -160,7 +160,7 @@ impl Desk<'_> {
         if let Some(best) = self.best() {
             let best = self.history.iter().find(|row| row.submission.id == best);
             let (score, most) = best.map_or((None, None), |row| (row.score, row.max_score));
-            let (score, most) = (part::points(score), part::points(most));
+            let (score, most) = (report_fragment::points(score), report_fragment::points(most));
             let said = self.frame.say("Best so far", "これまでの最高");
             facts.push(Fact { kind: "", text: format!("{said} {score} / {most}"), until: None });
         }
@@ -181,7 +181,7 @@ impl Desk<'_> {
     fn attempt(&self, row: &HistoryRow, best: Option<&str>) -> Attempt {
         let submission = &row.submission;
         let verdict = match (row.verdict, submission.state) {
-            (Some(verdict), _) => part::verdict(&self.frame, verdict),
+            (Some(verdict), _) => report_fragment::verdict(&self.frame, verdict),
             (None, Progress::Failed) => {
                 self.frame.say("Failed on our side; tried again soon", "サーバ側の障害。まもなく再採点します")
             }
@@ -190,8 +190,8 @@ impl Desk<'_> {
         Attempt {
             href: format!("/r/{}", submission.id),
             mark: row.verdict.map(|verdict| mark(verdict, row.score).id()),
-            score: part::points(row.score),
-            max_score: part::points(row.max_score),
+            score: report_fragment::points(row.score),
+            max_score: report_fragment::points(row.max_score),
             verdict,
             is_best: best == Some(submission.id.as_str()),
             portrait: draws(row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),

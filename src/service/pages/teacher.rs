@@ -19,7 +19,7 @@ mod settings;
 mod table;
 
 use super::frame::Frame;
-use super::part;
+use super::report_fragment;
 use crate::service::State;
 use crate::service::classes::Standing;
 use axum::Router;
@@ -67,7 +67,7 @@ pub(super) enum Place {
 /// How somebody stands, in words.
 fn word(frame: &Frame, standing: Standing) -> &'static str {
     match standing {
-        Standing::Graded(verdict) => part::verdict(frame, verdict),
+        Standing::Graded(verdict) => report_fragment::verdict(frame, verdict),
         Standing::Queued => frame.say("Being graded", "採点中"),
         Standing::Failed => frame.say("Our fault", "サーバ側の障害"),
         Standing::Ungraded => frame.say("Nothing to grade", "採点対象なし"),

@@ -93,14 +93,14 @@ async fn serve(stream: TcpStream, address: SocketAddr, app: Router, state: State
 struct Crowd(Mutex<HashMap<IpAddr, usize>>);
 
 /// One connection of an address.
-struct Place {
+struct ConnectionSlot {
     crowd: Arc<Crowd>,
     address: IpAddr,
 }
 
 impl Crowd {
     /// A place for one more connection; none where the address has its share. A trusted proxy speaks for many.
-    fn enter(self: &Arc<Self>, address: IpAddr, state: &State) -> Option<Place> {
+    fn enter(self: &Arc<Self>, address: IpAddr, state: &State) -> Option<ConnectionSlot> {
         let address = address.to_canonical();
         let mut crowd = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let count = crowd.entry(address).or_default();
@@ -108,11 +108,11 @@ impl Crowd {
             return None;
         }
         *count += 1;
-        Some(Place { crowd: Arc::clone(self), address })
+        Some(ConnectionSlot { crowd: Arc::clone(self), address })
     }
 }
 
-impl Drop for Place {
+impl Drop for ConnectionSlot {
     fn drop(&mut self) {
         let mut crowd = self.crowd.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(count) = crowd.get_mut(&self.address) {

@@ -1,7 +1,7 @@
 //! Whole classes as archives: one is uploaded and graded in the background, and comes back in every format.
 
+use super::super::datetime::Moment;
 use super::super::frame::Frame;
-use super::super::moment::Moment;
 use super::super::shown;
 use super::downloads::{Offer, begun, formats};
 use super::table::{Filter, Table};

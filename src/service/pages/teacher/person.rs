@@ -1,8 +1,8 @@
 //! What one student has handed in.
 
+use super::super::datetime::Moment;
 use super::super::frame::Frame;
-use super::super::moment::Moment;
-use super::super::{part, shown, student};
+use super::super::{report_fragment, shown, student};
 use super::Place;
 use super::table::titled;
 use crate::service::State;
@@ -87,9 +87,9 @@ fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> A
         word: row
             .row
             .verdict
-            .map_or_else(|| frame.say("Being graded", "採点中"), |verdict| part::verdict(frame, verdict)),
-        score: part::points(row.row.score),
-        max_score: part::points(row.row.max_score),
+            .map_or_else(|| frame.say("Being graded", "採点中"), |verdict| report_fragment::verdict(frame, verdict)),
+        score: report_fragment::points(row.row.score),
+        max_score: report_fragment::points(row.row.max_score),
         is_best: best == Some(submission.id.as_str()),
         portrait: student::draws(row.row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
         mistakes: titled(frame, &row.mistakes),

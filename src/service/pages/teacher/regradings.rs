@@ -1,8 +1,8 @@
 //! Grading everything again, and what that would change.
 
+use super::super::datetime::Moment;
 use super::super::frame::Frame;
-use super::super::moment::Moment;
-use super::super::{part, shown, student};
+use super::super::{report_fragment, shown, student};
 use super::Place;
 use super::login::Token;
 use super::table::{Pager, titled};
@@ -160,7 +160,7 @@ fn changed(before: &Graded, after: &Graded) -> bool {
 fn line(frame: &Frame, row: &Compared) -> Row {
     let got = |(verdict, score, mistakes): &Graded| Earned {
         mark: student::mark(*verdict, Some(*score)).id(),
-        word: part::verdict(frame, *verdict),
+        word: report_fragment::verdict(frame, *verdict),
         score: number(*score),
         mistakes: titled(frame, mistakes),
     };

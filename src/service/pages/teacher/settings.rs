@@ -1,7 +1,7 @@
 //! Dates, limits, hints, who may hand in; the course's zone and language; the course link; what was deleted.
 
+use super::super::datetime::{self, Moment};
 use super::super::frame::Frame;
-use super::super::moment::{self, Moment};
 use super::super::shown;
 use super::Place;
 use super::login::Token;
@@ -168,7 +168,7 @@ fn read_audience(word: &str) -> Audience {
 impl Rules {
     /// The form as it stands for these settings.
     fn of(settings: &Assignment, course: &Course) -> Self {
-        let date = |at: Option<_>| at.map(|at| moment::field(at, course.zone())).unwrap_or_default();
+        let date = |at: Option<_>| at.map(|at| datetime::field(at, course.zone())).unwrap_or_default();
         Self {
             csrf: String::new(),
             opens: date(settings.opens_at),
@@ -183,7 +183,7 @@ impl Rules {
     /// The settings that the form asks for.
     fn read(&self, frame: &Frame, before: Assignment) -> Result<Assignment, &'static str> {
         let date = |field: &str| {
-            moment::parse(field, frame.course.zone()).map_err(|_| {
+            datetime::parse(field, frame.course.zone()).map_err(|_| {
                 frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
             })
         };

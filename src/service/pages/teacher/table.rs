@@ -1,8 +1,8 @@
 //! The table of people: filtered, sorted by a column, in pages. All of it is in the address, so that it needs no script.
 
+use super::super::datetime::Moment;
 use super::super::frame::Frame;
-use super::super::moment::Moment;
-use super::super::{part, student};
+use super::super::{report_fragment, student};
 use super::word;
 use crate::service::classes::Person;
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
@@ -266,8 +266,8 @@ fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
         portrait: portrait.map(|best| format!("/r/{}/portrait.png", best.row.submission.id)),
         mark: best.and_then(|best| Some(student::mark(best.row.verdict?, best.row.score).id())),
         word: word(frame, person.standing()),
-        score: part::points(best.and_then(|best| best.row.score)),
-        max_score: part::points(best.and_then(|best| best.row.max_score)),
+        score: report_fragment::points(best.and_then(|best| best.row.score)),
+        max_score: report_fragment::points(best.and_then(|best| best.row.max_score)),
         mistakes: shown.map(|row| titled(frame, &row.mistakes)).unwrap_or_default(),
         is_disputed: person.is_disputed(),
         note: note.map(|note| note.get(frame.language).replace('`', "")).unwrap_or_default(),

@@ -17,7 +17,7 @@ use reference::typeset::Typeset;
 use serde::Serialize;
 
 #[derive(Template)]
-#[template(path = "service/pages/templates/part.html")]
+#[template(path = "service/pages/templates/report_fragment.html")]
 struct View {
     label: &'static str,
     mark: Mark,
@@ -37,7 +37,7 @@ struct LineMark {
 }
 
 /// A report with its pictures at the addresses of a submission; none where it has no pictures to show.
-pub(super) fn part(
+pub(super) fn render(
     assignment: &Assignment,
     frame: &Frame,
     report: &Report,

@@ -12,8 +12,8 @@ use wording::{skipped, told};
 /// How many places are told one by one.
 const MAX_PLACES: usize = 20;
 
-/// Neighbouring odd characters of one kind on one line.
-struct Run<'a> {
+/// Neighbouring stray characters of one kind on one line.
+struct CharacterRun<'a> {
     line: u32,
     /// Where it begins in the text, in bytes.
     offset: usize,
@@ -23,7 +23,7 @@ struct Run<'a> {
 /// Errors and warnings about the code of `source`.
 pub(super) fn in_code(source: &Source) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let standings = standings(source.code());
-    let standing = |run: &Run| standings.get(run.line as usize - 1).copied().unwrap_or(Standing::Compiled);
+    let standing = |run: &CharacterRun| standings.get(run.line as usize - 1).copied().unwrap_or(Standing::Compiled);
     let (errors, mut warnings): (Vec<_>, Vec<_>) =
         runs(source).into_iter().partition(|run| standing(run) == Standing::Compiled);
     // One word a line is enough where nothing is wrong.
@@ -68,30 +68,30 @@ pub(super) fn in_comments(source: &Source) -> Vec<Diagnostic> {
     notes
 }
 
-fn runs(source: &Source) -> Vec<Run<'_>> {
+fn runs(source: &Source) -> Vec<CharacterRun<'_>> {
     let mut runs = Vec::new();
     for (line, &start) in (1..).zip(&source.line_starts) {
         let code = source.code_line(line);
         let mut at = 0;
-        while let Some(found) = code[at..].find(is_odd) {
+        while let Some(found) = code[at..].find(is_stray) {
             let begin = at + found;
-            let first = code[begin..].chars().next().map_or(Kind::Foreign, kind);
-            let ends = |c: char| !is_odd(c) || kind(c) != first;
+            let first = code[begin..].chars().next().map_or(CharacterKind::Foreign, kind);
+            let ends = |c: char| !is_stray(c) || kind(c) != first;
             at = code[begin..].find(ends).map_or(code.len(), |length| begin + length);
-            runs.push(Run { line, offset: start + begin, text: &code[begin..at] });
+            runs.push(CharacterRun { line, offset: start + begin, text: &code[begin..at] });
         }
     }
     runs
 }
 
 /// Whether `c` is neither ASCII nor white space that GLSL takes.
-fn is_odd(c: char) -> bool {
+fn is_stray(c: char) -> bool {
     !c.is_ascii() || (c.is_ascii_control() && !matches!(c, '\t' | '\n' | '\u{B}' | '\u{C}'))
 }
 
 /// What a run consists of.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum CharacterKind {
     Space,
     Unseen,
     Unreadable,
@@ -99,15 +99,15 @@ enum Kind {
     Foreign,
 }
 
-fn kind(c: char) -> Kind {
+fn kind(c: char) -> CharacterKind {
     match c {
-        '\u{FFFD}' => Kind::Unreadable,
-        _ if is_space(c) => Kind::Space,
-        _ if is_invisible(c) || is_bidi(c) || c.is_control() => Kind::Unseen,
+        '\u{FFFD}' => CharacterKind::Unreadable,
+        _ if is_space(c) => CharacterKind::Space,
+        _ if is_invisible(c) || is_bidi(c) || c.is_control() => CharacterKind::Unseen,
         // A long vowel inside Japanese text is no minus sign, so it stays with the text.
-        'ー' | 'ｰ' | '・' | '･' | '、' | '。' | '「' | '」' => Kind::Foreign,
-        _ if ascii_for(c).is_some() => Kind::LookAlike,
-        _ => Kind::Foreign,
+        'ー' | 'ｰ' | '・' | '･' | '、' | '。' | '「' | '」' => CharacterKind::Foreign,
+        _ if ascii_for(c).is_some() => CharacterKind::LookAlike,
+        _ => CharacterKind::Foreign,
     }
 }
 
@@ -121,7 +121,11 @@ fn hidden_backslash(source: &Source, end: usize) -> Option<Diagnostic> {
 }
 
 /// What `tell` says of the first places, each with its offset, and how many more there are.
-fn bounded(severity: Severity, runs: &[Run], tell: impl Fn(&Run) -> Diagnostic) -> Vec<(Option<usize>, Diagnostic)> {
+fn bounded(
+    severity: Severity,
+    runs: &[CharacterRun],
+    tell: impl Fn(&CharacterRun) -> Diagnostic,
+) -> Vec<(Option<usize>, Diagnostic)> {
     let first = runs.iter().take(MAX_PLACES);
     let mut told: Vec<_> = first.map(|run| (Some(run.offset), Diagnostic { severity, ..tell(run) })).collect();
     let more = runs.len() - told.len();

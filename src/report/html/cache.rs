@@ -4,12 +4,12 @@ use crate::fault::Fault;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Things made of shared pictures, for as long as somebody has these.
-pub(super) struct Memo<K: ?Sized, V> {
+pub(super) struct PictureCache<K: ?Sized, V> {
     /// Of which pictures, in which variant, and what was made.
     made: Mutex<Vec<(Weak<K>, usize, V)>>,
 }
 
-impl<K: ?Sized, V: Clone> Memo<K, V> {
+impl<K: ?Sized, V: Clone> PictureCache<K, V> {
     pub const fn new() -> Self {
         Self { made: Mutex::new(Vec::new()) }
     }

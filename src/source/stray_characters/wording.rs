@@ -1,6 +1,6 @@
 //! What is said of odd characters.
 
-use super::{Kind, Run, kind};
+use super::{CharacterKind, CharacterRun, kind};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::source::lookalikes::{ascii_for, name};
@@ -11,25 +11,27 @@ const MAX_NAMES: usize = 3;
 const MAX_SHOWN: usize = 20;
 
 /// The error for a run in code.
-pub(super) fn told(run: &Run) -> Diagnostic {
-    let (message, hint) = match run.text.chars().next().map_or(Kind::Foreign, kind) {
-        Kind::Space => (space(run), Text::new("Type an ordinary space instead.", "半角スペースに直してください。")),
-        Kind::Unseen => (
+pub(super) fn told(run: &CharacterRun) -> Diagnostic {
+    let (message, hint) = match run.text.chars().next().map_or(CharacterKind::Foreign, kind) {
+        CharacterKind::Space => {
+            (space(run), Text::new("Type an ordinary space instead.", "半角スペースに直してください。"))
+        }
+        CharacterKind::Unseen => (
             unseen(run),
             Text::new(
                 "Delete it: where nothing is to be seen, retype the characters around it.",
                 "削除してください。見つけにくいときは、前後の文字ごと打ち直すと消えます。",
             ),
         ),
-        Kind::Unreadable => (
+        CharacterKind::Unreadable => (
             unreadable(),
             Text::new(
                 "Retype this place and save the file as UTF-8.",
                 "この部分を打ち直し、UTF-8 で保存してください。",
             ),
         ),
-        Kind::LookAlike => (look_alike(run), instead(run.text)),
-        Kind::Foreign => (foreign(run), foreign_hint(run.text)),
+        CharacterKind::LookAlike => (look_alike(run), instead(run.text)),
+        CharacterKind::Foreign => (foreign(run), foreign_hint(run.text)),
     };
     Diagnostic::error(Stage::Source, message).spanning(run.text.chars().count()).hint(hint)
 }
@@ -42,10 +44,12 @@ fn listing(text: &str) -> Text {
             different.push(c);
         }
     }
-    let seen = different.iter().all(|&c| !matches!(kind(c), Kind::Space | Kind::Unseen | Kind::Unreadable));
+    let seen = different
+        .iter()
+        .all(|&c| !matches!(kind(c), CharacterKind::Space | CharacterKind::Unseen | CharacterKind::Unreadable));
     let mut names: Vec<_> = different.iter().map(|&c| format!("U+{:04X} {}", u32::from(c), name(c))).collect();
     // In words of another script the first character stands for all.
-    let told = if different.iter().all(|&c| kind(c) == Kind::Foreign) { 1 } else { MAX_NAMES };
+    let told = if different.iter().all(|&c| kind(c) == CharacterKind::Foreign) { 1 } else { MAX_NAMES };
     if names.len() > told {
         names.truncate(told);
         names.push("…".to_owned());
@@ -59,7 +63,7 @@ fn listing(text: &str) -> Text {
     Text::verbatim(names)
 }
 
-fn space(run: &Run) -> Text {
+fn space(run: &CharacterRun) -> Text {
     let names = listing(run.text);
     let (width_en, width_ja) = match run.text.contains('\u{3000}') {
         true => ("A full-width space", "全角スペース"),
@@ -71,7 +75,7 @@ fn space(run: &Run) -> Text {
     )
 }
 
-fn unseen(run: &Run) -> Text {
+fn unseen(run: &CharacterRun) -> Text {
     let names = listing(run.text);
     Text::new(
         format!("An invisible character stands in the code: {}.", names.en),
@@ -86,7 +90,7 @@ fn unreadable() -> Text {
     )
 }
 
-fn look_alike(run: &Run) -> Text {
+fn look_alike(run: &CharacterRun) -> Text {
     let names = listing(run.text);
     let full_width = run.text.chars().all(|c| matches!(c, '\u{FF01}'..='\u{FF5E}'));
     let (kind_en, kind_ja) = if full_width {
@@ -100,7 +104,7 @@ fn look_alike(run: &Run) -> Text {
     )
 }
 
-fn foreign(run: &Run) -> Text {
+fn foreign(run: &CharacterRun) -> Text {
     let names = listing(run.text);
     Text::new(
         format!("{} in the code: outside comments, GLSL consists of ASCII characters only.", names.en),
@@ -133,7 +137,7 @@ fn foreign_hint(text: &str) -> Text {
 }
 
 /// The warning for a run where no compiler looks.
-pub(super) fn skipped(run: &Run) -> Diagnostic {
+pub(super) fn skipped(run: &CharacterRun) -> Diagnostic {
     let names = listing(run.text);
     let message = Text::new(
         format!("{} stands outside a comment, in a line that the compiler skips.", names.en),
