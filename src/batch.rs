@@ -1,8 +1,8 @@
 //! Many files → many reports, in and out of the formats that courses use.
 //!
 //! [`intake`] finds what was handed in, [`run`] grades it on all cores and writes each result into a [`journal`] as it
-//! comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`shared_answers`] knows which submissions are the
-//! same, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it.
+//! comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`shared_answers`] knows which
+//! submissions are the same, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it.
 
 pub mod anonymous;
 pub mod changes;
