@@ -3,7 +3,6 @@
 //! Nothing is known of them yet. Which file is for which of the homework's slots is decided in [`crate::slots`], and what
 //! each says in [`crate::source`].
 
-use crate::source::{self, Source};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -50,11 +49,6 @@ impl HandIn {
     /// The names of the files, joined for a person.
     pub fn names(&self) -> String {
         self.files.iter().map(|file| file.name.as_str()).collect::<Vec<_>>().join(", ")
-    }
-
-    /// The files that can be read as text.
-    pub fn readable(&self) -> Vec<Source> {
-        self.files.iter().filter_map(source::readable).collect()
     }
 
     /// The bytes of all files, one behind the other.

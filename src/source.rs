@@ -17,7 +17,7 @@ pub use encoding::Encoding;
 pub use kind::fragment_shader;
 
 use crate::diagnostic::Diagnostic;
-use crate::hand_in::HandedInFile;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use comments::Comment;
 use reference::interpreter::Stage;
@@ -107,6 +107,13 @@ pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<
     }
     diagnostics.extend(source.notes.iter().cloned());
     Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
+}
+
+impl HandIn {
+    /// The files that can be read as text.
+    pub fn readable(&self) -> Vec<Source> {
+        self.files.iter().filter_map(readable).collect()
+    }
 }
 
 /// A file as text, also where it is refused; none where it cannot be read as text.
