@@ -7,14 +7,14 @@ pub use terms::{Terms, term_pictures};
 use crate::expected;
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::render::{Batch, Scene};
+use crate::render::{Batch, Scene, State};
 use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
 use reference::assignment::Input;
 use reference::interpreter::Type;
 use reference::probes::ProbeSet;
 use reference::rasteriser::{Coverage, Frame};
-use reference::scene::{Pose, Vertex};
+use reference::scene::{Draw, Instance, Pose, Vertex};
 use reference::{Assignment, Value, Values};
 use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -38,10 +38,12 @@ pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
 /// What is drawn for a submission: the course's animation and the probes, set after set.
 pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
     let scene = &assignment.scene;
-    let frame = |pose: &Pose| {
-        let uniforms = assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
-        vec![batch(assignment, &uniforms, &scene.triangle(pose))]
+    let draw = |instance: Instance<'_>| {
+        let Draw { mesh, depth_test, cull, .. } = instance.draw;
+        let batch = batch(assignment, &assignment.uniform_values(&instance.moment), &mesh.vertices);
+        Batch { triangles: mesh.triangles.clone(), state: State { depth_test: *depth_test, cull: *cull }, ..batch }
     };
+    let frame = |pose: &Pose| scene.instances(pose).into_iter().map(draw).collect();
     let frames = scene.all_poses().iter().map(frame).collect();
     let drawn = |probes: &&ProbeSet| -> Vec<Batch> {
         let vertices = |group| -> Vec<Vertex> { probes.of_group(group).iter().map(|probe| probe.vertex).collect() };

@@ -8,6 +8,7 @@ use super::buffers::{Uniforms, capture_group, capture_layout};
 use super::scene::{Batch, State};
 use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader, UniformBlock};
 use naga::ScalarKind;
+use reference::scene::{Cull, DepthTest};
 use std::borrow::Cow;
 use std::fmt::Write;
 use wgpu::util::DeviceExt;
@@ -134,8 +135,16 @@ impl FragmentStage {
             attributes: &shift,
         })));
         let targets: Vec<_> = key.targets.iter().map(|format| format.map(wgpu::ColorTargetState::from)).collect();
-        let depth_compare =
-            if key.state.tests_depth { wgpu::CompareFunction::Less } else { wgpu::CompareFunction::Always };
+        let depth_compare = match key.state.depth_test {
+            None => wgpu::CompareFunction::Always,
+            Some(DepthTest::Less) => wgpu::CompareFunction::Less,
+            Some(DepthTest::LessEqual) => wgpu::CompareFunction::LessEqual,
+        };
+        let cull_mode = match key.state.cull {
+            Cull::None => None,
+            Cull::Back => Some(wgpu::Face::Back),
+            Cull::Front => Some(wgpu::Face::Front),
+        };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("fragments"),
             layout: Some(&layout),
@@ -148,12 +157,12 @@ impl FragmentStage {
             primitive: wgpu::PrimitiveState {
                 // Upside down, what runs anticlockwise runs clockwise.
                 front_face: wgpu::FrontFace::Cw,
-                cull_mode: key.state.culls_back.then_some(wgpu::Face::Back),
+                cull_mode,
                 ..Default::default()
             },
             depth_stencil: key.has_depth.then(|| wgpu::DepthStencilState {
                 format: DEPTH,
-                depth_write_enabled: Some(key.state.tests_depth),
+                depth_write_enabled: Some(key.state.depth_test.is_some()),
                 depth_compare: Some(depth_compare),
                 stencil: Default::default(),
                 bias: Default::default(),

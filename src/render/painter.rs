@@ -60,7 +60,7 @@ impl Painter {
         textures: Option<&wgpu::Buffer>,
         tiles: &Tiles,
     ) -> (&mut Target, FragmentData) {
-        let has_depth = scene.frames.iter().flatten().any(|draw| draw.state.tests_depth);
+        let has_depth = scene.frames.iter().flatten().any(|draw| draw.state.depth_test.is_some());
         let target = match self.target.take() {
             Some(target)
                 if target.tiles == *tiles

@@ -1,16 +1,17 @@
 //! What a submission is drawn with.
 
 use reference::interpreter::Texture;
+use reference::scene::{Cull, DepthTest};
 use reference::{Value, Values};
 use std::sync::Arc;
 
 /// How the fragments of a draw are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct State {
-    /// Whether a fragment must be nearer than what is there.
-    pub tests_depth: bool,
-    /// Whether triangles that show their backs are left out.
-    pub culls_back: bool,
+    /// Which fragments are drawn over what is there; none draws all.
+    pub depth_test: Option<DepthTest>,
+    /// Which triangles are left out.
+    pub cull: Cull,
 }
 
 /// A draw: its vertices by attribute, and the uniforms that hold for them.

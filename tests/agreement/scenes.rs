@@ -5,6 +5,7 @@ use ggrade::render::{AdapterKind, Batch, Device, Pixel, Renderer, Scene, State};
 use ggrade::source;
 use ggrade::translate::{self, Interface, Linked, Program, Refusal, Stage, Variable};
 use reference::interpreter::{Filter, Scalar, Texture, Type, Wrap};
+use reference::scene::{Cull, DepthTest};
 use reference::{Value, Values};
 
 /// Pixels of a row of the window, and rows. Not square, and no multiple of 16 rows.
@@ -44,7 +45,10 @@ fn batch(draw: &Draw) -> Batch {
         uniforms: draw.uniforms.iter().map(uniform).collect(),
         attributes: draw.attributes.iter().map(attribute).collect(),
         triangles: draw.triangles.clone(),
-        state: State { tests_depth: draw.tests_depth, culls_back: draw.culls_back },
+        state: State {
+            depth_test: draw.tests_depth.then_some(DepthTest::Less),
+            cull: if draw.culls_back { Cull::Back } else { Cull::None },
+        },
     }
 }
 
