@@ -23,15 +23,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
     let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
     let variable = |name: &str, kind: &Type| Variable { name: name.into(), ty: kind.to_string() };
-    let file = assignment.files.first().ok_or_else(|| broken("no file is handed in"))?;
-    let fixed = file.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
+    let fixed = assignment.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
     let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
     Ok(Interface {
         inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
         uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.path, &uniform.kind)).collect(),
         output: variable(&output.name, &output.kind),
         constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
-        fragment: CString::new(fixed.1.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
+        fragment: CString::new(fixed.text.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
     })
 }
 

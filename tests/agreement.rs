@@ -74,7 +74,7 @@ impl Bench {
     }
 
     fn program(&self, source: &Source) -> Result<Program<'_>, opengl::Rejection> {
-        self.gl.compile(source.text.as_bytes(), &self.assignment.files[0].fixed[0].1)
+        self.gl.compile(source.text.as_bytes(), &self.assignment.fixed[0].text)
     }
 
     /// Draws and captures with OpenGL.

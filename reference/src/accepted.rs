@@ -2,9 +2,11 @@
 
 use crate::Assignment;
 use crate::Value;
-use crate::interpreter::{Column, Program, Variable};
+use crate::frames::VertexStage;
+use crate::interpreter::{Column, Program};
+use crate::pipeline::{Pipeline, columns, slices};
 use crate::probes::ProbeSet;
-use crate::rasteriser::{ClipVertex, Frame};
+use crate::rasteriser::Frame;
 use crate::scene::Pose;
 use glam::{DVec3, DVec4};
 use std::sync::Arc;
@@ -15,6 +17,7 @@ pub struct Answer {
     /// The name of its file.
     pub name: String,
     pub(crate) program: Arc<Program>,
+    pub(crate) pipeline: Pipeline,
 }
 
 /// What a shader computes for a vertex.
@@ -39,18 +42,7 @@ impl Assignment {
 
     /// The picture that an answer draws at a pose.
     pub fn frame_of(&self, answer: &Answer, pose: &Pose) -> Frame {
-        self.picture(&self.corners_of(answer, pose))
-    }
-
-    pub(crate) fn corners_of(&self, answer: &Answer, pose: &Pose) -> [ClipVertex; 3] {
-        let uniforms = self.uniform_values(&self.scene.moment(pose.t, pose.matrices));
-        let attributes = self.scene.triangle(pose).map(|vertex| self.attribute_values(&vertex));
-        let given = attributes.each_ref().map(|attributes| (uniforms.as_slice(), attributes.as_slice()));
-        let computed = self.run(answer, &given);
-        std::array::from_fn(|corner| {
-            let (colour, position) = computed[corner];
-            ClipVertex { position, colour }
-        })
+        self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.program))
     }
 
     /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.
@@ -85,21 +77,6 @@ impl Assignment {
         let position = outputs.get("gl_Position")?;
         Some((0..given.len()).map(|at| (vector(colour, at).truncate(), vector(position, at))).collect())
     }
-}
-
-/// A column of all vertices for each scalar of a variable.
-fn columns<'v>(variable: &Variable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {
-    let mut columns = vec![Vec::new(); variable.kind.slots().unwrap_or(0)];
-    for value in values {
-        for (scalar, column) in columns.iter_mut().enumerate() {
-            column.push(value.numbers().get(scalar).copied().unwrap_or(f64::NAN));
-        }
-    }
-    columns
-}
-
-fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
-    columns.iter().map(Vec::as_slice).collect()
 }
 
 /// What a shader wrote for a vertex; not a number where that is undefined.

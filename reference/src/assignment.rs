@@ -7,9 +7,10 @@ use crate::accepted::Answer;
 use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
-use crate::interpreter::Type;
+use crate::interpreter::{Texture, Type};
 pub use crate::manifest::{RubricLine, Stage, Task};
 use crate::mistake::{Form, Found, Mistake};
+use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
 use crate::typeset::Typeset;
@@ -35,8 +36,14 @@ pub struct Assignment {
     pub typeset: Option<Typeset>,
     /// The files that are handed in.
     pub files: Vec<HandedIn>,
+    /// The stages that are not handed in.
+    pub fixed: Vec<FixedStage>,
     /// What the shader is given and what it writes.
     pub interface: Interface,
+    /// The textures that samplers read, by number.
+    pub textures: Vec<Texture>,
+    /// The right program.
+    pub pipeline: Pipeline,
     /// What the handed-out file defines.
     pub constants: Vec<Constant>,
     /// What is drawn.
@@ -69,8 +76,17 @@ pub struct HandedIn {
     pub solution: Solution,
     /// Other answers that are right as well.
     pub accepted: Vec<Answer>,
-    /// The stages that it is linked with, each with its text.
-    pub fixed: Vec<(Stage, String)>,
+}
+
+/// A stage that every hand-in is linked with.
+#[derive(Clone, Debug)]
+pub struct FixedStage {
+    /// Its stage.
+    pub stage: Stage,
+    /// The name of its file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
 }
 
 /// A shader that is right.

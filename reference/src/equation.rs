@@ -43,6 +43,8 @@ pub struct Equation {
     pub(crate) numbers: usize,
     pub(crate) colour: usize,
     pub(crate) position: usize,
+    /// What each output is given, by their names.
+    pub(crate) outputs: Vec<(String, usize)>,
 }
 
 /// The equation with some definitions replaced.
@@ -83,6 +85,11 @@ impl Equation {
     /// The place of the definition that is the position in clip space.
     pub fn position(&self) -> usize {
         self.position
+    }
+
+    /// The place of the definition that an output is given.
+    pub(crate) fn output(&self, name: &str) -> Option<usize> {
+        self.outputs.iter().find(|(output, _)| output == name).map(|(_, definition)| *definition)
     }
 
     /// Whether the value of the definition `of` depends on that of `on`, or is it.
@@ -184,7 +191,8 @@ impl Outcome<'_> {
         value::vec3(self.numbers(definition))
     }
 
-    fn numbers(&self, definition: usize) -> &[f64] {
+    /// The numbers of a definition by its place.
+    pub(crate) fn numbers(&self, definition: usize) -> &[f64] {
         let count = |d: &Definition| d.kind.slots().unwrap_or(0);
         let first = self.equation.definitions[..definition].iter().map(count).sum();
         &self.numbers[first..first + count(&self.equation.definitions[definition])]

@@ -1,19 +1,33 @@
 //! Pictures of the animation, as a right answer or a known mistake draws them.
 
-use crate::Assignment;
 use crate::equation::Variant;
-use crate::rasteriser::{ClipVertex, Frame};
-use crate::scene::Pose;
+use crate::interpreter::Program;
+use crate::pipeline::{Pipeline, Vertices, positions, scalars};
+use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
+use crate::scene::{Instance, Pose};
+use crate::shading::{Scenery, Shape};
+use crate::{Assignment, Value};
+use glam::DVec4;
+use std::collections::HashMap;
+
+/// What the vertex stage of a picture is.
+#[derive(Clone, Copy)]
+pub(crate) enum VertexStage<'a> {
+    /// A program.
+    Program(&'a Program),
+    /// The equation with some definitions replaced, and with the value of a definition in place of the colour.
+    Equation(&'a Variant<'a>, usize),
+}
 
 impl Assignment {
     /// The picture that `variant` of the equation draws at `pose`.
     pub fn frame(&self, pose: &Pose, variant: &Variant<'_>) -> Frame {
-        self.picture(&self.corners(pose, variant, self.equation.colour))
+        self.picture(pose, &self.pipeline, VertexStage::Equation(variant, self.equation.colour))
     }
 
     /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition.
     pub fn term_frame(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Frame> {
-        Some(self.picture(&self.term_corners(pose, variant, term)?))
+        Some(self.picture(pose, &self.pipeline, VertexStage::Equation(variant, self.equation.index(term)?)))
     }
 
     /// The right pictures of all poses.
@@ -23,25 +37,134 @@ impl Assignment {
         poses.iter().map(|pose| self.frame(pose, &right)).collect()
     }
 
-    /// The vertices of that picture, with the term in place of the colour.
-    pub fn term_corners(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<[ClipVertex; 3]> {
-        Some(self.corners(pose, variant, self.equation.index(term)?))
+    /// The triangles of that picture, with the term in place of the colour.
+    pub fn term_corners(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Vec<[ClipVertex; 3]>> {
+        let shown = self.equation.index(term)?;
+        let mut corners = Vec::new();
+        for Instance { draw, moment } in self.scene.instances(pose) {
+            let uniforms = self.uniform_values(&moment);
+            let vertices = draw.mesh.vertices.iter().map(|vertex| {
+                let outcome = variant.evaluate(&uniforms, &self.attribute_values(vertex));
+                ClipVertex { position: outcome.position(), colour: outcome.vec3(shown) }
+            });
+            let vertices: Vec<ClipVertex> = vertices.collect();
+            corners.extend(draw.mesh.triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize])));
+        }
+        Some(corners)
     }
 
-    /// The picture of a triangle.
-    pub(crate) fn picture(&self, corners: &[ClipVertex; 3]) -> Frame {
-        let scene = &self.scene;
-        let mut frame = Frame::cleared(scene.width, scene.height, scene.background);
-        frame.draw(corners);
-        frame
+    /// The picture that two stages draw.
+    pub(crate) fn picture(&self, pose: &Pose, pipeline: &Pipeline, stage: VertexStage<'_>) -> Frame {
+        let (width, height) = (self.scene.width, self.scene.height);
+        self.picture_of_size([width, height], pose, pipeline, stage).0
     }
 
-    /// The vertices of the triangle, with the value of a definition as the colour.
-    pub(crate) fn corners(&self, pose: &Pose, variant: &Variant<'_>, shown: usize) -> [ClipVertex; 3] {
-        let uniforms = self.uniform_values(&self.scene.moment(pose.t, pose.matrices));
-        self.scene.triangle(pose).map(|vertex| {
-            let outcome = variant.evaluate(&uniforms, &self.attribute_values(&vertex));
-            ClipVertex { position: outcome.position(), colour: outcome.vec3(shown) }
-        })
+    /// The same in a window of another size, and whether all colours are defined.
+    pub(crate) fn picture_of_size(
+        &self,
+        [width, height]: [u32; 2],
+        pose: &Pose,
+        pipeline: &Pipeline,
+        stage: VertexStage<'_>,
+    ) -> (Frame, bool) {
+        let instances = self.scene.instances(pose);
+        let shapes: Vec<Shape<'_>> = instances
+            .iter()
+            .map(|instance| {
+                let uniforms = self.uniform_values(&instance.moment);
+                let vertices = self.vertices(instance, &uniforms, pipeline, stage);
+                Shape { uniforms, vertices, triangles: &instance.draw.mesh.triangles }
+            })
+            .collect();
+        let same: Vec<Vec<u32>> = shapes.iter().map(|shape| same(&shape.vertices)).collect();
+        let is_faceted = pipeline.is_faceted();
+        let drawn: Vec<Surface<'_>> = instances
+            .iter()
+            .zip(&shapes)
+            .zip(&same)
+            .map(|((instance, shape), same)| Surface {
+                positions: &shape.vertices.positions,
+                same,
+                triangles: shape.triangles,
+                is_faceted,
+                depth_test: instance.draw.depth_test,
+                cull: instance.draw.cull,
+            })
+            .collect();
+        let mut frame = Frame::cleared(width, height, self.scene.background);
+        let mut visible = Visible::new(width, height);
+        visible.draw(&drawn);
+        let is_defined = Scenery { assignment: self, pipeline, shapes, local: None }.shade(visible, &mut frame);
+        (frame, is_defined)
     }
+
+    /// The vertices of a draw after the vertex stage.
+    fn vertices(
+        &self,
+        instance: &Instance<'_>,
+        uniforms: &[Value],
+        pipeline: &Pipeline,
+        stage: VertexStage<'_>,
+    ) -> Vertices {
+        let mesh = &instance.draw.mesh;
+        let count = mesh.vertices.len();
+        match stage {
+            VertexStage::Program(program) => {
+                let Some(outputs) = self.run_vertices(program, uniforms, &mesh.vertices) else {
+                    return Vertices {
+                        positions: vec![DVec4::NAN; count],
+                        varyings: vec![vec![f64::NAN; count]; pipeline.width()],
+                    };
+                };
+                let varyings = pipeline.varyings.iter().flat_map(|varying| scalars(&outputs, varying.output)).collect();
+                Vertices { positions: positions(&outputs, count), varyings }
+            }
+            VertexStage::Equation(variant, shown) => {
+                let mut vertices = Vertices {
+                    positions: Vec::with_capacity(count),
+                    varyings: vec![Vec::with_capacity(count); pipeline.width()],
+                };
+                // What each varying is given.
+                let outputs = pipeline.vertex.outputs();
+                let definition = |name: &str| {
+                    self.equation.output(name).map(|at| if at == self.equation.colour { shown } else { at })
+                };
+                let given: Vec<Option<usize>> =
+                    pipeline.varyings.iter().map(|varying| definition(&outputs[varying.output].name)).collect();
+                for vertex in &mesh.vertices {
+                    let outcome = variant.evaluate(uniforms, &self.attribute_values(vertex));
+                    vertices.positions.push(outcome.position());
+                    for (varying, given) in pipeline.varyings.iter().zip(&given) {
+                        let numbers = given.map_or(&[][..], |given| outcome.numbers(given));
+                        for (place, scalar) in varying.scalars.clone().enumerate() {
+                            vertices.varyings[scalar].push(numbers.get(place).copied().unwrap_or(0.0));
+                        }
+                    }
+                }
+                vertices
+            }
+        }
+    }
+}
+
+impl Pipeline {
+    /// Whether neighbouring triangles differ although their vertices are the same.
+    fn is_faceted(&self) -> bool {
+        use crate::interpreter::Interpolation;
+        let is_flat = self.varyings.iter().any(|varying| varying.interpolation == Interpolation::Flat);
+        let counts = self.fragment.inputs().iter().any(|input| input.name == "gl_PrimitiveID");
+        is_flat || counts || self.nature.derivatives
+    }
+}
+
+/// For each vertex the first one that is the same, number by number.
+fn same(vertices: &Vertices) -> Vec<u32> {
+    let mut first: HashMap<Vec<u64>, u32> = HashMap::new();
+    let numbers = |vertex: usize| {
+        let position = vertices.positions[vertex].to_array().into_iter();
+        let varyings = vertices.varyings.iter().map(move |values| values[vertex]);
+        // −0 is 0.
+        position.chain(varyings).map(|number| (number + 0.0).to_bits()).collect::<Vec<u64>>()
+    };
+    (0..vertices.positions.len()).map(|vertex| *first.entry(numbers(vertex)).or_insert(vertex as u32)).collect()
 }

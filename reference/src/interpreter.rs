@@ -39,6 +39,7 @@
 mod builtin;
 mod code;
 mod compile;
+mod nature;
 mod parse;
 mod run;
 mod sheet;
@@ -50,8 +51,9 @@ mod types;
 #[cfg(test)]
 mod tests;
 
-pub use code::Variable;
+pub use code::{Interpolation, Variable};
 pub use compile::Draft;
+pub use nature::{Copied, Nature};
 pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Run, Stopped, Undefined};
 pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
 pub use texture::{Compare, Filter, Level, Texture, Wrap};
@@ -162,6 +164,16 @@ impl Program {
     /// The outermost variables of `main`.
     pub fn locals(&self) -> &[Variable] {
         &self.code.locals
+    }
+
+    /// What it needs and does beyond computing outputs from inputs.
+    pub fn nature(&self) -> Nature {
+        Nature::of(&self.code)
+    }
+
+    /// For each scalar of its outputs the scalar of an input that it is a copy of; none where it computes anything.
+    pub fn copies(&self) -> Option<Vec<Vec<Copied>>> {
+        nature::copies(&self.code)
     }
 
     /// Begins a run for so many samples.

@@ -27,6 +27,9 @@ pub struct Manifest {
     pub equation: Option<Equation>,
     /// The files that are handed in.
     pub file: Vec<File>,
+    /// The stages that are not handed in.
+    #[serde(default)]
+    pub fixed: Vec<Fixed>,
     /// Vertex attributes.
     #[serde(default)]
     pub input: Vec<Input>,
@@ -152,7 +155,8 @@ pub struct File {
     /// Other files that compute what is right as well.
     #[serde(default)]
     pub accepted: Vec<String>,
-    /// The stages that are not handed in.
+    /// The same as [[fixed]] of the whole homework.
+    #[serde(default)]
     pub fixed: Vec<Fixed>,
 }
 

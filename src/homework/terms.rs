@@ -124,8 +124,12 @@ pub fn term_pictures(
     Terms::of(assignment, explanation, source).pictures()
 }
 
-/// How much two colourings of one triangle differ in its picture: by its area there, and at its corners.
-fn visible_difference(right: &[ClipVertex; 3], theirs: &[ClipVertex; 3]) -> f64 {
+/// How much two colourings of the same triangles differ in a picture: by the area of each there, and at its corners.
+fn visible_difference(right: &[[ClipVertex; 3]], theirs: &[[ClipVertex; 3]]) -> f64 {
+    right.iter().zip(theirs).map(|(right, theirs)| difference(right, theirs)).sum()
+}
+
+fn difference(right: &[ClipVertex; 3], theirs: &[ClipVertex; 3]) -> f64 {
     let [a, b, c] = right.map(|corner| corner.position.truncate().truncate() / corner.position.w);
     let area = (b - a).perp_dot(c - a).abs();
     let shown = |colour: glam::DVec3| colour.clamp(glam::DVec3::ZERO, glam::DVec3::ONE);

@@ -1,19 +1,18 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
 mod advice;
+mod answers;
 mod interface;
 mod mistakes;
 mod probing;
 mod scene;
 mod solution;
+mod stages;
 mod typeset;
 
-use super::{Assignment, AssignmentError, HandedIn, MANIFEST, both, error};
+use super::{Assignment, AssignmentError, FixedStage, HandedIn, both, error};
 use crate::Folder;
-use crate::accepted::Answer;
-use crate::interpreter::{Program, Stage};
 use crate::manifest::{self, Manifest};
-use crate::rasteriser::ClipVertex;
 use solution::Solution;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -25,10 +24,16 @@ type Checked<T> = Result<T, AssignmentError>;
 
 /// `line_at`: the line of `assignment.toml` in which a byte of it stands.
 pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder: &Folder) -> Checked<Assignment> {
-    let read = |name: &str| folder.text(name).map(str::to_owned);
-    let files = files(std::mem::take(&mut m.file), read)?;
+    let read = |name: &str| -> Checked<String> { folder.text(name).map(str::to_owned) };
+    let mut files = files(&m.file, &read)?;
+    let fixed = fixed(&m, &read)?;
+    let stages = stages::Stages::of(&files, &fixed)?;
+    let pipeline = stages.pipeline()?;
+    for (file, entry) in files.iter_mut().zip(&m.file) {
+        file.accepted = stages.accepted(file.stage, &entry.accepted, &read)?;
+    }
     let mut solution = Solution::read(&files[0], &m.constant)?;
-    let interface = interface::interface(&m, &files[0], &solution, line_at)?;
+    let interface = interface::interface(&m, &stages, &solution, line_at)?;
     let constants = solution.constants(std::mem::take(&mut m.constant))?;
     let lines = rubric(&m.rubric, &solution)?;
     for constant in &constants {
@@ -52,6 +57,9 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         task: m.task,
         typeset,
         title: m.title,
+        fixed,
+        textures: Vec::new(),
+        pipeline,
         interface,
         constants,
         equation,
@@ -62,77 +70,40 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         probing,
     };
     probing::lobe_is_known(&assignment)?;
-    answers_are_defined(&assignment)?;
+    answers::are_defined(&assignment)?;
     Ok(assignment)
 }
 
-/// What is right must be a number in every picture: what GLSL leaves undefined is another thing on another machine.
-fn answers_are_defined(assignment: &Assignment) -> Checked<()> {
-    let right = assignment.equation.right();
-    let file = &assignment.files[0];
-    let mut known: HashSet<&str> = HashSet::new();
-    known.extend(assignment.interface.uniforms.iter().map(|uniform| uniform.path.as_str()));
-    known.extend(assignment.interface.inputs.iter().map(|input| input.name.as_str()));
-    for answer in &file.accepted {
-        let mut given = answer.program.uniforms().iter().chain(answer.program.inputs());
-        if let Some(other) = given.find(|one| !known.contains(one.name.as_str())) {
-            let message = format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name);
-            return Err(error(solution::place(&answer.name, other.line), message));
-        }
-    }
-    let is_number = |corners: [ClipVertex; 3]| {
-        corners.iter().all(|corner| corner.colour.is_finite() && corner.position.is_finite())
-    };
-    for pose in assignment.scene.all_poses() {
-        let undefined = |name: &str| {
-            let message = both(
-                "the colour or the position is undefined, or no number: look at divisions, roots, powers and branches",
-                "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐を確かめてください",
-            );
-            Err(error(format!("{name}, at t = {}", pose.t), message))
-        };
-        if !is_number(assignment.corners(&pose, &right, assignment.equation.colour)) {
-            return undefined(&file.solution.name);
-        }
-        if let Some(answer) = file.accepted.iter().find(|answer| !is_number(assignment.corners_of(answer, &pose))) {
-            return undefined(&answer.name);
-        }
-    }
-    Ok(())
-}
-
-fn files(files: Vec<manifest::File>, read: impl Fn(&str) -> Checked<String>) -> Checked<Vec<HandedIn>> {
+fn files(files: &[manifest::File], read: &dyn Fn(&str) -> Checked<String>) -> Checked<Vec<HandedIn>> {
     if files.is_empty() {
         return Err(error(
             "file",
             both("nothing is handed in: write [[file]]", "提出するファイルがありません。[[file]] を書いてください"),
         ));
     }
-    let handed_in = |file: manifest::File| {
+    let handed_in = |file: &manifest::File| {
         if file.stage != manifest::Stage::Vertex {
             return Err(error(
                 format!("file `{}`", file.name),
                 both("only vertex shaders can be handed in", "提出できるのは頂点シェーダだけです"),
             ));
         }
-        let fixed = file.fixed.iter().map(|f| Ok((f.stage, read(&f.file)?))).collect::<Checked<_>>()?;
-        let solution = super::Solution { text: read(&file.solution)?, name: file.solution };
-        let accepted = file.accepted.into_iter().map(|name| {
-            let program = Program::compile(&read(&name)?, Stage::Vertex);
-            let program = Arc::new(program.map_err(|refusal| solution::refused(&name, &refusal))?);
-            Ok(Answer { name, program })
-        });
         Ok(HandedIn {
-            accepted: accepted.collect::<Checked<_>>()?,
+            // They are read when it is known what they are linked with.
+            accepted: Vec::new(),
             starter: read(&file.starter)?,
-            starter_name: file.starter,
-            solution,
-            name: file.name,
+            starter_name: file.starter.clone(),
+            solution: super::Solution { text: read(&file.solution)?, name: file.solution.clone() },
+            name: file.name.clone(),
             stage: file.stage,
-            fixed,
         })
     };
-    files.into_iter().map(handed_in).collect()
+    files.iter().map(handed_in).collect()
+}
+
+fn fixed(m: &Manifest, read: &dyn Fn(&str) -> Checked<String>) -> Checked<Vec<FixedStage>> {
+    let all = m.fixed.iter().chain(m.file.iter().flat_map(|file| &file.fixed));
+    all.map(|one| Ok(FixedStage { stage: one.stage, name: one.file.clone(), text: read(&one.file)? })).collect()
 }
 
 fn rubric(lines: &[manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {

@@ -162,7 +162,7 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
     assert_eq!(error(half, "vec3 h;"), "solution.vert, line 34: `h` has no value: write `h = …` where it is declared");
     let only = "solution.vert, line 34: `main` has only definitions `type name = expression;`, and then \
                 `output = name;`: put this into a function";
-    assert_eq!(error(half, &format!("{half} if (true) discard;")), only);
+    assert_eq!(error(half, &format!("{half} if (true) {{ }}")), only);
     assert_eq!(
         error(half, &format!("{half} n = h;")),
         "solution.vert, line 34: `n` has a value already: give the new one a name of its own"
@@ -178,7 +178,7 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
     assert_eq!(
         error("uniform mat4 mw;", "const mat4 mw = mat4(1.0);"),
         format!(
-            "assignment.toml, line {}, uniform `mw`: there is no such uniform in solution.vert or the fixed stage: \
+            "assignment.toml, line {}, uniform `mw`: there is no such uniform in solution.vert or fixed.frag: \
              declare `uniform type mw;` there, or write `type = …` here",
             line_of("name = \"mw\"")
         )

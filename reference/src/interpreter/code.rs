@@ -208,6 +208,22 @@ pub struct Variable {
     pub slot: Slot,
     /// Where it is declared.
     pub line: u32,
+    /// How it is interpolated between vertices.
+    pub interpolation: Interpolation,
+    /// Its location, where the program gives it.
+    pub location: Option<u32>,
+}
+
+/// How a variable is interpolated between vertices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Interpolation {
+    /// As on the triangle itself.
+    #[default]
+    Smooth,
+    /// Not at all: the last vertex has the value.
+    Flat,
+    /// As in the picture.
+    NoPerspective,
 }
 
 /// A number that the program knows before it runs.

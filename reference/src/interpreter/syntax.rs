@@ -1,5 +1,6 @@
 //! What a parsed program is made of. Names are not resolved, and nothing has a type yet.
 
+use super::code::Interpolation;
 use std::rc::Rc;
 
 /// A name in the program.
@@ -73,6 +74,10 @@ pub enum Storage {
 pub struct Qualifiers {
     /// Where it lives.
     pub storage: Storage,
+    /// How it is interpolated between vertices.
+    pub interpolation: Interpolation,
+    /// `layout(location = …)`, where a number is written.
+    pub location: Option<u32>,
 }
 
 /// A type as it is written.

@@ -1,4 +1,7 @@
 use super::*;
+use crate::interpreter::Interpolation;
+use crate::scene::Cull;
+use glam::DVec2;
 
 const BACKGROUND: [u8; 4] = [255, 255, 255, 0];
 
@@ -20,8 +23,29 @@ fn covered(frame: &Frame) -> Vec<(usize, usize)> {
 }
 
 fn drawn(size: u32, triangle: &[ClipVertex; 3]) -> Frame {
+    let positions = triangle.map(|vertex| vertex.position);
+    let surface = Surface {
+        positions: &positions,
+        same: &[0, 1, 2],
+        triangles: &[[0, 1, 2]],
+        is_faceted: false,
+        depth_test: None,
+        cull: Cull::None,
+    };
+    let mut visible = Visible::new(size, size);
+    visible.draw(&[surface]);
     let mut frame = Frame::cleared(size, size, BACKGROUND);
-    frame.draw(triangle);
+    for pixel in 0..frame.pixels.len() {
+        let Some(setup) = visible.at(pixel) else { continue };
+        let place = |at: u32| 2.0 * (f64::from(at) + 0.5) / f64::from(size) - 1.0;
+        let (x, y) = (place(pixel as u32 % size), -place(pixel as u32 / size));
+        let channel = |at: usize| {
+            let ramp = setup.ramp(triangle.map(|vertex| vertex.colour[at]), Interpolation::Smooth);
+            ramp.at(x, y, setup.divisor(x, y))
+        };
+        frame.pixels[pixel] = quantised([0, 1, 2].map(channel));
+    }
+    frame.coverage = visible.coverage;
     frame
 }
 

@@ -71,6 +71,15 @@ impl Mesh {
     }
 }
 
+impl Mesh {
+    /// The corners of the box that holds all vertices.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let points = self.vertices.iter().map(|vertex| vertex.position.truncate());
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        points.fold(start, |(low, high), point| (low.min(point), high.max(point)))
+    }
+}
+
 /// A built-in mesh with its parameters, as a folder writes it: `{ torus = { radius = 1, tube = 0.4 } }`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]

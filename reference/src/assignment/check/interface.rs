@@ -5,9 +5,10 @@ mod values;
 use super::Checked;
 use super::scene::expression;
 use super::solution::{self, Solution};
-use crate::assignment::{AssignmentError, HandedIn, Input, Interface, MANIFEST, Uniform, error};
+use super::stages::{Compiled, Stages};
+use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, error};
 use crate::feed::{Feed, Role, Stream};
-use crate::interpreter::{Program, Stage, Type, Variable};
+use crate::interpreter::{Stage, Type, Variable};
 use crate::manifest::{self, Manifest};
 
 /// More uniforms, each part counted, than this are refused.
@@ -16,12 +17,11 @@ const MOST_UNIFORMS: usize = 4_096;
 /// The interface. `line_at`: the line of the manifest in which a byte of it stands.
 pub(super) fn interface(
     m: &Manifest,
-    file: &HandedIn,
+    stages: &Stages,
     solution: &Solution<'_>,
     line_at: &dyn Fn(usize) -> u32,
 ) -> Checked<Interface> {
-    let programs = programs(file)?;
-    let reader = Reader { programs: &programs, line_at };
+    let reader = Reader { programs: &stages.0, line_at };
     let mut uniforms = Vec::new();
     for entry in &m.uniform {
         reader.uniforms(entry, &mut uniforms)?;
@@ -49,27 +49,6 @@ pub(super) fn interface(
         return Err(solution.wrong(cell.line, message));
     }
     Ok(Interface { inputs, uniforms, outputs: solution.outputs() })
-}
-
-/// A stage of the right program, compiled.
-struct Compiled {
-    name: String,
-    stage: Stage,
-    program: Program,
-}
-
-/// The solution, and what it is linked with.
-fn programs(file: &HandedIn) -> Checked<Vec<Compiled>> {
-    let compiled = |name: &str, stage: manifest::Stage, text: &str| {
-        let stage = match stage {
-            manifest::Stage::Vertex => Stage::Vertex,
-            manifest::Stage::Fragment => Stage::Fragment,
-        };
-        let program = Program::compile(text, stage).map_err(|refusal| solution::refused(name, &refusal))?;
-        Ok(Compiled { name: name.to_owned(), stage, program })
-    };
-    let fixed = file.fixed.iter().map(|(stage, text)| compiled("the fixed stage", *stage, text));
-    std::iter::once(compiled(&file.solution.name, file.stage, &file.solution.text)).chain(fixed).collect()
 }
 
 struct Reader<'a> {

@@ -197,6 +197,8 @@ impl<'a> Solution<'a> {
             self.definition(name, &|| format!("definition `{name}`"))?;
         }
         let [colour, position] = [self.output(None)?, self.output(Some(POSITION))?];
+        let stored = self.draft.stored().iter();
+        let outputs = stored.map(|stored| (stored.output.clone(), stored.cell - self.first)).collect();
         let cells = self.draft.cells();
         let find = |name: &String| cells.iter().position(|cell| cell.name == *name).unwrap_or(usize::MAX);
         let definition = |formula: &Formula| {
@@ -224,6 +226,7 @@ impl<'a> Solution<'a> {
             numbers,
             colour,
             position,
+            outputs,
         })
     }
 

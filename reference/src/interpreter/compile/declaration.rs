@@ -109,7 +109,8 @@ impl Compiler {
         // The file's scope, and that of parameters and body.
         if is_main && self.scopes.depth() == 2 {
             let (name, kind, line) = (name.to_string(), kind.clone(), self.builder.line);
-            self.locals.push(crate::interpreter::code::Variable { name, kind, slot, line });
+            let (interpolation, location) = Default::default();
+            self.locals.push(crate::interpreter::code::Variable { name, kind, slot, line, interpolation, location });
         }
     }
 

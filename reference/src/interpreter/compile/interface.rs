@@ -2,9 +2,9 @@
 
 use super::scope::Symbol;
 use super::{Compiler, scope};
-use crate::interpreter::code::{Slot, Variable};
+use crate::interpreter::code::{Interpolation, Slot, Variable};
 use crate::interpreter::run::Undefined;
-use crate::interpreter::syntax::{Base, Declaration, InterfaceBlock, Name, Storage};
+use crate::interpreter::syntax::{Base, Declaration, InterfaceBlock, Name, Qualifiers, Storage};
 use crate::interpreter::types::{Struct, Type};
 use crate::interpreter::{Refusal, Stage, builtin};
 use std::sync::Arc;
@@ -34,6 +34,7 @@ impl Compiler {
             return Ok(());
         }
         let base = self.type_of(&declaration.kind)?;
+        let Qualifiers { interpolation, location, .. } = declaration.qualifiers;
         for variable in &declaration.variables {
             self.builder.line = variable.line;
             let kind = self.arrays_of(base.clone(), &variable.lengths)?;
@@ -43,6 +44,7 @@ impl Compiler {
             }
             let slot = self.allocate(&kind)?;
             self.exchange(storage, &variable.name, &kind, slot)?;
+            self.qualify(storage, interpolation, location);
             if let Some(value) = &variable.value {
                 let value = self.initial_value(value, &kind)?;
                 for (slot, &from) in (slot..).zip(&value.slots) {
@@ -64,9 +66,14 @@ impl Compiler {
         }
     }
 
+    fn outside(&self, name: &str, kind: &Type, slot: Slot) -> Variable {
+        let (interpolation, location) = (Interpolation::Smooth, None);
+        Variable { name: name.to_owned(), kind: kind.clone(), slot, line: self.builder.line, interpolation, location }
+    }
+
     /// Tells the host of a variable.
     fn exchange(&mut self, storage: Storage, name: &str, kind: &Type, slot: Slot) -> Result<(), Refusal> {
-        let variable = Variable { name: name.to_owned(), kind: kind.clone(), slot, line: self.builder.line };
+        let variable = self.outside(name, kind, slot);
         match storage {
             Storage::Input => self.inputs.push(variable),
             Storage::Output => self.outputs.push(variable),
@@ -74,6 +81,18 @@ impl Compiler {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Notes how the last input or output is interpolated, and where the program wants it.
+    fn qualify(&mut self, storage: Storage, interpolation: Interpolation, location: Option<u32>) {
+        let all = match storage {
+            Storage::Input => &mut self.inputs,
+            Storage::Output => &mut self.outputs,
+            _ => return,
+        };
+        if let Some(last) = all.last_mut() {
+            (last.interpolation, last.location) = (interpolation, location);
+        }
     }
 
     /// The parts of a uniform that a host sets, each with its path.
@@ -96,7 +115,7 @@ impl Compiler {
                 }
             }
             _ => {
-                let variable = Variable { name: path.to_owned(), kind: kind.clone(), slot, line: self.builder.line };
+                let variable = self.outside(path, kind, slot);
                 self.uniforms.push(variable);
             }
         }
@@ -111,14 +130,17 @@ impl Compiler {
             return self.storage_buffer(block);
         }
         let members = self.member_types(&block.members)?;
+        let each = |member: &Declaration| vec![member.qualifiers.interpolation; member.variables.len()];
+        let interpolations: Vec<Interpolation> = block.members.iter().flat_map(each).collect();
         self.builder.line = block.line;
         if &*block.name == "gl_PerVertex" {
             return members.into_iter().try_for_each(|(name, kind)| self.redeclare(&Name::from(name), kind));
         }
         let Some((instance, lengths)) = &block.instance else {
-            for (name, kind) in members {
+            for ((name, kind), interpolation) in members.into_iter().zip(interpolations) {
                 let slot = self.allocate(&kind)?;
                 self.exchange(storage, &name, &kind, slot)?;
+                self.qualify(storage, interpolation, None);
                 self.scopes.declare(Name::from(name), Symbol::variable(kind, slot));
             }
             return Ok(());
@@ -132,8 +154,9 @@ impl Compiler {
             self.leaves(&block.name, &kind, slot)?;
         } else if let Type::Struct(structure) = &kind {
             let mut slot = slot;
-            for (name, kind) in &structure.members {
+            for ((name, kind), interpolation) in structure.members.iter().zip(interpolations) {
                 self.exchange(storage, &format!("{}.{name}", block.name), kind, slot)?;
+                self.qualify(storage, interpolation, None);
                 slot += kind.slots().unwrap_or(0) as Slot;
             }
         } else {

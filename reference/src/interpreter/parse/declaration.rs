@@ -2,13 +2,13 @@
 
 use super::Parser;
 use crate::interpreter::Refusal;
+use crate::interpreter::code::Interpolation;
 use crate::interpreter::syntax::{
     Base, Declaration, Function, InterfaceBlock, Item, Name, Parameter, Qualifiers, Storage, TypeName, Variable,
 };
 
 /// Words before a type that do not change what it means here.
-const SILENT: [&str; 9] =
-    ["flat", "smooth", "noperspective", "centroid", "invariant", "highp", "mediump", "lowp", "precision"];
+const SILENT: [&str; 7] = ["smooth", "centroid", "invariant", "highp", "mediump", "lowp", "precision"];
 /// The same, which are names where no name follows.
 const SOMETIMES_SILENT: [&str; 9] =
     ["sample", "patch", "precise", "coherent", "volatile", "restrict", "readonly", "writeonly", "subroutine"];
@@ -62,8 +62,13 @@ impl Parser<'_> {
                 "varying" => Storage::Varying,
                 "shared" | "buffer" if self.is_name(1) => Storage::Shared,
                 "layout" if self.text(1) == "(" => {
-                    self.layout()?;
+                    qualifiers.location = self.layout()?.or(qualifiers.location);
                     continue;
+                }
+                "flat" | "noperspective" => {
+                    let is_flat = word == "flat";
+                    qualifiers.interpolation = if is_flat { Interpolation::Flat } else { Interpolation::NoPerspective };
+                    qualifiers.storage
                 }
                 "const" => qualifiers.storage,
                 _ if SILENT.contains(&word) => qualifiers.storage,
@@ -86,11 +91,14 @@ impl Parser<'_> {
         self.text(1) == "("
     }
 
-    fn layout(&mut self) -> Result<(), Refusal> {
+    /// What stands in a layout, and the location that it gives.
+    fn layout(&mut self) -> Result<Option<u32>, Refusal> {
         self.at += 1;
         let mut depth = 0_usize;
+        let mut location = None;
         loop {
             match self.text(0) {
+                "location" if self.text(1) == "=" => location = self.text(2).parse().ok(),
                 "(" => depth += 1,
                 ")" => depth -= 1,
                 "" => return Err(self.unexpected("`)`")),
@@ -98,7 +106,7 @@ impl Parser<'_> {
             }
             self.at += 1;
             if depth == 0 {
-                return Ok(());
+                return Ok(location);
             }
         }
     }

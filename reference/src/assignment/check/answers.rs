@@ -1,0 +1,84 @@
+//! What is right must be a number in every picture: what GLSL leaves undefined is another thing on another machine.
+
+use super::{Checked, solution};
+use crate::Assignment;
+use crate::assignment::{MANIFEST, both, error};
+use crate::frames::VertexStage;
+use crate::pipeline::{Pipeline, positions, scalars};
+use crate::scene::Pose;
+use std::collections::HashSet;
+
+/// So many vertices are looked at, spread over all pictures.
+const VERTICES: usize = 100_000;
+/// Pictures are looked at in a window with sides of a fraction of theirs.
+const FRACTION: u32 = 8;
+
+pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
+    let interface = &assignment.interface;
+    let mut known: HashSet<&str> = HashSet::new();
+    known.extend(interface.uniforms.iter().map(|uniform| uniform.path.as_str()));
+    known.extend(interface.inputs.iter().map(|input| input.name.as_str()));
+    let file = &assignment.files[0];
+    for answer in &file.accepted {
+        let mut given = answer.program.uniforms().iter().chain(answer.program.inputs());
+        if let Some(other) = given.find(|one| !known.contains(one.name.as_str()) && !one.name.starts_with("gl_")) {
+            let message = format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name);
+            return Err(error(solution::place(&answer.name, other.line), message));
+        }
+    }
+    let poses = assignment.scene.all_poses();
+    let right = assignment.equation.right();
+    for pose in &poses {
+        let undefined = |name: &str| {
+            let message = both(
+                "the colour or the position is undefined, or no number: look at divisions, roots, powers and branches",
+                "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐を確かめてください",
+            );
+            Err(error(format!("{name}, at t = {}", pose.t), message))
+        };
+        let stage = VertexStage::Equation(&right, assignment.equation.colour);
+        if !assignment.is_defined(pose, &assignment.pipeline, stage, poses.len()) {
+            return undefined(&file.solution.name);
+        }
+        for answer in &file.accepted {
+            let stage = VertexStage::Program(&answer.program);
+            if !assignment.is_defined(pose, &answer.pipeline, stage, poses.len()) {
+                return undefined(&answer.name);
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Assignment {
+    /// Whether what two stages compute for a picture is defined, as far as is looked at.
+    fn is_defined(&self, pose: &Pose, pipeline: &Pipeline, stage: VertexStage<'_>, pictures: usize) -> bool {
+        let instances = self.scene.instances(pose);
+        let each = (VERTICES / (pictures * instances.len()).max(1)).max(3);
+        for instance in &instances {
+            let uniforms = self.uniform_values(&instance.moment);
+            let vertices = &instance.draw.mesh.vertices;
+            let some: Vec<_> = vertices.iter().step_by(vertices.len().div_ceil(each)).copied().collect();
+            let is_defined = match stage {
+                VertexStage::Equation(variant, _) => some.iter().all(|vertex| {
+                    let outcome = variant.evaluate(&uniforms, &self.attribute_values(vertex));
+                    let mut outputs = self.equation.outputs.iter().flat_map(|(_, given)| outcome.numbers(*given));
+                    outputs.all(|number| number.is_finite())
+                }),
+                VertexStage::Program(program) => self.run_vertices(program, &uniforms, &some).is_some_and(|outputs| {
+                    let handed = pipeline.varyings.iter().flat_map(|varying| scalars(&outputs, varying.output));
+                    handed.flatten().all(f64::is_finite)
+                        && positions(&outputs, some.len()).iter().all(|position| position.is_finite())
+                }),
+            };
+            if !is_defined {
+                return false;
+            }
+        }
+        if pipeline.copied.is_some() {
+            return true;
+        }
+        let size = [self.scene.width, self.scene.height].map(|side| side.div_ceil(FRACTION));
+        self.picture_of_size(size, pose, pipeline, stage).1
+    }
+}

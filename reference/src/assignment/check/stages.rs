@@ -1,0 +1,86 @@
+//! The stages of the right program: those of the solution, and those that are fixed.
+
+use super::{Checked, solution};
+use crate::accepted::Answer;
+use crate::assignment::{FixedStage, HandedIn, error};
+use crate::interpreter::{Program, Stage};
+use crate::manifest;
+use crate::pipeline::Pipeline;
+use std::sync::Arc;
+
+/// A stage, compiled.
+pub(super) struct Compiled {
+    /// The name of its file.
+    pub name: String,
+    pub stage: Stage,
+    pub program: Arc<Program>,
+}
+
+/// A vertex and a fragment stage.
+pub(super) struct Stages(pub Vec<Compiled>);
+
+impl Stages {
+    /// Compiles the solution and what it is linked with.
+    pub fn of(files: &[HandedIn], fixed: &[FixedStage]) -> Checked<Self> {
+        let handed_in = files.iter().map(|file| (&file.solution.name, file.stage, &file.solution.text));
+        let fixed = fixed.iter().map(|fixed| (&fixed.name, fixed.stage, &fixed.text));
+        let mut stages: Vec<Compiled> = Vec::new();
+        for (name, stage, text) in handed_in.chain(fixed) {
+            let compiled = compiled(name, of(stage), text)?;
+            if let Some(other) = stages.iter().find(|other| other.stage == compiled.stage) {
+                let message = format!("is a second stage of this kind, beside {}: keep one", other.name);
+                return Err(error(name, message));
+            }
+            stages.push(compiled);
+        }
+        for (stage, word) in [(Stage::Vertex, "vertex"), (Stage::Fragment, "fragment")] {
+            if !stages.iter().any(|known| known.stage == stage) {
+                let message =
+                    format!("there is no {word} stage: write [[file]] or [[fixed]] with `stage = \"{word}\"`");
+                return Err(error("file", message));
+            }
+        }
+        Ok(Self(stages))
+    }
+
+    pub fn get(&self, stage: Stage) -> &Compiled {
+        let found = self.0.iter().find(|compiled| compiled.stage == stage);
+        found.unwrap_or(&self.0[0])
+    }
+
+    /// The right program.
+    pub fn pipeline(&self) -> Checked<Pipeline> {
+        let [vertex, fragment] = [Stage::Vertex, Stage::Fragment].map(|stage| self.get(stage));
+        let linked = Pipeline::link(&vertex.program, &fragment.program, None);
+        linked.map_err(|what| error(&fragment.name, format!("{what} ({})", vertex.name)))
+    }
+
+    /// Other answers for a stage, linked with the stages of the other kind.
+    pub fn accepted(
+        &self,
+        stage: manifest::Stage,
+        names: &[String],
+        read: &dyn Fn(&str) -> Checked<String>,
+    ) -> Checked<Vec<Answer>> {
+        let answer = |name: &String| {
+            let own = compiled(name, of(stage), &read(name)?)?;
+            let other = |stage| if own.stage == stage { &own.program } else { &self.get(stage).program };
+            let linked = Pipeline::link(other(Stage::Vertex), other(Stage::Fragment), None);
+            let pipeline = linked.map_err(|what| error(name, what))?;
+            Ok(Answer { name: name.clone(), program: own.program, pipeline })
+        };
+        names.iter().map(answer).collect()
+    }
+}
+
+fn compiled(name: &str, stage: Stage, text: &str) -> Checked<Compiled> {
+    let program = Program::compile(text, stage).map_err(|refusal| solution::refused(name, &refusal))?;
+    Ok(Compiled { name: name.to_owned(), stage, program: Arc::new(program) })
+}
+
+pub(super) fn of(stage: manifest::Stage) -> Stage {
+    match stage {
+        manifest::Stage::Vertex => Stage::Vertex,
+        manifest::Stage::Fragment => Stage::Fragment,
+    }
+}

@@ -1,0 +1,191 @@
+//! A vertex and a fragment stage, linked: what is handed from one to the other, and what is seen of it.
+
+use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, Run, Variable};
+use crate::scene::Vertex;
+use crate::{Assignment, Value};
+use glam::DVec4;
+use std::sync::Arc;
+
+/// Where the position of a vertex stands.
+pub const POSITION: &str = "gl_Position";
+
+/// Two stages that fit.
+#[derive(Clone, Debug)]
+pub struct Pipeline {
+    /// The vertex stage.
+    pub vertex: Arc<Program>,
+    /// The fragment stage.
+    pub fragment: Arc<Program>,
+    pub(crate) varyings: Vec<Varying>,
+    /// The output of the fragment stage that is seen.
+    pub(crate) colour: usize,
+    pub(crate) nature: Nature,
+    /// Where red, green and blue come from, if they are only handed on.
+    pub(crate) copied: Option<[Handed; 3]>,
+}
+
+/// A variable between the stages.
+#[derive(Clone, Debug)]
+pub(crate) struct Varying {
+    /// The vertex stage's output, by its place.
+    pub output: usize,
+    /// The fragment stage's input, by its place.
+    pub input: usize,
+    /// Its scalars among those of all varyings.
+    pub scalars: std::ops::Range<usize>,
+    pub interpolation: Interpolation,
+}
+
+/// A channel that is only handed on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Handed {
+    /// A scalar of the varyings.
+    Varying(usize),
+    /// A number.
+    Constant(f64),
+}
+
+impl Pipeline {
+    /// Links two stages. `colour`: the output that is seen; without it, the one at location 0, or else the first.
+    ///
+    /// # Errors
+    /// The stages do not fit: what does not.
+    pub fn link(vertex: &Arc<Program>, fragment: &Arc<Program>, colour: Option<&str>) -> Result<Self, String> {
+        let mut varyings: Vec<Varying> = Vec::new();
+        for (input, read) in fragment.inputs().iter().enumerate().filter(|(_, read)| !read.name.starts_with("gl_")) {
+            let outputs = || vertex.outputs().iter().enumerate();
+            let placed = outputs().find(|(_, output)| read.location.is_some() && output.location == read.location);
+            let found = placed.or_else(|| outputs().find(|(_, output)| output.name == read.name));
+            let Some((output, written)) = found else {
+                return Err(format!("the fragment stage reads `{}`, which the vertex stage does not write", read.name));
+            };
+            if written.kind != read.kind {
+                let (from, to) = (&written.kind, &read.kind);
+                return Err(format!(
+                    "`{}` is a {from} in the vertex stage and a {to} in the fragment stage",
+                    read.name
+                ));
+            }
+            let first = varyings.last().map_or(0, |last| last.scalars.end);
+            let scalars = first..first + read.kind.slots().unwrap_or(0);
+            varyings.push(Varying { output, input, scalars, interpolation: read.interpolation });
+        }
+        let colour = seen(fragment.outputs(), colour)?;
+        let handed = |copied: &Copied| match copied {
+            Copied::Constant(number) => Some(Handed::Constant(*number)),
+            Copied::Input(input, scalar) => {
+                let varying = varyings.iter().find(|varying| varying.input == *input)?;
+                Some(Handed::Varying(varying.scalars.start + scalar))
+            }
+        };
+        let copied = fragment.copies().and_then(|copies| {
+            let channel = |at: usize| copies[colour].get(at).map_or(Some(Handed::Constant(0.0)), handed);
+            Some([channel(0)?, channel(1)?, channel(2)?])
+        });
+        let (vertex, nature) = (Arc::clone(vertex), fragment.nature());
+        Ok(Self { vertex, fragment: Arc::clone(fragment), varyings, colour, nature, copied })
+    }
+
+    /// How many scalars are handed from stage to stage.
+    pub(crate) fn width(&self) -> usize {
+        self.varyings.last().map_or(0, |last| last.scalars.end)
+    }
+}
+
+/// The output that the window shows.
+fn seen(outputs: &[Variable], name: Option<&str>) -> Result<usize, String> {
+    let own = || outputs.iter().enumerate().filter(|(_, output)| output.name != "gl_FragDepth");
+    let found = match name {
+        Some(name) => own().find(|(_, output)| output.name == name),
+        None => own().find(|(_, output)| output.location == Some(0)).or_else(|| own().next()),
+    };
+    found.map(|(place, _)| place).ok_or_else(|| match name {
+        Some(name) => format!("the fragment stage has no output `{name}`"),
+        None => "the fragment stage has no output: declare `out vec4 a_name;`".into(),
+    })
+}
+
+/// The vertices of a draw after the vertex stage.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Vertices {
+    pub positions: Vec<DVec4>,
+    /// For each scalar of the varyings its value at each vertex.
+    pub varyings: Vec<Vec<f64>>,
+}
+
+/// What an attribute has where less is given.
+const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+/// A column of all samples for each scalar of a variable.
+pub(crate) fn columns<'v>(variable: &Variable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {
+    let count = variable.kind.slots().unwrap_or(0);
+    let mut columns = vec![Vec::new(); count];
+    for value in values {
+        for (scalar, column) in columns.iter_mut().enumerate() {
+            let lacking = LACKING.get(scalar).copied().unwrap_or(0.0);
+            column.push(value.numbers().get(scalar).copied().unwrap_or(lacking));
+        }
+    }
+    columns
+}
+
+pub(crate) fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
+    columns.iter().map(Vec::as_slice).collect()
+}
+
+impl Assignment {
+    /// A run with uniforms in the interface's order, as far as the program has them, and the textures.
+    pub(crate) fn fed<'a>(&'a self, program: &'a Program, samples: usize, uniforms: &[Value]) -> Option<Run<'a>> {
+        let mut run = program.run(samples).textures(&self.textures);
+        for (uniform, value) in self.interface.uniforms.iter().zip(uniforms) {
+            if program.uniforms().iter().any(|own| own.name == uniform.path) {
+                run = run.uniform(&uniform.path, value.numbers()).ok()?;
+            }
+        }
+        Some(run)
+    }
+
+    /// Runs a vertex stage on all vertices of a mesh.
+    pub(crate) fn run_vertices(&self, program: &Program, uniforms: &[Value], vertices: &[Vertex]) -> Option<Outputs> {
+        let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
+        for input in program.inputs() {
+            let numbers = || vertices.iter().map(|vertex| f64::from(vertex.number)).collect();
+            let own = self.interface.inputs.iter().find(|own| own.name == input.name);
+            let columns = match own {
+                Some(own) => {
+                    let values: Vec<Value> = vertices.iter().map(|v| own.stream.value(&own.kind, v)).collect();
+                    columns(input, values.iter())
+                }
+                None if input.name == "gl_VertexID" => vec![numbers()],
+                None => continue,
+            };
+            given.push((&input.name, columns));
+        }
+        let columns: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
+        let mut run = self.fed(program, vertices.len(), uniforms)?;
+        for (name, columns) in &columns {
+            run = run.input(name, columns).ok()?;
+        }
+        run.outputs().ok()
+    }
+}
+
+/// The scalars of an output for each sample; what is undefined is not a number.
+pub(crate) fn scalars(outputs: &Outputs, place: usize) -> Vec<Vec<f64>> {
+    let Some(column) = outputs.outputs.get(place) else { return Vec::new() };
+    let of = |(scalar, values): (usize, &Vec<f64>)| {
+        let defined = |(sample, value): (usize, &f64)| match column.undefined(scalar, sample) {
+            None => *value,
+            Some(_) => f64::NAN,
+        };
+        values.iter().enumerate().map(defined).collect()
+    };
+    column.values.iter().enumerate().map(of).collect()
+}
+
+/// The position of each vertex.
+pub(crate) fn positions(outputs: &Outputs, count: usize) -> Vec<DVec4> {
+    let place = outputs.outputs.iter().position(|output| output.name == POSITION);
+    let Some(columns) = place.map(|place| scalars(outputs, place)) else { return vec![DVec4::NAN; count] };
+    (0..count).map(|vertex| DVec4::from_array(std::array::from_fn(|axis| columns[axis][vertex]))).collect()
+}

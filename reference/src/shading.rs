@@ -1,0 +1,311 @@
+//! The colours of what is seen: the fragment stage, run for the pixels that a triangle covers.
+
+use crate::interpreter::Program;
+use crate::pipeline::{Handed, Pipeline, Vertices, scalars, slices};
+use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
+use crate::{Assignment, Value};
+use std::collections::HashMap;
+
+/// Pixels that are shaded together: enough that a run costs little, few enough that their columns stay small.
+const CHUNK: usize = 1 << 15;
+
+/// So many things may stand one behind the other where fragments are thrown away.
+const MOST_LAYERS: usize = 64;
+
+/// A colour that changes by more than this, in steps of 8 bits, over the distance that rounding moves a surface by is left
+/// to the rasteriser.
+const SUDDEN: u8 = 2;
+
+/// What is drawn, and by what it is coloured.
+pub(crate) struct Scenery<'a> {
+    pub assignment: &'a Assignment,
+    pub pipeline: &'a Pipeline,
+    /// What is drawn, in this order.
+    pub shapes: Vec<Shape<'a>>,
+    /// A variable of the fragment stage's `main` that is shown in place of the colour.
+    pub local: Option<&'a str>,
+}
+
+/// A draw after the vertex stage.
+pub(crate) struct Shape<'a> {
+    pub uniforms: Vec<Value>,
+    pub vertices: Vertices,
+    pub triangles: &'a [[u32; 3]],
+}
+
+/// A pixel that a triangle covers, or one beside it that its quad needs.
+#[derive(Clone, Copy)]
+struct Fragment {
+    /// The place of its pixel among those that are asked for.
+    pixel: Option<u32>,
+    /// The place of its triangle.
+    number: u32,
+    column: u32,
+    /// Counted from above; a row above the window is negative.
+    row: i64,
+}
+
+/// What a pixel's fragment came to.
+#[derive(Clone, Copy, PartialEq)]
+enum Shaded {
+    Colour([f64; 3]),
+    Discarded,
+}
+
+impl Scenery<'_> {
+    /// Colours the pixels of a frame. Whether all colours are defined.
+    pub fn shade(&self, mut visible: Visible, frame: &mut Frame) -> bool {
+        if let Some(handed) = self.pipeline.copied.filter(|_| self.local.is_none()) {
+            self.hand_on(&visible, handed, frame);
+            frame.coverage = visible.coverage;
+            return true;
+        }
+        let mut gone: HashMap<u32, Vec<u32>> = HashMap::new();
+        let mut pixels: Vec<u32> = self.covered(&visible);
+        let mut sudden: Vec<u32> = Vec::new();
+        let mut is_defined = true;
+        for _ in 0..MOST_LAYERS {
+            let shaded = self.pixels(&visible, &pixels, [0.0, 0.0]);
+            sudden.extend(self.sudden(&visible, &pixels, &shaded));
+            is_defined &= !shaded.iter().any(is_undefined);
+            let mut discarded = Vec::new();
+            for (pixel, shaded) in pixels.iter().zip(&shaded) {
+                match shaded {
+                    Shaded::Colour(colour) => frame.pixels[*pixel as usize] = quantised(*colour),
+                    Shaded::Discarded => {
+                        gone.entry(*pixel).or_default().extend(visible.number(*pixel as usize));
+                        discarded.push(*pixel);
+                    }
+                }
+            }
+            if discarded.is_empty() {
+                break;
+            }
+            let again: HashMap<u32, Vec<u32>> = discarded.iter().map(|pixel| (*pixel, gone[pixel].clone())).collect();
+            visible.reveal(&again);
+            pixels = discarded.into_iter().filter(|pixel| visible.number(*pixel as usize).is_some()).collect();
+        }
+        frame.coverage = visible.coverage;
+        sudden.into_iter().for_each(|pixel| frame.coverage[pixel as usize] = Coverage::Silhouette);
+        is_defined
+    }
+
+    fn covered(&self, visible: &Visible) -> Vec<u32> {
+        let count = visible.coverage.len() as u32;
+        (0..count).filter(|pixel| visible.number(*pixel as usize).is_some()).collect()
+    }
+
+    /// The colours of a fragment stage that only hands them on.
+    fn hand_on(&self, visible: &Visible, handed: [Handed; 3], frame: &mut Frame) {
+        let ramps: Vec<_> = visible.setups().iter().map(|setup| handed.map(|one| self.ramp(setup, one))).collect();
+        let (width, height) = (f64::from(frame.width), f64::from(frame.height));
+        for row in 0..frame.height as usize {
+            let y = 1.0 - 2.0 * (row as f64 + 0.5) / height;
+            for column in 0..frame.width as usize {
+                let pixel = row * frame.width as usize + column;
+                let Some(number) = visible.number(pixel) else { continue };
+                let x = 2.0 * (column as f64 + 0.5) / width - 1.0;
+                let divisor = visible.setups()[number as usize].divisor(x, y);
+                frame.pixels[pixel] = quantised(ramps[number as usize].map(|ramp| ramp.at(x, y, divisor)));
+            }
+        }
+    }
+
+    fn ramp(&self, setup: &Setup, handed: Handed) -> crate::rasteriser::Ramp {
+        match handed {
+            Handed::Constant(number) => setup.ramp([number; 3], crate::interpreter::Interpolation::Flat),
+            Handed::Varying(scalar) => self.varying(setup, scalar),
+        }
+    }
+
+    fn varying(&self, setup: &Setup, scalar: usize) -> crate::rasteriser::Ramp {
+        let Shape { vertices, triangles, .. } = &self.shapes[setup.surface as usize];
+        let values = triangles[setup.triangle as usize].map(|vertex| vertices.varyings[scalar][vertex as usize]);
+        let varying = self.pipeline.varyings.iter().find(|varying| varying.scalars.contains(&scalar));
+        setup.ramp(values, varying.map(|varying| varying.interpolation).unwrap_or_default())
+    }
+
+    /// What the fragments of these pixels come to, with their places moved by so many pixels.
+    fn pixels(&self, visible: &Visible, pixels: &[u32], moved: [f64; 2]) -> Vec<Shaded> {
+        let fragments = fragments(visible, pixels, self.needs_quads());
+        let mut all = vec![Shaded::Discarded; pixels.len()];
+        let surface = |fragment: &Fragment| visible.setups()[fragment.number as usize].surface;
+        // Triangles are numbered surface by surface.
+        for own in fragments.chunk_by(|a, b| surface(a) == surface(b)) {
+            for chunk in own.chunks(CHUNK) {
+                let colours = self.run(visible, surface(&own[0]), chunk, moved);
+                for (fragment, colour) in chunk.iter().zip(colours) {
+                    fragment.pixel.into_iter().for_each(|place| all[place as usize] = colour);
+                }
+            }
+        }
+        all
+    }
+
+    fn needs_quads(&self) -> bool {
+        let nature = self.pipeline.nature;
+        let by_neighbours = |texture: &crate::interpreter::Texture| {
+            texture.mipmap.is_some() && texture.levels.len() > 1 || texture.magnify != texture.minify
+        };
+        nature.derivatives || nature.implicit_levels && self.assignment.textures.iter().any(by_neighbours)
+    }
+
+    /// Runs the fragment stage.
+    fn run(&self, visible: &Visible, surface: u32, fragments: &[Fragment], moved: [f64; 2]) -> Vec<Shaded> {
+        let undefined = || vec![Shaded::Colour([f64::NAN; 3]); fragments.len()];
+        let program: &Program = &self.pipeline.fragment;
+        let uniforms = &self.shapes[surface as usize].uniforms;
+        let given = self.inputs(visible, program, fragments, moved);
+        let slices: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
+        let Some(mut run) = self.assignment.fed(program, fragments.len(), uniforms) else { return undefined() };
+        for (name, columns) in &slices {
+            match run.input(name, columns) {
+                Ok(fed) => run = fed,
+                Err(_) => return undefined(),
+            }
+        }
+        let locals: Vec<&str> = self.local.into_iter().collect();
+        let Ok(outputs) = run.outputs_and_locals(&locals) else { return undefined() };
+        let columns = match outputs.locals.first() {
+            Some(local) => local.values.clone(),
+            None => scalars(&outputs, self.pipeline.colour),
+        };
+        let channel = |at: usize, fragment: usize| columns.get(at).map_or(0.0, |column| column[fragment]);
+        let shaded = |fragment: usize| match outputs.discarded[fragment] {
+            true => Shaded::Discarded,
+            false => Shaded::Colour([0, 1, 2].map(|at| channel(at, fragment))),
+        };
+        (0..fragments.len()).map(shaded).collect()
+    }
+
+    /// What the fragment stage reads, as columns.
+    fn inputs<'p>(
+        &self,
+        visible: &Visible,
+        program: &'p Program,
+        fragments: &[Fragment],
+        moved: [f64; 2],
+    ) -> Vec<(&'p str, Vec<Vec<f64>>)> {
+        let (width, height) = visible.size();
+        let mut places = Vec::with_capacity(fragments.len());
+        for fragment in fragments {
+            let (column, row) = (f64::from(fragment.column) + 0.5, fragment.row as f64 + 0.5);
+            let (x, y) = (2.0 * (column + moved[0]) / width - 1.0, 1.0 - 2.0 * (row + moved[1]) / height);
+            places.push((&visible.setups()[fragment.number as usize], x, y));
+        }
+        let column =
+            |of: &dyn Fn(&Setup, f64, f64) -> f64| places.iter().map(|(setup, x, y)| of(setup, *x, *y)).collect();
+        let given = |(place, input): (usize, &'p crate::interpreter::Variable)| {
+            let columns = match input.name.as_str() {
+                "gl_FragCoord" => vec![
+                    column(&|_, x, _| (x + 1.0) / 2.0 * width),
+                    column(&|_, _, y| (y + 1.0) / 2.0 * height),
+                    column(&Setup::depth),
+                    column(&Setup::reciprocal_w),
+                ],
+                "gl_FrontFacing" => vec![column(&|setup, _, _| f64::from(u8::from(setup.is_front)))],
+                "gl_PrimitiveID" => vec![column(&|setup, _, _| f64::from(setup.triangle))],
+                _ => {
+                    let varying = self.pipeline.varyings.iter().find(|varying| varying.input == place)?;
+                    varying
+                        .scalars
+                        .clone()
+                        .map(|scalar| self.interpolated(visible, &places, fragments, scalar))
+                        .collect()
+                }
+            };
+            Some((input.name.as_str(), columns))
+        };
+        program.inputs().iter().enumerate().filter_map(given).collect()
+    }
+
+    /// A varying at all places. Fragments of one triangle lie together.
+    fn interpolated(
+        &self,
+        visible: &Visible,
+        places: &[(&Setup, f64, f64)],
+        fragments: &[Fragment],
+        scalar: usize,
+    ) -> Vec<f64> {
+        let mut last = None;
+        let value = |(fragment, (setup, x, y)): (&Fragment, &(&Setup, f64, f64))| {
+            let ramp = match last {
+                Some((number, ramp)) if number == fragment.number => ramp,
+                _ => self.varying(&visible.setups()[fragment.number as usize], scalar),
+            };
+            last = Some((fragment.number, ramp));
+            ramp.at(*x, *y, setup.divisor(*x, *y))
+        };
+        fragments.iter().zip(places).map(value).collect()
+    }
+
+    /// The pixels whose colour is another one a little beside: a step, or the edge of a hole.
+    fn sudden(&self, visible: &Visible, pixels: &[u32], shaded: &[Shaded]) -> Vec<u32> {
+        let bytes = |shaded: &Shaded| match shaded {
+            Shaded::Colour(colour) if colour.iter().all(|channel| channel.is_finite()) => Some(quantised(*colour)),
+            _ => None,
+        };
+        let known: Vec<Option<[u8; 4]>> = shaded.iter().map(bytes).collect();
+        let mut places = vec![u32::MAX; visible.coverage.len()];
+        pixels.iter().enumerate().for_each(|(place, pixel)| places[*pixel as usize] = place as u32);
+        let apart = |a: &Option<[u8; 4]>, b: &Option<[u8; 4]>| match (a, b) {
+            (Some(a), Some(b)) => (0..3).any(|channel| a[channel].abs_diff(b[channel]) > SUDDEN),
+            (a, b) => a.is_some() != b.is_some(),
+        };
+        // A step that passes near a pixel's middle lies between it and one of its neighbours.
+        let width = visible.size().0 as isize;
+        let differs_beside = |place: usize| {
+            let pixel = pixels[place] as usize;
+            [-1, 1, -width, width].into_iter().any(|step| {
+                let beside = pixel.checked_add_signed(step).and_then(|beside| places.get(beside));
+                let other = beside.and_then(|place| known.get(*place as usize));
+                other.is_some_and(|other| apart(other, &known[place]))
+            })
+        };
+        let steps: Vec<usize> = (0..pixels.len()).filter(|place| differs_beside(*place)).collect();
+        let at_steps: Vec<u32> = steps.iter().map(|place| pixels[*place]).collect();
+        let near = SILHOUETTE_DISTANCE;
+        let mut sudden: Vec<u32> =
+            pixels.iter().zip(shaded).filter(|(_, shaded)| is_undefined(shaded)).map(|(p, _)| *p).collect();
+        for moved in [[near, 0.0], [-near, 0.0], [0.0, near], [0.0, -near]] {
+            let there = self.pixels(visible, &at_steps, moved);
+            let differs = steps.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
+            sudden.extend(differs.map(|(place, _)| pixels[*place]));
+        }
+        sudden
+    }
+}
+
+fn is_undefined(shaded: &Shaded) -> bool {
+    matches!(shaded, Shaded::Colour(colour) if colour.iter().any(|channel| channel.is_nan()))
+}
+
+/// The fragments of pixels: alone, or as 2 × 2 pixels of one triangle, row by row from below, with those that it does not
+/// cover.
+fn fragments(visible: &Visible, pixels: &[u32], in_quads: bool) -> Vec<Fragment> {
+    let (width, height) = visible.size();
+    let (width, height) = (width as u32, height as i64);
+    let fragment = |(place, pixel): (usize, &u32)| {
+        let number = visible.number(*pixel as usize)?;
+        Some(Fragment { pixel: Some(place as u32), number, column: pixel % width, row: i64::from(pixel / width) })
+    };
+    let mut alone: Vec<Fragment> = pixels.iter().enumerate().filter_map(fragment).collect();
+    if !in_quads {
+        // Those of one triangle lie together.
+        alone.sort_by_key(|fragment| fragment.number);
+        return alone;
+    }
+    // Rows are counted from below: there a window of an odd height has its first quad.
+    let quad = |fragment: &Fragment| (fragment.number, (height - 1 - fragment.row) / 2, fragment.column / 2);
+    alone.sort_by_key(quad);
+    let mut all: Vec<Fragment> = Vec::with_capacity(alone.len() * 2);
+    for own in alone.chunk_by(|a, b| quad(a) == quad(b)) {
+        let (number, up, right) = quad(&own[0]);
+        for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let (column, row) = (2 * right + x, height - 1 - (2 * up + y));
+            let covered = own.iter().find(|one| one.column == column && one.row == row);
+            all.push(covered.copied().unwrap_or(Fragment { pixel: None, number, column, row }));
+        }
+    }
+    all
+}
