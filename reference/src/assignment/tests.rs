@@ -333,30 +333,33 @@ fn the_mistakes_of_the_contract_are_there() {
 
 #[test]
 fn regions_and_designs_speak_of_the_solution() {
+    let says = |from: &str, to: &str, message: &str| {
+        let found = broken(from, to);
+        assert!(found.starts_with("assignment.toml, line ") && found.ends_with(message), "{found}");
+    };
     let line = line_of("when = \"nl < -0.02 && highlight < 1e-6\"");
     let found = broken("nl < -0.02 && highlight < 1e-6", "nl < -0.02 && shine < 1e-6");
     let start = format!("assignment.toml, line {line}, region `ambient-only`: there is no variable shine");
     assert!(found.starts_with(&start), "{found}");
     let found = broken("nl < -0.02 && highlight < 1e-6", "nl");
     assert!(found.contains("write an expression of type bool with `pl`, `lamb`"), "{found}");
-    assert_eq!(
-        broken("alone_in = [\"ambient-only\"]", "alone_in = [\"dusk\"]"),
+    says(
+        "alone_in = [\"ambient-only\"]",
+        "alone_in = [\"dusk\"]",
         "rubric line `ambient`: there is no region `dusk`, only `facing-away`, `ambient-only`, `diffuse-only`, \
-         `highlight`, `highlight-behind`, `between`"
+         `highlight`, `highlight-behind`, `between`",
     );
-    assert_eq!(broken("axis = \"l\"", "axis = \"nl\""), "probes: `nl` is a float, and has to be a vec3");
-    assert_eq!(
-        broken("lobe = \"h\"", "lobe = \"n\""),
-        "probes: the lobe depends on the normal by `n`: name a direction that does not"
+    says("axis = \"l\"", "axis = \"nl\"", "probes: `nl` is a float, and has to be a vec3");
+    says(
+        "lobe = \"h\"",
+        "lobe = \"n\"",
+        "probes: the lobe depends on the normal by `n`: name a direction that does not",
     );
-    assert_eq!(broken("power = \"kshi\"", "power = \"pl\""), "probes: there is no float constant `pl`");
-    assert_eq!(broken("angle = [2, 25]", "angle = [2, 250]"), "probes, design 1: [2, 250] is no range within [0, 180]");
-    assert_eq!(
-        broken("raised = [0.85, 1], ", ""),
-        "probes, design 1: write one of `cosine` and `raised`: how the normal stands"
-    );
+    says("power = \"kshi\"", "power = \"pl\"", "probes: there is no float constant `pl`");
+    says("angle = [2, 25]", "angle = [2, 250]", "probes, design 1: [2, 250] is no range within [0, 180]");
+    says("raised = [0.85, 1], ", "", "probes, design 1: write one of `cosine` and `raised`: how the normal stands");
     let found = broken("within = { nl =", "within = { nl2 =");
-    assert!(found.starts_with("probes, design 1: there is no definition `nl2`"), "{found}");
+    assert!(found.contains("probes, design 1: there is no definition `nl2`"), "{found}");
 }
 
 /// A homework that says no more than it has to: a folder of the project's tests.
