@@ -1,6 +1,6 @@
 //! What the process that was started makes of a student's bytes: everything that a person or a program reads.
 
-use ggrade::batch::same::HandOut;
+use ggrade::batch::shared_answers::HandOut;
 use ggrade::diagnostic::Diagnostic;
 use ggrade::hand_in::HandIn;
 use ggrade::language::Language;
@@ -24,17 +24,17 @@ pub fn check(bytes: &[u8], source: Option<&Source>, diagnostics: &[Diagnostic]) 
         ggrade::grade::unfinished(crate::assignment(), sources, Verdict::Rejected, diagnostics.to_vec(), environment);
     for language in [Language::En, Language::Ja] {
         let excerpts = ggrade::excerpt::excerpt(sources_read, diagnostics, language, false);
-        let options = text::Options { language, width: 80, colour: false, excerpts: Some(&excerpts) };
+        let options = text::Options { assignment: crate::assignment(), language, width: 80, colour: false, excerpts: Some(&excerpts) };
         let shown = text::render(&report, &options);
         assert!(!shown.contains(|c: char| c.is_control() && c != '\n'), "{shown:?}");
         let read: serde_json::Value = serde_json::from_str(&json::render(&report, language)).expect("JSON");
         assert_eq!(read["verdict"], "rejected");
         let lines = Lines::of(sources_read);
         let part = Part {
+            assignment: crate::assignment(),
             report: &report,
             source: lines,
             gallery: None,
-            equation: None,
             language,
             level: 1,
             has_footer: true,

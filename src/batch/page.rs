@@ -39,7 +39,6 @@ impl Pages {
             report,
             sources,
             pictures: is_drawn.then_some(&pictures),
-            equation: self.assignment.typeset.as_ref(),
             language: self.language,
         }
         .render();

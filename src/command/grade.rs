@@ -50,14 +50,7 @@ fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<Outcome, Fault> 
     let Answer { report, frames } = grade(wish, &hand_in, wants_frames)?;
     let sources = hand_in.readable();
     let pictures = pictures(wish, &report, &sources, frames)?;
-    let view = View {
-        assignment,
-        report: &report,
-        sources: &sources,
-        equation: assignment.typeset.as_ref(),
-        pictures: pictures.as_ref(),
-        language,
-    };
+    let view = View { assignment, report: &report, sources: &sources, pictures: pictures.as_ref(), language };
     let colour = arguments.output.is_none() && has_colour();
     put(arguments, &view.document(reading, colour)?)?;
     Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })

@@ -9,7 +9,6 @@ use crate::report::html::Page;
 use crate::report::{Pictures, Report, json, text};
 use crate::source::Source;
 use reference::Assignment;
-use reference::typeset::Typeset;
 use std::io::IsTerminal;
 
 /// Everything that a report is shown with.
@@ -20,8 +19,6 @@ pub(super) struct View<'a> {
     pub report: &'a Report,
     /// The files that can be read as text.
     pub sources: &'a [Source],
-    /// The equation that the rubric judges.
-    pub equation: Option<&'a Typeset>,
     /// What was drawn, where it is wanted.
     pub pictures: Option<&'a Pictures>,
     /// The language of every word.
@@ -38,7 +35,6 @@ impl View<'_> {
                 report: self.report,
                 sources: self.sources,
                 pictures: self.pictures,
-                equation: self.equation,
                 language: self.language,
             }
             .render(),

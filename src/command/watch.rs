@@ -143,15 +143,7 @@ impl Session {
     fn show(&mut self, report: Report, hand_in: &HandIn) {
         let sources = hand_in.readable();
         let assignment = self.pool.assignment();
-        // Neither an equation nor pictures: it is shown in a terminal.
-        let view = View {
-            assignment,
-            report: &report,
-            sources: &sources,
-            equation: None,
-            pictures: None,
-            language: self.language,
-        };
+        let view = View { assignment, report: &report, sources: &sources, pictures: None, language: self.language };
         match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
                 let change = self

@@ -84,12 +84,11 @@ impl Packer {
             for alike in coverage.chunk_by(|a, b| a == b) {
                 row.push(alike[0] as u8);
                 row.extend((alike.len() as u32).to_le_bytes());
-                let mut last = [0; 3];
-                for [red, green, blue, _] in pixels.by_ref().take(alike.len()) {
+                let mut last = [0; 4];
+                for colour in pixels.by_ref().take(alike.len()) {
                     if alike[0] != Coverage::Outside {
-                        let colour = [*red, *green, *blue];
-                        row.extend([0, 1, 2].map(|channel| colour[channel].wrapping_sub(last[channel])));
-                        last = colour;
+                        row.extend([0, 1, 2, 3].map(|channel| colour[channel].wrapping_sub(last[channel])));
+                        last = *colour;
                     }
                 }
             }
@@ -118,13 +117,12 @@ fn unpack(input: &mut impl Read, frame: &mut Frame) -> Result<(), Damaged> {
             let end = column.checked_add(length).filter(|end| (column + 1..=width).contains(end)).ok_or(Damaged)?;
             coverages[column..end].fill(coverage);
             if coverage != Coverage::Outside {
-                colours.resize(3 * length, 0);
+                colours.resize(4 * length, 0);
                 input.read_exact(&mut colours)?;
-                let mut last = [0_u8; 3];
-                for (pixel, difference) in pixels[column..end].iter_mut().zip(colours.as_chunks::<3>().0) {
-                    last = [0, 1, 2].map(|channel| last[channel].wrapping_add(difference[channel]));
-                    let [red, green, blue] = last;
-                    *pixel = [red, green, blue, u8::MAX];
+                let mut last = [0_u8; 4];
+                for (pixel, difference) in pixels[column..end].iter_mut().zip(colours.as_chunks::<4>().0) {
+                    last = [0, 1, 2, 3].map(|channel| last[channel].wrapping_add(difference[channel]));
+                    *pixel = last;
                 }
             }
             column = end;

@@ -20,7 +20,6 @@ use crate::language::{Language, Text};
 use crate::source::Source;
 use askama::Template;
 use reference::Assignment;
-use reference::typeset::Typeset;
 
 /// The script of the moving pictures, for a `Content-Security-Policy` that names it by its hash.
 pub const SCRIPT: &str = include_str!("html/templates/report.js");
@@ -42,8 +41,6 @@ pub struct Page<'a> {
     pub sources: &'a [Source],
     /// What was drawn and what is expected.
     pub pictures: Option<&'a Pictures>,
-    /// The equation that the rubric judges.
-    pub equation: Option<&'a Typeset>,
     /// The language of every word.
     pub language: Language,
 }
@@ -62,13 +59,11 @@ impl Page<'_> {
             report: self.report,
             source: Lines::of(self.sources),
             gallery: gallery.as_ref(),
-            equation: self.equation,
             language: self.language,
             level: 1,
             has_footer: true,
         });
-        let cycle = self.pictures.map_or(0.0, |pictures| pictures.cycle);
-        let motion = film.filter(|_| body.moves()).map(|film| film.motion.style(cycle));
+        let motion = film.filter(|_| body.moves()).map(|film| film.motion.style(self.assignment.scene.cycle));
         Document { script: SCRIPT, motion, body }.render().map_err(unwritten)
     }
 }
@@ -102,8 +97,6 @@ pub struct Part<'a> {
     pub source: Lines<'a>,
     /// Where the pictures are.
     pub gallery: Option<&'a Gallery>,
-    /// The equation that the rubric judges.
-    pub equation: Option<&'a Typeset>,
     /// The language of every word.
     pub language: Language,
     /// Level of the report's own heading, 1 to 4.

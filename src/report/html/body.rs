@@ -283,6 +283,7 @@ pub(super) struct Body<'a> {
 impl<'a> Body<'a> {
     pub fn of(part: &Part<'a>) -> Self {
         let Part { report, language, .. } = *part;
+        let typeset = part.assignment.typeset.as_ref();
         let labels = Labels::of(language);
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let gallery = part.gallery.filter(|_| is_drawn);
@@ -309,7 +310,7 @@ impl<'a> Body<'a> {
             max_score: number(report.max_score),
             next: labels.next_step(report, language),
             bar: bar(report),
-            equation: part.equation.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),
+            equation: typeset.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),
             player: gallery.and_then(|gallery| Player::of(gallery, &report.frames, labels)),
             terms: gallery.map(|gallery| player::terms(gallery, report, language)).unwrap_or_default(),
             frames: player::frames(report, labels),

@@ -7,9 +7,8 @@ use std::sync::Arc;
 fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
     let assignment = samples::assignment();
-    let equation = assignment.typeset.as_ref();
     let sources: Vec<Source> = report.sources.iter().map(|source| samples::source(&source.name)).collect();
-    let page = Page { assignment, report, sources: &sources, pictures: Some(&pictures), equation, language };
+    let page = Page { assignment, report, sources: &sources, pictures: Some(&pictures), language };
     page.render().expect("a page")
 }
 
@@ -151,7 +150,6 @@ fn terms_are_shown_when_there_are_pictures_of_them() {
         report: &report,
         sources: &[],
         pictures: Some(&pictures),
-        equation: None,
         language: Language::En,
     };
     let html = page.render().expect("a page");
@@ -178,7 +176,6 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
         report: &report,
         sources: &[],
         pictures: Some(&pictures),
-        equation: None,
         language: Language::En,
     };
     let html = page.render().expect("a page");

@@ -16,7 +16,7 @@ fn keys(value: &Value) -> Vec<&str> {
 #[test]
 fn fields_stand_in_the_order_of_the_contract() {
     let value = parsed(&samples::wrong(), Language::En);
-    let top = "schema assignment source sources verdict score max_score rubric mistakes advice diagnostics \
+    let top = "schema assignment assignment_digest source sources verdict score max_score rubric mistakes advice diagnostics \
                frames probes environment elapsed_ms";
     assert_eq!(keys(&value), top.split_whitespace().collect::<Vec<_>>());
     assert_eq!(keys(&value["source"]), ["name", "stage", "sha256", "bytes", "encoding"]);

@@ -13,7 +13,6 @@ use crate::service::State;
 use crate::source::Source;
 use askama::Template;
 use reference::Assignment;
-use reference::typeset::Typeset;
 use serde::Serialize;
 
 #[derive(Template)]
@@ -43,11 +42,10 @@ pub(super) fn render(
     report: &Report,
     source: Lines<'_>,
     gallery: Option<&Gallery>,
-    equation: Option<&Typeset>,
     level: u8,
 ) -> Result<String, Fault> {
     let has_footer = level == 1;
-    let part = Part { assignment, report, source, gallery, equation, language: frame.language, level, has_footer };
+    let part = Part { assignment, report, source, gallery, language: frame.language, level, has_footer };
     let view = View {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),

@@ -61,9 +61,7 @@ pub(super) async fn page(
     }
     let sources = state.store.hand_in(&id).await?.unwrap_or_default().readable();
     let gallery = report_fragment::gallery(&state, &id, &report, &sources);
-    let equation = state.assignment.typeset.as_ref();
-    let part =
-        report_fragment::render(&state.assignment, &frame, &report, Lines::of(&sources), gallery.as_ref(), equation, 1);
+    let part = report_fragment::render(&state.assignment, &frame, &report, Lines::of(&sources), gallery.as_ref(), 1);
     let part = part.map_err(internal)?;
     let receipt = match submission.via {
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
@@ -158,9 +156,7 @@ async fn beside_editor(
 ) -> Result<String, Problem> {
     let sources = state.store.hand_in(&submission.id).await?.unwrap_or_default().readable();
     let gallery = report_fragment::gallery(state, &submission.id, report, &sources);
-    let equation = state.assignment.typeset.as_ref();
-    let part =
-        report_fragment::render(&state.assignment, frame, report, Lines::Elsewhere, gallery.as_ref(), equation, 2);
+    let part = report_fragment::render(&state.assignment, frame, report, Lines::Elsewhere, gallery.as_ref(), 2);
     part.map_err(internal)
 }
 

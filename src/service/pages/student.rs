@@ -73,6 +73,8 @@ struct View<'a> {
     can_hand_in: bool,
     grades_drafts: bool,
     expected: String,
+    /// The name of what is computed, by which the line to change is found.
+    output: &'a str,
     task: Vec<Piece>,
     picture: &'a str,
     equation: Option<&'a Typeset>,
@@ -144,6 +146,7 @@ impl Desk<'_> {
             too_large: too_large().detail.get(language).to_owned(),
             several,
             expected: assets::expected(&homework),
+            output: homework.interface.outputs.first().map_or("", |output| &output.name),
             task: pieces(task.map_or(draw_this, |task| language.of(&task.text))),
             picture: task
                 .map_or(self.frame.say("What a right answer draws", "正しい答えが描く画像"), |task| {
