@@ -18,7 +18,7 @@ use glam::{DMat4, DVec3};
 use opengl::{Canvas, Matrix, Mesh, OpenGl, Picture, Program, Version};
 use reference::Assignment;
 use reference::rasteriser::{Coverage, Frame};
-use reference::scene::{Matrices, Pose, look_at, perspective};
+use reference::scene::{Matrices, Point, Pose, View};
 use std::path::{Path, PathBuf};
 
 /// Largest difference of an interior pixel's channel between the two drivers, in 1/255: rounding at .5.
@@ -28,19 +28,22 @@ const REFERENCE_PIXEL_TOLERANCE: u8 = 2;
 /// Largest difference of a captured colour: x^80 in f32 loses five of seven digits at worst.
 const CAPTURE_TOLERANCE: f32 = 1e-3;
 
+/// Random cameras beside the course's own.
+const CAMERAS: u32 = 120;
+
 /// Both drivers on one machine, and the homework.
 struct Bench {
     gl: OpenGl,
     renderer: Renderer,
     interface: Interface,
-    assignment: &'static Assignment,
+    assignment: Assignment,
 }
 
 impl Bench {
     fn new() -> Self {
         let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
-        let assignment = reference::assignment("ggsample06").unwrap();
-        let interface = ggrade::homework::interface(assignment).unwrap();
+        let assignment = with_cameras(reference::assignment("ggsample06").unwrap(), CAMERAS);
+        let interface = ggrade::homework::interface(&assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
         let renderer = Renderer::new(device, &fixed).unwrap();
@@ -56,7 +59,7 @@ impl Bench {
         let scene = &self.assignment.scene;
         let batch = |pose: &Pose| {
             let uniforms = self.assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
-            ggrade::homework::batch(self.assignment, &uniforms, &scene.triangle(pose))
+            ggrade::homework::batch(&self.assignment, &uniforms, &scene.triangle(pose))
         };
         Scene {
             width: scene.width,
@@ -100,20 +103,28 @@ impl Bench {
     }
 }
 
-/// The course's animation, finer than it is graded, and cameras anywhere: the triangle cut by the near plane, the far
-/// plane and the window, seen from behind, or not in sight.
-fn poses(assignment: &Assignment, of_the_course: u32, of_cameras: u32) -> Vec<Pose> {
-    let mut poses = assignment.scene.evenly_spaced(of_the_course);
+/// Poses of the course's own view, finer than it is graded, and of the first of the other cameras.
+fn poses(assignment: &Assignment, of_the_course: u32, of_cameras: usize) -> Vec<Pose> {
+    let scene = &assignment.scene;
+    let others = scene.all_poses().into_iter().filter(|pose| pose.view > 0);
+    scene.evenly_spaced(of_the_course).into_iter().chain(others.take(of_cameras)).collect()
+}
+
+/// The homework with so many cameras anywhere, each a view of its own: the triangle is cut by the near plane, the far plane and
+/// the window, seen from behind, or not in sight.
+fn with_cameras(assignment: &Assignment, count: u32) -> Assignment {
+    let mut assignment = assignment.clone();
+    let own = assignment.scene.views[0].clone();
     let mut state = 1_u64;
     let mut random = |low: f64, high: f64| {
         // Knuth's MMIX generator: any will do, and it is the same on every machine.
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * ((state >> 11) as f64 / (1_u64 << 53) as f64)
     };
-    for index in 0..of_cameras {
+    for index in 0..count {
         let eye = DVec3::new(random(-3.0, 3.0), random(-3.0, 3.0), random(-4.0, 4.0));
         let target = DVec3::new(random(-0.6, 0.6), random(-0.6, 0.6), random(-0.3, 0.3));
-        let view = look_at(eye, target, DVec3::new(random(-0.3, 0.3), 1.0, 0.0));
+        let up = DVec3::new(random(-0.3, 0.3), 1.0, 0.0);
         let distance = (eye - target).length();
         let (near, far) = match index % 4 {
             0 => (0.1, 20.0),
@@ -121,10 +132,11 @@ fn poses(assignment: &Assignment, of_the_course: u32, of_cameras: u32) -> Vec<Po
             2 => (0.1, distance * random(0.95, 1.2)),
             _ => (distance * random(0.7, 1.0), distance * random(1.0, 1.3)),
         };
-        let projection = perspective(random(0.3, 1.4), 640.0 / 480.0, near, far);
-        poses.push(Pose { view: 0, t: 0.0, matrices: Matrices::new(view, projection) });
+        let fovy = random(0.3, 1.4);
+        let (eye, target) = (Point::Fixed(eye), Point::Fixed(target));
+        assignment.scene.views.push(View { eye, target, up, fovy, near, far, times: vec![0.0], ..own.clone() });
     }
-    poses
+    assignment
 }
 
 fn read(path: &Path) -> Source {
@@ -193,7 +205,7 @@ fn a_right_answer_looks_the_same_everywhere() {
     let text = &bench.assignment.files[0].solution.text;
     let source = source::read("right.vert", text.as_bytes()).unwrap();
     let shader = bench.shader(&source);
-    let poses = poses(bench.assignment, 100, 120);
+    let poses = poses(&bench.assignment, 100, 120);
     let renderings = bench.render(&shader, &poses);
     let program = bench.program(&source).unwrap_or_else(|rejection| panic!("{rejection:?}"));
     let right = bench.assignment.equation.right();
@@ -226,7 +238,7 @@ const DRAWN_OTHERWISE: [&str; 2] = ["clip-distance-negative", "output-location-4
 #[test]
 fn accepted_samples_look_as_on_opengl() {
     let mut bench = Bench::new();
-    let poses = poses(bench.assignment, 3, 2);
+    let poses = poses(&bench.assignment, 3, 2);
     let mut compared = 0;
     for folder in ["accepted/answers", "accepted/language", "accepted/translate", "accepted/disputed"] {
         for path in samples(folder) {
@@ -246,7 +258,7 @@ fn accepted_samples_look_as_on_opengl() {
 #[test]
 fn wrong_samples_look_as_on_opengl() {
     let mut bench = Bench::new();
-    let poses = poses(bench.assignment, 4, 2);
+    let poses = poses(&bench.assignment, 4, 2);
     let mut compared = 0;
     for path in samples("wrong") {
         let source = read(&path);

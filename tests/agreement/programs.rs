@@ -52,7 +52,7 @@ fn generated_programs_agree() {
     let places: Vec<[[f32; 3]; 2]> =
         (0..VERTICES).map(|_| [(); 2].map(|()| [(); 3].map(|()| random.float()))).collect();
     let [positions, normals] = [0, 1].map(|which| places.iter().map(|place| place[which]).collect::<Vec<_>>());
-    let mut scene = bench.scene(&poses(bench.assignment, 1, 1));
+    let mut scene = bench.scene(&poses(&bench.assignment, 1, 1));
     for batch in scene.frames.iter_mut().flatten() {
         for (name, values) in &mut batch.attributes {
             let drawn = if name == "pv" { &positions } else { &normals };

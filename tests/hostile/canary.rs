@@ -135,7 +135,9 @@ fn nothing_of_a_shader_shows_in_the_next() {
     // A worker is used again until it has grown by a file's memory: here it stays to the end.
     let settings = Settings { spares: 0, gradings_per_worker: u32::MAX, memory: 4 << 30, ..settings() };
     let pool = Pool::start(settings, 1).unwrap();
+    pool.warm().unwrap();
     let worker = pool.idle_processes();
+    assert_eq!(worker.len(), 1);
     for writer in &WRITERS {
         for (reader, fresh) in READERS.iter().zip(&fresh) {
             let written = grade(&pool, &shader(writer)).unwrap().report;

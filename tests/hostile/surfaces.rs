@@ -31,7 +31,7 @@ fn the_command_gives_each_file_its_verdict() {
     let _alone = alone();
     let folder = tempfile::tempdir().unwrap();
     hold(&files::all(), &|file| {
-        let path = folder.path().join(&file.name);
+        let path = folder.path().join(format!("{}.vert", file.name));
         std::fs::write(&path, &file.bytes).map_err(|error| error.to_string())?;
         let command = ["grade", "--format", "json", "--lang", "en", "--seed", "7", "--deadline", "60"];
         let output = Command::new(GGRADE).args(command).arg(&path).output().map_err(|error| error.to_string())?;
