@@ -18,7 +18,8 @@ pub(super) struct Uniforms {
 }
 
 impl Uniforms {
-    pub fn new(device: &wgpu::Device, blocks: &[UniformBlock], batches: &[&Batch]) -> Self {
+    /// For the stage that reads them.
+    pub fn new(device: &wgpu::Device, stage: wgpu::ShaderStages, blocks: &[UniformBlock], batches: &[&Batch]) -> Self {
         let alignment = device.limits().min_uniform_buffer_offset_alignment;
         let strides: Vec<u32> = blocks.iter().map(|block| block.size.max(16).next_multiple_of(alignment)).collect();
         let buffers: Vec<wgpu::Buffer> = blocks
@@ -32,8 +33,10 @@ impl Uniforms {
                 })
             })
             .collect();
-        let entries: Vec<_> =
-            blocks.iter().map(|block| layout_entry(block.binding, wgpu::BufferBindingType::Uniform, true)).collect();
+        let entries: Vec<_> = blocks
+            .iter()
+            .map(|block| layout_entry(stage, block.binding, wgpu::BufferBindingType::Uniform, true))
+            .collect();
         let layout = device
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("uniforms"), entries: &entries });
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -91,11 +94,15 @@ pub(super) fn vertex_buffer(
     (buffer, format)
 }
 
-/// The layout of the group that holds the header and, where textures are read, those.
-pub(super) fn capture_layout(device: &wgpu::Device, reads_textures: bool) -> wgpu::BindGroupLayout {
-    let mut entries = vec![layout_entry(0, wgpu::BufferBindingType::Storage { read_only: false }, false)];
+/// The layout of a stage's group that holds the header and, where textures are read, those.
+pub(super) fn capture_layout(
+    device: &wgpu::Device,
+    stage: wgpu::ShaderStages,
+    reads_textures: bool,
+) -> wgpu::BindGroupLayout {
+    let mut entries = vec![layout_entry(stage, 0, wgpu::BufferBindingType::Storage { read_only: false }, false)];
     if reads_textures {
-        entries.push(layout_entry(TEXTURES.1, wgpu::BufferBindingType::Storage { read_only: true }, false));
+        entries.push(layout_entry(stage, TEXTURES.1, wgpu::BufferBindingType::Storage { read_only: true }, false));
     }
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("capture"), entries: &entries })
 }
@@ -114,15 +121,17 @@ pub(super) fn capture_group(
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("capture"), layout, entries: &entries })
 }
 
-/// A buffer that both stages see.
-pub(super) fn layout_entry(
+/// A buffer that one stage sees. A driver takes what a fragment stage could write to for written by every draw, and waits
+/// between two of them.
+fn layout_entry(
+    stage: wgpu::ShaderStages,
     binding: u32,
     ty: wgpu::BufferBindingType,
     has_dynamic_offset: bool,
 ) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        visibility: stage,
         ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
         count: None,
     }

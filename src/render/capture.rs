@@ -21,7 +21,7 @@ pub(super) struct Stage {
 
 impl Stage {
     pub fn new(device: &wgpu::Device) -> Self {
-        let layout = capture_layout(device, false);
+        let layout = capture_layout(device, wgpu::ShaderStages::VERTEX, false);
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("nothing"),
             size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
@@ -57,7 +57,7 @@ impl Capture {
         textures: Option<&wgpu::Buffer>,
     ) -> Self {
         let batches: Vec<&Batch> = scene.batches().collect();
-        let uniforms = Uniforms::new(device, &shader.uniforms, &batches);
+        let uniforms = Uniforms::new(device, wgpu::ShaderStages::VERTEX, &shader.uniforms, &batches);
         let size = CAPTURE_HEADER + u64::from(scene.drawn().max(1)) * shader.record_stride();
         let buffer = |label, usage| {
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
@@ -65,7 +65,7 @@ impl Capture {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_SRC;
         let records = buffer("capture", usage);
         let readback = buffer("capture, read back", wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-        let with_textures = textures.map(|_| capture_layout(device, true));
+        let with_textures = textures.map(|_| capture_layout(device, wgpu::ShaderStages::VERTEX, true));
         let layout = with_textures.as_ref().unwrap_or(&stage.layout);
         let group = capture_group(device, layout, &records, textures);
         let (vertices, formats): (Vec<_>, Vec<_>) =

@@ -104,7 +104,7 @@ impl FragmentStage {
     }
 
     fn make(&self, device: &wgpu::Device, data: &FragmentData, key: &Key) -> wgpu::RenderPipeline {
-        let header = capture_layout(device, self.reads_textures);
+        let header = capture_layout(device, wgpu::ShaderStages::FRAGMENT, self.reads_textures);
         let mut groups = vec![Some(&data.uniforms.layout)];
         groups.extend(self.has_group().then_some(Some(&header)));
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -203,11 +203,11 @@ impl FragmentData {
                 usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
                 mapped_at_creation: false,
             });
-            let layout = capture_layout(device, stage.reads_textures);
+            let layout = capture_layout(device, wgpu::ShaderStages::FRAGMENT, stage.reads_textures);
             let group = capture_group(device, &layout, &buffer, textures.filter(|_| stage.reads_textures));
             Header { buffer, readback, group }
         });
-        Self { uniforms: Uniforms::new(device, &stage.blocks, batches), header }
+        Self { uniforms: Uniforms::new(device, wgpu::ShaderStages::FRAGMENT, &stage.blocks, batches), header }
     }
 
     /// Binds what the batch of this number reads.
