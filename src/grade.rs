@@ -116,8 +116,9 @@ impl Grader {
     }
 
     fn judge(&mut self, hand_in: &HandIn, order: Order) -> Result<Graded, Fault> {
-        let sources = sources(&self.assignment, hand_in);
-        let files = match slots::arrange(&self.assignment.files, hand_in, Trust::Named) {
+        let arranged = slots::arrange(&self.assignment.files, hand_in, Trust::Named);
+        let sources = unfinished::described(&self.assignment, hand_in, arranged.as_ref().ok());
+        let files = match arranged {
             Ok(arranged) => arranged.files,
             Err(why) => return Ok(self.rejected(sources, vec![Diagnostic::error(Stage::Source, why)])),
         };

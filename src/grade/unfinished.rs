@@ -59,10 +59,17 @@ pub fn unfinished(
 
 /// What is known of the files of a hand-in: those that the assignment asks for, in its order; or else all of them.
 pub fn sources(assignment: &Assignment, hand_in: &HandIn) -> Vec<SourceInfo> {
-    let slots = &assignment.files;
-    match slots::arrange(slots, hand_in, Trust::Named) {
-        Ok(arranged) => arranged.files.iter().zip(slots).map(|(file, slot)| info(file, Some(slot.stage))).collect(),
-        Err(_) => hand_in.files.iter().map(|file| info(file, None)).collect(),
+    described(assignment, hand_in, slots::arrange(&assignment.files, hand_in, Trust::Named).as_ref().ok())
+}
+
+/// The same where it is known how the files are arranged, if they can be.
+pub(super) fn described(assignment: &Assignment, hand_in: &HandIn, arranged: Option<&HandIn>) -> Vec<SourceInfo> {
+    match arranged {
+        Some(arranged) => {
+            let files = arranged.files.iter().zip(&assignment.files);
+            files.map(|(file, slot)| info(file, Some(slot.stage))).collect()
+        }
+        None => hand_in.files.iter().map(|file| info(file, None)).collect(),
     }
 }
 
