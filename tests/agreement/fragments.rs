@@ -2,8 +2,9 @@
 
 use super::opengl::{Given, Matrix, OpenGl, Texels, Version};
 use super::programs::{Random, program};
+use super::scenes::texture;
 use ggrade::cross_check::{self, CrossCheck, Drawn, Opinion};
-use reference::interpreter::{Filter, Outputs, Precision, Program, Stage, Texture, Wrap};
+use reference::interpreter::{Outputs, Precision, Program, Stage, Texture};
 
 /// How many programs there are.
 const PROGRAMS: u64 = 300;
@@ -47,18 +48,7 @@ impl Scene {
 
     /// The textures as the interpreter has them.
     fn read(&self) -> Vec<Texture> {
-        let one = |(_, from): &(&str, Texels)| {
-            let texels = from.texels.iter().map(|texel| texel.map(f64::from)).collect();
-            let filter = if from.is_linear { Filter::Linear } else { Filter::Nearest };
-            let wrap = if from.repeats { Wrap::Repeat } else { Wrap::ClampToEdge };
-            Texture {
-                magnify: filter,
-                minify: filter,
-                wrap: [wrap; 3],
-                ..Texture::two_dimensional(from.width, from.height, texels)
-            }
-        };
-        self.textures.iter().map(one).collect()
+        self.textures.iter().map(|(_, from)| texture(from)).collect()
     }
 
     /// What the interpreter computes for the pixels in its own order, 2 × 2 after 2 × 2.
