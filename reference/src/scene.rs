@@ -200,13 +200,6 @@ impl Scene {
     }
 }
 
-impl View {
-    /// The vertices of what is drawn first.
-    pub fn vertices(&self) -> &[Vertex] {
-        self.draws.first().map_or(&[], |draw| &draw.mesh.vertices)
-    }
-}
-
 impl Point {
     fn at(&self, moment: &Moment) -> DVec3 {
         match self {
