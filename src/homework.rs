@@ -50,7 +50,9 @@ pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
         groups.map(|(place, group)| batch(assignment, &group.uniforms, &vertices(place))).collect()
     };
     let probes = probes.iter().flat_map(drawn).collect();
-    Scene { width: scene.width, height: scene.height, background: scene.background, frames, probes, ..Scene::default() }
+    let textures = Arc::clone(&assignment.textures);
+    let (width, height) = (scene.width, scene.height);
+    Scene { width, height, background: scene.background, frames, probes, textures, ..Scene::default() }
 }
 
 /// One draw with the program's own names; `uniforms` stand in the interface's order.

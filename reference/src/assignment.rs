@@ -41,7 +41,7 @@ pub struct Assignment {
     /// What the shader is given and what it writes.
     pub interface: Interface,
     /// The textures that samplers read, by number.
-    pub textures: Vec<Texture>,
+    pub textures: Arc<[Texture]>,
     /// The right program.
     pub pipeline: Pipeline,
     /// What the handed-out file defines.

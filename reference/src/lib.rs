@@ -6,6 +6,7 @@
 //! - [`interpreter`]: GLSL in f64; it knows nothing of the others
 //! - [`equation`]: the solution's definitions, evaluated in order, with any of them replaced
 //! - [`accepted`]: other shaders that are right as well
+//! - [`texture`]: pictures from PNG files, and pictures that are computed
 //! - [`scene`]: meshes, cameras and moments of the course program
 //! - [`feed`]: what the shader is given at a moment
 //! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
@@ -39,6 +40,7 @@ pub mod rasteriser;
 pub mod scene;
 mod shading;
 mod text;
+pub mod texture;
 pub mod typeset;
 mod value;
 

@@ -3,10 +3,12 @@
 mod interface;
 mod mistake;
 mod scene;
+mod texture;
 
 pub use interface::{Input, Uniform};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
+pub use texture::{Format, Texture, Wraps};
 
 use crate::Text;
 use serde::{Deserialize, Serialize};
@@ -36,6 +38,9 @@ pub struct Manifest {
     /// Uniforms.
     #[serde(default)]
     pub uniform: Vec<Uniform>,
+    /// What samplers read.
+    #[serde(default)]
+    pub texture: Vec<Texture>,
     /// What the handed-out file defines, as the solution does.
     #[serde(default)]
     pub constant: Vec<Constant>,

@@ -1,6 +1,6 @@
 //! The textures of a scene as shaders read them: one buffer of numbers (see `textures.glsl` of the translator).
 
-use reference::interpreter::{Compare, Filter, Level, Texture, Wrap};
+use reference::interpreter::{Compare, Filter, Level, Texels, Texture, Wrap};
 use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
@@ -41,18 +41,20 @@ fn words(textures: &[Texture]) -> Vec<u32> {
     for (number, texture) in textures.iter().enumerate() {
         let Some(level) = texture.levels.first() else { continue };
         let first = words.len() as u32;
-        let bytes: Option<Vec<u32>> = level.texels.iter().map(|texel| as_bytes(*texel)).collect();
-        let own = describe(texture, level, first, bytes.is_some());
+        let own = describe(texture, level, first);
         words[1 + DESCRIPTION * number..][..own.len()].copy_from_slice(&own);
-        match bytes {
-            Some(bytes) => words.extend(bytes),
-            None => words.extend(level.texels.iter().flatten().map(|component| (*component as f32).to_bits())),
+        match &level.texels {
+            Texels::Bytes(texels) => words.extend(texels.iter().map(|texel| u32::from_le_bytes(*texel))),
+            texels => {
+                let texels = (0..texels.count()).map(|place| texels.at(place));
+                words.extend(texels.flatten().map(|number| (number as f32).to_bits()));
+            }
         }
     }
     words
 }
 
-fn describe(texture: &Texture, level: &Level, first: u32, is_bytes: bool) -> [u32; 9] {
+fn describe(texture: &Texture, level: &Level, first: u32) -> [u32; 9] {
     let bit = |is: bool, bit: u32| if is { bit } else { 0 };
     let wrap = |axis: usize| match texture.wrap[axis] {
         Wrap::Repeat => 0,
@@ -75,20 +77,10 @@ fn describe(texture: &Texture, level: &Level, first: u32, is_bytes: bool) -> [u3
         | wrap(0) << 4
         | wrap(1) << 6
         | wrap(2) << 8
-        | bit(is_bytes, BYTES)
+        | bit(matches!(level.texels, Texels::Bytes(_)), BYTES)
         | compare << 16
         | bit(texture.clamps_reference, CLAMPS_REFERENCE);
     let [width, height, depth] = level.size.map(|side| side as u32);
     let [r, g, b, a] = texture.border.map(|component| (component as f32).to_bits());
     [width, height, depth, first, flags, r, g, b, a]
-}
-
-/// A texel whose components are 255ths.
-fn as_bytes(texel: [f64; 4]) -> Option<u32> {
-    let byte = |component: f64| {
-        let byte = (component * 255.0).round();
-        ((byte / 255.0 - component).abs() < 1e-12 && (0.0..=255.0).contains(&byte)).then_some(byte as u8)
-    };
-    let [r, g, b, a] = texel.map(byte);
-    Some(u32::from_le_bytes([r?, g?, b?, a?]))
 }

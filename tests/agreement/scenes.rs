@@ -93,7 +93,7 @@ impl Homework {
 
 /// A texture as the renderer and the interpreter have it.
 pub fn texture(from: &Texels) -> Texture {
-    let texels = from.texels.iter().map(|texel| texel.map(f64::from)).collect();
+    let texels: Vec<_> = from.texels.iter().map(|texel| texel.map(f64::from)).collect();
     let filter = if from.is_linear { Filter::Linear } else { Filter::Nearest };
     let wrap = if from.repeats { Wrap::Repeat } else { Wrap::ClampToEdge };
     Texture {

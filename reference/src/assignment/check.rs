@@ -8,6 +8,7 @@ mod probing;
 mod scene;
 mod solution;
 mod stages;
+mod textures;
 mod typeset;
 
 use super::{Assignment, AssignmentError, FixedStage, HandedIn, both, error};
@@ -33,7 +34,8 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         file.accepted = stages.accepted(file.stage, &entry.accepted, &read)?;
     }
     let mut solution = Solution::read(&files[0], &m.constant)?;
-    let interface = interface::interface(&m, &stages, &solution, line_at)?;
+    let textures = textures::textures(&m.texture, folder, line_at)?;
+    let interface = interface::interface(&m, &textures, &stages, &solution, line_at)?;
     let constants = solution.constants(std::mem::take(&mut m.constant))?;
     let lines = rubric(&m.rubric, &solution)?;
     for constant in &constants {
@@ -58,7 +60,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         typeset,
         title: m.title,
         fixed,
-        textures: Vec::new(),
+        textures: textures.into(),
         pipeline,
         interface,
         constants,

@@ -7,9 +7,12 @@ pub use sample::Lookup;
 
 use super::code::Slot;
 use super::types::{Dimension, Sampler};
+use serde::Deserialize;
+use std::sync::LazyLock;
 
 /// How the texels around a place make its value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Filter {
     /// The nearest one.
     #[default]
@@ -19,7 +22,8 @@ pub enum Filter {
 }
 
 /// What lies beyond the texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Wrap {
     /// The texture again.
     #[default]
@@ -52,7 +56,62 @@ pub struct Level {
     /// Width, height and depth; layers and the six faces of a cube are the last of these that is not 1.
     pub size: [usize; 3],
     /// Texels in order of x, then y, then z.
-    pub texels: Vec<[f64; 4]>,
+    pub texels: Texels,
+}
+
+/// Red, green, blue and alpha of each texel.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Texels {
+    /// In 255ths.
+    Bytes(Vec<[u8; 4]>),
+    /// In 255ths; red, green and blue are coded as in sRGB.
+    Srgb(Vec<[u8; 4]>),
+    /// As they are.
+    Numbers(Vec<[f64; 4]>),
+}
+
+impl Texels {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Bytes(texels) | Self::Srgb(texels) => texels.len(),
+            Self::Numbers(texels) => texels.len(),
+        }
+    }
+
+    /// The texel at a place.
+    pub fn at(&self, place: usize) -> [f64; 4] {
+        match self {
+            Self::Bytes(texels) => texels[place].map(|byte| f64::from(byte) / 255.0),
+            Self::Srgb(texels) => {
+                let [red, green, blue, alpha] = texels[place];
+                let [red, green, blue] = [red, green, blue].map(|byte| LINEAR[usize::from(byte)]);
+                [red, green, blue, f64::from(alpha) / 255.0]
+            }
+            Self::Numbers(texels) => texels[place],
+        }
+    }
+}
+
+/// The intensity of each byte of an sRGB texture (OpenGL 4.1 core, section 3.8.16), as a float holds it.
+static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|byte| {
+        let coded = byte as f64 / 255.0;
+        let intensity = if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) };
+        f64::from(intensity as f32)
+    })
+});
+
+impl From<Vec<[f64; 4]>> for Texels {
+    fn from(texels: Vec<[f64; 4]>) -> Self {
+        Self::Numbers(texels)
+    }
+}
+
+impl From<Vec<[u8; 4]>> for Texels {
+    fn from(texels: Vec<[u8; 4]>) -> Self {
+        Self::Bytes(texels)
+    }
 }
 
 /// A texture with what OpenGL keeps beside it.
@@ -82,11 +141,11 @@ pub struct Texture {
 
 impl Texture {
     /// A texture of two coordinates with one level, read by the nearest texel, repeated.
-    pub fn two_dimensional(width: usize, height: usize, texels: Vec<[f64; 4]>) -> Self {
+    pub fn two_dimensional(width: usize, height: usize, texels: impl Into<Texels>) -> Self {
         Self {
             dimension: Dimension::Two,
             array: false,
-            levels: vec![Level { size: [width, height, 1], texels }],
+            levels: vec![Level { size: [width, height, 1], texels: texels.into() }],
             magnify: Filter::Nearest,
             minify: Filter::Nearest,
             mipmap: None,
@@ -97,13 +156,20 @@ impl Texture {
         }
     }
 
+    /// A cube with one level, read by the nearest texel of a face; the texels of +x, -x, +y, -y, +z, -z.
+    pub fn cube(side: usize, texels: impl Into<Texels>) -> Self {
+        let levels = vec![Level { size: [side, side, 6], texels: texels.into() }];
+        let flat = Self::two_dimensional(0, 0, Vec::<[u8; 4]>::new());
+        Self { dimension: Dimension::Cube, levels, wrap: [Wrap::ClampToEdge; 3], ..flat }
+    }
+
     /// Whether a sampler of this kind may read it.
     pub fn fits(&self, sampler: Sampler) -> bool {
         self.dimension == sampler.dimension
             && self.array == sampler.array
             && sampler.shadow == self.compare.is_some()
             && !self.levels.is_empty()
-            && self.levels.iter().all(|level| level.texels.len() == level.size.iter().product() && level.size[0] > 0)
+            && self.levels.iter().all(|level| level.texels.count() == level.size.iter().product() && level.size[0] > 0)
     }
 }
 
@@ -161,4 +227,21 @@ pub struct Query {
     pub to: Vec<Slot>,
     /// The line that asks.
     pub line: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb_is_decoded_as_the_standard_says() {
+        let red = |byte: u8| Texels::Srgb(vec![[byte, 0, 0, byte]]).at(0)[0];
+        // The ends are themselves; 10/255 = 0.0392 lies on the line, 0.0392 / 12.92 = 0.003035.
+        assert_eq!([0, 255].map(red), [0.0, 1.0]);
+        assert!((red(10) - 0.003_035_27).abs() < 1e-8);
+        // 188 is the code nearest to half of the intensity: ((0.73725 + 0.055) / 1.055)^2.4 = 0.50289.
+        assert!((red(188) - 0.502_886).abs() < 1e-6);
+        // Alpha is no intensity.
+        assert_eq!(Texels::Srgb(vec![[0, 0, 0, 51]]).at(0)[3], 0.2);
+    }
 }

@@ -19,7 +19,7 @@ pub struct Input {
     pub values: Option<Vec<Value>>,
 }
 
-/// A uniform, or all that lie in a structure, array or block: it is what `carries`, `value` or `is` says.
+/// A uniform, or all that lie in a structure, array or block: it is what `carries`, `value`, `is` or `texture` says.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Uniform {
@@ -34,6 +34,8 @@ pub struct Uniform {
     pub value: Option<Value>,
     /// Its value as an expression of `t`, `i`, `resolution`, `model`, `view`, `projection` and `eye`.
     pub is: Option<Spanned<String>>,
+    /// The name of the texture that a sampler reads; of an array of samplers a list, of a structure a table.
+    pub texture: Option<Value>,
     /// What probes may draw at random: `{ within = [least, greatest] }`, or a table of members.
     pub probe: Option<Value>,
 }

@@ -1,15 +1,17 @@
 //! What the program is given: every uniform and attribute has a type, by the shaders, and values that fit it.
 
+mod samplers;
 mod values;
 
 use super::Checked;
 use super::scene::expression;
 use super::solution::{self, Solution};
 use super::stages::{Compiled, Stages};
-use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, error};
+use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, both, error};
 use crate::feed::{Feed, Role, Stream};
-use crate::interpreter::{Stage, Type, Variable};
+use crate::interpreter::{Stage, Texture, Type, Variable};
 use crate::manifest::{self, Manifest};
+use samplers::Samplers;
 
 /// More uniforms, each part counted, than this are refused.
 const MOST_UNIFORMS: usize = 4_096;
@@ -17,11 +19,13 @@ const MOST_UNIFORMS: usize = 4_096;
 /// The interface. `line_at`: the line of the manifest in which a byte of it stands.
 pub(super) fn interface(
     m: &Manifest,
+    textures: &[Texture],
     stages: &Stages,
     solution: &Solution<'_>,
     line_at: &dyn Fn(usize) -> u32,
 ) -> Checked<Interface> {
-    let reader = Reader { programs: &stages.0, line_at };
+    let samplers = Samplers { entries: &m.texture, textures, line_at };
+    let reader = Reader { programs: &stages.0, samplers, line_at };
     let mut uniforms = Vec::new();
     for entry in &m.uniform {
         reader.uniforms(entry, &mut uniforms)?;
@@ -32,6 +36,7 @@ pub(super) fn interface(
             format!("there are {} with all parts: use at most {MOST_UNIFORMS}", uniforms.len()),
         ));
     }
+    reader.samplers.are_all_fed(&stages.0, &uniforms)?;
     let inputs = m.input.iter().map(|entry| reader.input(entry)).collect::<Checked<Vec<_>>>()?;
     for (index, input) in inputs.iter().enumerate() {
         if inputs[..index].iter().any(|other| other.name == input.name) {
@@ -53,6 +58,7 @@ pub(super) fn interface(
 
 struct Reader<'a> {
     programs: &'a [Compiled],
+    samplers: Samplers<'a>,
     line_at: &'a dyn Fn(usize) -> u32,
 }
 
@@ -137,6 +143,17 @@ impl Reader<'_> {
 
     fn feed(&self, entry: &manifest::Uniform, rest: &str, leaf: &str, kind: &Type, place: &str) -> Checked<Feed> {
         let at = entry.name.span().start;
+        if let Type::Sampler(sampler) = kind {
+            let number = self.samplers.number(entry, rest, *sampler);
+            return number.map(Feed::Texture).map_err(|message| self.wrong(at, place, message));
+        }
+        if entry.texture.is_some() {
+            let message = both(
+                format!("`{leaf}` is a {kind} in the shader, and a texture is read by a sampler2D or a samplerCube"),
+                format!("シェーダで `{leaf}` は {kind} です。テクスチャを読むのは sampler2D か samplerCube です"),
+            );
+            return Err(self.wrong(at, place, message));
+        }
         match (entry.carries, &entry.value, &entry.is) {
             (Some(role), None, None) => self.role(role, kind).map_err(|what| self.wrong(at, place, what)),
             (None, Some(value), None) => {

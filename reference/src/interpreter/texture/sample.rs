@@ -172,7 +172,7 @@ impl Texture {
 }
 
 fn at(level: &Level, [x, y, z]: [usize; 3]) -> [f64; 4] {
-    level.texels[(z * level.size[1] + y) * level.size[0] + x]
+    level.texels.at((z * level.size[1] + y) * level.size[0] + x)
 }
 
 /// The coordinate inside of the texture; none for the border.
@@ -199,7 +199,7 @@ mod tests {
 
     /// 4 × 2 texels: red is x, green is y.
     fn texture() -> Texture {
-        let texels = (0..8).map(|n| [f64::from(n % 4), f64::from(n / 4), 0.0, 1.0]).collect();
+        let texels: Vec<_> = (0..8).map(|n| [f64::from(n % 4), f64::from(n / 4), 0.0, 1.0]).collect();
         Texture::two_dimensional(4, 2, texels)
     }
 
@@ -264,7 +264,7 @@ mod tests {
     #[test]
     fn the_level_follows_from_the_distance_of_neighbours() {
         let mut texture = texture();
-        texture.levels.push(Level { size: [2, 1, 1], texels: vec![[10.0; 4], [11.0; 4]] });
+        texture.levels.push(Level { size: [2, 1, 1], texels: vec![[10.0; 4], [11.0; 4]].into() });
         (texture.mipmap, texture.minify) = (Some(Filter::Nearest), Filter::Nearest);
         let gradient = |texels: f64| Some([[texels / 4.0, 0.0, 0.0], [0.0; 3]]);
         // 1.4 texels: level 0.49 is rounded to 0; 1.5 texels: 0.58 to 1.

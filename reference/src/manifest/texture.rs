@@ -1,0 +1,69 @@
+//! Textures, as `assignment.toml` has them.
+
+use crate::interpreter::{Filter, Wrap};
+use crate::texture::{Colour, Generator};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A texture: its picture is that of `file`, of `cube` or of `generate`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Texture {
+    /// What uniforms call it.
+    pub name: Spanned<String>,
+    /// A PNG in the folder.
+    pub file: Option<String>,
+    /// The six PNGs of a cube: +x, -x, +y, -y, +z, -z.
+    pub cube: Option<[String; 6]>,
+    /// A picture that is computed.
+    pub generate: Option<Generator>,
+    /// Width and height of a picture that is computed.
+    pub size: Option<[u32; 2]>,
+    /// How the texels of a picture that is computed are kept.
+    pub format: Option<Format>,
+    /// Whether the last row of a file is the first row of texels, so that the picture stands upright.
+    pub flip: Option<bool>,
+    /// Between texels.
+    pub filter: Option<Filter>,
+    /// Beyond the picture.
+    pub wrap: Option<Wraps>,
+    /// What lies beyond the picture with `clamp-to-border`.
+    pub border: Option<Colour>,
+    /// Whether red, green and blue are decoded from sRGB.
+    #[serde(default)]
+    pub srgb: bool,
+}
+
+/// How texels are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// Four bytes: 255ths, from 0 to 1.
+    #[default]
+    Rgba8,
+    /// Four floats.
+    Rgba32f,
+}
+
+/// Beyond the picture along both coordinates, or along each.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "write \"repeat\", \"mirrored-repeat\", \"clamp-to-edge\" or \"clamp-to-border\", or two of them"
+)]
+pub enum Wraps {
+    /// Along both.
+    Both(Wrap),
+    /// Along the first, and along the second.
+    Each([Wrap; 2]),
+}
+
+impl Wraps {
+    /// Along each coordinate; the third is like the second.
+    pub fn each(self) -> [Wrap; 3] {
+        match self {
+            Self::Both(wrap) => [wrap; 3],
+            Self::Each([first, second]) => [first, second, second],
+        }
+    }
+}
