@@ -2,6 +2,8 @@
 
 #[path = "agreement/fragments.rs"]
 mod fragments;
+#[path = "agreement/homeworks.rs"]
+mod homeworks;
 #[path = "agreement/hostile.rs"]
 mod hostile;
 mod opengl;

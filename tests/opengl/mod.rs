@@ -9,11 +9,13 @@ mod context;
 mod driver;
 mod fragments;
 mod scenes;
+mod textures;
 
 pub use context::Version;
 use driver::{Driver, Linked};
 pub use fragments::{Given, Texels};
 pub use scenes::{Draw, Kind, Window};
+use textures::Upload;
 
 /// One 4 × 4 matrix, column after column.
 pub type Matrix = [f32; 16];
@@ -170,7 +172,7 @@ impl OpenGl {
         &self,
         texts: [&str; 2],
         draws: &[Draw],
-        textures: &[(&str, Texels)],
+        textures: &[(&str, impl Upload)],
         window: Window,
         outputs: u32,
     ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {

@@ -3,7 +3,7 @@
 
 use super::Rejection;
 use super::driver::{Driver, Linked};
-use super::fragments::Texels;
+use super::textures::Upload;
 use glow::HasContext;
 
 /// A scalar, vector or matrix: what its components are, and how many there are.
@@ -47,7 +47,7 @@ impl Driver {
         &self,
         [vertex, fragment]: [&str; 2],
         draws: &[Draw],
-        textures: &[(&str, Texels)],
+        textures: &[(&str, impl Upload)],
         window: Window,
         outputs: u32,
     ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {
@@ -82,7 +82,7 @@ impl Driver {
             let mut bound = Vec::new();
             for (unit, (name, texels)) in (0..).zip(textures) {
                 gl.active_texture(glow::TEXTURE0 + unit);
-                bound.push(self.texture(texels));
+                bound.push(texels.upload(self));
                 gl.uniform_1_i32(gl.get_uniform_location(program.name(), name).as_ref(), unit.cast_signed());
             }
             for draw in draws {

@@ -1,6 +1,8 @@
 use super::*;
 use std::path::Path;
 
+mod textures;
+
 /// The assignment with a change in one of its files.
 fn loaded(changed: &str, change: impl Fn(&str) -> String) -> Result<Assignment, AssignmentError> {
     let mut folder = ggsample06();

@@ -1,0 +1,233 @@
+//! What is said of textures that cannot be read, or that nothing reads.
+
+use crate::assignment::{Assignment, MANIFEST};
+use crate::interpreter::{Dimension, Filter, Texels, Wrap};
+use crate::{Folder, Text};
+use std::path::Path;
+
+/// A homework with every kind of texture: a folder of the project's tests.
+fn carpet() -> Folder {
+    Folder::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks/carpet")).expect("a folder")
+}
+
+/// The same with a text replaced.
+fn changed(file: &str, from: &str, to: &str) -> Folder {
+    let mut folder = carpet();
+    let text = folder.text(file).expect("a text");
+    assert!(text.contains(from), "{from}");
+    let text = text.replacen(from, to, 1);
+    folder.files.insert(file.into(), text.into());
+    folder
+}
+
+fn refused(folder: Folder) -> Text {
+    Assignment::load(folder).expect_err("a broken folder").text()
+}
+
+/// The line of the manifest on which a text stands.
+fn line_of(text: &str) -> usize {
+    carpet().text(MANIFEST).expect("a text").lines().position(|line| line.contains(text)).expect(text) + 1
+}
+
+#[test]
+fn a_texture_is_as_its_entry_says() {
+    let assignment = Assignment::load(carpet()).expect("an assignment");
+    let [weave, label, dust, knots, lamps, sky] = &assignment.textures[..] else { panic!("six textures") };
+    // The upper left corner of the file is red, the lower left blue; the picture stands upright.
+    let corners = [0, 11 * 20].map(|place| weave.levels[0].texels.at(place));
+    assert_eq!(
+        corners,
+        [[30, 50, 240, 255], [230, 30, 20, 255]].map(|texel| texel.map(|byte: u8| f64::from(byte) / 255.0))
+    );
+    assert_eq!((weave.magnify, weave.wrap[..2].to_vec()), (Filter::Linear, vec![Wrap::MirroredRepeat, Wrap::Repeat]));
+    assert_eq!(
+        (label.magnify, label.minify, label.border),
+        (Filter::Nearest, Filter::Nearest, [0.2, 0.4, 0.6, 1.0].map(|x: f64| f64::from(x as f32)))
+    );
+    assert!(matches!(label.levels[0].texels, Texels::Srgb(_)) && matches!(lamps.levels[0].texels, Texels::Numbers(_)));
+    assert_eq!([dust, knots].map(|texture| texture.levels[0].size), [[60, 40, 1], [96, 64, 1]]);
+    assert_eq!(lamps.levels[0].texels.at(7), [4.0, 2.0, 1.0, 1.0]);
+    assert_eq!((sky.dimension, sky.levels[0].size), (Dimension::Cube, [32, 32, 6]));
+}
+
+#[test]
+fn an_entry_that_makes_no_texture_is_named_with_what_to_try() {
+    let size = "size = [60, 40]";
+    for (name, from, to, en, ja) in [
+        ("weave", "file = \"weave.png\"\n", "", "write one of `file`, `cube` and `generate`", "のうち 1 つだけ"),
+        (
+            "weave",
+            "file = \"weave.png\"",
+            "file = \"weave.png\"\nsize = [8, 8]",
+            "belong to `generate`",
+            "ファイルでは使わない",
+        ),
+        (
+            "weave",
+            "file = \"weave.png\"",
+            "file = \"weave.png\"\nborder = [0, 0, 0]",
+            "seen with `wrap = \"clamp-to-border\"` only",
+            "それも書くか",
+        ),
+        ("label", "border = [0.2,", "border = [1.2,", "`border` has a colour beyond 0 to 1", "範囲を超える色"),
+        ("dust", size, "size = [0, 40]", "each at least 1", "1 以上"),
+        ("dust", size, "size = [4000, 4000]", "4000 × 4000 pixels are too many", "大きすぎます"),
+        ("dust", size, "size = [100000, 1]", "a side has at most 8192", "一辺は 8192 画素以下"),
+        ("dust", size, "flip = true", "`flip` belongs to files", "ファイルのためのもの"),
+        ("dust", "cells = [5, 3]", "cells = [0, 3]", "`cells` has to be 1 to 512", "`cells` は 1 以上"),
+        (
+            "lamps",
+            "format = \"rgba32f\"",
+            "format = \"rgba32f\"\nsrgb = true",
+            "`srgb` decodes bytes",
+            "8 ビットの値を変換",
+        ),
+        ("lamps", "format = \"rgba32f\"", "", "or write `format = \"rgba32f\"`", "範囲を超える色"),
+        ("sky", "size = [32, 32]", "size = [32, 16]", "the faces of a sky are squares", "正方形です"),
+        (
+            "sky",
+            "size = [32, 32]",
+            "wrap = \"repeat\"",
+            "a cube ends at the edges of its faces",
+            "\"clamp-to-edge\" だけ",
+        ),
+    ] {
+        let text = refused(changed(MANIFEST, from, to));
+        let line = line_of(&format!("name = \"{name}\""));
+        let [place, ort] = [
+            format!("{MANIFEST}, line {line}, texture `{name}`: "),
+            format!("{MANIFEST} の {line} 行目、texture `{name}`: "),
+        ];
+        assert!(text.en.starts_with(&place) && text.en.contains(en), "{to}: {}", text.en);
+        assert!(text.ja.starts_with(&ort) && text.ja.contains(ja), "{to}: {}", text.ja);
+    }
+    let twice = refused(changed(MANIFEST, "name = \"dust\"", "name = \"weave\""));
+    assert!(twice.en.contains("texture `weave`: stands twice"), "{}", twice.en);
+    let many = "[[texture]]\nname = \"x\"\ngenerate = { checker = {} }\n".repeat(20);
+    let many = refused(changed(MANIFEST, "[[input]]", &format!("{many}[[input]]")));
+    assert!(many.en.contains("there are 26: use at most 16"), "{}", many.en);
+    // What the reader of TOML says has the line as well.
+    for (from, to, en) in [
+        ("filter = \"nearest\"", "filter = \"cubic\"", "unknown variant `cubic`, expected `nearest` or `linear`"),
+        ("wrap = \"clamp-to-border\"", "wrap = \"clamp\"", "write \"repeat\", \"mirrored-repeat\", \"clamp-to-edge\""),
+        ("border = [0.2, 0.4, 0.6, 1.0]", "border = [0.2, 0.4]", "a colour is three or four numbers"),
+        ("generate = { noise = {", "generate = { clouds = {", "unknown variant `clouds`, expected one of `checker`"),
+        ("file = \"weave.png\"", "cube = [\"weave.png\"]", "invalid length 1, expected an array of length 6"),
+    ] {
+        let text = refused(changed(MANIFEST, from, to));
+        assert!(text.en.starts_with(&format!("{MANIFEST}, line {}: ", line_of(from))), "{}", text.en);
+        assert!(text.en.contains(en), "{}", text.en);
+    }
+}
+
+#[test]
+fn a_file_that_is_no_picture_is_named() {
+    let with = |bytes: &[u8]| {
+        let mut folder = carpet();
+        folder.files.insert("weave.png".into(), bytes.to_vec());
+        refused(folder)
+    };
+    let whole = carpet().files["weave.png"].clone();
+    for (bytes, en, ja) in [
+        (&b"\xff\xd8\xff\xe0JFIF"[..], "is a JPEG file: save it as PNG", "PNG として保存してください"),
+        (b"version https://git-lfs.github.com/spec/v1", "is a Git LFS pointer", "Git LFS"),
+        (b"", "is no PNG, or damaged", "壊れています"),
+        (&whole[..whole.len() / 2], "save it as PNG again", "保存し直してください"),
+    ] {
+        let text = with(bytes);
+        assert!(text.en.starts_with("weave.png, texture `weave`: ") && text.en.contains(en), "{}", text.en);
+        assert!(text.ja.starts_with("weave.png、texture `weave`: ") && text.ja.contains(ja), "{}", text.ja);
+    }
+    let mut folder = carpet();
+    folder.files.remove("pictures/label.png");
+    let text = refused(folder);
+    assert!(text.en.starts_with("pictures/label.png, texture `label`: is not in the folder, which has"), "{}", text.en);
+    let outside = refused(changed(MANIFEST, "pictures/label.png", "../waves/assignment.toml"));
+    assert!(
+        outside.en.starts_with("../waves/assignment.toml, texture `label`: is not in the folder"),
+        "{}",
+        outside.en
+    );
+    let cube = "cube = [\"weave.png\", \"weave.png\", \"weave.png\", \"weave.png\", \"weave.png\", \"weave.png\"]";
+    let text = refused(changed(MANIFEST, "file = \"weave.png\"", cube));
+    assert!(text.en.contains("has 20 × 12 pixels: the six faces of a cube are squares of one size"), "{}", text.en);
+}
+
+#[test]
+fn every_sampler_reads_a_texture_that_fits() {
+    let uniform = |path: &str, from: &str, to: &str, en: &str, ja: &str| {
+        let text = refused(changed(MANIFEST, from, to));
+        let line = line_of(&format!("name = \"{path}\""));
+        assert!(text.en.starts_with(&format!("{MANIFEST}, line {line}, uniform `{path}`: ")), "{}", text.en);
+        assert!(text.en.contains(en) && text.ja.contains(ja), "{} {}", text.en, text.ja);
+    };
+    let label = "name = \"label\"\ntexture = \"label\"";
+    let put = |what: &str| format!("name = \"label\"\n{what}");
+    let path = "material.weave";
+    uniform(
+        path,
+        "texture = \"weave\"",
+        "texture = \"wave\"",
+        "there is no texture `wave` (there is `weave`, `label`",
+        "あるもの: `weave`",
+    );
+    uniform(
+        path,
+        "texture = \"weave\"",
+        "value = 1",
+        "it is a sampler2D: write `texture = \"…\"`",
+        "[[texture]] の名前だけ",
+    );
+    uniform(
+        path,
+        "texture = \"weave\"",
+        "texture = \"weave\"\nprobe = { within = [0, 1] }",
+        "and nothing else",
+        "だけを書いて",
+    );
+    uniform(path, "texture = \"weave\"", "texture = 1", "write it between quotation marks", "引用符で囲んで");
+    uniform(
+        path,
+        "texture = \"weave\"",
+        "texture = \"sky\"",
+        "`sky` is read by a samplerCube",
+        "`sky` を読むのは samplerCube",
+    );
+    uniform("material.maps", "[\"knots\", \"dust\"]", "[\"knots\"]", "there is no element 1", "");
+    uniform("material.gloss", "value = 0.25", "texture = \"weave\"", "is a float in the shader", "float です");
+    // What the shader declares is named in the shader.
+    for (kind, en) in [
+        (
+            "uniform isampler2D label; uniform sampler2D lamps;",
+            "it is a isampler2D in the shader, and `label` is read by a sampler2D",
+        ),
+        ("uniform sampler2DShadow label; uniform sampler2D lamps;", "it is a sampler2DShadow in the shader"),
+    ] {
+        let folder = changed("fixed.frag", "uniform sampler2D label, lamps;", kind);
+        let text =
+            folder.text("fixed.frag").expect("a text").replace("texture(label, place.xy * 1.5 - 0.25)", "vec4(1.0)");
+        let mut folder = folder;
+        folder.files.insert("fixed.frag".into(), text.into());
+        let text = refused(folder);
+        assert!(text.en.contains(en), "{}", text.en);
+    }
+    let lacking = refused(changed(MANIFEST, &format!("[[uniform]]\n{label}"), ""));
+    assert!(
+        lacking.en.starts_with("fixed.frag, line 7: the sampler2D `label` has no texture: write [[uniform]]"),
+        "{}",
+        lacking.en
+    );
+    assert!(
+        lacking.ja.contains("fixed.frag の 7 行目") && lacking.ja.contains("テクスチャがありません"),
+        "{}",
+        lacking.ja
+    );
+    let unread = refused(changed(MANIFEST, label, &put("texture = \"lamps\"")));
+    let line = line_of("name = \"label\"");
+    assert!(
+        unread.en.starts_with(&format!("{MANIFEST}, line {line}, texture `label`: no uniform reads it")),
+        "{}",
+        unread.en
+    );
+    assert!(unread.ja.contains("どの uniform からも読まれません"), "{}", unread.ja);
+}

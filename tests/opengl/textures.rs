@@ -1,0 +1,71 @@
+//! The textures of a homework, set up as a host program does.
+#![allow(unsafe_code, reason = "OpenGL is a C library")]
+
+use super::driver::Driver;
+use super::fragments::Texels;
+use glow::HasContext;
+use reference::interpreter::{Dimension, Filter, Texels as Kept, Texture, Wrap};
+
+/// What can be bound to a unit.
+pub trait Upload {
+    /// A texture, bound to the unit that is active.
+    fn upload(&self, driver: &Driver) -> glow::Texture;
+}
+
+impl Upload for Texels {
+    fn upload(&self, driver: &Driver) -> glow::Texture {
+        driver.texture(self)
+    }
+}
+
+impl Upload for Texture {
+    fn upload(&self, driver: &Driver) -> glow::Texture {
+        let gl = driver.gl();
+        let level = &self.levels[0];
+        let [width, height, _] = level.size.map(|side| i32::try_from(side).expect("a side"));
+        let is_cube = self.dimension == Dimension::Cube;
+        let target = if is_cube { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D };
+        let floats: Vec<[f32; 4]>;
+        let (format, kind, texels): (_, _, &[u8]) = match &level.texels {
+            Kept::Bytes(texels) => (glow::RGBA8, glow::UNSIGNED_BYTE, texels.as_flattened()),
+            Kept::Srgb(texels) => (glow::SRGB8_ALPHA8, glow::UNSIGNED_BYTE, texels.as_flattened()),
+            Kept::Numbers(texels) => {
+                floats = texels.iter().map(|texel| texel.map(|number| number as f32)).collect();
+                (glow::RGBA32F, glow::FLOAT, bytemuck::cast_slice(&floats))
+            }
+        };
+        let faces = if is_cube { 6 } else { 1 };
+        assert_eq!(texels.len() % faces, 0);
+        let wrap = |wrap: Wrap| match wrap {
+            Wrap::Repeat => glow::REPEAT,
+            Wrap::MirroredRepeat => glow::MIRRORED_REPEAT,
+            Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
+            Wrap::ClampToBorder => glow::CLAMP_TO_BORDER,
+        };
+        let filter = if self.magnify == Filter::Linear { glow::LINEAR } else { glow::NEAREST };
+        // SAFETY: see the head of `driver.rs`. Each slice holds the texels of a face.
+        unsafe {
+            let texture = gl.create_texture().expect("a texture");
+            gl.bind_texture(target, Some(texture));
+            for (face, texels) in (0..).zip(texels.chunks_exact(texels.len() / faces)) {
+                let target = if is_cube { glow::TEXTURE_CUBE_MAP_POSITIVE_X + face } else { target };
+                let texels = glow::PixelUnpackData::Slice(Some(texels));
+                gl.tex_image_2d(target, 0, format.cast_signed(), width, height, 0, glow::RGBA, kind, texels);
+            }
+            let [s, t, r] = self.wrap.map(wrap);
+            let parameters = [
+                (glow::TEXTURE_MIN_FILTER, filter),
+                (glow::TEXTURE_MAG_FILTER, filter),
+                (glow::TEXTURE_WRAP_S, s),
+                (glow::TEXTURE_WRAP_T, t),
+                (glow::TEXTURE_WRAP_R, r),
+            ];
+            for (name, value) in parameters {
+                gl.tex_parameter_i32(target, name, value.cast_signed());
+            }
+            gl.tex_parameter_f32_slice(target, glow::TEXTURE_BORDER_COLOR, &self.border.map(|number| number as f32));
+            driver.check("set up a texture");
+            texture
+        }
+    }
+}
