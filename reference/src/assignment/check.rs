@@ -3,6 +3,7 @@
 mod advice;
 mod answers;
 mod interface;
+mod meshes;
 mod mistakes;
 mod probing;
 mod scene;
@@ -51,7 +52,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
     let advice = advice.collect::<Checked<Vec<_>>>()?;
     let equation = solution.finish(&m, &interface, &constants)?;
     let assignment = Assignment {
-        scene: scene::scene(&m.scene, line_at)?,
+        scene: scene::scene(&m.scene, folder, line_at)?,
         files,
         id: m.id,
         digest: String::new(),

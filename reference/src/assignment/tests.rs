@@ -1,6 +1,7 @@
 use super::*;
 use std::path::Path;
 
+mod meshes;
 mod textures;
 
 /// The assignment with a change in one of its files.

@@ -169,7 +169,10 @@ impl Texture {
             && self.array == sampler.array
             && sampler.shadow == self.compare.is_some()
             && !self.levels.is_empty()
-            && self.levels.iter().all(|level| level.texels.count() == level.size.iter().product() && level.size[0] > 0)
+            && self
+                .levels
+                .iter()
+                .all(|level| level.texels.count() == level.size.iter().product::<usize>() && level.size[0] > 0)
     }
 }
 

@@ -36,7 +36,7 @@ pub struct Scene {
     /// Their normals.
     pub normals: Option<[[f64; 3]; 3]>,
     /// What is drawn, where it is one thing.
-    pub mesh: Option<Shape>,
+    pub mesh: Option<Spanned<Shape>>,
     /// Turn about y in one cycle.
     pub turn: Option<f64>,
     /// Where it stands in the world, as an expression of `t`, `i` and `resolution`.
@@ -76,7 +76,7 @@ pub struct Scene {
 #[serde(deny_unknown_fields)]
 pub struct Draw {
     /// Its vertices and triangles.
-    pub mesh: Shape,
+    pub mesh: Spanned<Shape>,
     /// Turn about y in one cycle.
     pub turn: Option<f64>,
     /// Where it stands in the world, as an expression of `t`, `i` and `resolution`.

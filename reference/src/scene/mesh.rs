@@ -1,8 +1,12 @@
 //! Triangles with shared vertices.
 
+mod derived;
+mod file;
 mod shapes;
 
 use super::Vertex;
+use crate::assignment::both;
+use crate::{Folder, Text};
 use glam::{DVec2, DVec3};
 use serde::Deserialize;
 use std::fmt;
@@ -25,18 +29,51 @@ pub struct Mesh {
 
 /// Why there is no mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MeshError(String);
+pub struct MeshError {
+    /// What is wrong, and what to try.
+    pub message: Text,
+    /// The file that it is read from.
+    pub file: Option<String>,
+    /// The line in it, from 1, where it is known.
+    pub line: Option<u32>,
+}
+
+impl MeshError {
+    fn new(en: impl Into<String>, ja: impl Into<String>) -> Self {
+        Self { message: both(en, ja), file: None, line: None }
+    }
+
+    /// The same, of a file.
+    fn in_file(self, name: &str) -> Self {
+        Self { file: self.file.or_else(|| Some(name.to_owned())), ..self }
+    }
+}
 
 impl fmt::Display for MeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        f.write_str(&self.message.en)
     }
 }
 
 impl std::error::Error for MeshError {}
 
-fn refused<T>(what: impl Into<String>) -> Result<T, MeshError> {
-    Err(MeshError(what.into()))
+fn refused<T>(en: impl Into<String>, ja: impl Into<String>) -> Result<T, MeshError> {
+    Err(MeshError::new(en, ja))
+}
+
+/// Refuses what is too much.
+fn bounded(vertices: usize, triangles: usize) -> Result<(), MeshError> {
+    if vertices <= MOST_VERTICES && triangles <= MOST_TRIANGLES {
+        return Ok(());
+    }
+    refused(
+        format!(
+            "it has {vertices} vertices and {triangles} triangles: use at most {MOST_VERTICES} and {MOST_TRIANGLES}"
+        ),
+        format!(
+            "頂点が {vertices} 個、三角形が {triangles} 個あります。{MOST_VERTICES} 個以下、{MOST_TRIANGLES} 個以下にしてください"
+        ),
+    )
 }
 
 impl Mesh {
@@ -46,24 +83,24 @@ impl Mesh {
     /// It has none, or too many, or a triangle names a vertex that is not there, or a coordinate is no number or too far out.
     pub fn new(mut vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         if vertices.is_empty() || triangles.is_empty() {
-            return refused("it has no triangle: add some");
+            return refused("it has no triangle: add some", "三角形がありません。追加してください");
         }
-        if vertices.len() > MOST_VERTICES || triangles.len() > MOST_TRIANGLES {
-            return refused(format!(
-                "it has {} vertices and {} triangles: use at most {MOST_VERTICES} and {MOST_TRIANGLES}",
-                vertices.len(),
-                triangles.len()
-            ));
-        }
+        bounded(vertices.len(), triangles.len())?;
         let count = vertices.len() as u32;
         if let Some(place) = triangles.iter().position(|triangle| triangle.iter().any(|&vertex| vertex >= count)) {
-            return refused(format!("triangle {place} names a vertex that is not there: there are {count}, from 0"));
+            return refused(
+                format!("triangle {place} names a vertex that is not there: there are {count}, from 0"),
+                format!("三角形 {place} の頂点番号が範囲を超えています。頂点は 0 から数えて {count} 個です"),
+            );
         }
         for (number, vertex) in vertices.iter_mut().enumerate() {
             let numbers =
                 [vertex.position, vertex.normal, vertex.tangent, vertex.texture_coordinates.extend(0.0).extend(0.0)];
             if !numbers.iter().all(|vector| vector.is_finite() && vector.abs().max_element() <= FARTHEST) {
-                return refused(format!("vertex {number} has a coordinate that is no number, or beyond {FARTHEST:e}"));
+                return refused(
+                    format!("vertex {number} has a coordinate that is no number, or beyond {FARTHEST:e}"),
+                    format!("頂点 {number} に、数でない座標か {FARTHEST:e} を超える座標があります"),
+                );
             }
             vertex.number = number as u32;
         }
@@ -80,7 +117,7 @@ impl Mesh {
     }
 }
 
-/// A built-in mesh with its parameters, as a folder writes it: `{ torus = { radius = 1, tube = 0.4 } }`.
+/// A mesh as a folder writes it: a built-in one with its parameters, `{ torus = { radius = 1, tube = 0.4 } }`, or a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
@@ -100,6 +137,8 @@ pub enum Shape {
     Fullscreen(Nothing),
     /// Vertices that stand in the manifest.
     Vertices(Listed),
+    /// A file of the folder: OBJ, or glTF as text or binary.
+    File(String),
 }
 
 /// No parameters.
@@ -192,8 +231,8 @@ impl Shape {
     /// The mesh.
     ///
     /// # Errors
-    /// The parameters make none.
-    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+    /// The parameters make none, or the file has none.
+    pub fn mesh(&self, folder: &Folder) -> Result<Mesh, MeshError> {
         match self {
             Self::Triangle(Sized2 { size }) => shapes::triangle(*size),
             Self::Quad(Sized2 { size }) => shapes::quad(*size),
@@ -203,6 +242,7 @@ impl Shape {
             Self::Torus(Torus { radius, tube, segments }) => shapes::torus([*radius, *tube], *segments),
             Self::Fullscreen(Nothing {}) => shapes::quad([2.0, 2.0]),
             Self::Vertices(listed) => listed.mesh(),
+            Self::File(name) => file::read(name, folder).map_err(|wrong| wrong.in_file(name)),
         }
     }
 }
@@ -213,7 +253,10 @@ impl Listed {
         for (name, given) in [("normals", self.normals.len()), ("texture_coordinates", self.texture_coordinates.len())]
         {
             if given != 0 && given != count {
-                return refused(format!("there are {given} {name} for {count} positions: write as many"));
+                return refused(
+                    format!("there are {given} {name} for {count} positions: write as many"),
+                    format!("`positions` が {count} 個、`{name}` が {given} 個あります。同じ数だけ書いてください"),
+                );
             }
         }
         let vertex = |(at, position): (usize, &[f64; 3])| {
@@ -222,11 +265,20 @@ impl Listed {
             Vertex::new(DVec3::from_array(*position), DVec3::from_array(normal))
                 .textured(DVec2::from_array(coordinates))
         };
-        let vertices = self.positions.iter().enumerate().map(vertex).collect();
+        let mut vertices: Vec<Vertex> = self.positions.iter().enumerate().map(vertex).collect();
         if self.triangles.is_empty() && !count.is_multiple_of(3) {
-            return refused(format!("{count} positions are no triangles: write three for each, or `triangles`"));
+            return refused(
+                format!("{count} positions are no triangles: write three for each, or `triangles`"),
+                format!(
+                    "`positions` が {count} 個では三角形になりません。3 個ずつ書くか、`triangles` を書いてください"
+                ),
+            );
         }
         let in_order = || (0..count as u32 / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
-        Mesh::new(vertices, if self.triangles.is_empty() { in_order() } else { self.triangles.clone() })
+        let triangles: Vec<[u32; 3]> = if self.triangles.is_empty() { in_order() } else { self.triangles.clone() };
+        if !self.normals.is_empty() && !self.texture_coordinates.is_empty() {
+            derived::tangents(&mut vertices, &triangles, |_| true);
+        }
+        Mesh::new(vertices, triangles)
     }
 }

@@ -1,11 +1,13 @@
 //! The scenes of an assignment.
 
+use super::meshes::Meshes;
 use super::{Checked, solution};
+use crate::Folder;
 use crate::assignment::{AssignmentError, MANIFEST, both, error};
 use crate::feed::Expression;
 use crate::interpreter::Type;
 use crate::manifest::{self, Depth, Poses};
-use crate::scene::{Draw, Mesh, Model, Point, Scene, Shape, Vertex, View};
+use crate::scene::{Draw, Mesh, Model, Point, Scene, Vertex, View};
 use glam::DVec3;
 use std::sync::Arc;
 use toml::Spanned;
@@ -18,7 +20,8 @@ const MOST_INSTANCES: u32 = 1_000;
 const LONGEST_SIDE: u32 = 8_192;
 
 /// All scenes as one. `line_at`: the line of the manifest in which a byte of it stands.
-pub(super) fn scene(scenes: &manifest::Scenes, line_at: &dyn Fn(usize) -> u32) -> Checked<Scene> {
+pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn(usize) -> u32) -> Checked<Scene> {
+    let meshes = Meshes::new(folder, line_at);
     let [first, ..] = &scenes.0[..] else {
         return Err(error("scene", both("there is none: write [scene]", "ありません。[scene] を書いてください")));
     };
@@ -46,7 +49,11 @@ pub(super) fn scene(scenes: &manifest::Scenes, line_at: &dyn Fn(usize) -> u32) -
             ));
         }
     }
-    let views = scenes.0.iter().map(|own| Reader { own, first, line_at }.view()).collect::<Checked<Vec<_>>>()?;
+    let views = scenes
+        .0
+        .iter()
+        .map(|own| Reader { own, first, meshes: &meshes, line_at }.view())
+        .collect::<Checked<Vec<_>>>()?;
     let scene = Scene {
         width,
         height,
@@ -81,6 +88,7 @@ pub(super) fn scene(scenes: &manifest::Scenes, line_at: &dyn Fn(usize) -> u32) -
 struct Reader<'a> {
     own: &'a manifest::Scene,
     first: &'a manifest::Scene,
+    meshes: &'a Meshes<'a>,
     line_at: &'a dyn Fn(usize) -> u32,
 }
 
@@ -168,13 +176,14 @@ impl Reader<'_> {
         }
         let draws = match (&scene.draw, &scene.mesh, &scene.triangle) {
             (Some(draws), ..) => draws.iter().map(|draw| self.draw(draw)).collect::<Checked<Vec<_>>>()?,
-            (None, Some(shape), _) => vec![self.with(self.mesh(shape)?, Some(Depth::Less))?],
+            (None, Some(shape), _) => vec![self.with(self.meshes.mesh(shape)?, Some(Depth::Less))?],
             (None, None, triangle) => {
                 let triangle = triangle.unwrap_or_default();
                 let normals = scene.normals.unwrap_or([[0.0, 0.0, 1.0]; 3]);
                 let vertex = |at: usize| Vertex::new(triangle[at].into(), normals[at].into());
                 let mesh = Mesh::new(vec![vertex(0), vertex(1), vertex(2)], vec![[0, 1, 2]]);
-                vec![self.with(mesh.map_err(|wrong| error("scene, `triangle`", wrong.to_string()))?, None)?]
+                let mesh = mesh.map_err(|wrong| error("scene, `triangle`", wrong.message))?;
+                vec![self.with(Arc::new(mesh), None)?]
             }
         };
         let count: u32 = draws.iter().map(|draw| draw.instances.min(MOST_INSTANCES + 1)).sum();
@@ -190,16 +199,12 @@ impl Reader<'_> {
         Ok(draws)
     }
 
-    fn mesh(&self, shape: &Shape) -> Checked<Mesh> {
-        shape.mesh().map_err(|wrong| error("scene, `mesh`", wrong.to_string()))
-    }
-
     /// What a scene says of its only draw.
-    fn with(&self, mesh: Mesh, depth: Option<Depth>) -> Checked<Draw> {
+    fn with(&self, mesh: Arc<Mesh>, depth: Option<Depth>) -> Checked<Draw> {
         let said = |scene: &manifest::Scene| scene.depth_test;
         let depth = said(self.own).or_else(|| said(self.first)).or(depth);
         Ok(Draw {
-            mesh: Arc::new(mesh),
+            mesh,
             model: self.model(None, None)?,
             instances: self.own.instances.or(self.first.instances).unwrap_or(1),
             depth_test: depth.and_then(Depth::test),
@@ -208,7 +213,7 @@ impl Reader<'_> {
     }
 
     fn draw(&self, draw: &manifest::Draw) -> Checked<Draw> {
-        let like = self.with(self.mesh(&draw.mesh)?, Some(Depth::Less))?;
+        let like = self.with(self.meshes.mesh(&draw.mesh)?, Some(Depth::Less))?;
         Ok(Draw {
             model: self.model(draw.model.as_ref(), draw.turn)?,
             instances: draw.instances.unwrap_or(like.instances),

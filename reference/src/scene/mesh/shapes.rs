@@ -10,10 +10,13 @@ const MOST_SEGMENTS: u32 = 512;
 
 fn checked(sizes: &[f64], segments: &[u32], fewest: u32) -> Result<(), MeshError> {
     if !sizes.iter().all(|size| *size > 0.0 && size.is_finite()) {
-        return refused("its sizes have to be greater than 0");
+        return refused("its sizes have to be greater than 0", "大きさは 0 より大きくしてください");
     }
     if !segments.iter().all(|count| (fewest..=MOST_SEGMENTS).contains(count)) {
-        return refused(format!("its segments have to be {fewest} to {MOST_SEGMENTS}"));
+        return refused(
+            format!("its segments have to be {fewest} to {MOST_SEGMENTS}"),
+            format!("`segments` は {fewest} 以上 {MOST_SEGMENTS} 以下にしてください"),
+        );
     }
     Ok(())
 }
