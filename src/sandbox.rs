@@ -27,6 +27,7 @@ mod schedule;
 mod syscalls;
 pub mod worker;
 
+pub use child::MOST_ASSIGNMENTS;
 pub use pool::{Answer, Pool, Submission};
 pub use preflight::Attempt;
 pub use protection::{Layer, LayerState, Policy, Protection, Reach};
@@ -49,6 +50,8 @@ pub fn driver_settings(adapter: AdapterKind) -> Vec<(&'static str, OsString)> {
 pub struct Settings {
     /// The assignment that every worker reads at its start.
     pub assignment: Arc<Assignment>,
+    /// The others that it reads after that one, so that nobody waits for them.
+    pub further: Vec<Arc<Assignment>>,
     /// The adapter that renders.
     pub adapter: AdapterKind,
     /// Longest time for one submission.
@@ -78,6 +81,7 @@ impl Settings {
     pub fn new(assignment: Arc<Assignment>) -> Self {
         Self {
             assignment,
+            further: Vec::new(),
             adapter: AdapterKind::Software,
             deadline: Duration::from_secs(2),
             cpu_seconds: None,

@@ -29,7 +29,7 @@ const LOAD_DEADLINE: Duration = Duration::from_secs(60);
 const PICTURES_BYTES: usize = 128 << 20;
 
 /// How many assignments one worker reads.
-const MOST_ASSIGNMENTS: usize = 16;
+pub const MOST_ASSIGNMENTS: usize = 16;
 
 /// How long a worker that has closed its output may take to die: the kernel has its memory to tidy up.
 const DYING: Duration = Duration::from_millis(300);

@@ -7,6 +7,7 @@ use super::protection::Protection;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::Environment;
+use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -53,6 +54,9 @@ struct State {
     ushers: usize,
     /// What the first worker said of itself.
     greeting: Option<(Environment, Protection)>,
+    /// The digests of further assignments at which a worker ended, or that it refused. Whoever hands in for one of them learns
+    /// why; the others do not wait for it.
+    unreadable: HashSet<String>,
     /// Starts that failed in a row, and the last one's fault where no further try is made.
     failures: u32,
     fault: Option<Fault>,
@@ -240,6 +244,21 @@ impl Shared {
         }
     }
 
+    /// Has a new worker read the further assignments.
+    fn have_further_read(&self, worker: &mut Worker) -> Result<(), NotStarted> {
+        for assignment in &self.settings.further {
+            if self.lock().unreadable.contains(&assignment.digest) {
+                continue;
+            }
+            worker.read(assignment, &self.library, &self.settings).map_err(|failure| {
+                self.lock().unreadable.insert(assignment.digest.clone());
+                // The next try leaves it out.
+                NotStarted { transient: true, ..failure }
+            })?;
+        }
+        Ok(())
+    }
+
     fn failed(&self, state: &mut State, failure: NotStarted) {
         state.failures += 1;
         if failure.transient && state.failures < TRIES {
@@ -289,7 +308,8 @@ fn receive(shared: &Shared, mut worker: Worker) {
         let greeting = (worker.environment.clone(), worker.protection.clone());
         shared.lock().greeting.get_or_insert(greeting);
         shared.changed.notify_all();
-        worker.read(&shared.settings.assignment, &shared.library, &shared.settings)
+        worker.read(&shared.settings.assignment, &shared.library, &shared.settings)?;
+        shared.have_further_read(&mut worker)
     });
     let process = worker.id();
     let mut state = shared.lock();
