@@ -12,7 +12,7 @@ mod stages;
 mod textures;
 mod typeset;
 
-use super::{Assignment, AssignmentError, FixedStage, HandedIn, both, error};
+use super::{Assignment, AssignmentError, FixedStage, HandedIn, MANIFEST, both, error};
 use crate::Folder;
 use crate::manifest::{self, Manifest};
 use solution::Solution;
@@ -26,6 +26,7 @@ type Checked<T> = Result<T, AssignmentError>;
 
 /// `line_at`: the line of `assignment.toml` in which a byte of it stands.
 pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder: &Folder) -> Checked<Assignment> {
+    check_id(&m.id, folder)?;
     let read = |name: &str| -> Checked<String> { folder.text(name).map(str::to_owned) };
     let mut files = files(&m.file, &read)?;
     let fixed = fixed(&m, &read)?;
@@ -134,6 +135,31 @@ fn rubric(lines: &[manifest::RubricLine], solution: &Solution<'_>) -> Checked<Ha
         }
     }
     Ok(ids)
+}
+
+/// Longest id of an assignment, in characters.
+const LONGEST_ID: usize = 64;
+
+/// The id stands in addresses and in names of files.
+fn check_id(id: &str, folder: &Folder) -> Checked<()> {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    if (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(is_plain) && !id.starts_with('.') {
+        return Ok(());
+    }
+    let (en, ja) = (
+        format!(
+            "the id `{id}` cannot stand in an address: write 1 to {LONGEST_ID} of the letters a–z and A–Z, digits, `-`, `_` and `.`, \
+             with no `.` at the beginning"
+        ),
+        format!(
+            "id `{id}` はアドレスに使えません。半角英数字、`-`、`_`、`.` を使い、先頭が `.` でない {LONGEST_ID} 文字以内の\
+             名前にしてください"
+        ),
+    );
+    // Top-level keys stand before all entries.
+    let is_id = |line: &str| line.split_once('=').is_some_and(|(key, _)| key.trim() == "id");
+    let at = folder.text(MANIFEST)?.lines().position(is_id).map_or(1, |index| index + 1);
+    Err(error(format!("{MANIFEST}, line {at}"), both(en, ja)))
 }
 
 /// Names as a sentence has them.

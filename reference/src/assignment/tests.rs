@@ -89,6 +89,14 @@ fn a_changed_file_makes_another_assignment() {
 #[test]
 fn what_contradicts_itself_is_refused_with_its_place() {
     assert!(broken("cycle = 5", "cycles = 5").contains("unknown field `cycles`"));
+    for id in ["a b", "", ".hidden", "課題6", "{x}"] {
+        let said = broken("id = \"ggsample06\"", &format!("id = \"{id}\""));
+        let place = format!(
+            "assignment.toml, line {}: the id `{id}` cannot stand in an address",
+            line_of("id = \"ggsample06\"")
+        );
+        assert!(said.starts_with(&place), "{said}");
+    }
     assert_eq!(
         broken("keeps = { ambient = 0.5 }", "keeps = { ambient = 1.5 }"),
         format!("{}: keeps 1.5 of `ambient`: write a fraction, 0 to 1", entry("mistake", "ambient-added"))
