@@ -1,6 +1,7 @@
 //! Which assignment is meant: one that is built in, by its name, or one in a folder.
 
 use crate::language::Text;
+use crate::sandbox::MOST_ASSIGNMENTS;
 use reference::assignment::HandedIn;
 use reference::{Assignment, Folder};
 use std::path::Path;
@@ -15,6 +16,49 @@ pub fn assignment(asked: Option<&str>, files: &[&str]) -> Result<Arc<Assignment>
         Some(asked) => named(asked),
         None => fitting(files),
     }
+}
+
+/// The assignments of a service: those that are named, or else all that are built in. What is named twice is there once.
+///
+/// # Errors
+/// What to tell who asked: one of them is no assignment, two that differ have one id, or there are too many.
+pub fn assignments(asked: &[String]) -> Result<Vec<Arc<Assignment>>, Text> {
+    let mut all: Vec<Arc<Assignment>> = Vec::new();
+    for asked in asked {
+        let assignment = named(asked)?;
+        match all.iter().find(|known| known.id == assignment.id) {
+            None => all.push(assignment),
+            Some(known) if known.digest == assignment.digest => {}
+            Some(_) => return Err(same_id(asked, &assignment.id)),
+        }
+    }
+    if asked.is_empty() {
+        all.extend(reference::assignments().cloned());
+    }
+    if all.len() > MOST_ASSIGNMENTS {
+        return Err(Text::new(
+            format!("{} assignments: one service serves at most {MOST_ASSIGNMENTS}. Start another one.", all.len()),
+            format!(
+                "課題が {} 個あります。1 つのサービスで扱えるのは {MOST_ASSIGNMENTS} 個までです。サービスを分けてください。",
+                all.len()
+            ),
+        ));
+    }
+    Ok(all)
+}
+
+/// The refusal of an assignment whose id another one has.
+fn same_id(asked: &str, id: &str) -> Text {
+    Text::new(
+        format!(
+            "--assignment {asked}: another assignment has the same id, `{id}`, and other content. Give one of them another \
+             `id` in its assignment.toml, or leave one out."
+        ),
+        format!(
+            "--assignment {asked}: 別の内容の課題が、同じ id「{id}」を使っています。一方の assignment.toml の `id` を変えるか、\
+             一方だけを指定してください。"
+        ),
+    )
 }
 
 fn named(asked: &str) -> Result<Arc<Assignment>, Text> {

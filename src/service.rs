@@ -2,14 +2,15 @@
 //!
 //! | address | what |
 //! | --- | --- |
-//! | `/`, `/a/{assignment}` | the student's page; POST: a file, then to `/r/{id}` |
+//! | `/a/{assignment}` | the student's page; POST: a file, then to `/r/{id}` |
+//! | `/` | the same of the only homework; a list where there are several |
 //! | `/a/{assignment}/read` | POST: the text of a file, as grading reads it; nothing is stored |
 //! | `/r/{id}` | the permanent page of a report; who has the address may see it |
 //! | `/r/{id}/frames/{n}.png`, `animation.png` | its pictures; `?view=yours`, `expected`, `difference`, `all` |
 //! | `/r/{id}/terms/{term}-yours.png`, `…-expected.png` | one term of the equation on its own |
 //! | `/r/{id}/source` | the file as handed in, to be saved |
 //! | `/join/{secret}` | the course link |
-//! | `/teacher/…` | the teacher's pages; `/teacher/login`, `/teacher/logout` |
+//! | `/teacher/…` | the teacher's pages; of each of several homeworks `/a/{assignment}/teacher/…`; `/teacher/login`, `/teacher/logout` |
 //! | `/api/v1/…` | the API; `/api/v1/openapi.json`, to be read at `/api/docs` |
 //! | `/assets/…` | styles and scripts |
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
@@ -44,7 +45,7 @@ pub mod submit;
 pub mod upkeep;
 
 pub use config::Config;
-pub use state::{Shared, State};
+pub use state::{Scope, Service, Shared, State};
 
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
@@ -53,20 +54,20 @@ use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
 
 /// The whole service as a router.
-pub fn app(state: State) -> Router {
-    let routes = Router::new().merge(pages::router(&state)).merge(api::router(&state));
-    layered(state, routes)
+pub fn app(service: Service) -> Router {
+    let routes = Router::new().merge(pages::router(&service)).merge(api::router());
+    layered(service, routes)
 }
 
 /// Routes with everything around them: limits, errors in their form, security headers.
-pub fn layered(state: State, routes: Router<State>) -> Router {
+pub fn layered(service: Service, routes: Router<Service>) -> Router {
     let fixed = |name: HeaderName, value: &'static str| {
         SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value))
     };
     routes
         .layer(DefaultBodyLimit::max(api::MAX_BODY))
         .layer(CatchPanicLayer::custom(panicked))
-        .layer(axum::middleware::from_fn_with_state(state.clone(), requests::attend))
+        .layer(axum::middleware::from_fn_with_state(service.clone(), requests::attend))
         .layer(axum::middleware::from_fn(errors::render))
         .layer(fixed(header::CONTENT_SECURITY_POLICY, CSP))
         .layer(fixed(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
@@ -75,7 +76,7 @@ pub fn layered(state: State, routes: Router<State>) -> Router {
         .layer(fixed(HeaderName::from_static("cross-origin-opener-policy"), "same-origin"))
         .layer(fixed(HeaderName::from_static("cross-origin-resource-policy"), "same-origin"))
         .layer(fixed(HeaderName::from_static("permissions-policy"), "camera=(), geolocation=(), microphone=()"))
-        .with_state(state)
+        .with_state(service)
 }
 
 /// What a page may load: what this service has, and nothing inline.

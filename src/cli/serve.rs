@@ -41,9 +41,10 @@ pub struct Serve {
     #[arg(long = "trusted-proxy", value_name = "ADDRESS")]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub trusted_proxies: Vec<String>,
-    /// The assignment: the name of a built-in one, or the folder of one [default: the only built-in one]
+    /// An assignment: the name of a built-in one, or the folder of one; may be given again, for a service with several
+    /// [default: all that are built in]
     #[arg(long, value_name = "NAME|FOLDER")]
-    #[serde(skip)]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<String>,
     /// Files graded at once [default: one per processor]
     #[arg(long, value_name = "N")]
@@ -95,6 +96,10 @@ pub struct Serve {
     #[arg(long, value_name = "SECRET")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub teacher_token: Option<String>,
+    /// Secret that opens one homework's class only, for its teachers and their programs; may be given again
+    #[arg(long = "homework-token", value_name = "NAME=SECRET")]
+    #[serde(skip)]
+    pub homework_tokens: Vec<String>,
     /// Hash of the teacher's password ($argon2id$…), instead of --set-teacher-password
     #[arg(long, value_name = "PHC")]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,11 +1,14 @@
 //! `ggrade serve`.
 
 use super::{Outcome, language};
+use crate::choice;
 use crate::cli::{LogFormat, Serve};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::service::{Config, server};
+use reference::Assignment;
 use std::io::{BufRead, IsTerminal, Write};
+use std::sync::Arc;
 use tracing_subscriber::EnvFilter;
 
 /// Shortest password of a teacher, in characters.
@@ -20,8 +23,13 @@ pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
             return Ok(Outcome::Usage);
         }
     };
-    let asked = config.assignment.as_deref();
-    let Some(assignment) = super::assignment(asked, &[], language(None)) else { return Ok(Outcome::Usage) };
+    let assignments = match choice::assignments(&config.assignment).and_then(|found| of_tokens(&config, found)) {
+        Ok(assignments) => assignments,
+        Err(text) => {
+            anstream::eprintln!("ggrade: {}", text.get(language(None)));
+            return Ok(Outcome::Usage);
+        }
+    };
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
@@ -31,18 +39,35 @@ pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
     }
     log(&config)?;
     runtime.block_on(async {
-        let started = server::start(config, assignment).await?;
+        let started = server::start(config, assignments).await?;
         welcome(&started);
         started.serve().await
     })?;
     Ok(Outcome::FullMarks)
 }
 
+/// The same assignments, where every homework that has a token of its own is among them.
+fn of_tokens(config: &Config, assignments: Vec<Arc<Assignment>>) -> Result<Vec<Arc<Assignment>>, Text> {
+    let is_served = |name: &&String| assignments.iter().any(|assignment| assignment.id == **name);
+    let unknown = config.homework_tokens.keys().find(|name| !is_served(name)).cloned();
+    match unknown {
+        None => Ok(assignments),
+        Some(name) => {
+            let served: Vec<&str> = assignments.iter().map(|assignment| assignment.id.as_str()).collect();
+            let served = served.join(", ");
+            Err(Text::new(
+                format!("a token is for the homework `{name}`, which is not served. Served: {served}."),
+                format!("トークンが指定された課題「{name}」は、このサービスにありません。ある課題: {served}。"),
+            ))
+        }
+    }
+}
+
 /// Says where the service is, for whoever started it.
 fn welcome(started: &server::Started) {
     let address = &started.address;
-    let database = &started.state.config.location().map(|location| location.to_string()).unwrap_or_default();
-    let public = started.state.config.public_url.clone().unwrap_or_else(|| format!("http://{address}"));
+    let database = &started.service.config.location().map(|location| location.to_string()).unwrap_or_default();
+    let public = started.service.config.public_url.clone().unwrap_or_else(|| format!("http://{address}"));
     let public = public.trim_end_matches('/');
     let text = Text::new(
         format!("Students:  {public}/\nTeachers:  {public}/teacher\nDatabase:  {database}"),

@@ -11,7 +11,7 @@ mod refusals;
 mod schema;
 pub(super) mod submissions;
 
-use super::State;
+use super::Service;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::routing::get;
@@ -43,7 +43,7 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
 struct Document;
 
 /// The API's routes with their description.
-fn described() -> OpenApiRouter<State> {
+fn described() -> OpenApiRouter<Service> {
     OpenApiRouter::with_openapi(Document::openapi())
         .routes(routes!(submissions::create))
         .routes(routes!(submissions::read))
@@ -64,7 +64,7 @@ fn described() -> OpenApiRouter<State> {
 }
 
 /// The routes.
-pub fn router(_state: &State) -> Router<State> {
+pub fn router() -> Router<Service> {
     let (router, document) = described().split_for_parts();
     let (archives, with_archives) = OpenApiRouter::new().routes(routes!(batches::create)).split_for_parts();
     // Archives are counted as they come.

@@ -9,6 +9,7 @@ use figment::Figment;
 use figment::providers::{Env, Format, Serialized, Toml};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::time::Duration;
 
@@ -21,7 +22,8 @@ pub struct Config {
     pub database: String,
     pub public_url: Option<String>,
     pub trusted_proxies: Vec<String>,
-    pub assignment: Option<String>,
+    #[serde(deserialize_with = "one_or_several")]
+    pub assignment: Vec<String>,
     pub workers: usize,
     pub sandbox: Policy,
     pub single_use_workers: bool,
@@ -34,6 +36,7 @@ pub struct Config {
     pub retention_days: u32,
     pub cross_check: bool,
     pub teacher_token: Option<String>,
+    pub homework_tokens: BTreeMap<String, String>,
     pub teacher_password_hash: Option<String>,
     pub metrics_token: Option<String>,
     pub log_format: LogFormat,
@@ -68,7 +71,7 @@ impl Default for Config {
             database: "ggrade.db".into(),
             public_url: None,
             trusted_proxies: Vec::new(),
-            assignment: None,
+            assignment: Vec::new(),
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
             single_use_workers: false,
@@ -81,6 +84,7 @@ impl Default for Config {
             retention_days: 0,
             cross_check: true,
             teacher_token: None,
+            homework_tokens: BTreeMap::new(),
             teacher_password_hash: None,
             metrics_token: None,
             log_format: LogFormat::Text,
@@ -112,17 +116,14 @@ impl Config {
             figment = figment.merge(Toml::file_exact(path));
         }
         figment = figment.merge(environment()).merge(Serialized::defaults(flags));
-        match flags.assignment.as_slice() {
-            [] => {}
-            [one] => figment = figment.merge(Serialized::default("assignment", one)),
-            [..] => {
-                return Err(Fault::new(Text::new(
-                    "--assignment stands more than once: one service serves one assignment. Start a service for each, with \
-                     its own --listen and --database",
-                    "--assignment が複数あります。1 つのサービスで扱える課題は 1 つです。課題ごとに --listen と --database を\
-                     変えてサービスを起動してください",
-                )));
-            }
+        for pair in &flags.homework_tokens {
+            let (name, secret) = pair.split_once('=').ok_or_else(|| {
+                Fault::new(Text::new(
+                    "--homework-token takes the name of a homework, `=` and a secret, such as ggsample06=SECRET",
+                    "--homework-token は ggsample06=秘密 のように、課題の名前、`=`、秘密の順に指定してください",
+                ))
+            })?;
+            figment = figment.merge(Serialized::default(&format!("homework_tokens.{name}"), secret));
         }
         let config: Self = figment.extract().map_err(|error| {
             Fault::new(Text::new(format!("the configuration: {error}"), format!("設定に誤りがあります: {error}")))
@@ -162,8 +163,10 @@ impl Config {
                 return wrong(name, "takes a number above 0", "は 1 以上で指定してください");
             }
         }
-        for (name, secret) in [("teacher_token", &self.teacher_token), ("metrics_token", &self.metrics_token)] {
-            if secret.as_ref().is_some_and(|secret| secret.len() < SHORTEST_SECRET) {
+        let secrets = [("teacher_token", &self.teacher_token), ("metrics_token", &self.metrics_token)];
+        let secrets = secrets.into_iter().filter_map(|(name, secret)| Some((name, secret.as_ref()?)));
+        for (name, secret) in secrets.chain(self.homework_tokens.values().map(|secret| ("homework_tokens", secret))) {
+            if secret.len() < SHORTEST_SECRET {
                 return wrong(name, "takes at least 16 characters", "は 16 文字以上にしてください");
             }
         }
@@ -193,6 +196,20 @@ impl Config {
     }
 }
 
+/// A list, or its only member.
+fn one_or_several<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "a name, or a list of names in brackets")]
+    enum Given {
+        One(String),
+        Several(Vec<String>),
+    }
+    Ok(match Given::deserialize(deserializer)? {
+        Given::One(one) => vec![one],
+        Given::Several(several) => several,
+    })
+}
+
 /// The options that the environment sets: `GGRADE_QUEUE`, `GGRADE_LIMITS_LEASE`. Other variables with this prefix belong to
 /// the command line.
 fn environment() -> Figment {
@@ -206,6 +223,8 @@ fn environment() -> Figment {
                     figment = figment.merge(Serialized::default(name, text));
                 }
             }
+            // Names of homeworks are the teacher's to choose, and no part of a variable's name.
+            Value::Object(_) if name != "limits" => {}
             Value::Object(_) => {
                 let prefix = format!("{name}_");
                 figment = figment.merge(Env::prefixed("GGRADE_").filter_map(move |key| {

@@ -1,20 +1,20 @@
 //! Deleting a submission, an archive, or a student with everything of theirs.
 
-use super::State;
+use super::Service;
 use super::errors::Problem;
 use super::roster::Matcher;
 use super::store::{Counts, Target};
 
 /// Deletes it for good: rows, files, reports, and the pictures that are kept of them. The log has how much it was, and
 /// nothing of whose.
-pub async fn delete(state: &State, target: &Target) -> Result<Counts, Problem> {
+pub async fn delete(service: &Service, target: &Target) -> Result<Counts, Problem> {
     let refused = match target {
-        Target::Student(id) => refused_without(state, id).await?,
+        Target::Student(id) => refused_without(service, id).await?,
         _ => Vec::new(),
     };
-    let (counts, files) = state.store.delete(target, &refused, state.clock.now()).await?;
+    let (counts, files) = service.store.delete(target, &refused, service.clock.now()).await?;
     for sha256 in &files {
-        state.gallery.forget(sha256).await;
+        service.gallery.forget(sha256).await;
     }
     let Counts { submissions, drafts, entries, browsers } = counts;
     tracing::info!(what = target.word(), submissions, drafts, entries, browsers, "a teacher deleted");
@@ -22,11 +22,11 @@ pub async fn delete(state: &State, target: &Target) -> Result<Counts, Problem> {
 }
 
 /// The lists of members that archives left out, without those whose path names this student: of each batch that changes.
-async fn refused_without(state: &State, id: &str) -> Result<Vec<(String, String)>, Problem> {
-    let Some(student) = state.store.student_by_id(id).await? else { return Ok(Vec::new()) };
+async fn refused_without(service: &Service, id: &str) -> Result<Vec<(String, String)>, Problem> {
+    let Some(student) = service.store.student_by_id(id).await? else { return Ok(Vec::new()) };
     let matcher = Matcher::new(std::slice::from_ref(&student));
     let mut changed = Vec::new();
-    for batch in state.store.batches(&state.assignment.id).await? {
+    for batch in service.store.all_batches().await? {
         let kept: Vec<_> = batch.refused.iter().filter(|refused| !matcher.path_names(&refused.path, id)).collect();
         if kept.len() < batch.refused.len() {
             changed.push((batch.id, serde_json::to_string(&kept).map_err(|error| Problem::internal(&error))?));

@@ -1,6 +1,6 @@
 //! What was handed in, to be saved and never to be shown by a browser.
 
-use super::State;
+use super::Service;
 use super::errors::Problem;
 use crate::hand_in::HandIn;
 use axum::http::{HeaderValue, header};
@@ -8,8 +8,11 @@ use axum::response::{IntoResponse, Response};
 use std::io::Write;
 
 /// The files of a submission: one as it is, several as a ZIP.
-pub async fn hand_in(state: &State, id: &str) -> Result<Response, Problem> {
-    files(&state.assignment.id, &state.store.hand_in(id).await?.ok_or_else(Problem::not_found)?)
+pub async fn hand_in(service: &Service, id: &str) -> Result<Response, Problem> {
+    let store = &service.store;
+    let (submission, hand_in) = (store.submission(id).await?, store.hand_in(id).await?);
+    let (submission, hand_in) = submission.zip(hand_in).ok_or_else(Problem::not_found)?;
+    files(&submission.assignment, &hand_in)
 }
 
 /// Files to be saved; `title` is the name of several of them together.

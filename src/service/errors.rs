@@ -77,6 +77,39 @@ impl Problem {
         )
     }
 
+    /// There is no homework of this id among those that are served.
+    pub fn not_served(id: &str, served: &[&str]) -> Self {
+        let id: String = id.chars().filter(|c| !c.is_control()).take(LONGEST_ID).collect();
+        let (en, ja) = listed(served);
+        Self::new(
+            StatusCode::NOT_FOUND,
+            "not-found",
+            format!("There is no homework `{id}` here. {en}"),
+            format!("課題 `{id}` はこのサービスにありません。{ja}"),
+        )
+    }
+
+    /// A request does not say which of several homeworks it is for.
+    pub fn which_homework(served: &[&str]) -> Self {
+        let (en, ja) = listed(served);
+        Self::unprocessable(
+            format!("Which homework is it for? Say so with `assignment=NAME`. {en}"),
+            format!("どの課題か分かりません。`assignment=名前` で指定してください。{ja}"),
+        )
+    }
+
+    /// A teacher of one homework asks for what belongs to another one, or to the whole course.
+    pub fn not_this_teachers() -> Self {
+        Self::new(
+            StatusCode::FORBIDDEN,
+            "other-class",
+            "You are logged in for another homework's class. Log out, and log in with the password of the service or the \
+             token of this homework.",
+            "別の課題の教員としてログインしています。一度ログアウトし、サービスのパスワードまたはこの課題のトークンで\
+             ログインしてください。",
+        )
+    }
+
     /// The request makes no sense.
     pub fn bad_request(en: impl Into<String>, ja: impl Into<String>) -> Self {
         Self::new(StatusCode::BAD_REQUEST, "bad-request", en, ja)
@@ -169,6 +202,15 @@ impl From<super::store::StoreError> for Problem {
         )
         .retry_after(30)
     }
+}
+
+/// Longest name of a homework that is quoted, in characters.
+const LONGEST_ID: usize = 64;
+
+/// The homeworks that are served, in a sentence of each language.
+fn listed(served: &[&str]) -> (String, String) {
+    let names = served.iter().map(|id| format!("`{id}`")).collect::<Vec<_>>().join(", ");
+    (format!("The homeworks of this service: {names}."), format!("このサービスの課題: {names}。"))
 }
 
 /// Longest message of another layer that is passed on.

@@ -45,6 +45,8 @@ pub type Pngs = Vec<Vec<u8>>;
 /// What is kept: pictures of one kind of one hand-in.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
+    /// The digest of the homework's folder: the same hand-in draws something else for another one.
+    assignment: String,
     /// The digest of the hand-in; empty for pictures of a right answer.
     sha256: String,
     kind: Kind,
@@ -67,28 +69,59 @@ enum Kind {
 /// The pictures made lately.
 #[derive(Debug)]
 pub struct Gallery {
-    assignment: Arc<Assignment>,
-    expected: OnceLock<Vec<Vec<u8>>>,
-    portraits: OnceLock<Portraits>,
     kept: Cache<Key, Arc<Pngs>>,
     /// One file is run at a time: who looks does not take the processors from who hands in.
     turn: Semaphore,
 }
 
-impl Gallery {
-    /// An empty gallery.
+/// What a right answer to a homework draws, encoded when it is first asked for.
+#[derive(Debug)]
+pub struct RightPictures {
+    assignment: Arc<Assignment>,
+    poses: OnceLock<Vec<Vec<u8>>>,
+    portraits: OnceLock<Portraits>,
+}
+
+impl RightPictures {
+    /// Those of a homework.
     pub fn new(assignment: Arc<Assignment>) -> Self {
-        let weight =
-            |_: &Key, pngs: &Arc<Pngs>| u32::try_from(pngs.iter().map(Vec::len).sum::<usize>()).unwrap_or(u32::MAX);
-        Self {
-            assignment,
-            expected: OnceLock::new(),
-            portraits: OnceLock::new(),
-            kept: Cache::builder().max_capacity(ROOM).weigher(weight).build(),
-            turn: Semaphore::new(1),
-        }
+        Self { assignment, poses: OnceLock::new(), portraits: OnceLock::new() }
     }
 
+    /// How portraits are made, and the right one.
+    pub fn portraits(&self) -> Result<&Portraits, Fault> {
+        if let Some(portraits) = self.portraits.get() {
+            return Ok(portraits);
+        }
+        let portraits = Portraits::new(&self.assignment)?;
+        Ok(self.portraits.get_or_init(|| portraits))
+    }
+
+    /// One pose, from 0.
+    fn pose(&self, index: usize) -> Result<Option<Vec<u8>>, Fault> {
+        if let Some(poses) = self.poses.get() {
+            return Ok(poses.get(index).cloned());
+        }
+        let all = expected_pictures(&self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
+        Ok(self.poses.get_or_init(|| all).get(index).cloned())
+    }
+}
+
+impl Default for Gallery {
+    fn default() -> Self {
+        let weight =
+            |_: &Key, pngs: &Arc<Pngs>| u32::try_from(pngs.iter().map(Vec::len).sum::<usize>()).unwrap_or(u32::MAX);
+        Self { kept: Cache::builder().max_capacity(ROOM).weigher(weight).build(), turn: Semaphore::new(1) }
+    }
+}
+
+impl Key {
+    fn new(state: &State, sha256: &str, kind: Kind) -> Self {
+        Self { assignment: state.assignment.digest.clone(), sha256: sha256.to_owned(), kind }
+    }
+}
+
+impl Gallery {
     /// Each pose as the shader draws it. None where the file was refused or stopped: it is not run again for who looks.
     async fn frames(&self, state: &State, submission: &Submission) -> Result<Arc<Pngs>, Problem> {
         if !state.store.is_drawn(&submission.id).await? {
@@ -105,7 +138,7 @@ impl Gallery {
             })
             .await
         };
-        self.once(Key { sha256: submission.sha256.clone(), kind: Kind::Frames }, run).await
+        self.once(Key::new(state, &submission.sha256, Kind::Frames), run).await
     }
 
     /// Does work that takes a worker and that nobody who hands in waits for: one at a time.
@@ -136,8 +169,8 @@ impl Gallery {
         if frames.is_empty() {
             return Ok(frames);
         }
-        let make = blocking(state, move |state| make(decoded(&frames)?, &expected_pictures(&state.gallery.assignment)));
-        self.once(Key { sha256: submission.sha256.clone(), kind }, make).await
+        let make = blocking(state, move |state| make(decoded(&frames)?, &expected_pictures(&state.assignment)));
+        self.once(Key::new(state, &submission.sha256, kind), make).await
     }
 
     /// One picture of a pose, from 0; none where there is no such pose, or nothing was drawn.
@@ -149,7 +182,7 @@ impl Gallery {
         index: usize,
     ) -> Result<Option<Vec<u8>>, Problem> {
         let all = match view {
-            View::Expected => return blocking(state, move |state| state.gallery.expected(index)).await,
+            View::Expected => return blocking(state, move |state| state.right.pose(index)).await,
             View::Yours | View::All => self.frames(state, submission).await?,
             View::Difference => {
                 let differences = |yours: Vec<Picture>, expected: &Arc<[Picture]>| {
@@ -163,7 +196,7 @@ impl Gallery {
         }
         blocking(state, move |state| {
             let Some(yours) = all.get(index) else { return Ok(None) };
-            let assignment = &state.gallery.assignment;
+            let assignment = &state.assignment;
             let expected = expected_pictures(assignment).get(index).cloned();
             let (yours, expected) = (vec![pictures::decode(yours)?], expected.into_iter().collect());
             let cycle = assignment.scene.cycle;
@@ -180,12 +213,12 @@ impl Gallery {
         view: View,
     ) -> Result<Option<Vec<u8>>, Problem> {
         let kind = Kind::Animation(view);
-        let cycle = state.gallery.assignment.scene.cycle;
+        let cycle = state.assignment.scene.cycle;
         let drawn = if view == View::Expected {
             let make = blocking(state, move |state| {
-                Ok(vec![pictures::animated(&expected_pictures(&state.gallery.assignment), cycle)?])
+                Ok(vec![pictures::animated(&expected_pictures(&state.assignment), cycle)?])
             });
-            self.once(Key { sha256: String::new(), kind }, make).await?
+            self.once(Key::new(state, "", kind), make).await?
         } else {
             let make = move |yours, expected: &Arc<[Picture]>| {
                 let pictures = Pictures { yours, expected: Arc::clone(expected), terms: Arc::default(), cycle };
@@ -224,13 +257,13 @@ impl Gallery {
         draw: impl FnOnce(&State) -> Result<Option<Vec<u8>>, Fault> + Send + 'static,
     ) -> Result<Arc<Pngs>, Problem> {
         let make = blocking(state, move |state| Ok(draw(state)?.into_iter().collect()));
-        self.once(Key { sha256: sha256.to_owned(), kind: Kind::Report(shown) }, make).await
+        self.once(Key::new(state, sha256, Kind::Report(shown)), make).await
     }
 
     /// The small picture of a submission for class tables, a PNG: kept in the database, since a table shows hundreds. None
     /// where nothing is drawn.
     pub async fn portrait(&self, state: &State, submission: &Submission) -> Result<Option<Vec<u8>>, Problem> {
-        let Submission { assignment, sha256, .. } = submission;
+        let (assignment, sha256) = (&state.assignment.digest, &submission.sha256);
         if let Some(kept) = state.store.portrait(assignment, sha256).await?.flatten()
             && state.store.is_drawn(&submission.id).await?
         {
@@ -240,7 +273,7 @@ impl Gallery {
         if frames.is_empty() {
             return Ok(None);
         }
-        let portrait = blocking(state, move |state| state.gallery.portraits()?.of(&decoded(&frames)?)).await?;
+        let portrait = blocking(state, move |state| state.right.portraits()?.of(&decoded(&frames)?)).await?;
         state.store.set_portrait(assignment, sha256, portrait.as_deref()).await?;
         Ok(portrait)
     }
@@ -251,23 +284,6 @@ impl Gallery {
         for key in keys {
             self.kept.invalidate(&*key).await;
         }
-    }
-
-    /// How portraits are made, and the right one.
-    pub fn portraits(&self) -> Result<&Portraits, Fault> {
-        if let Some(portraits) = self.portraits.get() {
-            return Ok(portraits);
-        }
-        let portraits = Portraits::new(&self.assignment)?;
-        Ok(self.portraits.get_or_init(|| portraits))
-    }
-
-    fn expected(&self, index: usize) -> Result<Option<Vec<u8>>, Fault> {
-        if let Some(expected) = self.expected.get() {
-            return Ok(expected.get(index).cloned());
-        }
-        let all = expected_pictures(&self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
-        Ok(self.expected.get_or_init(|| all).get(index).cloned())
     }
 }
 

@@ -8,7 +8,7 @@
 use super::errors::Problem;
 use super::limits::Client;
 use super::store::{Key, KeyResult};
-use super::{State, identity::Identity, submit::sha256};
+use super::{Service, identity::Identity, submit::sha256};
 use axum::http::{HeaderMap, StatusCode};
 use std::time::Duration;
 
@@ -79,9 +79,9 @@ impl Given {
 }
 
 /// What came of an earlier request with this key; a problem where that was another request.
-pub(super) async fn earlier(state: &State, key: Option<&Key>) -> Result<Option<KeyResult>, Problem> {
+pub(super) async fn earlier(service: &Service, key: Option<&Key>) -> Result<Option<KeyResult>, Problem> {
     let Some(key) = key else { return Ok(None) };
-    let Some(found) = state.store.result_of_key(&key.id).await? else { return Ok(None) };
+    let Some(found) = service.store.result_of_key(&key.id).await? else { return Ok(None) };
     if found.fingerprint == key.fingerprint { Ok(Some(found)) } else { Err(reused()) }
 }
 

@@ -4,7 +4,7 @@ mod rates;
 
 pub use rates::{Counted, Limits};
 
-use super::State;
+use super::Scope;
 use crate::fault::Fault;
 use crate::language::Text;
 use axum::extract::{FromRequestParts, Request};
@@ -26,11 +26,11 @@ pub struct Client {
     pub is_local: bool,
 }
 
-impl FromRequestParts<State> for Client {
+impl<S: Scope> FromRequestParts<S> for Client {
     type Rejection = Infallible;
 
-    async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Infallible> {
-        Ok(state.proxies.client(peer(&parts.extensions), &parts.headers))
+    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Infallible> {
+        Ok(scope.whole().proxies.client(peer(&parts.extensions), &parts.headers))
     }
 }
 

@@ -1,9 +1,10 @@
 //! Figures for Prometheus.
 
-use super::State;
+use super::Service;
 use super::grading::Outcome;
 use super::store::{Submission, word};
 use crate::cross_check::Opinion;
+use metrics::Label;
 use metrics_exporter_prometheus::{PrometheusBuilder, PrometheusHandle};
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -27,12 +28,12 @@ pub(super) fn install() -> Option<&'static PrometheusHandle> {
 
 fn describe() {
     use metrics::{describe_counter, describe_gauge, describe_histogram};
-    describe_counter!("ggrade_gradings_total", "Gradings by verdict (or fault) and way in");
+    describe_counter!("ggrade_gradings_total", "Gradings by homework, verdict (or fault) and way in");
     describe_counter!(
         "ggrade_cross_checks_total",
-        "Files that the interpreter ran after their grading, by what came of it: agrees, differs, not-run"
+        "Files that the interpreter ran after their grading, by homework and what came of it: agrees, differs, not-run"
     );
-    describe_counter!("ggrade_uploads_total", "Files stored, by way in");
+    describe_counter!("ggrade_uploads_total", "Files stored, by homework and way in");
     describe_counter!("ggrade_reports_reused_total", "Uploads answered with the report of the very same file");
     describe_counter!("ggrade_requests_total", "Requests by route, method and status");
     describe_histogram!("ggrade_request_seconds", "From the head of a request to the head of its answer");
@@ -51,12 +52,31 @@ pub(super) fn graded(submission: &Submission, outcome: Option<&Outcome>) {
         Some(Outcome::Failed(_)) => "fault".into(),
         None => "unstored".into(),
     };
-    metrics::counter!("ggrade_gradings_total", "verdict" => verdict, "via" => word(&submission.via)).increment(1);
+    let labels = [of(submission), via(submission), Label::new("verdict", verdict)];
+    metrics::counter!("ggrade_gradings_total", labels.iter()).increment(1);
 }
 
 /// Counts a second opinion.
-pub(super) fn cross_checked(opinion: Opinion) {
-    metrics::counter!("ggrade_cross_checks_total", "opinion" => word(&opinion)).increment(1);
+pub(super) fn cross_checked(submission: &Submission, opinion: Opinion) {
+    let labels = [of(submission), Label::new("opinion", word(&opinion))];
+    metrics::counter!("ggrade_cross_checks_total", labels.iter()).increment(1);
+}
+
+/// Counts a file that was stored; `is_reused` says that it is answered with a report that there was.
+pub(super) fn uploaded(submission: &Submission, is_reused: bool) {
+    metrics::counter!("ggrade_uploads_total", [of(submission), via(submission)].iter()).increment(1);
+    if is_reused {
+        metrics::counter!("ggrade_reports_reused_total", [of(submission)].iter()).increment(1);
+    }
+}
+
+/// The homework of a submission. Only those that are served come here, so the figures do not grow with what clients write.
+fn of(submission: &Submission) -> Label {
+    Label::new("assignment", submission.assignment.clone())
+}
+
+fn via(submission: &Submission) -> Label {
+    Label::new("via", word(&submission.via))
 }
 
 /// Notes how long a stage of a grading took.
@@ -72,12 +92,12 @@ pub(super) fn request(route: &str, method: &str, status: u16, took: Duration) {
 }
 
 /// Everything, in Prometheus' text form.
-pub(super) async fn render(state: &State) -> String {
-    let (waiting, running) = state.queue.lengths();
+pub(super) async fn render(service: &Service) -> String {
+    let (waiting, running) = service.queue.lengths();
     metrics::gauge!("ggrade_queue_length").set(waiting as f64);
     metrics::gauge!("ggrade_gradings_running").set(running as f64);
-    metrics::gauge!("ggrade_workers").set(state.config.workers as f64);
-    if let Ok((queued, failed)) = state.store.waiting().await {
+    metrics::gauge!("ggrade_workers").set(service.config.workers as f64);
+    if let Ok((queued, failed)) = service.store.waiting().await {
         metrics::gauge!("ggrade_submissions_waiting").set(queued as f64);
         metrics::gauge!("ggrade_submissions_failed").set(failed as f64);
     }

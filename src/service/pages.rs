@@ -1,6 +1,6 @@
 //! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
-//! [`hand_in`] is the student's page with its forms, [`student`] what that page says, [`result`] the page of a report
+//! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one with its forms, [`student`] what that page says, [`result`] the page of a report
 //! and its pictures, [`join`] the course link, [`teacher`] everything behind the login. [`frame`] is around each page,
 //! [`assets`] what pages load. Every page works without scripts.
 
@@ -8,6 +8,7 @@ mod assets;
 mod datetime;
 mod frame;
 mod hand_in;
+mod homeworks;
 mod join;
 mod problem;
 mod receipt;
@@ -22,7 +23,7 @@ pub use assets::warm;
 pub use frame::Frame;
 pub use problem::problem;
 
-use super::State;
+use super::Service;
 use super::errors::Problem;
 use super::identity::visit;
 use super::language::COOKIE;
@@ -35,14 +36,33 @@ use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 use tower_http::compression::CompressionLayer;
 
-/// The routes of all pages.
-pub fn router(state: &State) -> Router<State> {
+/// The routes of all pages. Those of a homework are a router of their own for each: below `/a/{assignment}`; where there is
+/// one only, its student's page is also `/`, and its teacher's pages begin with `/teacher`.
+pub fn router(service: &Service) -> Router<Service> {
+    let mut routes = of_service();
+    for state in service.homeworks() {
+        let page = state.page();
+        let student: Router<Service> = hand_in::router().with_state(state.clone());
+        let teacher: Router<Service> = teacher::router().with_state(state.clone());
+        routes = if service.has_several() {
+            routes.nest(&page, student.merge(teacher))
+        } else {
+            let first = Router::new().route("/", get(hand_in::desk)).with_state(state);
+            routes.nest(&page, student).merge(teacher).merge(first)
+        };
+    }
+    if service.has_several() {
+        routes = routes.merge(homeworks::router());
+    }
+    routes
+        .layer(from_fn(keep_language))
+        .layer(from_fn_with_state(service.clone(), visit))
+        .merge(Router::new().route("/assets/{name}", get(assets::serve)).layer(CompressionLayer::new()))
+}
+
+/// The pages that are of no homework, or of the one that their address leads to.
+fn of_service() -> Router<Service> {
     Router::new()
-        .route("/", get(hand_in::first))
-        .route("/a/{assignment}", get(hand_in::desk).post(hand_in::hand_in))
-        .route("/a/{assignment}/draft", post(hand_in::draft))
-        .route("/a/{assignment}/read", post(hand_in::read))
-        .route("/a/{assignment}/starter", get(hand_in::starter))
         .route("/r/{id}", get(result::page))
         .route("/r/{id}/part", get(result::part_of))
         .route("/r/{id}/receipt", get(result::receipt_of))
@@ -52,10 +72,8 @@ pub fn router(state: &State) -> Router<State> {
         .route("/r/{id}/frames/{picture}", get(result::frame))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))
-        .merge(teacher::router())
-        .layer(from_fn(keep_language))
-        .layer(from_fn_with_state(state.clone(), visit))
-        .merge(Router::new().route("/assets/{name}", get(assets::serve)).layer(CompressionLayer::new()))
+        .route("/teacher/login", get(teacher::login::page).post(teacher::login::login))
+        .route("/teacher/logout", post(teacher::login::logout))
 }
 
 /// A year, in seconds.

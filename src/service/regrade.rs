@@ -22,9 +22,15 @@ pub async fn start(state: &State, new_seed: bool) -> Result<Regrading, Problem> 
     Ok(regrading)
 }
 
+/// The regrading with this id, where it is of this homework.
+pub async fn found(state: &State, id: &str) -> Result<Regrading, Problem> {
+    let of_this = |regrading: &Regrading| regrading.assignment == state.assignment.id;
+    state.store.regrading(id).await?.filter(of_this).ok_or_else(Problem::not_found)
+}
+
 /// Lets the results take the place of the reports.
 pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
-    let regrading = state.store.regrading(id).await?.ok_or_else(Problem::not_found)?;
+    let regrading = found(state, id).await?;
     if regrading.adopted_at.is_some() {
         return Ok(());
     }

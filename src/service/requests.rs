@@ -3,7 +3,7 @@
 use super::errors::Problem;
 use super::identity::{is_teachers_program, visitor_cookie};
 use super::limits::Counted;
-use super::{Config, State, api, metrics, submit};
+use super::{Config, Service, api, metrics, submit};
 use axum::extract::{MatchedPath, Request, State as Shared};
 use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
@@ -16,18 +16,30 @@ const TEACHERS_PATIENCE: f64 = 8.0;
 
 /// Whether a request is about a whole class. Others than teachers get a short answer there.
 fn is_about_a_class(route: &str) -> bool {
+    let route = route.strip_prefix(HOMEWORK).unwrap_or(route);
     ["/api/v1/batches", "/api/v1/class", "/teacher"].iter().any(|start| route.starts_with(start))
 }
 
+/// What the routes of a homework begin with.
+const HOMEWORK: &str = "/a/{assignment}";
+
+/// A route with no homework's name in it.
+fn of_any_homework(path: &MatchedPath) -> String {
+    match path.as_str().strip_prefix("/a/") {
+        Some(rest) => format!("{HOMEWORK}{}", rest.find('/').map_or("", |slash| &rest[slash..])),
+        None => path.as_str().to_owned(),
+    }
+}
+
 /// The layer.
-pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next: Next) -> Response {
+pub(super) async fn attend(Shared(service): Shared<Service>, request: Request, next: Next) -> Response {
     let start = Instant::now();
     let method = request.method().clone();
-    let route = request.extensions().get::<MatchedPath>().map_or("none", MatchedPath::as_str).to_owned();
+    let route = request.extensions().get::<MatchedPath>().map_or_else(|| "none".to_owned(), of_any_homework);
     let patience = if is_about_a_class(&route) { TEACHERS_PATIENCE } else { 1.0 };
-    let seconds = state.config.limits.request_timeout * patience;
+    let seconds = service.config.limits.request_timeout * patience;
     // Counted before a byte of the body is read.
-    let (counted, is_within_rate) = counted(&state, &request, &route);
+    let (counted, is_within_rate) = counted(&service, &request, &route);
     let mut response = match is_within_rate {
         Err(problem) => problem.into_response(),
         Ok(()) if !is_about_a_class(&route) && declared_length(&request) > api::MAX_BODY as u64 => {
@@ -47,7 +59,7 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
     let milliseconds = took.as_secs_f64() * 1e3;
     tracing::info!(%method, route, status, milliseconds, "request");
     metrics::request(&route, if is_known(&method) { method.as_str() } else { "other" }, status, took);
-    if state.is_ending() {
+    if service.is_ending() {
         response.headers_mut().insert(header::CONNECTION, HeaderValue::from_static("close"));
     }
     response
@@ -55,13 +67,13 @@ pub(super) async fn attend(Shared(state): Shared<State>, request: Request, next:
 
 /// What is left of a request's rates, and whether it may come in. What changes nothing is not counted, and neither is
 /// what the teacher's program sends.
-fn counted(state: &State, request: &Request, route: &str) -> (Counted, Result<(), Problem>) {
-    if request.method().is_safe() || is_teachers_program(state, request.headers()) {
+fn counted(service: &Service, request: &Request, route: &str) -> (Counted, Result<(), Problem>) {
+    if request.method().is_safe() || is_teachers_program(service, request.headers()) {
         return (Counted::default(), Ok(()));
     }
-    let client = state.proxies.client_of(request);
-    let cookie = visitor_cookie(state, request.headers());
-    state.limits.count(&client, UPLOADS.contains(&route), cookie.as_deref())
+    let client = service.proxies.client_of(request);
+    let cookie = visitor_cookie(service, request.headers());
+    service.limits.count(&client, UPLOADS.contains(&route), cookie.as_deref())
 }
 
 /// Routes to which students send files.

@@ -8,17 +8,18 @@ mod read;
 pub use matching::Matcher;
 pub use read::read;
 
-use super::State;
+use super::Service;
 use super::errors::Problem;
 use super::store::{BatchEntry, EntryMatch, RosterLine};
 
 /// Takes a roster in place of the last one, and matches every archive to it.
-pub async fn import(state: &State, roster: &[RosterLine]) -> Result<(), Problem> {
-    state.store.set_roster(roster, state.clock.now()).await?;
-    let matcher = Matcher::new(&state.store.roster().await?);
+pub async fn import(service: &Service, roster: &[RosterLine]) -> Result<(), Problem> {
+    let store = &service.store;
+    store.set_roster(roster, service.clock.now()).await?;
+    let matcher = Matcher::new(&store.roster().await?);
     let mut changed = Vec::new();
-    for batch in state.store.batches(&state.assignment.id).await? {
-        let entries = state.store.batch_entries(&batch.id).await?;
+    for batch in store.all_batches().await? {
+        let entries = store.batch_entries(&batch.id).await?;
         let found = matcher.of_batch(entries.iter().map(who));
         let differs = entries.iter().zip(found).filter(|(entry, found)| entry.student_id != *found);
         changed.extend(differs.map(|(entry, student_id)| EntryMatch {
@@ -27,7 +28,7 @@ pub async fn import(state: &State, roster: &[RosterLine]) -> Result<(), Problem>
             student_id,
         }));
     }
-    state.store.set_matches(&changed).await?;
+    store.set_matches(&changed).await?;
     Ok(())
 }
 

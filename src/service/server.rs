@@ -9,7 +9,7 @@ use super::clock::Clock;
 use super::grading::Graders;
 use super::identity::new_token;
 use super::store::{Store, StoreError};
-use super::{Config, State, app, metrics, upkeep};
+use super::{Config, Service, app, metrics, upkeep};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{Pool, Settings};
@@ -28,7 +28,7 @@ pub struct Started {
     /// Where.
     pub address: SocketAddr,
     /// What its requests share.
-    pub state: State,
+    pub service: Service,
     /// The teacher's token, where nobody set a password or a token: it is new at each start.
     pub one_time_token: Option<String>,
     listener: TcpListener,
@@ -36,7 +36,7 @@ pub struct Started {
 }
 
 /// Opens the database, starts the workers, takes over what was left, and listens; serves nothing yet.
-pub async fn start(mut config: Config, assignment: Arc<Assignment>) -> Result<Started, Fault> {
+pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Result<Started, Fault> {
     metrics::install();
     let store = open(&config).await?;
     let one_time_token = match has_teacher(&config, &store).await? {
@@ -48,11 +48,11 @@ pub async fn start(mut config: Config, assignment: Arc<Assignment>) -> Result<St
     }
     let listener = TcpListener::bind(config.listen).await.map_err(|error| cannot_listen(config.listen, &error))?;
     let address = listener.local_addr().map_err(|error| cannot_listen(config.listen, &error))?;
-    let pool = pool(&config, &assignment).await?;
-    let state = State::serving(assignment, config, store, Arc::new(pool), Clock::system()).await?;
-    let graders = Graders::start(&state).await.map_err(|error| database(&error))?;
-    tokio::spawn(upkeep::run(state.clone()));
-    Ok(Started { address, state, one_time_token, listener, graders })
+    let pool = pool(&config, &assignments).await?;
+    let service = Service::serving(assignments, config, store, Arc::new(pool), Clock::system()).await?;
+    let graders = Graders::start(&service).await.map_err(|error| database(&error))?;
+    tokio::spawn(upkeep::run(service.clone()));
+    Ok(Started { address, service, one_time_token, listener, graders })
 }
 
 impl Started {
@@ -61,16 +61,16 @@ impl Started {
         let failed = |error| Fault::new(Text::verbatim(format!("signals: {error}")));
         let mut terminate = signal(SignalKind::terminate()).map_err(failed)?;
         let mut interrupt = signal(SignalKind::interrupt()).map_err(failed)?;
-        let state = self.state.clone();
+        let service = self.service.clone();
         tokio::spawn(async move {
             tokio::select! { _ = terminate.recv() => {}, _ = interrupt.recv() => {} }
             tracing::info!("told to end: finishing what is under way");
-            state.end();
+            service.end();
         });
-        let Self { state, listener, graders, .. } = self;
-        accept(listener, app(state.clone()), state.clone()).await;
+        let Self { service, listener, graders, .. } = self;
+        accept(listener, app(service.clone()), service.clone()).await;
         graders.finish().await;
-        state.store.close().await;
+        service.store.close().await;
         tracing::info!("ended");
         Ok(())
     }
@@ -96,11 +96,15 @@ async fn has_teacher(config: &Config, store: &Store) -> Result<bool, Fault> {
 }
 
 /// One worker more than files are graded at once draws pictures for who looks at reports.
-async fn pool(config: &Config, assignment: &Arc<Assignment>) -> Result<Pool, Fault> {
+async fn pool(config: &Config, assignments: &[Arc<Assignment>]) -> Result<Pool, Fault> {
+    let Some((first, further)) = assignments.split_first() else {
+        return Err(Fault::new(Text::verbatim("there is no assignment to serve")));
+    };
     let settings = Settings {
         deadline: Config::span(config.deadline),
         policy: config.sandbox,
-        ..Settings::new(Arc::clone(assignment))
+        further: further.to_vec(),
+        ..Settings::new(Arc::clone(first))
     };
     let settings = if config.single_use_workers { settings.with_single_use_workers() } else { settings };
     let workers = config.workers + 1;

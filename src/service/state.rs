@@ -1,24 +1,35 @@
-//! What every request shares.
+//! What requests share: the [`Service`], and the [`State`] of one homework in it.
 
 use super::Config;
 use super::classes::Jobs;
 use super::clock::Clock;
-use super::gallery::Gallery;
+use super::errors::Problem;
+use super::gallery::{Gallery, RightPictures};
 use super::grading::{CrossChecks, Judge, Queue};
 use super::identity::{new_id, new_token};
 use super::limits::{Limits, Proxies};
-use super::store::Store;
+use super::store::{Store, Stored, Submission};
 use crate::fault::Fault;
 use crate::language::Text;
 use reference::Assignment;
 use std::sync::Arc;
 use tokio::sync::{Semaphore, watch};
 
-/// What every request shares; cheap to clone.
+/// What every request shares, whatever homework it is about; cheap to clone.
 #[derive(Clone, Debug)]
-pub struct State(Arc<Shared>);
+pub struct Service(Arc<Shared>);
 
-impl std::ops::Deref for State {
+/// The service as the requests about one homework see it; cheap to clone. Whatever takes a [`Service`] takes this as well.
+#[derive(Clone, Debug)]
+pub struct State {
+    service: Service,
+    /// The homework.
+    pub assignment: Arc<Assignment>,
+    /// What a right answer draws.
+    pub right: Arc<RightPictures>,
+}
+
+impl std::ops::Deref for Service {
     type Target = Shared;
 
     fn deref(&self) -> &Shared {
@@ -26,7 +37,15 @@ impl std::ops::Deref for State {
     }
 }
 
-/// The parts of a [`State`].
+impl std::ops::Deref for State {
+    type Target = Service;
+
+    fn deref(&self) -> &Service {
+        &self.service
+    }
+}
+
+/// The parts of a [`Service`].
 #[derive(Debug)]
 pub struct Shared {
     /// The configuration.
@@ -47,8 +66,8 @@ pub struct Shared {
     pub downloads: Jobs,
     /// Rates.
     pub limits: Limits,
-    /// The homework that is served.
-    pub assignment: Arc<Assignment>,
+    /// The homeworks that are served, each with its right pictures.
+    homeworks: Vec<(Arc<Assignment>, Arc<RightPictures>)>,
     /// The teacher's token, where there is one.
     pub teacher_token: Option<String>,
     pub(super) proxies: Proxies,
@@ -62,10 +81,10 @@ pub struct Shared {
     pub(super) ending: watch::Sender<bool>,
 }
 
-impl State {
-    /// The state of a service; `teacher_token` goes before the configured one.
+impl Service {
+    /// A service for these homeworks, whose ids differ.
     pub async fn serving(
-        assignment: Arc<Assignment>,
+        assignments: Vec<Arc<Assignment>>,
         config: Config,
         store: Store,
         pool: Arc<dyn Judge>,
@@ -73,25 +92,87 @@ impl State {
     ) -> Result<Self, Fault> {
         let failed = |error| Fault::new(Text::verbatim(format!("the database: {error}")));
         let key = store.setting_or("csrf_key", &new_token()).await.map_err(failed)?;
-        store.assignment(&assignment.id).await.map_err(failed)?;
+        for assignment in &assignments {
+            store.assignment(&assignment.id).await.map_err(failed)?;
+        }
+        let with_pictures = |assignment: Arc<Assignment>| {
+            let right = Arc::new(RightPictures::new(Arc::clone(&assignment)));
+            (assignment, right)
+        };
         Ok(Self(Arc::new(Shared {
             limits: Limits::new(&config, &clock),
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
             cross_checks: CrossChecks::default(),
-            gallery: Gallery::new(Arc::clone(&assignment)),
+            gallery: Gallery::default(),
             downloads: Jobs::default(),
             teacher_token: config.teacher_token.clone(),
             key: key.into_bytes(),
             login_turn: Semaphore::new(1),
             instance: new_id(),
             ending: watch::Sender::new(false),
-            assignment,
+            homeworks: assignments.into_iter().map(with_pictures).collect(),
             config,
             store,
             pool,
             clock,
         })))
+    }
+
+    /// Every homework that is served, in the order in which they were named.
+    pub fn homeworks(&self) -> impl Iterator<Item = State> + '_ {
+        self.homeworks.iter().map(|(assignment, right)| State {
+            service: self.clone(),
+            assignment: Arc::clone(assignment),
+            right: Arc::clone(right),
+        })
+    }
+
+    /// The ids of the homeworks that are served.
+    pub fn ids(&self) -> Vec<&str> {
+        self.homeworks.iter().map(|(assignment, _)| assignment.id.as_str()).collect()
+    }
+
+    /// The homework that is served, where it is one.
+    pub fn only(&self) -> Option<State> {
+        if self.has_several() { None } else { self.homeworks().next() }
+    }
+
+    /// Whether several homeworks are served.
+    pub fn has_several(&self) -> bool {
+        self.homeworks.len() > 1
+    }
+
+    /// The homework with this id.
+    pub fn homework(&self, id: &str) -> Option<State> {
+        self.homeworks().find(|state| state.assignment.id == id)
+    }
+
+    /// The homework with this id, of which something is stored; a problem where it is not served any more.
+    pub fn homework_of(&self, id: &str) -> Result<State, Problem> {
+        self.homework(id).ok_or_else(|| Problem::not_served(id, &self.ids()))
+    }
+
+    /// The homework that a request names; without a name the only one.
+    pub fn named(&self, id: Option<&str>) -> Result<State, Problem> {
+        match (id, self.only()) {
+            (None, Some(only)) => Ok(only),
+            (Some(id), Some(only)) => Some(only).filter(|only| only.assignment.id == id).ok_or_else(Problem::not_found),
+            (Some(id), None) => self.homework_of(id),
+            (None, None) => Err(Problem::which_homework(&self.ids())),
+        }
+    }
+
+    /// The submission with this id, and its homework.
+    pub async fn submission(&self, id: &str) -> Result<(State, Submission), Problem> {
+        let submission = self.store.submission(id).await?.ok_or_else(Problem::not_found)?;
+        Ok((self.homework_of(&submission.assignment)?, submission))
+    }
+
+    /// The submission with this id with its report, and its homework.
+    pub async fn stored(&self, id: &str) -> Result<(State, Stored), Problem> {
+        let stored = self.store.stored(id).await?.ok_or_else(Problem::not_found)?;
+        Ok((self.homework_of(&stored.submission.assignment)?, stored))
     }
 
     /// Whether the service is about to end.
@@ -107,7 +188,58 @@ impl State {
     /// Waits until the service is told to end.
     pub async fn ended(&self) {
         let mut ending = self.ending.subscribe();
-        // The sender lives as long as this state.
+        // The sender lives as long as this service.
         let _ = ending.wait_for(|ending| *ending).await;
+    }
+}
+
+impl State {
+    /// The service.
+    pub fn service(&self) -> &Service {
+        &self.service
+    }
+
+    /// What the addresses of this homework's pages begin with, the student's page aside: nothing where it is the only one.
+    pub fn base(&self) -> String {
+        if self.has_several() { self.page() } else { String::new() }
+    }
+
+    /// The address of the student's page.
+    pub fn page(&self) -> String {
+        format!("/a/{}", self.assignment.id)
+    }
+
+    /// The query that names this homework to the API; nothing where it is the only one.
+    pub fn query(&self) -> String {
+        if self.has_several() { format!("?assignment={}", self.assignment.id) } else { String::new() }
+    }
+}
+
+/// What a router is made for: the whole service, or one homework in it. Extractors need no more of it than this.
+pub trait Scope: Clone + Send + Sync + 'static {
+    /// The whole service.
+    fn whole(&self) -> &Service;
+
+    /// The homework, where it is one, or the only one.
+    fn own(&self) -> Option<State>;
+}
+
+impl Scope for Service {
+    fn whole(&self) -> &Service {
+        self
+    }
+
+    fn own(&self) -> Option<State> {
+        self.only()
+    }
+}
+
+impl Scope for State {
+    fn whole(&self) -> &Service {
+        &self.service
+    }
+
+    fn own(&self) -> Option<State> {
+        Some(self.clone())
     }
 }

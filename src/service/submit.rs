@@ -8,7 +8,7 @@ use super::idempotency;
 use super::identity::{Identity, new_id};
 use super::roster::not_on_roster;
 use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
-use super::{Config, store};
+use super::{Config, metrics, store};
 use crate::batch::intake::{self, Content, Given};
 use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
@@ -32,8 +32,6 @@ const LONGEST_NAME: usize = 200;
 /// What somebody hands in.
 #[derive(Clone, Debug)]
 pub struct Upload {
-    /// Id of the assignment.
-    pub assignment: String,
     /// The files as they came: with any folders in their names, and archives unopened.
     pub hand_in: HandIn,
     /// Who hands in.
@@ -76,7 +74,7 @@ impl Receipt {
 /// Stores a hand-in, has it graded, and waits a while for the report. What comes again with the same key is not stored
 /// again: the answer is about what was stored the first time.
 pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
-    let key = upload.key.as_ref().map(|given| key(given, &upload));
+    let key = upload.key.as_ref().map(|given| key(state, given, &upload));
     if let Some(receipt) = stored_earlier(state, key.as_ref()).await? {
         return Ok(receipt);
     }
@@ -93,9 +91,9 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
 }
 
 /// The key of an upload: everything counts that makes another upload of it.
-fn key(given: &idempotency::Given, upload: &Upload) -> Key {
-    let Upload { assignment, hand_in, identity, via, hints, .. } = upload;
-    let parts = [assignment, &hand_in.names(), &store::word(via), &store::word(hints), &hand_in.sha256()];
+fn key(state: &State, given: &idempotency::Given, upload: &Upload) -> Key {
+    let Upload { hand_in, identity, via, hints, .. } = upload;
+    let parts = [&state.assignment.id, &hand_in.names(), &store::word(via), &store::word(hints), &hand_in.sha256()];
     given.of_student(identity, &parts.map(String::as_str))
 }
 
@@ -153,8 +151,8 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
         state.queue.tidy();
         return added.map(|_| None).map_err(Problem::from);
     }
-    metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
     let submission = submission_of(&new, store::State::Queued);
+    metrics::uploaded(&submission, false);
     place.fill(Job { submission: submission.clone(), hand_in: new.hand_in, since: Instant::now() });
     let outcome = in_time(state, &mut listener).await;
     Ok(Some(Receipt { submission, outcome }))
@@ -162,9 +160,6 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
 
 /// The files that the homework asks for, where they may be handed in at all.
 async fn checked(state: &State, upload: &Upload) -> Result<(store::Assignment, HandIn), Problem> {
-    if upload.assignment != state.assignment.id {
-        return Err(Problem::not_found());
-    }
     if state.is_ending() {
         return Err(Problem::new(
             StatusCode::SERVICE_UNAVAILABLE,
@@ -175,7 +170,7 @@ async fn checked(state: &State, upload: &Upload) -> Result<(store::Assignment, H
         .retry_after(10));
     }
     let hand_in = asked_for(state, upload.hand_in.clone()).await?;
-    let assignment = state.store.assignment(&upload.assignment).await?;
+    let assignment = state.store.assignment(&state.assignment.id).await?;
     may_hand_in(state, &assignment, upload).await?;
     Ok((assignment, hand_in))
 }
@@ -306,7 +301,7 @@ fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload
     let until = now + millis(Config::span(state.config.limits.lease));
     NewSubmission {
         id: new_id(),
-        assignment: upload.assignment.clone(),
+        assignment: state.assignment.id.clone(),
         hand_in,
         owner_id: upload.identity.owner_id().map(str::to_owned),
         student_id: upload.identity.student().map(|student| student.id.clone()),
@@ -345,9 +340,8 @@ async fn keep_known(
     if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
         return Ok(None);
     }
-    metrics::counter!("ggrade_uploads_total", "via" => store::word(&new.via)).increment(1);
-    metrics::counter!("ggrade_reports_reused_total").increment(1);
     let submission = submission_of(&new, store::State::Graded);
+    metrics::uploaded(&submission, true);
     if report.cross_check.take().is_none() {
         state.cross_checks.expect(&submission, &report);
     }

@@ -1,6 +1,6 @@
 //! What is done every now and then: old submissions and keys of requests go, and what nobody needs is forgotten.
 
-use super::State;
+use super::Service;
 use super::clock::{Millis, millis};
 use super::{idempotency, metrics};
 use std::time::Duration;
@@ -12,30 +12,30 @@ const DAY: Duration = Duration::from_secs(24 * 3600);
 const REMOVALS: u32 = 60;
 
 /// Runs until the service is told to end.
-pub(super) async fn run(state: State) {
+pub(super) async fn run(service: Service) {
     for minute in 0_u32.. {
         if minute.is_multiple_of(REMOVALS) {
-            remove(&state).await;
+            remove(&service).await;
         }
-        state.limits.tidy();
-        state.queue.tidy();
+        service.limits.tidy();
+        service.queue.tidy();
         metrics::upkeep();
         tokio::select! {
             () = tokio::time::sleep(MINUTE) => {}
-            () = state.ended() => return,
+            () = service.ended() => return,
         }
     }
 }
 
 /// Removes drafts and keys of yesterday, and submissions that are older than the configuration keeps them.
-pub async fn remove(state: &State) {
-    let now = state.clock.now();
+pub async fn remove(service: &Service) {
+    let now = service.clock.now();
     let before = |days: u32| -> Millis { now - millis(DAY) * Millis::from(days) };
-    let days = state.config.retention_days;
-    if let Err(error) = state.store.forget_keys(now - millis(idempotency::KEPT)).await {
+    let days = service.config.retention_days;
+    if let Err(error) = service.store.forget_keys(now - millis(idempotency::KEPT)).await {
         tracing::error!(%error, "old keys of requests could not be removed");
     }
-    match state.store.remove_old((days > 0).then(|| before(days)), before(1)).await {
+    match service.store.remove_old((days > 0).then(|| before(days)), before(1)).await {
         Ok(removed) if removed.submissions > 0 => {
             tracing::info!(submissions = removed.submissions, files = removed.uploads, "removed what is old");
         }

@@ -74,7 +74,7 @@ async fn a_changed_folder_is_another_assignment(database: Database) {
     folder.files.insert("assignment.toml".into(), manifest.into());
     let changed = Arc::new(Assignment::load(folder).expect("an assignment"));
     let digest = changed.digest.clone();
-    let bench = bench.restarted(changed).await;
+    let bench = bench.restarted(vec![changed]).await;
     let second = bench.hand_in("?name=second.vert", bytes.clone()).await.json();
     assert_eq!(second["report"]["max_score"], 150, "the report of the folder as it was");
     assert_eq!(second["report"]["assignment_digest"], digest);

@@ -10,13 +10,14 @@ use ggrade::service::clock::Clock;
 use ggrade::service::config::Timeouts;
 use ggrade::service::grading::{Graders, Judge};
 use ggrade::service::store::Store;
-use ggrade::service::{Config, State, app};
+use ggrade::service::{Config, Service, State, app};
 use serde_json::Value;
 use std::sync::Arc;
 use tower::ServiceExt;
 
 /// A service without a server.
 pub struct Bench {
+    /// The service, for its first homework.
     pub state: State,
     pub app: Router,
     graders: Option<Graders>,
@@ -65,19 +66,31 @@ impl Bench {
     pub async fn serving(
         assignment: Arc<reference::Assignment>,
         database: Database,
+        config: Config,
+        judge: Arc<dyn Judge>,
+        clock: Clock,
+    ) -> Self {
+        Self::serving_several(vec![assignment], database, config, judge, clock).await
+    }
+
+    /// The same for several homeworks.
+    pub async fn serving_several(
+        assignments: Vec<Arc<reference::Assignment>>,
+        database: Database,
         mut config: Config,
         judge: Arc<dyn Judge>,
         clock: Clock,
     ) -> Self {
         config.database.clone_from(&database.location);
         let store = Store::open(&config.location().expect("a location")).await.expect("a database");
-        let state = State::serving(assignment, config, store, judge, clock).await.expect("a state");
-        let graders = Some(Graders::start(&state).await.expect("graders"));
-        Self { app: app(state.clone()), state, graders, _database: database }
+        let service = Service::serving(assignments, config, store, judge, clock).await.expect("a service");
+        let graders = Some(Graders::start(&service).await.expect("graders"));
+        let state = service.homeworks().next().expect("a homework");
+        Self { app: app(service), state, graders, _database: database }
     }
 
-    /// The same service after a restart with another assignment.
-    pub async fn restarted(mut self, assignment: Arc<reference::Assignment>) -> Self {
+    /// The same service after a restart with other assignments.
+    pub async fn restarted(mut self, assignments: Vec<Arc<reference::Assignment>>) -> Self {
         self.state.end();
         if let Some(graders) = self.graders.take() {
             graders.finish().await;
@@ -87,7 +100,7 @@ impl Bench {
         let (config, pool) = (state.config.clone(), Arc::clone(&state.pool));
         // The old process is gone, and with it what it held.
         drop((app, state));
-        Self::serving(assignment, database, config, pool, Clock::system()).await
+        Self::serving_several(assignments, database, config, pool, Clock::system()).await
     }
 
     /// Sends a request.

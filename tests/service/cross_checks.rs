@@ -141,7 +141,7 @@ async fn a_file_that_differs_is_shown_and_kept(database: Database) {
     let chosen = text("/teacher?disputed=on").await;
     assert!(chosen.contains("<small id=\"live-count\" data-live>1 shown"), "{chosen}");
     let figures = String::from_utf8_lossy(&figures().await.body).into_owned();
-    assert!(figures.contains("ggrade_cross_checks_total{opinion=\"differs\"}"), "{figures}");
+    assert!(figures.contains("ggrade_cross_checks_total{assignment=\"ggsample06\",opinion=\"differs\"}"), "{figures}");
 
     // When all else of the time goes, the file and the report stay, and nothing of whose they were.
     clock.advance(Duration::from_secs(31 * 24 * 3600));

@@ -50,7 +50,7 @@ async fn a_student_goes_with_everything_of_theirs(database: Database) {
     }
     let submission = store.submission(&first).await.expect("a store").expect("a submission");
     let student = submission.student_id.clone().expect("a student");
-    assert!(store.portrait("ggsample06", &submission.sha256).await.expect("a store").is_some());
+    assert!(store.portrait(&bench.state.assignment.digest, &submission.sha256).await.expect("a store").is_some());
 
     let page = get(&bench, &format!("/teacher/delete?person={student}")).await;
     assert_eq!(
@@ -73,7 +73,7 @@ async fn a_student_goes_with_everything_of_theirs(database: Database) {
         assert_eq!(status(&bench, &address).await, StatusCode::NOT_FOUND, "{address}");
     }
     assert!(!store.has_file(&submission.sha256).await.expect("a store"));
-    assert!(store.portrait("ggsample06", &submission.sha256).await.expect("a store").is_none());
+    assert!(store.portrait(&bench.state.assignment.digest, &submission.sha256).await.expect("a store").is_none());
     assert!(store.student_by_id(&student).await.expect("a store").is_none());
     for address in ["/teacher", &format!("/teacher/batches/{batch}"), "/teacher/settings"] {
         let page = get(&bench, address).await.text();
@@ -105,7 +105,7 @@ async fn an_archive_and_a_submission_go_alone(database: Database) {
     assert_eq!((refused.status, refused.problem().as_str()), (StatusCode::UNAUTHORIZED, "unauthorized"));
     let session = ggrade::service::identity::new_token();
     let hash = ggrade::service::identity::token_hash(&session);
-    bench.state.store.open_session(&hash, 0, i64::MAX).await.expect("a session");
+    bench.state.store.open_session(&hash, None, 0, i64::MAX).await.expect("a session");
     let forged = Request::post("/teacher/delete")
         .header(header::COOKIE, format!("ggrade_teacher={session}"))
         .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");

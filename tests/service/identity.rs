@@ -15,7 +15,7 @@ use ggrade::service::identity::{
     LoginForm, Teacher, TeacherPage, Visitor, course_secret, hash_password, join, login, logout, visit,
 };
 use ggrade::service::limits::Client;
-use ggrade::service::{Config, State, layered};
+use ggrade::service::{Config, Service, layered};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -28,31 +28,31 @@ on_both!(
 
 async fn bench(database: Database, config: Config, clock: Clock) -> (Bench, Router) {
     let bench = Bench::with(database, config, Arc::new(Fake(|| Ok(()))), clock).await;
-    let state = bench.state.clone();
+    let service = bench.state.service().clone();
     let routes = Router::new()
-        .route("/csrf", get(async |Shared(state): Shared<State>, visitor: Visitor| visitor.csrf(&state)))
+        .route("/csrf", get(async |Shared(service): Shared<Service>, visitor: Visitor| visitor.csrf(&service)))
         .route("/login", post(try_login))
         .route("/logout", post(try_logout))
         .route(
             "/class",
-            get(async |TeacherPage(teacher): TeacherPage, Shared(state): Shared<State>| teacher.csrf(&state)),
+            get(async |TeacherPage(teacher): TeacherPage, Shared(service): Shared<Service>| teacher.csrf(&service)),
         )
         .route("/data", get(async |_: Teacher| "the class"))
-        .layer(middleware::from_fn_with_state(state.clone(), visit));
-    (bench, layered(state, routes))
+        .layer(middleware::from_fn_with_state(service.clone(), visit));
+    (bench, layered(service, routes))
 }
 
 async fn try_login(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     client: Client,
     visitor: Visitor,
     Form(form): Form<LoginForm>,
 ) -> Result<Response, Problem> {
-    login(&state, &client, &visitor, &form).await
+    login(&service, &client, &visitor, &form).await
 }
 
-async fn try_logout(Shared(state): Shared<State>, teacher: Teacher, csrf: String) -> Result<Response, Problem> {
-    logout(&state, &teacher, &csrf).await
+async fn try_logout(Shared(service): Shared<Service>, teacher: Teacher, csrf: String) -> Result<Response, Problem> {
+    logout(&service, &teacher, &csrf).await
 }
 
 /// A new browser: its visitor as the layer around pages makes it, and its cookie.
@@ -76,13 +76,13 @@ fn with_cookie(method: &str, address: &str, cookie: &str, body: String) -> Reque
 }
 
 /// The visitor that a cookie stands for.
-async fn visitor(state: &State, cookie: &str) -> Visitor {
+async fn visitor(state: &Service, cookie: &str) -> Visitor {
     use axum::extract::FromRequestParts;
     let (mut parts, ()) = Request::get("/").header(header::COOKIE, cookie).body(()).expect("a request").into_parts();
     Visitor::from_request_parts(&mut parts, state).await.expect("a visitor")
 }
 
-fn cookie_of(state: &State, visitor: &Visitor) -> String {
+fn cookie_of(state: &Service, visitor: &Visitor) -> String {
     let mut response = ().into_response();
     visitor.set_cookie(state, &mut response);
     let cookie = response.headers()[header::SET_COOKIE].to_str().expect("text").to_owned();

@@ -131,7 +131,7 @@ async fn a_network_of_ipv6_is_one_visitor_and_the_teachers_program_none() {
 async fn a_panic_in_a_handler_costs_one_answer() {
     let bench = bench(config()).await;
     let routes = Router::new().route("/panic", get(async || -> &'static str { panic!("a bug of ours") }));
-    let app = layered(bench.state.clone(), routes);
+    let app = layered(bench.state.service().clone(), routes);
     for _ in 0..3 {
         let reply = send(&app, Request::get("/panic").body(Body::empty()).expect("a request")).await;
         assert_eq!((reply.status, reply.problem().as_str()), (StatusCode::INTERNAL_SERVER_ERROR, "internal"));

@@ -19,6 +19,7 @@ mod process;
 mod roster;
 mod server;
 mod several_files;
+mod several_homeworks;
 mod static_files;
 mod student_page;
 mod worksheets;

@@ -1,7 +1,7 @@
 //! An archive out of a request, onto the disk: it may be larger than memory should be.
 
 use super::body::other;
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, Given};
 use crate::service::identity::hex;
@@ -39,13 +39,13 @@ pub(in crate::service) struct Archive {
 impl Archive {
     /// Reads a form with a part `file`, or a body that is the archive. The route must have no limit of its own
     /// ([`axum::extract::DefaultBodyLimit::disable`]).
-    pub async fn read(request: Request, state: &State) -> Result<Self, Problem> {
+    pub async fn read(request: Request, service: &Service) -> Result<Self, Problem> {
         let kind =
             request.headers().get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
         match kind.split(';').next().unwrap_or_default().trim().to_ascii_lowercase().as_str() {
-            "multipart/form-data" => Self::of_parts(request, state).await,
+            "multipart/form-data" => Self::of_parts(request, service).await,
             "application/zip" | "application/octet-stream" | "application/x-zip-compressed" => {
-                let (path, sha256) = saved(request.into_body().into_data_stream(), broken_off, state).await?;
+                let (path, sha256) = saved(request.into_body().into_data_stream(), broken_off, service).await?;
                 Ok(Self { path, name: String::new(), sha256, fields: HashMap::new() })
             }
             _ => Err(Problem::new(
@@ -57,8 +57,8 @@ impl Archive {
         }
     }
 
-    async fn of_parts(request: Request, state: &State) -> Result<Self, Problem> {
-        let mut parts = Multipart::from_request(request, state).await.map_err(other)?;
+    async fn of_parts(request: Request, service: &Service) -> Result<Self, Problem> {
+        let mut parts = Multipart::from_request(request, service).await.map_err(other)?;
         let mut archive = None;
         let mut fields = HashMap::new();
         for _ in 0..=MOST_PARTS {
@@ -66,7 +66,7 @@ impl Archive {
             let name = part.name().unwrap_or_default().to_owned();
             if name == "file" {
                 let title = part.file_name().unwrap_or_default().to_owned();
-                archive = Some((saved(&mut part, other, state).await?, title));
+                archive = Some((saved(&mut part, other, service).await?, title));
                 continue;
             }
             let mut text = Vec::new();
@@ -88,10 +88,11 @@ impl Archive {
     }
 
     /// The key with which it may come again.
-    pub fn key(&self, headers: &HeaderMap, client: &Client) -> Result<Option<Key>, Problem> {
+    /// `assignment` is whose class it is.
+    pub fn key(&self, assignment: &str, headers: &HeaderMap, client: &Client) -> Result<Option<Key>, Problem> {
         let field = self.fields.get(idempotency::FIELD).map(String::as_str);
         let given = Given::read(headers, field, client)?;
-        Ok(given.map(|given| given.of_teacher(&[&self.title(), &self.sha256])))
+        Ok(given.map(|given| given.of_teacher(&[assignment, &self.title(), &self.sha256])))
     }
 
     /// The name as a title: the last part, without its extension, of a bearable length.
@@ -106,13 +107,13 @@ impl Archive {
 async fn saved<E>(
     mut stream: impl Stream<Item = Result<Bytes, E>> + Unpin,
     problem: impl Fn(E) -> Problem,
-    state: &State,
+    service: &Service,
 ) -> Result<(TempPath, String), Problem> {
     let disk = |error: std::io::Error| Problem::internal(&error);
     let (file, path) = tempfile::Builder::new().suffix(".zip").tempfile().map_err(disk)?.into_parts();
     let mut file = tokio::fs::File::from_std(file);
     let mut digest = Sha256::new();
-    let mut room = state.config.archive_mib.saturating_mul(1 << 20);
+    let mut room = service.config.archive_mib.saturating_mul(1 << 20);
     while let Some(chunk) = stream.next().await {
         let chunk = chunk.map_err(&problem)?;
         let Some(left) = room.checked_sub(chunk.len() as u64) else {
@@ -123,7 +124,7 @@ async fn saved<E>(
             {
                 bearable = left;
             }
-            return Err(too_large(state));
+            return Err(too_large(service));
         };
         room = left;
         digest.update(&chunk);
@@ -137,8 +138,8 @@ fn broken_off(_: axum::Error) -> Problem {
     Problem::bad_request("The upload broke off.", "アップロードが途中で切れました。")
 }
 
-fn too_large(state: &State) -> Problem {
-    let most = state.config.archive_mib;
+fn too_large(service: &Service) -> Problem {
+    let most = service.config.archive_mib;
     Problem::new(
         StatusCode::PAYLOAD_TOO_LARGE,
         "too-large",

@@ -5,7 +5,6 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
 use crate::batch::formats::Format;
 use crate::language::Language;
-use crate::service::State;
 use crate::service::classes::{self, Download, Pick, Wanted, Whose};
 use crate::service::download::attachment;
 use crate::service::errors::Problem;
@@ -13,6 +12,7 @@ use crate::service::identity::Teacher;
 use crate::service::language::{Lang, asked};
 use crate::service::limits::Client;
 use crate::service::store::Batch;
+use crate::service::{Service, State};
 use axum::Json;
 use axum::body::Bytes;
 use axum::extract::rejection::{BytesRejection, QueryRejection};
@@ -41,6 +41,9 @@ pub(super) struct ArchiveForm {
     /// A ZIP: Moodle's download, or a folder for each student.
     #[schema(content_media_type = "application/zip", min_length = 1)]
     file: String,
+    /// Id of the assignment; where the service has one only, it may be left out.
+    #[schema(nullable = false)]
+    assignment: Option<String>,
     /// In place of the header `Idempotency-Key`.
     #[schema(nullable = false, pattern = "^[!-~]([ -~]{0,253}[!-~])?$")]
     idempotency_key: Option<String>,
@@ -51,7 +54,7 @@ pub(super) struct ArchiveForm {
 /// The archive is stored; its files are graded in the background, behind every student who hands in. Where no answer
 /// comes, send it again with the same `Idempotency-Key`: it is stored once.
 #[utoipa::path(
-    post, operation_id = "create_batch", path = "/api/v1/batches", tag = "batches", params(IdempotencyKey), security(("teacher" = [])),
+    post, operation_id = "create_batch", path = "/api/v1/batches", tag = "batches", params(OfQuery, IdempotencyKey), security(("teacher" = [])),
     request_body(content((ArchiveForm = "multipart/form-data"), (Vec<u8> = "application/zip"))),
     responses(
         (status = 202, description = "Stored", body = BatchJson, headers(("Location" = String, description = "The batch"))),
@@ -60,16 +63,20 @@ pub(super) struct ArchiveForm {
 )]
 pub(super) async fn create(
     teacher: Teacher,
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Lang(language): Lang,
-    client: Client,
-    headers: HeaderMap,
+    (client, headers): (Client, HeaderMap),
+    of: Result<Query<OfQuery>, QueryRejection>,
     request: Request,
 ) -> Result<Response, Problem> {
     let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    teacher.check_csrf(&state, csrf)?;
-    let archive = Archive::read(request, &state).await?;
-    let key = archive.key(&headers, &client)?;
+    teacher.check_csrf(&service, csrf)?;
+    let Query(of) = of.map_err(super::body::other)?;
+    let archive = Archive::read(request, &service).await?;
+    let of = archive.fields.get("assignment").cloned().or(of.assignment);
+    let state = service.named(of.as_deref())?;
+    teacher.check(&state.assignment.id)?;
+    let key = archive.key(&state.assignment.id, &headers, &client)?;
     let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title(), key).await?;
     let body = shown(&state, batch, language).await?;
     let location = body.links.itself.clone();
@@ -80,14 +87,17 @@ pub(super) async fn create(
     Ok(response)
 }
 
-async fn shown(state: &State, batch: Batch, language: Language) -> Result<BatchJson, Problem> {
-    let progress = state.store.progress(&batch.id).await?;
-    let entries = state.store.batch_entries(&batch.id).await?;
+async fn shown(service: &Service, batch: Batch, language: Language) -> Result<BatchJson, Problem> {
+    let progress = service.store.progress(&batch.id).await?;
+    let entries = service.store.batch_entries(&batch.id).await?;
     Ok(BatchJson::of(batch, progress, entries, language))
 }
 
-async fn find(state: &State, id: &str) -> Result<Batch, Problem> {
-    state.store.batch(id).await?.ok_or_else(Problem::not_found)
+/// The batch with this id, for a teacher who may see it, and its homework.
+async fn find(service: &Service, teacher: &Teacher, id: &str) -> Result<(State, Batch), Problem> {
+    let batch = service.store.batch(id).await?.ok_or_else(Problem::not_found)?;
+    teacher.check(&batch.assignment)?;
+    Ok((service.homework_of(&batch.assignment)?, batch))
 }
 
 /// A batch and how far it is
@@ -97,12 +107,12 @@ async fn find(state: &State, id: &str) -> Result<Batch, Problem> {
     responses((status = 200, description = "How far it is", body = BatchJson), NotFound, Refusals, Errors)
 )]
 pub(super) async fn read(
-    _: Teacher,
-    Shared(state): Shared<State>,
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
     Lang(language): Lang,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    let batch = find(&state, &id).await?;
+    let (state, batch) = find(&service, &teacher, &id).await?;
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(shown(&state, batch, language).await?)).into_response())
 }
 
@@ -117,12 +127,12 @@ pub(super) async fn read(
     )
 )]
 pub(super) async fn events(
-    _: Teacher,
-    Shared(state): Shared<State>,
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    find(&state, &id).await?;
-    let stream = progress(state, Job::Batch(id));
+    find(&service, &teacher, &id).await?;
+    let stream = progress(&service, Job::Batch(id));
     Ok(Sse::new(stream).keep_alive(KeepAlive::default()).into_response())
 }
 
@@ -137,18 +147,21 @@ pub(in crate::service) enum Job {
 }
 
 /// The events of a job until it is done, or the service ends.
-pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item = Result<Event, Infallible>> {
-    futures_util::stream::unfold((state, job, None, false), async |(state, job, mut last, is_over)| {
+pub(in crate::service) fn progress(
+    service: &Service,
+    job: Job,
+) -> impl Stream<Item = Result<Event, Infallible>> + use<> {
+    futures_util::stream::unfold((service.clone(), job, None, false), async |(service, job, mut last, is_over)| {
         if is_over {
             return None;
         }
         loop {
-            if state.is_ending() {
+            if service.is_ending() {
                 return None;
             }
             let progress = match &job {
-                Job::Batch(id) => state.store.progress(id).await,
-                Job::Regrading(id) => state.store.regrading_progress(id).await,
+                Job::Batch(id) => service.store.progress(id).await,
+                Job::Regrading(id) => service.store.regrading_progress(id).await,
                 Job::Download(job) => Ok(job.progress()),
             };
             // Who watches may come again; the log has what happened.
@@ -157,7 +170,7 @@ pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item =
                 last = Some(progress);
                 let name = if progress.is_done() { "done" } else { "progress" };
                 let event = Event::default().event(name).json_data(progress).unwrap_or_default();
-                return Some((Ok(event), (state, job, last, progress.is_done())));
+                return Some((Ok(event), (service, job, last, progress.is_done())));
             }
             tokio::time::sleep(TICK).await;
         }
@@ -174,14 +187,14 @@ pub(in crate::service) fn progress(state: State, job: Job) -> impl Stream<Item =
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]
 pub(super) async fn file(
-    _: Teacher,
-    Shared(state): Shared<State>,
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
     Lang(language): Lang,
     Path((id, format)): Path<(String, String)>,
     uri: Uri,
 ) -> Result<Response, Problem> {
-    let whose = Whose::Batch(find(&state, &id).await?);
-    made(&state, whose, &format, None, (&uri, language)).await
+    let (state, batch) = find(&service, &teacher, &id).await?;
+    made(&state, Whose::Batch(batch), &format, None, (&uri, language)).await
 }
 
 /// A class in the format of this name, in the language that the address asks for, or else that of its readers.
@@ -209,17 +222,26 @@ async fn made(
 )]
 pub(super) async fn filled(
     teacher: Teacher,
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Lang(language): Lang,
     Path((id, format)): Path<(String, String)>,
     (headers, uri): (HeaderMap, Uri),
     sheet: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    teacher.check_csrf(&state, csrf)?;
+    teacher.check_csrf(&service, csrf)?;
     let sheet = sheet.map_err(super::body::other)?;
-    let whose = Whose::Batch(find(&state, &id).await?);
-    made(&state, whose, &format, Some(sheet.into()), (&uri, language)).await
+    let (state, batch) = find(&service, &teacher, &id).await?;
+    made(&state, Whose::Batch(batch), &format, Some(sheet.into()), (&uri, language)).await
+}
+
+/// Which homework.
+#[derive(Clone, Debug, Default, Deserialize, utoipa::IntoParams)]
+#[serde(default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct OfQuery {
+    /// Id of the assignment; where the service has one only, it may be left out.
+    assignment: Option<String>,
 }
 
 /// Which submissions of students count.
@@ -238,18 +260,21 @@ pub(super) struct PickQuery {
 /// students read are in the course's language, unless `lang` asks for another.
 #[utoipa::path(
     get, operation_id = "read_class_file", path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("format" = FormatName, Path, description = "Name of the format"), PickQuery),
+    params(("format" = FormatName, Path, description = "Name of the format"), PickQuery, OfQuery),
     responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
 )]
 pub(super) async fn class_file(
-    _: Teacher,
-    Shared(state): Shared<State>,
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
     Lang(language): Lang,
     Path(format): Path<String>,
-    pick: Result<Query<PickQuery>, QueryRejection>,
+    (pick, of): (Result<Query<PickQuery>, QueryRejection>, Result<Query<OfQuery>, QueryRejection>),
     uri: Uri,
 ) -> Result<Response, Problem> {
     let Query(PickQuery { pick }) = pick.map_err(super::body::other)?;
+    let Query(OfQuery { assignment }) = of.map_err(super::body::other)?;
+    let state = service.named(assignment.as_deref())?;
+    teacher.check(&state.assignment.id)?;
     made(&state, Whose::Students(pick), &format, None, (&uri, language)).await
 }
 

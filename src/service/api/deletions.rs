@@ -2,7 +2,7 @@
 
 use super::batches::CSRF;
 use super::refusals::{Errors, NotFound, Refusals};
-use crate::service::State;
+use crate::service::Service;
 use crate::service::deletion::delete;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, normal_number};
@@ -34,10 +34,10 @@ enum Named {
 )]
 pub(super) async fn delete_submission(
     caller: Caller,
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Json<Counts>, Problem> {
-    deleted(&state, &caller, Named::Submission(id)).await
+    deleted(&service, &caller, Named::Submission(id)).await
 }
 
 /// Delete a class that was handed in
@@ -50,10 +50,10 @@ pub(super) async fn delete_submission(
 )]
 pub(super) async fn delete_batch(
     caller: Caller,
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Json<Counts>, Problem> {
-    deleted(&state, &caller, Named::Batch(id)).await
+    deleted(&service, &caller, Named::Batch(id)).await
 }
 
 /// Delete a student
@@ -67,24 +67,38 @@ pub(super) async fn delete_batch(
 )]
 pub(super) async fn delete_student(
     caller: Caller,
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(number): Path<String>,
 ) -> Result<Json<Counts>, Problem> {
-    deleted(&state, &caller, Named::Student(number)).await
+    deleted(&service, &caller, Named::Student(number)).await
 }
 
 /// Deletes what is there under that name. A page's own script brings the token of its forms; a program brings the
 /// teacher's.
-async fn deleted(state: &State, (teacher, headers): &Caller, named: Named) -> Result<Json<Counts>, Problem> {
-    teacher.check_csrf(state, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
-    let store = &state.store;
+async fn deleted(service: &Service, (teacher, headers): &Caller, named: Named) -> Result<Json<Counts>, Problem> {
+    teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
+    let store = &service.store;
     let target = match named {
-        Named::Submission(id) => store.submission(&id).await?.map(|found| Target::Submission(found.id)),
-        Named::Batch(id) => store.batch(&id).await?.map(|found| Target::Batch(found.id)),
+        Named::Submission(id) => match store.submission(&id).await? {
+            Some(found) => {
+                teacher.check(&found.assignment)?;
+                Some(Target::Submission(found.id))
+            }
+            None => None,
+        },
+        Named::Batch(id) => match store.batch(&id).await? {
+            Some(found) => {
+                teacher.check(&found.assignment)?;
+                Some(Target::Batch(found.id))
+            }
+            None => None,
+        },
         Named::Student(number) => match normal_number(&number) {
             Some(number) => store.student_by_number(&number).await?.map(|found| Target::Student(found.id)),
             None => None,
         },
     };
-    delete(state, &target.ok_or_else(Problem::not_found)?).await.map(Json)
+    let target = target.ok_or_else(Problem::not_found)?;
+    teacher.may_delete(&target)?;
+    delete(service, &target).await.map(Json)
 }

@@ -1,6 +1,6 @@
 //! The API's description: for programs, and as a page for people.
 
-use crate::service::State;
+use crate::service::Service;
 use axum::Router;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
@@ -22,7 +22,7 @@ pub(super) async fn document(document: Arc<OpenApi>) -> Response {
 }
 
 /// The page, `/api/docs`.
-pub(super) fn router() -> Router<State> {
+pub(super) fn router() -> Router<Service> {
     let ui = SwaggerUi::new("/api/docs").config(Config::from("/api/v1/openapi.json").validator_url("none"));
     Router::from(ui)
         .layer(SetResponseHeaderLayer::overriding(header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(CSP)))

@@ -1,7 +1,7 @@
 //! For who runs the service: is it alive, can it work, how much does it do.
 
 use super::refusals::Errors;
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::{Problem, ProblemJson};
 use crate::service::identity::{bearer, same};
 use crate::service::limits::Client;
@@ -20,9 +20,9 @@ pub(super) async fn healthz() -> &'static str {
 /// Whether uploads are taken
 #[utoipa::path(get, operation_id = "read_readiness", path = "/readyz", tag = "operations",
     responses((status = 200, description = "They are", body = String, content_type = "text/plain"), Errors))]
-pub(super) async fn readyz(Shared(state): Shared<State>) -> Result<&'static str, Problem> {
-    state.store.ping().await?;
-    if state.is_ending() {
+pub(super) async fn readyz(Shared(service): Shared<Service>) -> Result<&'static str, Problem> {
+    service.store.ping().await?;
+    if service.is_ending() {
         return Err(Problem::new(
             StatusCode::SERVICE_UNAVAILABLE,
             "ending",
@@ -45,11 +45,11 @@ pub(super) async fn readyz(Shared(state): Shared<State>) -> Result<&'static str,
         Errors
     ))]
 pub(super) async fn metrics(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     client: Client,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let has_token = match (&state.config.metrics_token, bearer(&headers)) {
+    let has_token = match (&service.config.metrics_token, bearer(&headers)) {
         (Some(token), Some(given)) => same(token, given),
         _ => false,
     };
@@ -62,5 +62,5 @@ pub(super) async fn metrics(
         ));
     }
     let kind = [(header::CONTENT_TYPE, "text/plain; version=0.0.4; charset=utf-8")];
-    Ok((kind, figures::render(&state).await).into_response())
+    Ok((kind, figures::render(&service).await).into_response())
 }

@@ -3,7 +3,7 @@
 use super::refusals::{Errors, NotFound};
 use super::schema::{FrameJson, FramesJson};
 use super::submissions::find;
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::gallery::View;
 use axum::Json;
@@ -29,8 +29,8 @@ pub(in crate::service) struct ViewQuery {
     params(("id" = String, Path, description = "Id of the submission")),
     responses((status = 200, description = "Their addresses", body = FramesJson), NotFound, Errors)
 )]
-pub(super) async fn list(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
-    let report = find(&state, &id).await?.report;
+pub(super) async fn list(Shared(service): Shared<Service>, Path(id): Path<String>) -> Result<Response, Problem> {
+    let report = find(&service, &id).await?.report;
     let frames = report.map(|report| report.frames).unwrap_or_default();
     let frames = frames.iter().zip(0..).map(|(frame, index)| {
         let address = |view| format!("/api/v1/submissions/{id}/frames/{index}.png?view={view}");
@@ -58,12 +58,12 @@ pub(super) async fn list(Shared(state): Shared<State>, Path(id): Path<String>) -
     )
 )]
 pub(super) async fn frame(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path((id, frame)): Path<(String, String)>,
     view: Result<Query<ViewQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     let Query(ViewQuery { view }) = view.map_err(super::body::other)?;
-    frame_of(&state, &id, &frame, view).await
+    frame_of(&service, &id, &frame, view).await
 }
 
 /// The pictures as one animated PNG
@@ -75,31 +75,31 @@ pub(super) async fn frame(
     )
 )]
 pub(super) async fn animation(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
     view: Result<Query<ViewQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     let Query(ViewQuery { view }) = view.map_err(super::body::other)?;
-    animation_of(&state, &id, view).await
+    animation_of(&service, &id, view).await
 }
 
 /// The picture `{n}.png` of a submission.
 pub(in crate::service) async fn frame_of(
-    state: &State,
+    service: &Service,
     id: &str,
     frame: &str,
     view: View,
 ) -> Result<Response, Problem> {
     let index = frame.strip_suffix(".png").filter(|n| n.bytes().all(|byte| byte.is_ascii_digit()));
     let index: usize = index.and_then(|index| index.parse().ok()).ok_or_else(Problem::not_found)?;
-    let submission = state.store.submission(id).await?.ok_or_else(Problem::not_found)?;
-    png(state.gallery.frame(state, &submission, view, index).await?)
+    let (state, submission) = service.submission(id).await?;
+    png(state.gallery.frame(&state, &submission, view, index).await?)
 }
 
 /// The animation of a submission.
-pub(in crate::service) async fn animation_of(state: &State, id: &str, view: View) -> Result<Response, Problem> {
-    let submission = state.store.submission(id).await?.ok_or_else(Problem::not_found)?;
-    png(state.gallery.animation(state, &submission, view).await?)
+pub(in crate::service) async fn animation_of(service: &Service, id: &str, view: View) -> Result<Response, Problem> {
+    let (state, submission) = service.submission(id).await?;
+    png(state.gallery.animation(&state, &submission, view).await?)
 }
 
 fn png(bytes: Option<Vec<u8>>) -> Result<Response, Problem> {

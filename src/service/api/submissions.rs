@@ -5,7 +5,6 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{IdempotencyKey, SubmissionJson};
 use crate::diagnose::Hints;
 use crate::language::Language;
-use crate::service::State;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, Given};
@@ -15,6 +14,7 @@ use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{Stored, Via};
 use crate::service::submit::{Receipt, Upload, submit};
+use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, Request, State as Shared};
@@ -30,7 +30,7 @@ pub(super) struct About {
     /// Language of the messages: `ja` or `en`.
     #[param(inline)]
     lang: Option<Language>,
-    /// Id of the assignment; the one that is served, where it is left out.
+    /// Id of the assignment; where the service has one only, it may be left out.
     assignment: Option<String>,
     /// Name of the file, where the body is the file.
     name: Option<String>,
@@ -55,7 +55,7 @@ pub(super) struct FileForm {
     /// The shader; as many parts of this name as the homework has files, or a ZIP of them.
     #[schema(content_media_type = "application/octet-stream", min_length = 1)]
     file: String,
-    /// Id of the assignment.
+    /// Id of the assignment; where the service has one only, it may be left out.
     #[schema(nullable = false)]
     assignment: Option<String>,
     /// How much the messages help.
@@ -101,7 +101,7 @@ pub(super) struct FileText(String);
     )
 )]
 pub(super) async fn create(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Lang(language): Lang,
     client: Client,
     visitor: Visitor,
@@ -111,14 +111,14 @@ pub(super) async fn create(
 ) -> Result<Response, Problem> {
     let Query(about) = about.map_err(super::body::other)?;
     let headers = request.headers().clone();
-    let form = Form::read(request, &state).await?;
+    let form = Form::read(request, &service).await?;
     let key = Given::read(&headers, form.fields.get(idempotency::FIELD).map(String::as_str), &client)?;
     let about = about.with(&form)?;
+    let state = service.named(about.assignment.as_deref())?;
     let identity = identity(&state, &about, visitor, teacher, &headers).await?;
     let receipt = submit(
         &state,
         Upload {
-            assignment: about.assignment.unwrap_or_else(|| state.assignment.id.clone()),
             hand_in: form.hand_in(about.name),
             identity,
             via: if about.draft == Some(true) { Via::Editor } else { Via::Api },
@@ -160,7 +160,7 @@ async fn identity(
     };
     let may_name = match &about.course {
         Some(secret) => same(secret, &course_secret(state).await?),
-        None => teacher.is_some(),
+        None => teacher.is_some_and(|teacher| teacher.may_see(&state.assignment.id)),
     };
     if !may_name {
         return Err(Problem::new(
@@ -222,25 +222,26 @@ pub(super) struct LangQuery {
     responses((status = 200, description = "How far it is", body = SubmissionJson), NotFound, Errors)
 )]
 pub(super) async fn read(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     teacher: Option<Teacher>,
     Lang(language): Lang,
     Path(id): Path<String>,
     asked: Result<Query<LangQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     asked.map_err(super::body::other)?;
-    let Stored { submission, mut report, cross_check } = find(&state, &id).await?;
-    if let Some(report) = report.as_mut().filter(|_| teacher.is_some()) {
+    let Stored { submission, mut report, cross_check } = find(&service, &id).await?;
+    let is_teachers = teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment));
+    if let Some(report) = report.as_mut().filter(|_| is_teachers) {
         report.cross_check = cross_check;
     }
-    let position = state.queue.position(&id);
+    let position = service.queue.position(&id);
     let body = SubmissionJson::of(&submission, report.as_ref(), submission.fault.as_ref(), position, language);
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response())
 }
 
 /// The submission with this id.
-pub(super) async fn find(state: &State, id: &str) -> Result<Stored, Problem> {
-    state.store.stored(id).await?.ok_or_else(Problem::not_found)
+pub(super) async fn find(service: &Service, id: &str) -> Result<Stored, Problem> {
+    service.store.stored(id).await?.ok_or_else(Problem::not_found)
 }
 
 /// The file as handed in; several as a ZIP
@@ -251,6 +252,6 @@ pub(super) async fn find(state: &State, id: &str) -> Result<Stored, Problem> {
         (status = 200, description = "The bytes", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Errors
     )
 )]
-pub(super) async fn source(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
-    download::hand_in(&state, &id).await
+pub(super) async fn source(Shared(service): Shared<Service>, Path(id): Path<String>) -> Result<Response, Problem> {
+    download::hand_in(&service, &id).await
 }

@@ -267,7 +267,7 @@ fn class(
         title,
         entries: entries.collect(),
         refused,
-        expected_portrait: state.gallery.portraits()?.expected.clone(),
+        expected_portrait: state.right.portraits()?.expected.clone(),
         language,
     })
 }

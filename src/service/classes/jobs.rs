@@ -19,6 +19,8 @@ const MOST: usize = 8;
 pub struct Job {
     /// Its id.
     pub id: String,
+    /// Id of the homework whose class it is of.
+    pub assignment: String,
     /// The format.
     pub format: Format,
     /// The page of the class that it is of.
@@ -69,7 +71,8 @@ impl Jobs {
     /// Begins to make one.
     pub fn start(&self, state: &State, whose: Whose, wanted: Wanted, back: String) -> Arc<Job> {
         let (id, steps, made) = (new_id(), Arc::default(), OnceLock::new());
-        let job = Arc::new(Job { id, format: wanted.format, back, steps, made });
+        let job =
+            Arc::new(Job { id, assignment: state.assignment.id.clone(), format: wanted.format, back, steps, made });
         let mut jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         jobs.truncate(MOST - 1);
         jobs.push_front(Arc::clone(&job));

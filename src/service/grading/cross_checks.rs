@@ -11,7 +11,7 @@ use crate::hand_in::HandIn;
 use crate::report::{Report, Verdict};
 use crate::sandbox;
 use crate::service::store::{StoreError, Submission, Via, word};
-use crate::service::{State, metrics};
+use crate::service::{Service, State, metrics};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use tokio::sync::{Mutex, mpsc};
@@ -61,20 +61,20 @@ impl CrossChecks {
 }
 
 /// Runs until the service is told to end.
-pub(super) async fn run(state: State) {
-    let Ok(mut receiver) = state.cross_checks.receiver.try_lock() else { return };
+pub(super) async fn run(service: Service) {
+    let Ok(mut receiver) = service.cross_checks.receiver.try_lock() else { return };
     loop {
         let id = tokio::select! {
-            id = next(&state, &mut receiver) => id,
-            () = state.ended() => return,
+            id = next(&service, &mut receiver) => id,
+            () = service.ended() => return,
         };
         match id {
             Ok(id) => {
-                quiet(&state).await;
-                if state.is_ending() {
+                quiet(&service).await;
+                if service.is_ending() {
                     return;
                 }
-                if let Err(error) = check(&state, &id).await {
+                if let Err(error) = check(&service, &id).await {
                     tracing::error!(%error, submission = id, "a second opinion could not be stored");
                     tokio::time::sleep(PAUSE).await;
                 }
@@ -88,8 +88,8 @@ pub(super) async fn run(state: State) {
 }
 
 /// The next submission; waits until there is one.
-async fn next(state: &State, receiver: &mut mpsc::Receiver<String>) -> Result<String, StoreError> {
-    let checks = &state.cross_checks;
+async fn next(service: &Service, receiver: &mut mpsc::Receiver<String>) -> Result<String, StoreError> {
+    let checks = &service.cross_checks;
     loop {
         match receiver.try_recv() {
             Ok(id) if !id.is_empty() => return Ok(id),
@@ -97,14 +97,15 @@ async fn next(state: &State, receiver: &mut mpsc::Receiver<String>) -> Result<St
             Err(_) => {}
         }
         if checks.more.swap(false, Ordering::Relaxed) {
-            let found =
-                state.store.not_cross_checked(&state.assignment.id, PAGE).await.inspect_err(|_| checks.look())?;
-            // A full page may not be all.
-            checks.more.store(found.len() == PAGE as usize, Ordering::Relaxed);
-            found.into_iter().for_each(|id| drop(checks.sender.try_send(id)));
+            for assignment in service.ids() {
+                let found = service.store.not_cross_checked(assignment, PAGE).await.inspect_err(|_| checks.look())?;
+                // A full page may not be all.
+                checks.more.fetch_or(found.len() == PAGE as usize, Ordering::Relaxed);
+                found.into_iter().for_each(|id| drop(checks.sender.try_send(id)));
+            }
             continue;
         }
-        // The sender lives as long as this state.
+        // The sender lives as long as this service.
         if let Some(id) = receiver.recv().await.filter(|id| !id.is_empty()) {
             return Ok(id);
         }
@@ -112,22 +113,24 @@ async fn next(state: &State, receiver: &mut mpsc::Receiver<String>) -> Result<St
 }
 
 /// Waits until nobody has waited for a grading for a while.
-async fn quiet(state: &State) {
-    while !state.queue.is_quiet(QUIET) && !state.is_ending() {
+async fn quiet(service: &Service) {
+    while !service.queue.is_quiet(QUIET) && !service.is_ending() {
         tokio::time::sleep(LOOK).await;
     }
 }
 
-async fn check(state: &State, id: &str) -> Result<(), StoreError> {
-    let Some(stored) = state.store.stored(id).await? else { return Ok(()) };
+async fn check(service: &Service, id: &str) -> Result<(), StoreError> {
+    let Some(stored) = service.store.stored(id).await? else { return Ok(()) };
     if stored.cross_check.is_some() || stored.report.is_none() {
         return Ok(());
     }
     let submission = stored.submission;
-    let Some(hand_in) = state.store.hand_in(id).await? else { return Ok(()) };
-    let checked = cross_check(state, &submission, hand_in).await;
-    state.store.set_cross_check(id, submission.seed, &checked).await?;
-    metrics::cross_checked(checked.opinion);
+    let Some(hand_in) = service.store.hand_in(id).await? else { return Ok(()) };
+    // Of a homework that is not served any more, nothing is run.
+    let Some(state) = service.homework(&submission.assignment) else { return Ok(()) };
+    let checked = cross_check(&state, &submission, hand_in).await;
+    service.store.set_cross_check(id, submission.seed, &checked).await?;
+    metrics::cross_checked(&submission, checked.opinion);
     if checked.opinion == Opinion::Differs {
         tracing::warn!(submission = id, vertices = checked.differing, "driver and interpreter disagree");
     }

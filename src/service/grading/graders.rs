@@ -8,7 +8,7 @@ use crate::report::Report;
 use crate::sandbox;
 use crate::service::clock::{Millis, millis};
 use crate::service::store::{StoreError, Submission};
-use crate::service::{Config, State, metrics};
+use crate::service::{Config, Service, State, metrics};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -23,54 +23,54 @@ const PAUSE: Duration = Duration::from_millis(500);
 /// The running graders.
 #[derive(Debug)]
 pub struct Graders {
-    state: State,
+    service: Service,
     tasks: JoinSet<()>,
 }
 
 impl Graders {
     /// Starts them, and takes over what earlier processes left.
-    pub async fn start(state: &State) -> Result<Self, StoreError> {
-        if state.store.is_exclusive() {
-            let left = state.store.release_claims(None).await?;
+    pub async fn start(service: &Service) -> Result<Self, StoreError> {
+        if service.store.is_exclusive() {
+            let left = service.store.release_claims(None).await?;
             if left > 0 {
                 tracing::info!(files = left, "taking over what was not graded");
             }
         }
         // What failed by a fault of the machine or of an earlier version may succeed now.
-        state.store.retry_failed().await?;
-        let workers = state.config.workers;
-        state.queue.set_workers(workers);
+        service.store.retry_failed().await?;
+        let workers = service.config.workers;
+        service.queue.set_workers(workers);
         let mut tasks = JoinSet::new();
         for _ in 0..workers {
-            tasks.spawn(run(state.clone()));
+            tasks.spawn(run(service.clone()));
         }
-        tasks.spawn(keep_claims(state.clone()));
-        if state.config.cross_check {
-            tasks.spawn(cross_checks::run(state.clone()));
+        tasks.spawn(keep_claims(service.clone()));
+        if service.config.cross_check {
+            tasks.spawn(cross_checks::run(service.clone()));
         }
-        Ok(Self { state: state.clone(), tasks })
+        Ok(Self { service: service.clone(), tasks })
     }
 
-    /// Lets the files under way be finished and leaves the rest to whoever comes next. [`State::end`] comes before.
+    /// Lets the files under way be finished and leaves the rest to whoever comes next. [`Service::end`] comes before.
     pub async fn finish(mut self) {
         while self.tasks.join_next().await.is_some() {}
-        if let Err(error) = self.state.store.release_claims(Some(&self.state.instance)).await {
+        if let Err(error) = self.service.store.release_claims(Some(&self.service.instance)).await {
             tracing::error!(%error, "claims are left to end by themselves");
         }
     }
 }
 
-async fn run(state: State) {
-    while !state.is_ending() {
-        let woken = state.queue.wakes.notified();
-        if let Some(job) = state.queue.next() {
-            grade(&state, job).await;
+async fn run(service: Service) {
+    while !service.is_ending() {
+        let woken = service.queue.wakes.notified();
+        if let Some(job) = service.queue.next() {
+            grade(&service, job).await;
             continue;
         }
-        if state.queue.more.load(Ordering::Relaxed) {
-            match take_from_database(&state).await {
+        if service.queue.more.load(Ordering::Relaxed) {
+            match take_from_database(&service).await {
                 Ok(true) => continue,
-                Ok(false) => state.queue.more.store(false, Ordering::Relaxed),
+                Ok(false) => service.queue.more.store(false, Ordering::Relaxed),
                 Err(error) => {
                     tracing::error!(%error, "no file could be claimed");
                     tokio::time::sleep(PAUSE).await;
@@ -80,31 +80,33 @@ async fn run(state: State) {
         }
         tokio::select! {
             () = woken => {}
-            () = state.ended() => {}
-            () = tokio::time::sleep(LOOK) => state.queue.more.store(true, Ordering::Relaxed),
+            () = service.ended() => {}
+            () = tokio::time::sleep(LOOK) => service.queue.more.store(true, Ordering::Relaxed),
         }
     }
 }
 
 /// Grades one file that nobody holds, or one that is to be graded again; whether there was one.
-async fn take_from_database(state: &State) -> Result<bool, StoreError> {
-    if let Some(job) = claim(state).await? {
-        state.queue.begin();
-        grade(state, job).await;
+async fn take_from_database(service: &Service) -> Result<bool, StoreError> {
+    if let Some(job) = claim(service).await? {
+        service.queue.begin();
+        grade(service, job).await;
         return Ok(true);
     }
-    let (now, until) = lease(state);
-    let Some(again) = state.store.claim_again(&state.instance, now, until).await? else { return Ok(false) };
+    let (now, until) = lease(service);
+    let Some(again) = service.store.claim_again(&service.ids(), &service.instance, now, until).await? else {
+        return Ok(false);
+    };
     let id = again.submission.id.clone();
     let judged =
-        judge(state, Job { submission: again.submission, hand_in: again.hand_in, since: Instant::now() }).await;
+        judge(service, Job { submission: again.submission, hand_in: again.hand_in, since: Instant::now() }).await;
     if let Err(fault) = &judged {
         tracing::error!(fault = kind_of(fault), submission = id, "grading again failed");
     }
     // As with a first grading: a claim that is kept up must come to an end.
-    while let Err(error) = state.store.finish_again(&again.regrading_id, &id, judged.as_ref().ok()).await {
+    while let Err(error) = service.store.finish_again(&again.regrading_id, &id, judged.as_ref().ok()).await {
         tracing::error!(%error, submission = id, "a report could not be stored");
-        if state.is_ending() {
+        if service.is_ending() {
             break;
         }
         tokio::time::sleep(PAUSE).await;
@@ -113,50 +115,52 @@ async fn take_from_database(state: &State) -> Result<bool, StoreError> {
 }
 
 /// Now, and when a claim made now ends.
-fn lease(state: &State) -> (Millis, Millis) {
-    let now = state.clock.now();
-    (now, now + millis(Config::span(state.config.limits.lease)))
+fn lease(service: &Service) -> (Millis, Millis) {
+    let now = service.clock.now();
+    (now, now + millis(Config::span(service.config.limits.lease)))
 }
 
-async fn claim(state: &State) -> Result<Option<Job>, StoreError> {
-    let (now, until) = lease(state);
-    let claimed = state.store.claim(&state.instance, now, until).await?;
+async fn claim(service: &Service) -> Result<Option<Job>, StoreError> {
+    let (now, until) = lease(service);
+    let claimed = service.store.claim(&service.ids(), &service.instance, now, until).await?;
     Ok(claimed.map(|claimed| Job { submission: claimed.submission, hand_in: claimed.hand_in, since: Instant::now() }))
 }
 
 /// Keeps the claims of this process from ending while their files wait.
-async fn keep_claims(state: State) {
-    let lease = Config::span(state.config.limits.lease);
+async fn keep_claims(service: Service) {
+    let lease = Config::span(service.config.limits.lease);
     loop {
         tokio::select! {
             () = tokio::time::sleep(lease / 3) => {}
-            () = state.ended() => return,
+            () = service.ended() => return,
         }
-        let until = state.clock.now() + millis(lease);
-        if let Err(error) = state.store.extend_claims(&state.instance, until).await {
+        let until = service.clock.now() + millis(lease);
+        if let Err(error) = service.store.extend_claims(&service.instance, until).await {
             tracing::error!(%error, "claims could not be extended");
         }
     }
 }
 
-async fn grade(state: &State, job: Job) {
+async fn grade(service: &Service, job: Job) {
     let start = Instant::now();
     let submission = job.submission.clone();
     metrics::stage("wait", job.since.elapsed());
-    let judged = judge(state, job).await;
+    let judged = judge(service, job).await;
     metrics::stage("grade", start.elapsed());
     let stored = Instant::now();
-    let outcome = keep(state, &submission, judged).await;
+    let outcome = keep(service, &submission, judged).await;
     metrics::stage("store", stored.elapsed());
     metrics::graded(&submission, outcome.as_ref());
     if let Some(Outcome::Graded(report)) = &outcome {
-        state.cross_checks.expect(&submission, report);
+        service.cross_checks.expect(&submission, report);
     }
-    state.queue.done(&submission.id, outcome, start.elapsed());
+    service.queue.done(&submission.id, outcome, start.elapsed());
 }
 
-async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
-    let (pool, assignment) = (Arc::clone(&state.pool), Arc::clone(&state.assignment));
+async fn judge(service: &Service, job: Job) -> Result<Report, Fault> {
+    let not_served = || Fault::new(Text::verbatim("a claimed file is of no homework that is served"));
+    let State { assignment, .. } = service.homework(&job.submission.assignment).ok_or_else(not_served)?;
+    let pool = Arc::clone(&service.pool);
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { seed, hints, .. } = &job.submission;
         let order = Order { seed: *seed, hints: *hints, ..Order::default() };
@@ -171,21 +175,21 @@ async fn judge(state: &State, job: Job) -> Result<Report, Fault> {
 
 /// Stores what came of a grading, however long the database does not answer: until then nothing else is graded here.
 /// When the service ends before, the claim ends with it, and the file is graded again.
-async fn keep(state: &State, submission: &Submission, judged: Result<Report, Fault>) -> Option<Outcome> {
+async fn keep(service: &Service, submission: &Submission, judged: Result<Report, Fault>) -> Option<Outcome> {
     if let Err(fault) = &judged {
         tracing::error!(fault = kind_of(fault), submission = submission.id, "grading failed");
     }
     loop {
-        let now = state.clock.now();
+        let now = service.clock.now();
         let kept = match &judged {
-            Ok(report) => state.store.finish(&submission.id, report, now).await.map(drop),
-            Err(fault) => state.store.fail(&submission.id, fault, now).await,
+            Ok(report) => service.store.finish(&submission.id, report, now).await.map(drop),
+            Err(fault) => service.store.fail(&submission.id, fault, now).await,
         };
         match kept {
             Ok(()) => break,
             Err(error) => tracing::error!(%error, submission = submission.id, "a report could not be stored"),
         }
-        if state.is_ending() {
+        if service.is_ending() {
             return None;
         }
         tokio::time::sleep(PAUSE).await;

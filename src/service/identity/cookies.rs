@@ -1,7 +1,7 @@
 //! Cookies: HttpOnly, SameSite=Lax, and behind https Secure and bound to the host.
 
 use super::secrets::TOKEN_LENGTH;
-use crate::service::State;
+use crate::service::Service;
 use axum::http::{HeaderMap, HeaderValue, header};
 
 /// Base name of the cookie of a browser.
@@ -10,19 +10,19 @@ pub const STUDENT_COOKIE: &str = "ggrade";
 pub const TEACHER_COOKIE: &str = "ggrade_teacher";
 
 /// The name as it is sent: with https, browsers let nobody but this very host set it.
-fn name(state: &State, base: &str) -> String {
-    if state.config.is_secure() { format!("__Host-{base}") } else { base.to_owned() }
+fn name(service: &Service, base: &str) -> String {
+    if service.config.is_secure() { format!("__Host-{base}") } else { base.to_owned() }
 }
 
 /// The value of ours that a request brings.
-pub(super) fn read(state: &State, headers: &HeaderMap, base: &str) -> Option<String> {
-    let name = name(state, base);
+pub(super) fn read(service: &Service, headers: &HeaderMap, base: &str) -> Option<String> {
+    let name = name(service, base);
     named(headers, &name).filter(|value| is_token(value)).map(str::to_owned)
 }
 
 /// The secret by which a browser is known, where the request brings one.
-pub(in crate::service) fn of_visitor(state: &State, headers: &HeaderMap) -> Option<String> {
-    read(state, headers, STUDENT_COOKIE)
+pub(in crate::service) fn of_visitor(service: &Service, headers: &HeaderMap) -> Option<String> {
+    read(service, headers, STUDENT_COOKIE)
 }
 
 /// Whether this can be a secret of ours.
@@ -38,8 +38,8 @@ pub(in crate::service) fn named<'a>(headers: &'a HeaderMap, name: &str) -> Optio
 }
 
 /// A `Set-Cookie` of one of our secrets, which are hexadecimal; 0 seconds removes it.
-pub(super) fn set(state: &State, base: &str, value: &str, seconds: u64) -> Option<HeaderValue> {
-    let secure = if state.config.is_secure() { "; Secure" } else { "" };
-    let name = name(state, base);
+pub(super) fn set(service: &Service, base: &str, value: &str, seconds: u64) -> Option<HeaderValue> {
+    let secure = if service.config.is_secure() { "; Secure" } else { "" };
+    let name = name(service, base);
     format!("{name}={value}; Path=/; Max-Age={seconds}; HttpOnly; SameSite=Lax{secure}").parse().ok()
 }

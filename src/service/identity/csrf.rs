@@ -1,24 +1,24 @@
 //! Tokens in forms, which only pages of ours can know: a keyed hash of the cookie that the form comes with.
 
 use super::secrets::{hex, same};
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::Problem;
 use axum::http::StatusCode;
 use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
 
 /// The token of the forms of one cookie.
-pub(super) fn token(state: &State, cookie: &str) -> String {
+pub(super) fn token(service: &Service, cookie: &str) -> String {
     // A key of any length is taken: there is nothing that could fail.
-    let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(&state.key) else { return String::new() };
+    let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(&service.key) else { return String::new() };
     mac.update(b"csrf ");
     mac.update(cookie.as_bytes());
     hex(&mac.finalize().into_bytes())
 }
 
 /// Lets a form pass that has its cookie's token.
-pub(super) fn check(state: &State, cookie: &str, given: &str) -> Result<(), Problem> {
-    let expected = token(state, cookie);
+pub(super) fn check(service: &Service, cookie: &str, given: &str) -> Result<(), Problem> {
+    let expected = token(service, cookie);
     if !expected.is_empty() && same(&expected, given) {
         return Ok(());
     }

@@ -2,7 +2,7 @@
 
 use super::secrets::same;
 use super::{Identity, Visitor, new_token};
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::roster::not_on_roster;
 
@@ -13,42 +13,42 @@ const SETTING: &str = "course_secret";
 const LONGEST_NUMBER: usize = 32;
 
 /// The secret of the course link, `/join/{secret}`.
-pub async fn course_secret(state: &State) -> Result<String, Problem> {
-    Ok(state.store.setting_or(SETTING, &new_token()[..32]).await?)
+pub async fn course_secret(service: &Service) -> Result<String, Problem> {
+    Ok(service.store.setting_or(SETTING, &new_token()[..32]).await?)
 }
 
 /// A new secret; the old link opens nothing any more.
-pub async fn renew_course_secret(state: &State) -> Result<String, Problem> {
+pub async fn renew_course_secret(service: &Service) -> Result<String, Problem> {
     let secret = new_token()[..32].to_owned();
-    state.store.set_setting(SETTING, &secret).await?;
+    service.store.set_setting(SETTING, &secret).await?;
     Ok(secret)
 }
 
 /// Whether this is the secret of the course link.
-pub async fn check_course_link(state: &State, secret: &str) -> Result<(), Problem> {
-    if same(secret, &course_secret(state).await?) { Ok(()) } else { Err(Problem::not_found()) }
+pub async fn check_course_link(service: &Service, secret: &str) -> Result<(), Problem> {
+    if same(secret, &course_secret(service).await?) { Ok(()) } else { Err(Problem::not_found()) }
 }
 
 /// Says that the student with `number` sits at this browser. The answer may be another browser in its place: set its
 /// cookie ([`Visitor::set_cookie`]).
-pub async fn join(state: &State, visitor: Visitor, secret: &str, number: &str) -> Result<Visitor, Problem> {
-    check_course_link(state, secret).await?;
+pub async fn join(service: &Service, visitor: Visitor, secret: &str, number: &str) -> Result<Visitor, Problem> {
+    check_course_link(service, secret).await?;
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable(
             format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`."),
             format!("学籍番号は {LONGEST_NUMBER} 文字以内の英数字、`-`、`_`、`.` で入力してください。"),
         )
     })?;
-    let student = state.store.student(&number, state.clock.now()).await?;
+    let student = service.store.student(&number, service.clock.now()).await?;
     let student = student.ok_or_else(|| not_on_roster(&number))?;
     // What another student handed in at this machine is nobody else's to see.
     let visitor = match &visitor.identity {
         Identity::Student(_, before) if before.id != student.id => Visitor::replaced(),
         _ => visitor,
     };
-    let mut visitor = visitor.known(state).await?;
+    let mut visitor = visitor.known(service).await?;
     if let Identity::Browser(owner) | Identity::Student(owner, _) = visitor.identity.clone() {
-        state.store.set_owner_student(&owner.id, Some(&student.id)).await?;
+        service.store.set_owner_student(&owner.id, Some(&student.id)).await?;
         visitor.identity = Identity::Student(owner, student);
     }
     Ok(visitor)

@@ -2,8 +2,8 @@
 
 use super::cookies::{STUDENT_COOKIE, read, set};
 use super::{Identity, csrf, new_token, token_hash};
-use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::{Scope, Service};
 use axum::extract::{FromRequestParts, Request, State as Shared};
 use axum::http::header;
 use axum::http::request::Parts;
@@ -28,13 +28,13 @@ impl Visitor {
         Self { token: new_token(), is_new: true, identity: Identity::Nobody }
     }
 
-    async fn of(state: &State, headers: &axum::http::HeaderMap) -> Result<Self, Problem> {
-        let Some(token) = read(state, headers, STUDENT_COOKIE) else { return Ok(Self::unknown()) };
-        let identity = match state.store.owner(&token_hash(&token)).await? {
+    async fn of(service: &Service, headers: &axum::http::HeaderMap) -> Result<Self, Problem> {
+        let Some(token) = read(service, headers, STUDENT_COOKIE) else { return Ok(Self::unknown()) };
+        let identity = match service.store.owner(&token_hash(&token)).await? {
             None => Identity::Nobody,
             Some(owner) => match &owner.student_id {
                 None => Identity::Browser(owner),
-                Some(id) => match state.store.student_by_id(id).await? {
+                Some(id) => match service.store.student_by_id(id).await? {
                     Some(student) => Identity::Student(owner, student),
                     None => Identity::Browser(owner),
                 },
@@ -49,19 +49,19 @@ impl Visitor {
     }
 
     /// The token of every form on a page for this browser: `<input type="hidden" name="csrf">`.
-    pub fn csrf(&self, state: &State) -> String {
-        csrf::token(state, &self.token)
+    pub fn csrf(&self, service: &Service) -> String {
+        csrf::token(service, &self.token)
     }
 
     /// Lets a form pass that has this browser's token.
-    pub fn check_csrf(&self, state: &State, given: &str) -> Result<(), Problem> {
-        csrf::check(state, &self.token, given)
+    pub fn check_csrf(&self, service: &Service, given: &str) -> Result<(), Problem> {
+        csrf::check(service, &self.token, given)
     }
 
     /// The same, known from now on: for who hands something in.
-    pub async fn known(mut self, state: &State) -> Result<Self, Problem> {
+    pub async fn known(mut self, service: &Service) -> Result<Self, Problem> {
         if self.identity == Identity::Nobody {
-            let owner = state.store.owner_or_new(&token_hash(&self.token), state.clock.now()).await?;
+            let owner = service.store.owner_or_new(&token_hash(&self.token), service.clock.now()).await?;
             self.identity = Identity::Browser(owner);
         }
         Ok(self)
@@ -73,32 +73,32 @@ impl Visitor {
     }
 
     /// Makes a response set this browser's cookie.
-    pub fn set_cookie(&self, state: &State, response: &mut Response) {
-        if let Some(cookie) = set(state, STUDENT_COOKIE, &self.token, COOKIE_LIFE) {
+    pub fn set_cookie(&self, service: &Service, response: &mut Response) {
+        if let Some(cookie) = set(service, STUDENT_COOKIE, &self.token, COOKIE_LIFE) {
             response.headers_mut().append(header::SET_COOKIE, cookie);
         }
     }
 }
 
 /// The layer around pages: gives each browser its cookie.
-pub async fn visit(Shared(state): Shared<State>, mut request: Request, next: Next) -> Result<Response, Problem> {
-    let visitor = Visitor::of(&state, request.headers()).await?;
+pub async fn visit(Shared(service): Shared<Service>, mut request: Request, next: Next) -> Result<Response, Problem> {
+    let visitor = Visitor::of(&service, request.headers()).await?;
     request.extensions_mut().insert(visitor.clone());
     let mut response = next.run(request).await;
     // A handler may have put another browser in its place.
     if visitor.is_new && !response.headers().contains_key(header::SET_COOKIE) {
-        visitor.set_cookie(&state, &mut response);
+        visitor.set_cookie(&service, &mut response);
     }
     Ok(response)
 }
 
-impl FromRequestParts<State> for Visitor {
+impl<S: Scope> FromRequestParts<S> for Visitor {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Problem> {
         match parts.extensions.get::<Self>() {
             Some(visitor) => Ok(visitor.clone()),
-            None => Self::of(state, &parts.headers).await,
+            None => Self::of(scope.whole(), &parts.headers).await,
         }
     }
 }

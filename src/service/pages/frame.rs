@@ -5,10 +5,10 @@ use super::datetime::Moment;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
 use crate::report::labels::mistake_title;
-use crate::service::State;
 use crate::service::clock::Millis;
 use crate::service::course::Course;
 use crate::service::errors::Problem;
+use crate::service::{Scope, State};
 use axum::extract::{FromRequestParts, OriginalUri};
 use axum::http::Uri;
 use axum::http::request::Parts;
@@ -27,6 +27,8 @@ pub struct Frame {
     uri: Uri,
     /// The homework; none on a page that is of none.
     assignment: Option<Arc<Assignment>>,
+    /// What the addresses of its pages begin with, see [`State::base`].
+    base: String,
 }
 
 /// A language to switch to.
@@ -40,7 +42,28 @@ pub(super) struct Tongue {
 impl Frame {
     /// The frame of a page at an address.
     pub fn new(language: Language, course: Course, uri: Uri, assignment: Option<Arc<Assignment>>) -> Self {
-        Self { language, course, uri, assignment }
+        Self { language, course, uri, assignment, base: String::new() }
+    }
+
+    /// The same for a page of a homework.
+    pub(super) fn of(self, state: &State) -> Self {
+        Self { assignment: Some(Arc::clone(&state.assignment)), base: state.base(), ..self }
+    }
+
+    /// The address of the teacher's pages.
+    pub fn teacher(&self) -> String {
+        format!("{}/teacher", self.base)
+    }
+
+    /// The address of the student's page.
+    pub fn student(&self) -> &str {
+        if self.base.is_empty() { "/" } else { &self.base }
+    }
+
+    /// The homework's title, where the service has others as well.
+    pub fn homework(&self) -> Option<&str> {
+        let assignment = self.assignment.as_deref().filter(|_| !self.base.is_empty())?;
+        Some(self.language.of(&assignment.title))
     }
 
     /// The wording of this page's language.
@@ -100,6 +123,12 @@ impl Frame {
         self.assignment.as_deref().map(assets::motion)
     }
 
+    /// The address of a picture of a submission. Browsers keep pictures; under another version of the homework's folder the
+    /// address is another one.
+    pub(super) fn picture(&self, id: &str, name: &str) -> String {
+        picture(self.assignment.as_deref(), id, name)
+    }
+
     /// The title of a mistake; its id where the homework does not know it.
     pub(super) fn mistake_title<'a>(&'a self, id: &'a str) -> &'a str {
         self.assignment.as_deref().map_or(id, |assignment| mistake_title(assignment, id, self.language))
@@ -116,6 +145,15 @@ impl Frame {
     }
 }
 
+/// See [`Frame::picture`].
+pub(super) fn picture(assignment: Option<&Assignment>, id: &str, name: &str) -> String {
+    let version = assignment.and_then(|assignment| assignment.digest.get(..DIGITS)).unwrap_or_default();
+    format!("/r/{id}/{name}.png?of={version}")
+}
+
+/// Digits of a folder's digest that tell its versions apart.
+const DIGITS: usize = 8;
+
 fn tag(language: Language) -> &'static str {
     match language {
         Language::En => "en",
@@ -123,14 +161,19 @@ fn tag(language: Language) -> &'static str {
     }
 }
 
-impl FromRequestParts<State> for Frame {
+impl<S: Scope> FromRequestParts<S> for Frame {
     type Rejection = Problem;
 
-    async fn from_request_parts(parts: &mut Parts, state: &State) -> Result<Self, Problem> {
+    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Problem> {
         let uri =
             parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
         let language = of_request(&parts.headers, &uri);
-        Ok(Self::new(language, state.store.course().await?, uri, Some(Arc::clone(&state.assignment))))
+        let course = scope.whole().store.course().await?;
+        let frame = Self::new(language, course, uri, None);
+        Ok(match scope.own() {
+            Some(state) => frame.of(&state),
+            None => frame,
+        })
     }
 }
 

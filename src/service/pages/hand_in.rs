@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::standing::Standing;
-use super::student::Desk;
+use super::student::{Desk, LISTED};
 use super::{result, shown};
 use crate::grade::handed_out;
 use crate::hand_in::{HandIn, HandedInFile};
@@ -17,13 +17,12 @@ use crate::service::store::{self, Audience, Submission, Via};
 use crate::service::submit::{Receipt, Upload, asked_for, is_stranger, submit};
 use crate::slots::wording;
 use crate::source;
-use axum::extract::{Multipart, Path, Query, State as Shared};
+use axum::Router;
+use axum::extract::{Multipart, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
+use axum::routing::{get, post};
 use serde::Deserialize;
-
-/// Attempts that the page lists.
-const LISTED: u32 = 60;
 
 /// What the page may be asked to show.
 #[derive(Debug, Default, Deserialize)]
@@ -32,27 +31,29 @@ pub(super) struct Wish {
     from: Option<String>,
 }
 
-/// `GET /`: the homework that is served.
-pub(super) async fn first(shared: Shared<State>, frame: Frame, visitor: Visitor) -> Result<Response, Problem> {
-    let id = shared.assignment.id.clone();
-    desk(shared, Path(id), Query(Wish::default()), frame, visitor).await
+/// The routes of a homework, below its own address.
+pub(super) fn router() -> Router<State> {
+    Router::new()
+        .route("/", get(desk).post(hand_in))
+        .route("/draft", post(draft))
+        .route("/read", post(read))
+        .route("/starter", get(starter))
 }
 
 /// `GET /a/{assignment}`.
 pub(super) async fn desk(
     Shared(state): Shared<State>,
-    Path(id): Path<String>,
     Query(wish): Query<Wish>,
     frame: Frame,
     visitor: Visitor,
 ) -> Result<Response, Problem> {
-    served(&state, &id)?;
-    let settings = state.store.assignment(&id).await?;
+    let id = &state.assignment.id;
+    let settings = state.store.assignment(id).await?;
     let identity = &visitor.identity;
     let (mut history, mut used) = (Vec::new(), 0);
     if let Some(owner) = identity.owner_id() {
-        history = state.store.history(&id, owner, LISTED).await?;
-        used = state.store.attempts(&id, owner, identity.student().map(|student| student.id.as_str())).await?;
+        history = state.store.history(id, owner, LISTED).await?;
+        used = state.store.attempts(id, owner, identity.student().map(|student| student.id.as_str())).await?;
     }
     let needs_number = settings.audience == Audience::Number && identity.student().is_none();
     let stranger = match identity.student() {
@@ -103,13 +104,8 @@ async fn text_of(state: &State, id: &str) -> Result<Option<String>, Problem> {
     Ok(source::readable(only).map(|source| source.text))
 }
 
-fn served(state: &State, id: &str) -> Result<(), Problem> {
-    if id == state.assignment.id { Ok(()) } else { Err(Problem::not_found()) }
-}
-
 /// `GET /a/{assignment}/starter`: the handed-out file; several as a ZIP.
-pub(super) async fn starter(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
-    served(&state, &id)?;
+pub(super) async fn starter(Shared(state): Shared<State>) -> Result<Response, Problem> {
     let [file] = state.assignment.files.as_slice() else {
         return download::files(&state.assignment.id, &handed_out(&state.assignment));
     };
@@ -118,13 +114,7 @@ pub(super) async fn starter(Shared(state): Shared<State>, Path(id): Path<String>
 }
 
 /// `POST /a/{assignment}/read`: the text of a file as grading reads it, for the editor. Nothing is stored.
-pub(super) async fn read(
-    Shared(state): Shared<State>,
-    Path(id): Path<String>,
-    visitor: Visitor,
-    form: Multipart,
-) -> Result<Response, Problem> {
-    served(&state, &id)?;
+pub(super) async fn read(Shared(state): Shared<State>, visitor: Visitor, form: Multipart) -> Result<Response, Problem> {
     let form = Form::read(form).await?;
     visitor.check_csrf(&state, &form.csrf)?;
     let hand_in = asked_for(&state, form.hand_in(&state)?).await?;
@@ -137,14 +127,13 @@ pub(super) async fn read(
 /// `POST /a/{assignment}`: hands in, and goes to the report. A script gets the receipt as a part of its page.
 pub(super) async fn hand_in(
     Shared(state): Shared<State>,
-    Path(id): Path<String>,
     frame: Frame,
     client: Client,
     visitor: Visitor,
     headers: HeaderMap,
     form: Multipart,
 ) -> Result<Response, Problem> {
-    let receipt = take(&state, id, client, visitor, &headers, form, Via::Page).await?;
+    let receipt = take(&state, client, visitor, &headers, form, Via::Page).await?;
     if headers.contains_key("x-part") {
         return result::handed_in(&state, &frame, &receipt.submission, receipt.report().map(AsRef::as_ref)).await;
     }
@@ -154,14 +143,13 @@ pub(super) async fn hand_in(
 /// `POST /a/{assignment}/draft`: grades without handing in. A script gets the report as a part of its page.
 pub(super) async fn draft(
     Shared(state): Shared<State>,
-    Path(id): Path<String>,
     frame: Frame,
     client: Client,
     visitor: Visitor,
     headers: HeaderMap,
     form: Multipart,
 ) -> Result<Response, Problem> {
-    let receipt = take(&state, id, client, visitor, &headers, form, Via::Editor).await?;
+    let receipt = take(&state, client, visitor, &headers, form, Via::Editor).await?;
     let Submission { id, .. } = &receipt.submission;
     if !headers.contains_key("x-part") {
         return Ok(Redirect::to(&format!("/r/{id}")).into_response());
@@ -175,14 +163,12 @@ pub(super) async fn draft(
 
 async fn take(
     state: &State,
-    assignment: String,
     client: Client,
     visitor: Visitor,
     headers: &HeaderMap,
     form: Multipart,
     via: Via,
 ) -> Result<Receipt, Problem> {
-    served(state, &assignment)?;
     let mut form = Form::read(form).await?;
     visitor.check_csrf(state, &form.csrf)?;
     let field = form.key.take();
@@ -191,7 +177,7 @@ async fn take(
     // A page that stays open may be sent again with another text, and first to try it: those are other requests.
     let field = field.map(|field| format!("{field} {} {}", store::word(&via), hand_in.sha256()));
     let key = Given::read(headers, field.as_deref(), &client)?;
-    submit(state, Upload { assignment, hand_in, identity: visitor.identity, via, hints: None, key }).await
+    submit(state, Upload { hand_in, identity: visitor.identity, via, hints: None, key }).await
 }
 
 /// The form as it came.

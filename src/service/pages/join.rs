@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::{shown, student};
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Visitor};
 use askama::Template;
@@ -16,6 +16,7 @@ use serde::Deserialize;
 #[template(path = "service/pages/templates/join.html")]
 struct View {
     frame: Frame,
+    /// The title of the homework, where there is one only.
     title: String,
     problem: Option<String>,
     action: String,
@@ -34,14 +35,21 @@ pub(super) struct Given {
     number: String,
 }
 
-fn view(state: &State, frame: Frame, secret: &str, visitor: &Visitor, number: String, problem: Option<String>) -> View {
+fn view(
+    service: &Service,
+    frame: Frame,
+    secret: &str,
+    visitor: &Visitor,
+    number: String,
+    problem: Option<String>,
+) -> View {
     let who = visitor.identity.student().map(|student| student.number.clone());
     View {
-        title: student::title(&state.assignment, frame.language),
+        title: service.only().map(|state| student::title(&state.assignment, frame.language)).unwrap_or_default(),
         problem,
         action: format!("/join/{secret}"),
         leave: "/leave",
-        csrf: visitor.csrf(state),
+        csrf: visitor.csrf(service),
         number: if number.is_empty() { who.clone().unwrap_or_default() } else { number },
         who,
         frame,
@@ -50,29 +58,29 @@ fn view(state: &State, frame: Frame, secret: &str, visitor: &Visitor, number: St
 
 /// `GET /join/{secret}`.
 pub(super) async fn page(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(secret): Path<String>,
     frame: Frame,
     visitor: Visitor,
 ) -> Result<Response, Problem> {
-    identity::check_course_link(&state, &secret).await?;
-    shown(view(&state, frame, &secret, &visitor, String::new(), None).render())
+    identity::check_course_link(&service, &secret).await?;
+    shown(view(&service, frame, &secret, &visitor, String::new(), None).render())
 }
 
 /// `POST /join/{secret}`.
 pub(super) async fn join(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(secret): Path<String>,
     frame: Frame,
     visitor: Visitor,
     Form(given): Form<Given>,
 ) -> Result<Response, Problem> {
-    visitor.check_csrf(&state, &given.csrf)?;
-    match identity::join(&state, visitor.clone(), &secret, &given.number).await {
-        Ok(visitor) => Ok(to_desk(&state, &visitor)),
+    visitor.check_csrf(&service, &given.csrf)?;
+    match identity::join(&service, visitor.clone(), &secret, &given.number).await {
+        Ok(visitor) => Ok(to_desk(&service, &visitor)),
         Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
             let detail = problem.detail.get(frame.language).to_owned();
-            let mut page = shown(view(&state, frame, &secret, &visitor, given.number, Some(detail)).render())?;
+            let mut page = shown(view(&service, frame, &secret, &visitor, given.number, Some(detail)).render())?;
             *page.status_mut() = problem.status;
             Ok(page)
         }
@@ -82,16 +90,17 @@ pub(super) async fn join(
 
 /// `POST /leave`: leaves the browser to somebody else.
 pub(super) async fn leave(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     visitor: Visitor,
     Form(given): Form<Given>,
 ) -> Result<Response, Problem> {
-    visitor.check_csrf(&state, &given.csrf)?;
-    Ok(to_desk(&state, &identity::leave()))
+    visitor.check_csrf(&service, &given.csrf)?;
+    Ok(to_desk(&service, &identity::leave()))
 }
 
-fn to_desk(state: &State, visitor: &Visitor) -> Response {
-    let mut response = Redirect::to(&format!("/a/{}", state.assignment.id)).into_response();
-    visitor.set_cookie(state, &mut response);
+fn to_desk(service: &Service, visitor: &Visitor) -> Response {
+    let page = service.only().map_or_else(|| "/".to_owned(), |state| state.page());
+    let mut response = Redirect::to(&page).into_response();
+    visitor.set_cookie(service, &mut response);
     response
 }

@@ -20,7 +20,9 @@ struct View {
 
 /// A problem as a page; its button leads to the pages among which `path` is, the teacher's or the student's.
 pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String> {
-    let is_teachers = path == "/teacher" || path.starts_with("/teacher/");
+    // Of one of several homeworks the teacher's pages stand below `/a/{assignment}`.
+    let within = path.strip_prefix("/a/").and_then(|rest| rest.find('/').map(|slash| &rest[slash..])).unwrap_or(path);
+    let is_teachers = within == "/teacher" || within.starts_with("/teacher/");
     let frame = Frame::new(language, Course::default(), Uri::from_static("/"), None);
     let heading = match problem.status.as_u16() {
         401 | 403 => frame.say("Not possible here", "この操作はできません"),

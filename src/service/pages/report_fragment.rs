@@ -1,7 +1,7 @@
 //! A report as a part of a page, with what the editor needs of it.
 
 use super::assets;
-use super::frame::Frame;
+use super::frame::{Frame, picture};
 use super::terms;
 use crate::diagnostic::Severity;
 use crate::fault::Fault;
@@ -110,9 +110,9 @@ pub(super) fn gallery(state: &State, id: &str, report: &Report, sources: &[Sourc
         return None;
     }
     Some(Gallery {
-        yours: format!("/r/{id}/yours.png"),
+        yours: picture(Some(&state.assignment), id, "yours"),
         expected: assets::expected(&state.assignment).into(),
-        difference: format!("/r/{id}/difference.png"),
+        difference: picture(Some(&state.assignment), id, "difference"),
         is_reduced: false,
         terms: terms::addresses(state, id, report, sources),
     })

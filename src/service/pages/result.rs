@@ -6,12 +6,12 @@ use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::report::html::Lines;
 use crate::report::text::number;
-use crate::service::State;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery::View as Pictured;
 use crate::service::identity::Teacher;
 use crate::service::store::{State as Progress, Stored, Submission, Via};
+use crate::service::{Service, State};
 use askama::Template;
 use axum::extract::{Path, Query, State as Shared};
 use axum::http::{StatusCode, header};
@@ -43,20 +43,17 @@ struct Waiting {
     refreshes: bool,
 }
 
-async fn stored(state: &State, id: &str) -> Result<Stored, Problem> {
-    state.store.stored(id).await?.ok_or_else(Problem::not_found)
-}
-
 /// `GET /r/{id}`.
 pub(super) async fn page(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
     teacher: Option<Teacher>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let Stored { submission, report, cross_check } = stored(&state, &id).await?;
+    let (state, Stored { submission, report, cross_check }) = service.stored(&id).await?;
+    let frame = frame.of(&state);
     let Some(mut report) = report else { return waiting(&state, frame, &submission) };
-    if teacher.is_some() {
+    if teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment)) {
         report.cross_check = cross_check;
     }
     let sources = state.store.hand_in(&id).await?.unwrap_or_default().readable();
@@ -67,15 +64,14 @@ pub(super) async fn page(
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
         Via::Editor | Via::Batch => None,
     };
-    let assignment = &submission.assignment;
     shown(
         View {
             title: format!("{} / {} · {}", number(report.score), number(report.max_score), submission.name),
-            back: format!("/a/{assignment}"),
+            back: state.page(),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
             again: (sources.len() == 1 && state.assignment.files.len() == 1)
-                .then(|| format!("/a/{assignment}?from={id}")),
+                .then(|| format!("{}?from={id}", state.page())),
             address: format!("/r/{id}"),
             source: format!("/r/{id}/source"),
             receipt,
@@ -124,11 +120,13 @@ fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Respo
 
 /// `GET /r/{id}/part`: the report for the page with the editor.
 pub(super) async fn part_of(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    match stored(&state, &id).await? {
+    let (state, stored) = service.stored(&id).await?;
+    let frame = frame.of(&state);
+    match stored {
         Stored { submission, report: Some(report), .. } => draft_part(&state, &frame, &submission, &report).await,
         Stored { submission, .. } if submission.state == Progress::Failed => {
             Err(Problem::internal(&"grading a draft failed"))
@@ -160,11 +158,12 @@ async fn beside_editor(
     part.map_err(internal)
 }
 
-/// A report with its files.
-pub(super) async fn report_of(state: &State, id: &str) -> Result<(Report, HandIn), Problem> {
-    let report = stored(state, id).await?.report;
+/// A report with its homework and its files.
+pub(super) async fn report_of(service: &Service, id: &str) -> Result<(State, Report, HandIn), Problem> {
+    let (state, Stored { report, .. }) = service.stored(id).await?;
     let hand_in = state.store.hand_in(id).await?;
-    report.zip(hand_in).ok_or_else(Problem::not_found)
+    let (report, hand_in) = report.zip(hand_in).ok_or_else(Problem::not_found)?;
+    Ok((state, report, hand_in))
 }
 
 /// The receipt of what was handed in, with its report as soon as there is one, as parts of the page with the editor.
@@ -190,12 +189,12 @@ pub(super) async fn handed_in(
 
 /// `GET /r/{id}/receipt`: the same later.
 pub(super) async fn receipt_of(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path(id): Path<String>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let Stored { submission, report, .. } = stored(&state, &id).await?;
-    handed_in(&state, &frame, &submission, report.as_ref()).await
+    let (state, Stored { submission, report, .. }) = service.stored(&id).await?;
+    handed_in(&state, &frame.of(&state), &submission, report.as_ref()).await
 }
 
 /// There is no report yet: where to ask for it, in a second.
@@ -205,8 +204,8 @@ pub(super) fn come_back(id: &str) -> Response {
 }
 
 /// `GET /r/{id}/source`: the files as they were handed in, to be saved.
-pub(super) async fn source(Shared(state): Shared<State>, Path(id): Path<String>) -> Result<Response, Problem> {
-    download::hand_in(&state, &id).await
+pub(super) async fn source(Shared(service): Shared<Service>, Path(id): Path<String>) -> Result<Response, Problem> {
+    download::hand_in(&service, &id).await
 }
 
 pub(super) fn png(bytes: Vec<u8>) -> Response {
@@ -224,11 +223,11 @@ pub(super) struct Asked {
 
 /// `GET /r/{id}/{picture}`: the sheets of the page, the portrait, the animation.
 pub(super) async fn picture(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path((id, picture)): Path<(String, String)>,
     Query(asked): Query<Asked>,
 ) -> Result<Response, Problem> {
-    let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
+    let (state, submission) = service.submission(&id).await?;
     let found = match picture.as_str() {
         "yours.png" => state.gallery.film(&state, &submission).await?.first().cloned(),
         "difference.png" => state.gallery.film(&state, &submission).await?.get(1).cloned(),
@@ -241,12 +240,12 @@ pub(super) async fn picture(
 
 /// `GET /r/{id}/frames/{n}.png`.
 pub(super) async fn frame(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path((id, picture)): Path<(String, String)>,
     Query(asked): Query<Asked>,
 ) -> Result<Response, Problem> {
     let index = picture.strip_suffix(".png").and_then(|index| index.parse().ok()).ok_or_else(Problem::not_found)?;
-    let submission = state.store.submission(&id).await?.ok_or_else(Problem::not_found)?;
+    let (state, submission) = service.submission(&id).await?;
     let found = state.gallery.frame(&state, &submission, asked.view, index).await?;
     found.map(png).ok_or_else(Problem::not_found)
 }

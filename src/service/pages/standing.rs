@@ -41,7 +41,7 @@ pub(super) struct Until {
 }
 
 impl Fact {
-    fn plain(kind: &'static str, text: String) -> Self {
+    pub fn plain(kind: &'static str, text: String) -> Self {
         Self { kind, text, until: None }
     }
 }

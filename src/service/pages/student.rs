@@ -18,6 +18,9 @@ use askama::Template;
 use reference::assignment::Stage;
 use reference::typeset::Typeset;
 
+/// Attempts that a page lists.
+pub(super) const LISTED: u32 = 60;
+
 /// What a student's page is made of.
 pub(super) struct Desk<'a> {
     pub frame: Frame,
@@ -101,14 +104,9 @@ impl Desk<'_> {
         let language = self.frame.language;
         let file = self.homework.files.first();
         let starter = file.map(|file| file.starter.clone()).unwrap_or_default();
-        let task = homework.task.as_ref();
-        let draw_this = self.frame.say(
-            "Complete the file so that it draws this picture.",
-            "この画像を描くように、ファイルを完成させてください。",
-        );
         let standing = self.standing;
         let slots = &self.homework.files;
-        let file_name = slots.iter().map(|slot| slot.name.as_str()).collect::<Vec<_>>().join(", ");
+        let file_name = file_names(&self.homework);
         let several = match language {
             Language::En => format!("Several files: give one at a time. The homework is {file_name}."),
             Language::Ja => {
@@ -147,8 +145,10 @@ impl Desk<'_> {
             several,
             expected: assets::expected(&homework),
             output: homework.interface.outputs.first().map_or("", |output| &output.name),
-            task: pieces(task.map_or(draw_this, |task| language.of(&task.text))),
-            picture: task
+            task: task(&homework, &self.frame),
+            picture: homework
+                .task
+                .as_ref()
                 .map_or(self.frame.say("What a right answer draws", "正しい答えが描く画像"), |task| {
                     language.of(&task.picture)
                 }),
@@ -160,24 +160,12 @@ impl Desk<'_> {
 
     fn facts(&self) -> Vec<Fact> {
         let mut facts = self.standing.facts(&self.frame);
-        if let Some(best) = self.best() {
-            let best = self.history.iter().find(|row| row.submission.id == best);
-            let (score, most) = best.map_or((None, None), |row| (row.score, row.max_score));
-            let (score, most) = (report_fragment::points(score), report_fragment::points(most));
-            let said = self.frame.say("Best so far", "これまでの最高");
-            facts.push(Fact { kind: "", text: format!("{said} {score} / {most}"), until: None });
-        }
+        facts.extend(best_fact(&self.frame, self.history));
         facts
     }
 
-    /// Id of the best attempt; of equals the first.
-    fn best(&self) -> Option<&str> {
-        let graded = self.history.iter().rev().filter_map(|row| Some((row.score?, row.submission.id.as_str())));
-        graded.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, id)| id)
-    }
-
     fn attempts(&self) -> Vec<Attempt> {
-        let best = self.best();
+        let best = best(self.history).map(|row| row.submission.id.as_str());
         self.history.iter().map(|row| self.attempt(row, best)).collect()
     }
 
@@ -197,7 +185,7 @@ impl Desk<'_> {
             max_score: report_fragment::points(row.max_score),
             verdict,
             is_best: best == Some(submission.id.as_str()),
-            portrait: draws(row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
+            portrait: draws(row.verdict).then(|| self.frame.picture(&submission.id, "portrait")),
             at: self.frame.moment(submission.received_at),
         }
     }
@@ -215,6 +203,34 @@ fn accepted(slots: &[Slot]) -> String {
     extensions.dedup();
     extensions.extend([".glsl", ".txt", "text/plain", ".zip"]);
     extensions.join(",")
+}
+
+/// The best of some attempts, the newest first; of equals the first that was made.
+fn best(history: &[HistoryRow]) -> Option<&HistoryRow> {
+    let graded = history.iter().rev().filter(|row| row.score.is_some());
+    graded.reduce(|best, next| if next.score > best.score { next } else { best })
+}
+
+/// What the best of some attempts got.
+pub(super) fn best_fact(frame: &Frame, history: &[HistoryRow]) -> Option<Fact> {
+    let best = best(history)?;
+    let (score, most) = (report_fragment::points(best.score), report_fragment::points(best.max_score));
+    let said = frame.say("Best so far", "これまでの最高");
+    Some(Fact::plain("", format!("{said} {score} / {most}")))
+}
+
+/// What there is to do.
+pub(super) fn task(homework: &reference::Assignment, frame: &Frame) -> Vec<Piece> {
+    let draw_this = frame.say(
+        "Complete the file so that it draws this picture.",
+        "この画像を描くように、ファイルを完成させてください。",
+    );
+    pieces(homework.task.as_ref().map_or(draw_this, |task| frame.language.of(&task.text)))
+}
+
+/// The names of a homework's files, in one line.
+pub(super) fn file_names(homework: &reference::Assignment) -> String {
+    homework.files.iter().map(|slot| slot.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// The homework's title.

@@ -11,7 +11,7 @@ mod class;
 mod delete;
 mod downloads;
 mod live;
-mod login;
+pub(super) mod login;
 mod person;
 mod regradings;
 mod roster;
@@ -28,12 +28,10 @@ use axum::http::StatusCode;
 use axum::response::Response;
 use axum::routing::{get, post};
 
-/// The routes.
+/// The routes of a homework.
 pub(super) fn router() -> Router<State> {
     Router::new()
         .route("/teacher", get(class::page))
-        .route("/teacher/login", get(login::page).post(login::login))
-        .route("/teacher/logout", post(login::logout))
         .route("/teacher/events", get(live::events))
         .route("/teacher/person", get(person::page))
         .route("/teacher/delete", get(delete::page).post(delete::delete))

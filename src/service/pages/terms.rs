@@ -5,8 +5,8 @@ use crate::fault::Fault;
 use crate::homework::Terms;
 use crate::report::html::Term;
 use crate::report::{Report, pictures};
-use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::{Service, State};
 use crate::source::Source;
 use axum::extract::{Path, State as Shared};
 use axum::response::Response;
@@ -34,13 +34,13 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Sou
 /// `GET /r/{id}/terms/{picture}`, such as `diffuse-yours.png`. What is drawn comes from the report, not from the shader:
 /// nothing is run again.
 pub(super) async fn picture(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     Path((id, picture)): Path<(String, String)>,
 ) -> Result<Response, Problem> {
     let name = picture.strip_suffix(".png").and_then(|name| name.rsplit_once('-'));
     let Some((term, whose @ ("yours" | "expected"))) = name else { return Err(Problem::not_found()) };
     let (term, is_theirs) = (term.to_owned(), whose == "yours");
-    let (report, hand_in) = report_of(&state, &id).await?;
+    let (state, report, hand_in) = report_of(&service, &id).await?;
     let digest = report.sha256();
     let shown = format!("{picture} {}", serde_json::to_string(&report.explanation).unwrap_or_default());
     let draw = move |state: &State| draw(state, &report, &hand_in.readable(), &term, is_theirs);

@@ -2,7 +2,7 @@
 
 use super::steady::Steady;
 use crate::service::limits::Peer;
-use crate::service::{Config, State};
+use crate::service::{Config, Service};
 use axum::Router;
 use axum::body::Body;
 use hyper::Request;
@@ -27,18 +27,18 @@ const MOST_HEADERS: usize = 100;
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Takes connections until the service is told to end; then waits for those that are open, but not for ever.
-pub async fn accept(listener: TcpListener, app: Router, state: State) {
-    let slots = Arc::new(Semaphore::new(state.config.limits.connections));
+pub async fn accept(listener: TcpListener, app: Router, service: Service) {
+    let slots = Arc::new(Semaphore::new(service.config.limits.connections));
     let crowd = Arc::new(Crowd::default());
     let mut open = JoinSet::new();
     loop {
         let slot = tokio::select! {
             slot = Arc::clone(&slots).acquire_owned() => slot,
-            () = state.ended() => break,
+            () = service.ended() => break,
         };
         let accepted = tokio::select! {
             accepted = listener.accept() => accepted,
-            () = state.ended() => break,
+            () = service.ended() => break,
         };
         // Those that have ended are of no interest any more.
         while open.try_join_next().is_some() {}
@@ -50,25 +50,25 @@ pub async fn accept(listener: TcpListener, app: Router, state: State) {
                 continue;
             }
         };
-        let Some(place) = crowd.enter(address.ip(), &state) else { continue };
-        let (app, state) = (app.clone(), state.clone());
+        let Some(place) = crowd.enter(address.ip(), &service) else { continue };
+        let (app, service) = (app.clone(), service.clone());
         open.spawn(async move {
-            serve(stream, address, app, state).await;
+            serve(stream, address, app, service).await;
             drop((slot, place));
         });
     }
     drop(listener);
     let drained = async { while open.join_next().await.is_some() {} };
-    if tokio::time::timeout(Config::span(state.config.limits.drain_timeout), drained).await.is_err() {
+    if tokio::time::timeout(Config::span(service.config.limits.drain_timeout), drained).await.is_err() {
         tracing::warn!("some connections did not end in time");
     }
 }
 
-async fn serve(stream: TcpStream, address: SocketAddr, app: Router, state: State) {
-    let limits = &state.config.limits;
+async fn serve(stream: TcpStream, address: SocketAddr, app: Router, service: Service) {
+    let limits = &service.config.limits;
     // Answers are small; each goes out at once.
     let _ = stream.set_nodelay(true);
-    let service = hyper::service::service_fn(move |mut request: Request<Incoming>| {
+    let handler = hyper::service::service_fn(move |mut request: Request<Incoming>| {
         request.extensions_mut().insert(Peer(address));
         app.clone().oneshot(request.map(Body::new))
     });
@@ -78,12 +78,12 @@ async fn serve(stream: TcpStream, address: SocketAddr, app: Router, state: State
         .header_read_timeout(Config::span(limits.header_timeout))
         .max_headers(MOST_HEADERS)
         .max_header_size(LONGEST_HEAD)
-        .serve_connection(TokioIo::new(steady), service);
+        .serve_connection(TokioIo::new(steady), handler);
     let mut connection = pin!(connection);
     tokio::select! {
         // A client that goes away or is too slow is nobody's fault here.
         _ = connection.as_mut() => return,
-        () = state.ended() => connection.as_mut().graceful_shutdown(),
+        () = service.ended() => connection.as_mut().graceful_shutdown(),
     }
     let _ = connection.await;
 }
@@ -100,11 +100,11 @@ struct ConnectionSlot {
 
 impl Crowd {
     /// A place for one more connection; none where the address has its share. A trusted proxy speaks for many.
-    fn enter(self: &Arc<Self>, address: IpAddr, state: &State) -> Option<ConnectionSlot> {
+    fn enter(self: &Arc<Self>, address: IpAddr, service: &Service) -> Option<ConnectionSlot> {
         let address = address.to_canonical();
         let mut crowd = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let count = crowd.entry(address).or_default();
-        if *count >= state.config.limits.connections_per_address && !state.proxies.trusts(address) {
+        if *count >= service.config.limits.connections_per_address && !service.proxies.trusts(address) {
             return None;
         }
         *count += 1;

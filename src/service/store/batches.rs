@@ -135,6 +135,13 @@ impl Store {
         rows.into_iter().map(Batch::of).collect()
     }
 
+    /// Every batch of every assignment.
+    pub async fn all_batches(&self) -> Result<Vec<Batch>> {
+        const SQL: &str = "SELECT id, assignment, title, refused, created_at FROM batches ORDER BY created_at DESC, id";
+        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
+        rows.into_iter().map(Batch::of).collect()
+    }
+
     /// Everyone of a batch, in the order of the input.
     pub async fn batch_entries(&self, id: &str) -> Result<Vec<BatchEntry>> {
         const SQL: &str = "SELECT position, student, path, submission_id, note, student_id FROM batch_entries \

@@ -39,22 +39,28 @@ impl Store {
         Ok(())
     }
 
-    /// Keeps a teacher's session, and forgets those that are over.
-    pub async fn open_session(&self, token_hash: &str, now: Millis, expires_at: Millis) -> Result<()> {
+    /// Keeps a teacher's session, and forgets those that are over. `assignment` is the homework whose class it opens; none: all.
+    pub async fn open_session(
+        &self,
+        token_hash: &str,
+        assignment: Option<&str>,
+        now: Millis,
+        expires_at: Millis,
+    ) -> Result<()> {
         const CLEAR: &str = "DELETE FROM teacher_sessions WHERE expires_at <= $1";
-        const SQL: &str = "INSERT INTO teacher_sessions (token_hash, created_at, expires_at) VALUES ($1, $2, $3)";
+        const SQL: &str = "INSERT INTO teacher_sessions (token_hash, created_at, expires_at, assignment) \
+                           VALUES ($1, $2, $3, $4)";
         on!(&self.write, db => {
             sqlx::query(CLEAR).bind(now).execute(db).await?;
-            sqlx::query(SQL).bind(token_hash).bind(now).bind(expires_at).execute(db).await?;
+            sqlx::query(SQL).bind(token_hash).bind(now).bind(expires_at).bind(assignment).execute(db).await?;
         });
         Ok(())
     }
 
-    /// Whether a teacher's session is open.
-    pub async fn session_is_open(&self, token_hash: &str, now: Millis) -> Result<bool> {
-        const SQL: &str = "SELECT count(*) FROM teacher_sessions WHERE token_hash = $1 AND expires_at > $2";
-        let found: i64 = on!(&self.read, db => sqlx::query_scalar(SQL).bind(token_hash).bind(now).fetch_one(db).await?);
-        Ok(found > 0)
+    /// The homework whose class a teacher's session opens, none within for all; nothing where no such session is open.
+    pub async fn session(&self, token_hash: &str, now: Millis) -> Result<Option<Option<String>>> {
+        const SQL: &str = "SELECT assignment FROM teacher_sessions WHERE token_hash = $1 AND expires_at > $2";
+        Ok(on!(&self.read, db => sqlx::query_scalar(SQL).bind(token_hash).bind(now).fetch_optional(db).await?))
     }
 
     /// Ends one session; none: all.

@@ -18,20 +18,42 @@ pub struct Claimed {
     pub hand_in: HandIn,
 }
 
+/// Whether the column `assignment` is in a [`list`].
+macro_rules! is_among {
+    ($list:literal) => {
+        concat!("replace(", $list, ", ',' || assignment || ',', '') <> ", $list)
+    };
+}
+pub(super) use is_among;
+
+/// Ids as one text, for [`is_among`]: no id has a comma, and both databases can look for one in there.
+pub(super) fn list(assignments: &[&str]) -> String {
+    assignments.iter().map(|id| format!(",{id},")).collect()
+}
+
 /// How often a file is graded that fails by our fault.
 const MAX_TRIES: i64 = 4;
 
 impl Store {
-    /// Claims the next file that nobody grades.
-    pub async fn claim(&self, by: &str, now: Millis, until: Millis) -> Result<Option<Claimed>> {
+    /// Claims the next file of these assignments that nobody grades.
+    pub async fn claim(&self, assignments: &[&str], by: &str, now: Millis, until: Millis) -> Result<Option<Claimed>> {
         // Who waited for another's claim sees the outer conditions again, and gets nothing.
-        const CLAIM: &str = "UPDATE submissions SET claimed_by = $1, claimed_until = $2 \
-                             WHERE id = (SELECT id FROM submissions WHERE state <> 'graded' AND tries < $3 \
-                             AND claimed_until <= $4 ORDER BY priority, received_at LIMIT 1) \
-                             AND state <> 'graded' AND claimed_until <= $4 RETURNING id";
+        const CLAIM: &str = concat!(
+            "UPDATE submissions SET claimed_by = $1, claimed_until = $2 WHERE id = \
+             (SELECT id FROM submissions WHERE state <> 'graded' AND tries < $3 AND claimed_until <= $4 AND ",
+            is_among!("$5"),
+            " ORDER BY priority, received_at LIMIT 1) AND state <> 'graded' AND claimed_until <= $4 RETURNING id"
+        );
         const SELECT: &str = concat!("SELECT ", submission_columns!(), " FROM submissions s WHERE s.id = $1");
         let id: Option<String> = on!(&self.write, db => {
-            sqlx::query_scalar(CLAIM).bind(by).bind(until).bind(MAX_TRIES).bind(now).fetch_optional(db).await?
+            sqlx::query_scalar(CLAIM)
+                .bind(by)
+                .bind(until)
+                .bind(MAX_TRIES)
+                .bind(now)
+                .bind(list(assignments))
+                .fetch_optional(db)
+                .await?
         });
         let Some(id) = id else { return Ok(None) };
         let submission: Submission = on!(&self.write, db => sqlx::query_as(SELECT).bind(&id).fetch_one(db).await?);

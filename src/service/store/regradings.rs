@@ -1,5 +1,6 @@
 //! Grading everything again: the new results stand beside the reports until a teacher adopts them.
 
+use super::queue::{is_among, list};
 use super::rows::{from_word, submission_columns, word};
 use super::{Progress, Result, Store, Submission, on, signed};
 use crate::diagnose::Hints;
@@ -146,14 +147,23 @@ impl Store {
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?))
     }
 
-    /// Claims the next submission that is to be graded again.
-    pub async fn claim_again(&self, by: &str, now: Millis, until: Millis) -> Result<Option<Again>> {
-        const CLAIM: &str = "UPDATE regraded SET claimed_by = $1, claimed_until = $2 \
-                             WHERE (regrading_id, submission_id) = (SELECT regrading_id, submission_id FROM regraded \
-                             WHERE state = 'queued' AND claimed_until <= $3 LIMIT 1) \
-                             AND state = 'queued' AND claimed_until <= $3 RETURNING regrading_id, submission_id";
+    /// Claims the next submission of these assignments that is to be graded again.
+    pub async fn claim_again(
+        &self,
+        assignments: &[&str],
+        by: &str,
+        now: Millis,
+        until: Millis,
+    ) -> Result<Option<Again>> {
+        const CLAIM: &str = concat!(
+            "UPDATE regraded SET claimed_by = $1, claimed_until = $2 \
+             WHERE (regrading_id, submission_id) = (SELECT regrading_id, submission_id FROM regraded \
+             WHERE state = 'queued' AND claimed_until <= $3 AND regrading_id IN (SELECT id FROM regradings WHERE ",
+            is_among!("$4"),
+            ") LIMIT 1) AND state = 'queued' AND claimed_until <= $3 RETURNING regrading_id, submission_id"
+        );
         let claimed: Option<(String, String)> = on!(&self.write, db => {
-            sqlx::query_as(CLAIM).bind(by).bind(until).bind(now).fetch_optional(db).await?
+            sqlx::query_as(CLAIM).bind(by).bind(until).bind(now).bind(list(assignments)).fetch_optional(db).await?
         });
         let Some((regrading_id, submission_id)) = claimed else { return Ok(None) };
         let (regrading, submission) = (self.regrading(&regrading_id).await?, self.submission(&submission_id).await?);

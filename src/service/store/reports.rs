@@ -204,11 +204,12 @@ impl Store {
         Ok(is_first)
     }
 
-    /// The portrait of a file, where it was made: the picture, or nothing where the file draws nothing.
-    pub async fn portrait(&self, assignment: &str, sha256: &str) -> Result<Option<Option<Vec<u8>>>> {
-        const SQL: &str = "SELECT png FROM portraits WHERE assignment = $1 AND sha256 = $2";
+    /// The portrait of a hand-in, by its digest and that of the homework's folder, where it was made: the picture, or nothing
+    /// where the hand-in draws nothing.
+    pub async fn portrait(&self, assignment_digest: &str, sha256: &str) -> Result<Option<Option<Vec<u8>>>> {
+        const SQL: &str = "SELECT png FROM portraits WHERE assignment_digest = $1 AND sha256 = $2";
         Ok(on!(&self.read, db => {
-            sqlx::query_scalar(SQL).bind(assignment).bind(sha256).fetch_optional(db).await?
+            sqlx::query_scalar(SQL).bind(assignment_digest).bind(sha256).fetch_optional(db).await?
         }))
     }
 
@@ -221,11 +222,11 @@ impl Store {
     }
 
     /// Keeps a portrait.
-    pub async fn set_portrait(&self, assignment: &str, sha256: &str, png: Option<&[u8]>) -> Result<()> {
+    pub async fn set_portrait(&self, assignment_digest: &str, sha256: &str, png: Option<&[u8]>) -> Result<()> {
         // Not for a hand-in that was deleted while its portrait was drawn.
-        const SQL: &str = "INSERT INTO portraits (assignment, sha256, png) SELECT $1, $2, $3 \
+        const SQL: &str = "INSERT INTO portraits (assignment_digest, sha256, png) SELECT $1, $2, $3 \
                            WHERE EXISTS (SELECT 1 FROM submissions WHERE digest = $2) ON CONFLICT DO NOTHING";
-        on!(&self.write, db => { sqlx::query(SQL).bind(assignment).bind(sha256).bind(png).execute(db).await?; });
+        on!(&self.write, db => { sqlx::query(SQL).bind(assignment_digest).bind(sha256).bind(png).execute(db).await?; });
         Ok(())
     }
 }

@@ -61,6 +61,7 @@ struct One {
     /// Where the files of the formats are, and the batch that they are of.
     files: String,
     of_batch: String,
+    query: &'static str,
     /// What is wrong with the worksheet that was sent.
     problem: Option<String>,
 }
@@ -110,7 +111,7 @@ pub(in crate::service::pages) async fn upload(
     request: Request,
 ) -> Result<Response, Problem> {
     match stored(&state, &teacher, (&headers, &client), request).await {
-        Ok(batch) => Ok(Redirect::to(&format!("/teacher/batches/{}", batch.id)).into_response()),
+        Ok(batch) => Ok(Redirect::to(&format!("{}/batches/{}", frame.teacher(), batch.id)).into_response()),
         Err(problem) if problem.status.is_client_error() => {
             let detail = problem.detail.get(frame.language).replace('`', "");
             Ok(refused(view_list(&state, &teacher, frame, Some(detail)).await?, problem.status))
@@ -127,12 +128,14 @@ async fn stored(
 ) -> Result<Batch, Problem> {
     let archive = Archive::read(request, state).await?;
     teacher.check_csrf(state, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
-    let key = archive.key(headers, client)?;
+    let key = archive.key(&state.assignment.id, headers, client)?;
     classes::submit(state, archive.path.to_path_buf(), &archive.title(), key).await
 }
 
-async fn found(state: &State, id: &str) -> Result<Batch, Problem> {
-    state.store.batch(id).await?.ok_or_else(Problem::not_found)
+/// The archive with this id, where it is of this homework.
+pub(super) async fn found(state: &State, id: &str) -> Result<Batch, Problem> {
+    let of_this = |batch: &Batch| batch.assignment == state.assignment.id;
+    state.store.batch(id).await?.filter(of_this).ok_or_else(Problem::not_found)
 }
 
 /// `GET /teacher/batches/{id}`.
@@ -170,6 +173,7 @@ async fn view_one(
             formats: formats(&frame),
             files: format!("/api/v1/batches/{}/files", batch.id),
             of_batch: batch.id.clone(),
+            query: "",
             title: batch.title,
             id: batch.id,
             problem,
@@ -219,6 +223,6 @@ async fn filled(
     teacher.check_csrf(state, &csrf)?;
     let wanted = Wanted { format, sheet: Some(sheet), language, with_pages: false };
     wanted.check()?;
-    let back = format!("/teacher/batches/{}", batch.id);
+    let back = format!("{}/teacher/batches/{}", state.base(), batch.id);
     Ok(begun(state, Whose::Batch(batch), wanted, back))
 }

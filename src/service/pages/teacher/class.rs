@@ -45,6 +45,8 @@ struct View {
     /// Where the files of the formats are, and the batch that they are of: none, for the class.
     files: &'static str,
     of_batch: &'static str,
+    /// By which an address of the API says which homework it is about.
+    query: String,
     drawing: (f64, f64),
     spark: (f64, f64),
 }
@@ -84,7 +86,7 @@ pub(in crate::service::pages) async fn page(
         let (from, to) = (frame.moment(course.from).text, frame.moment(course.to).text);
         (course, from, to)
     });
-    let expected = &state.gallery.portraits().map_err(internal)?.expected;
+    let expected = &state.right.portraits().map_err(internal)?.expected;
     let deleted = frame.say(
         "Deleted for good; the settings page lists what was deleted.",
         "削除しました。削除の記録は設定ページにあります。",
@@ -111,6 +113,7 @@ pub(in crate::service::pages) async fn page(
             formats: formats(&frame),
             files: "/api/v1/class/files",
             of_batch: "",
+            query: state.query(),
             filter,
             drawing: (WIDTH, HEIGHT),
             spark: SPARK,

@@ -2,13 +2,13 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::Place;
+use super::{Place, batches};
 use crate::service::State;
 use crate::service::classes::people;
 use crate::service::deletion;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
-use crate::service::store::Target;
+use crate::service::store::{Submission, Target};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
@@ -55,12 +55,12 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
         return found_submission(state, frame, &chosen.submission).await;
     }
     if !chosen.batch.is_empty() {
-        let batch = state.store.batch(&chosen.batch).await?.ok_or_else(Problem::not_found)?;
+        let batch = batches::found(state, &chosen.batch).await?;
         return Ok(Found {
             heading: frame
                 .say("Delete this archive with everything in it?", "このアーカイブと中の提出をすべて削除しますか?"),
             name: format!("{} · {}", batch.title, frame.moment(batch.created_at).text),
-            back: format!("/teacher/batches/{}", batch.id),
+            back: format!("{}/batches/{}", frame.teacher(), batch.id),
             target: Target::Batch(batch.id),
             is_on_roster: false,
         });
@@ -78,7 +78,7 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
             "" => frame.say("no number", "番号なし").to_owned(),
             name => name.to_owned(),
         },
-        back: format!("/teacher/person?key={key}"),
+        back: format!("{}/person?key={key}", frame.teacher()),
         is_on_roster: student.as_ref().is_some_and(|student| student.is_on_roster()),
         target: match (&student, person.key.split_once('/')) {
             (Some(student), _) => Target::Student(student.id.clone()),
@@ -92,7 +92,8 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
 
 /// One file: also where a file is all that is known of somebody.
 async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<Found, Problem> {
-    let submission = state.store.submission(id).await?.ok_or_else(Problem::not_found)?;
+    let of_this = |submission: &Submission| submission.assignment == state.assignment.id;
+    let submission = state.store.submission(id).await?.filter(of_this).ok_or_else(Problem::not_found)?;
     Ok(Found {
         heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
         name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
@@ -110,6 +111,7 @@ pub(in crate::service::pages) async fn page(
     frame: Frame,
 ) -> Result<Response, Problem> {
     let found = found(&state, &frame, &chosen).await?;
+    teacher.may_delete(&found.target)?;
     let mut counts = state.store.count(&found.target).await?.said(frame.language);
     if found.is_on_roster {
         counts.push(frame.say("the line of the roster", "名簿の行").to_owned());
@@ -128,6 +130,7 @@ pub(in crate::service::pages) async fn delete(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &chosen.csrf)?;
     let found = found(&state, &frame, &chosen).await?;
+    teacher.may_delete(&found.target)?;
     deletion::delete(&state, &found.target).await?;
-    Ok(Redirect::to("/teacher?done=deleted").into_response())
+    Ok(Redirect::to(&format!("{}?done=deleted", frame.teacher())).into_response())
 }

@@ -2,7 +2,7 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::Place;
+use super::{Place, batches};
 use crate::batch::formats::Format;
 use crate::language::Text;
 use crate::service::State;
@@ -77,10 +77,10 @@ pub(in crate::service::pages) async fn start(
     teacher.check_csrf(&state, &wish.csrf)?;
     let format = named(&wish.format)?;
     let (whose, back) = match wish.batch.as_str() {
-        "" => (Whose::Students(Pick::Best), "/teacher".to_owned()),
+        "" => (Whose::Students(Pick::Best), frame.teacher()),
         id => {
-            let batch = state.store.batch(id).await?.ok_or_else(Problem::not_found)?;
-            (Whose::Batch(batch), format!("/teacher/batches/{id}"))
+            let batch = batches::found(&state, id).await?;
+            (Whose::Batch(batch), format!("{}/batches/{id}", frame.teacher()))
         }
     };
     let language = classes::language(&state, format, None, frame.language).await?;
@@ -90,11 +90,12 @@ pub(in crate::service::pages) async fn start(
 /// Begins to make it, and leads to its page.
 pub(super) fn begun(state: &State, whose: Whose, wanted: Wanted, back: String) -> Response {
     let job = state.downloads.start(state, whose, wanted, back);
-    Redirect::to(&format!("/teacher/downloads/{}", job.id)).into_response()
+    Redirect::to(&format!("{}/teacher/downloads/{}", state.base(), job.id)).into_response()
 }
 
 fn found(state: &State, id: &str) -> Result<Arc<Job>, Problem> {
-    state.downloads.get(id).ok_or_else(Problem::not_found)
+    let of_this = |job: &Arc<Job>| job.assignment == state.assignment.id;
+    state.downloads.get(id).filter(of_this).ok_or_else(Problem::not_found)
 }
 
 /// `GET /teacher/downloads/{id}`.
@@ -117,7 +118,7 @@ pub(in crate::service::pages) async fn page(
             csrf: teacher.csrf(&state),
             format: said(&job.format.description()),
             back: job.back.clone(),
-            address: format!("/teacher/downloads/{id}"),
+            address: format!("{}/downloads/{id}", frame.teacher()),
             progress: job.progress(),
             made,
             notes,
@@ -143,7 +144,7 @@ pub(in crate::service::pages) async fn events(
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
     let job = found(&state, &id)?;
-    Ok(Sse::new(progress(state, Watched::Download(job))).keep_alive(KeepAlive::default()).into_response())
+    Ok(Sse::new(progress(state.service(), Watched::Download(job))).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// `GET /teacher/downloads/{id}/file`.

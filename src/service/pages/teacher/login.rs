@@ -2,7 +2,7 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use crate::service::State;
+use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LoginForm, Teacher, TeacherPage, Visitor};
 use crate::service::limits::Client;
@@ -22,7 +22,7 @@ struct View {
 
 /// `GET /teacher/login`.
 pub(in crate::service::pages) async fn page(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     frame: Frame,
     visitor: Visitor,
     teacher: Option<Teacher>,
@@ -30,22 +30,22 @@ pub(in crate::service::pages) async fn page(
     if teacher.is_some() {
         return Ok(Redirect::to("/teacher").into_response());
     }
-    shown(View { frame, csrf: visitor.csrf(&state), problem: None }.render())
+    shown(View { frame, csrf: visitor.csrf(&service), problem: None }.render())
 }
 
 /// `POST /teacher/login`.
 pub(in crate::service::pages) async fn login(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     frame: Frame,
     visitor: Visitor,
     client: Client,
     Form(form): Form<LoginForm>,
 ) -> Result<Response, Problem> {
-    match identity::login(&state, &client, &visitor, &form).await {
+    match identity::login(&service, &client, &visitor, &form).await {
         Ok(response) => Ok(response),
         Err(problem) if problem.kind == "login" => {
             let detail = problem.detail.get(frame.language).to_owned();
-            let mut page = shown(View { frame, csrf: visitor.csrf(&state), problem: Some(detail) }.render())?;
+            let mut page = shown(View { frame, csrf: visitor.csrf(&service), problem: Some(detail) }.render())?;
             *page.status_mut() = problem.status;
             Ok(page)
         }
@@ -62,9 +62,9 @@ pub(in crate::service::pages) struct Token {
 
 /// `POST /teacher/logout`.
 pub(in crate::service::pages) async fn logout(
-    Shared(state): Shared<State>,
+    Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
     Form(token): Form<Token>,
 ) -> Result<Response, Problem> {
-    identity::logout(&state, &teacher, &token.csrf).await
+    identity::logout(&service, &teacher, &token.csrf).await
 }

@@ -91,7 +91,7 @@ fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> A
         score: report_fragment::points(row.row.score),
         max_score: report_fragment::points(row.row.max_score),
         is_best: best == Some(submission.id.as_str()),
-        portrait: student::draws(row.row.verdict).then(|| format!("/r/{}/portrait.png", submission.id)),
+        portrait: student::draws(row.row.verdict).then(|| frame.picture(&submission.id, "portrait")),
         mistakes: titled(frame, &row.mistakes),
         is_disputed: row.differs,
         file: if hidden { String::new() } else { submission.name.clone() },

@@ -87,7 +87,7 @@ pub(in crate::service::pages) async fn start(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &wish.csrf)?;
     let regrading = regrade::start(&state, wish.new_seed == "on").await?;
-    Ok(Redirect::to(&format!("/teacher/regradings/{}", regrading.id)).into_response())
+    Ok(Redirect::to(&format!("{}/teacher/regradings/{}", state.base(), regrading.id)).into_response())
 }
 
 /// `POST /teacher/regradings/{id}`: adopts.
@@ -99,7 +99,7 @@ pub(in crate::service::pages) async fn adopt(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &token.csrf)?;
     regrade::adopt(&state, &id).await?;
-    Ok(Redirect::to(&format!("/teacher/regradings/{id}")).into_response())
+    Ok(Redirect::to(&format!("{}/teacher/regradings/{id}", state.base())).into_response())
 }
 
 /// `GET /teacher/regradings/{id}/events`.
@@ -108,8 +108,8 @@ pub(in crate::service::pages) async fn events(
     _: TeacherPage,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    state.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
-    Ok(Sse::new(progress(state, Job::Regrading(id))).keep_alive(KeepAlive::default()).into_response())
+    regrade::found(&state, &id).await?;
+    Ok(Sse::new(progress(state.service(), Job::Regrading(id))).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// `GET /teacher/regradings/{id}`.
@@ -120,7 +120,7 @@ pub(in crate::service::pages) async fn page(
     Query(Wished { page }): Query<Wished>,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let regrading = state.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
+    let regrading = regrade::found(&state, &id).await?;
     let compared = state.store.compared(&id).await?;
     let differs = |row: &&Compared| row.after.as_ref().is_some_and(|after| changed(&row.before, after));
     let points = |row: &Compared| row.after.as_ref().map_or(0.0, |after| after.1 - row.before.1);
@@ -135,7 +135,7 @@ pub(in crate::service::pages) async fn page(
             csrf: teacher.csrf(&state),
             at: frame.moment(regrading.created_at),
             seed: regrading.seed,
-            events: format!("/teacher/regradings/{id}/events"),
+            events: format!("{}/regradings/{id}/events", frame.teacher()),
             progress: state.store.regrading_progress(&id).await?,
             is_adopted: regrading.adopted_at.is_some(),
             gains,

@@ -22,7 +22,7 @@ pub(in crate::service::pages) async fn take(
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     match import(&state, &teacher, form).await {
-        Ok(()) => Ok(Redirect::to("/teacher/settings?done=roster").into_response()),
+        Ok(()) => Ok(Redirect::to(&format!("{}/settings?done=roster", frame.teacher())).into_response()),
         Err(problem) if problem.status.is_client_error() => {
             let said = Said { roster: Some(problem.detail.get(frame.language).to_owned()), ..Said::default() };
             let page = settings::view(&state, frame, &headers, &teacher, Typed::default(), said).await?;
@@ -43,6 +43,7 @@ async fn import(state: &State, teacher: &Teacher, form: Result<Multipart, Multip
         }
     }
     teacher.check_csrf(state, &csrf)?;
+    teacher.check_course()?;
     roster::import(state, &roster::read(&bytes)?).await
 }
 

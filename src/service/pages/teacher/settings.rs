@@ -28,6 +28,8 @@ struct View {
     csrf: String,
     said: Said,
     rules: Rules,
+    /// Whether the teacher may change what belongs to the whole course: all that follows.
+    has_course: bool,
     course: CourseFields,
     zones: Vec<String>,
     link: String,
@@ -136,6 +138,7 @@ pub(super) async fn view(
             csrf: teacher.csrf(state),
             said,
             rules: typed.rules.unwrap_or_else(|| Rules::of(&settings, &frame.course)),
+            has_course: teacher.has_course(),
             course: typed.course.unwrap_or_else(|| CourseFields::of(&frame.course)),
             zones: zone_names(),
             link: format!("{}/join/{}", public.trim_end_matches('/'), identity::course_secret(state).await?),
@@ -239,7 +242,7 @@ pub(in crate::service::pages) async fn save(
     match rules.read(&frame, before) {
         Ok(settings) => {
             state.store.set_assignment(&settings).await?;
-            Ok(Redirect::to("/teacher/settings?done=saved").into_response())
+            Ok(Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response())
         }
         Err(wrong) => {
             let said = Said { rules: Some(wrong.to_owned()), ..Said::default() };
@@ -259,10 +262,11 @@ pub(in crate::service::pages) async fn save_course(
     Form(fields): Form<CourseFields>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &fields.csrf)?;
+    teacher.check_course()?;
     match fields.read(&frame) {
         Ok(course) => {
             state.store.set_course(&course).await?;
-            Ok(Redirect::to("/teacher/settings?done=saved").into_response())
+            Ok(Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response())
         }
         Err(wrong) => {
             let said = Said { course: Some(wrong), ..Said::default() };
@@ -280,6 +284,7 @@ pub(in crate::service::pages) async fn renew(
     Form(token): Form<Token>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &token.csrf)?;
+    teacher.check_course()?;
     identity::renew_course_secret(&state).await?;
-    Ok(Redirect::to("/teacher/settings?done=link").into_response())
+    Ok(Redirect::to(&format!("{}/teacher/settings?done=link", state.base())).into_response())
 }

@@ -260,10 +260,10 @@ fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
     let key = utf8_percent_encode(&person.key, NON_ALPHANUMERIC);
     let note = person.note.as_ref().filter(|_| shown.is_none());
     Row {
-        href: format!("/teacher/person?key={key}{}", if anonymous { "&anonymous=on" } else { "" }),
+        href: format!("{}/person?key={key}{}", frame.teacher(), if anonymous { "&anonymous=on" } else { "" }),
         number: if anonymous { pseudonym() } else { person.number.clone() },
         name: if anonymous { String::new() } else { person.name.clone() },
-        portrait: portrait.map(|best| format!("/r/{}/portrait.png", best.row.submission.id)),
+        portrait: portrait.map(|best| frame.picture(&best.row.submission.id, "portrait")),
         mark: best.and_then(|best| Some(student::mark(best.row.verdict?, best.row.score).id())),
         word: word(frame, person.standing()),
         score: report_fragment::points(best.and_then(|best| best.row.score)),

@@ -1,0 +1,132 @@
+//! The list of the homeworks, where a service has several: for students, and for teachers.
+
+use super::frame::Frame;
+use super::standing::{Fact, Standing};
+use super::{internal, shown, student};
+use crate::language::Language;
+use crate::report::html::rich::Piece;
+use crate::service::errors::Problem;
+use crate::service::identity::{TeacherPage, Visitor};
+use crate::service::{Service, State};
+use askama::Template;
+use axum::Router;
+use axum::extract::{Path, State as Shared};
+use axum::response::{IntoResponse, Redirect, Response};
+use axum::routing::{any, get};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+/// The routes.
+pub(super) fn router() -> Router<Service> {
+    Router::new()
+        .route("/", get(list))
+        .route("/teacher", get(classes))
+        .route("/a/{assignment}", any(no_such_homework))
+        .route("/a/{assignment}/{*rest}", any(no_such_page))
+}
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/homeworks.html")]
+struct View {
+    frame: Frame,
+    heading: &'static str,
+    homeworks: Vec<Homework>,
+    /// Student number.
+    who: Option<String>,
+    /// The token of the teacher's forms; none on the page for students.
+    csrf: Option<String>,
+}
+
+/// One of them.
+struct Homework {
+    href: String,
+    title: String,
+    /// The names of its files.
+    file: String,
+    task: Vec<Piece>,
+    facts: Vec<Fact>,
+    /// What a right answer draws, a PNG in the address.
+    picture: String,
+}
+
+impl Homework {
+    fn of(state: &State, frame: &Frame, href: String, facts: Vec<Fact>) -> Result<Self, Problem> {
+        let assignment = &state.assignment;
+        let picture = &state.right.portraits().map_err(internal)?.expected;
+        Ok(Self {
+            href,
+            title: student::title(assignment, frame.language),
+            file: student::file_names(assignment),
+            task: student::task(assignment, frame),
+            facts,
+            picture: format!("data:image/png;base64,{}", STANDARD.encode(picture)),
+        })
+    }
+}
+
+/// `GET /`.
+async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) -> Result<Response, Problem> {
+    let mut homeworks = Vec::new();
+    for state in service.homeworks() {
+        let facts = facts(&state, &frame, &visitor).await?;
+        homeworks.push(Homework::of(&state, &frame, state.page(), facts)?);
+    }
+    let heading = frame.say("Homework", "課題の一覧");
+    let who = visitor.identity.student().map(|student| student.number.clone());
+    shown(View { frame, heading, homeworks, who, csrf: None }.render())
+}
+
+/// Dates, attempts, and the best of what this browser has handed in.
+async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fact>, Problem> {
+    let id = &state.assignment.id;
+    let settings = state.store.assignment(id).await?;
+    let identity = &visitor.identity;
+    let (mut history, mut used) = (Vec::new(), 0);
+    if let Some(owner) = identity.owner_id() {
+        history = state.store.history(id, owner, student::LISTED).await?;
+        used = state.store.attempts(id, owner, identity.student().map(|student| student.id.as_str())).await?;
+    }
+    let standing = Standing { settings: &settings, now: state.clock.now(), may_hand_in: true, used };
+    let mut facts = standing.facts(frame);
+    facts.extend(student::best_fact(frame, &history));
+    Ok(facts)
+}
+
+/// `GET /teacher`: the classes that this teacher may see; the class, where it is one.
+async fn classes(
+    Shared(service): Shared<Service>,
+    TeacherPage(teacher): TeacherPage,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let visible: Vec<State> = service.homeworks().filter(|state| teacher.may_see(&state.assignment.id)).collect();
+    if let [only] = visible.as_slice() {
+        return Ok(Redirect::to(&format!("{}/teacher", only.base())).into_response());
+    }
+    let mut homeworks = Vec::new();
+    for state in visible {
+        let versions = service.store.class_version(&state.assignment.id, None).await?;
+        let files: i64 = versions.iter().map(|(_, count, _)| count).sum();
+        let text = match frame.language {
+            Language::En => format!("{files} {}", if files == 1 { "file" } else { "files" }),
+            Language::Ja => format!("提出 {files} 件"),
+        };
+        let facts = vec![Fact::plain("", text)];
+        homeworks.push(Homework::of(&state, &frame, format!("{}/teacher", state.base()), facts)?);
+    }
+    let heading = frame.say("Classes", "クラスの一覧");
+    let csrf = Some(teacher.csrf(&service));
+    shown(View { frame, heading, homeworks, who: None, csrf }.render())
+}
+
+/// An address of a homework that there is not.
+async fn no_such_homework(Shared(service): Shared<Service>, Path(id): Path<String>) -> Problem {
+    Problem::not_served(&id, &service.ids())
+}
+
+/// An address below that of a homework.
+async fn no_such_page(Shared(service): Shared<Service>, Path((id, _)): Path<(String, String)>) -> Problem {
+    match service.homework(&id) {
+        Some(_) => Problem::not_found(),
+        None => Problem::not_served(&id, &service.ids()),
+    }
+}
