@@ -160,6 +160,17 @@ fn what_is_no_text_is_named_by_its_line() {
 }
 
 #[test]
+fn pictures_and_meshes_that_are_none_are_named_by_their_files() {
+    let texture = "[[texture]]\nname = \"wood\"\nfile = \"fixed.frag\"\n\n[scene]";
+    let copy = Copy::new().replace(MANIFEST, "[scene]", texture);
+    copy.is_refused("fixed.frag", None, "is no PNG, or damaged", "PNG ではないか、壊れています");
+    let triangle = "triangle = [[-1, -0.8660254, 0], [1, -0.8660254, 0], [0, 0.8660254, 0]]";
+    let copy = Copy::new().replace(MANIFEST, triangle, "mesh = { file = \"a.obj\" }");
+    fs::write(copy.path("a.obj"), "v 0 0 0\nv 1 0 0\nv 0 one 0\nf 1 2 3\n").unwrap();
+    copy.is_refused("a.obj", Some(3), "is not what OBJ has", "OBJ として正しくありません");
+}
+
+#[test]
 fn a_link_out_of_the_folder_is_refused() {
     let copy = Copy::new();
     fs::write(copy.around.path().join("secret.txt"), "secret").unwrap();

@@ -50,6 +50,37 @@ fn a_texture_is_as_its_entry_says() {
     assert_eq!((sky.dimension, sky.levels[0].size), (Dimension::Cube, [32, 32, 6]));
 }
 
+/// A square PNG whose rows are given from above; a pixel's red is its number.
+fn png(numbers: [u8; 4]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().expect("a header").write_image_data(&numbers).expect("rows");
+    bytes
+}
+
+#[test]
+fn a_cube_has_its_faces_in_order_and_the_rows_as_they_stand() {
+    let faces = |flip: &str| {
+        let names: Vec<_> = (0..6).map(|face| format!("\"{face}.png\"")).collect();
+        let sky = "generate = { sky = {} }\nsize = [32, 32]";
+        let mut folder = changed(MANIFEST, sky, &format!("cube = [{}]\n{flip}", names.join(", ")));
+        for face in 0..6 {
+            folder.files.insert(format!("{face}.png"), png([0, 1, 2, 3].map(|pixel| 10 * face + pixel)));
+        }
+        let assignment = Assignment::load(folder).expect("an assignment");
+        let Texels::Bytes(texels) = &assignment.textures[5].levels[0].texels else { panic!("bytes") };
+        assert_eq!(
+            (assignment.textures[5].dimension, assignment.textures[5].levels[0].size),
+            (Dimension::Cube, [2, 2, 6])
+        );
+        texels.iter().map(|texel| texel[0]).collect::<Vec<u8>>()
+    };
+    let rows = |order: [u8; 4]| (0..6).flat_map(|face| order.map(|pixel| 10 * face + pixel)).collect::<Vec<u8>>();
+    assert_eq!(faces(""), rows([0, 1, 2, 3]));
+    assert_eq!(faces("flip = true"), rows([2, 3, 0, 1]));
+}
+
 #[test]
 fn an_entry_that_makes_no_texture_is_named_with_what_to_try() {
     let size = "size = [60, 40]";
