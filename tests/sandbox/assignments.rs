@@ -45,6 +45,50 @@ fn one_worker_grades_for_several_assignments() {
     assert_eq!(children().len(), 1, "one worker for both");
 }
 
+/// A figure of a process in bytes: the line of `/proc/PID/FILE` that begins so, its first number times `unit`.
+fn figure(process: u32, file: &str, line: &str, unit: u64) -> u64 {
+    let text = std::fs::read_to_string(format!("/proc/{process}/{file}")).unwrap();
+    let rest = text.lines().find_map(|found| found.strip_prefix(line)).unwrap_or_else(|| panic!("{line}: {text}"));
+    rest.split_whitespace().find_map(|word| word.parse::<u64>().ok()).unwrap_or_else(|| panic!("{rest}")) * unit
+}
+
+#[test]
+fn a_worker_with_several_assignments_gives_a_file_no_more_memory() {
+    let _alone = alone();
+    let further = vec![changed("points = 10", "points = 60"), changed("points = 10", "points = 20")];
+    let pool = Pool::start(Settings { spares: 0, further: further.clone(), ..settings() }, 1).unwrap();
+    pool.warm().unwrap();
+    let [worker] = pool.idle_processes()[..] else { panic!("one worker") };
+    for (assignment, points) in [(ggsample06(), 100.0), (&further[0], 150.0), (&further[1], 110.0)] {
+        let size = figure(worker, "status", "VmSize:", 1024);
+        assert_eq!(grade(&pool, assignment).max_score, points);
+        let limit = figure(worker, "limits", "Max address space", 1);
+        // Up to a page table's worth of rounding, what it had before the file and what the file may take.
+        assert!((size..=size + (768 << 20) + (1 << 20)).contains(&limit), "{limit} of {size}");
+    }
+    assert_eq!(pool.idle_processes(), [worker], "the same worker graded for all");
+}
+
+#[test]
+fn an_assignment_that_workers_cannot_read_costs_the_others_nothing() {
+    let _alone = alone();
+    let (mut broken, whole) = (Assignment::clone(ggsample06()), changed("points = 10", "points = 60"));
+    let mut folder = Folder::clone(&broken.folder);
+    folder.files.remove("solution.vert");
+    broken.digest = folder.digest();
+    broken.folder = Arc::new(folder);
+    let broken = Arc::new(broken);
+    let further = vec![Arc::clone(&broken), Arc::clone(&whole)];
+    let pool = Pool::start(Settings { spares: 0, further, ..settings() }, 1).unwrap();
+    for _ in 0..2 {
+        assert_eq!((grade(&pool, ggsample06()).max_score, grade(&pool, &whole).max_score), (100.0, 150.0));
+        let hand_in = &HandIn::of_one("ggsample06.vert", honest());
+        let submission = Submission { assignment: &broken, hand_in, order: Order::default(), wants_frames: false };
+        let fault = pool.grade(submission).unwrap_err();
+        assert!(fault.message.en.contains("solution.vert"), "{}", fault.message.en);
+    }
+}
+
 fn packed(assignment: &Assignment) -> Pack {
     let mut packer = Packer::default();
     expected::frames(assignment).for_each(|frame| packer.add(&frame).unwrap());
