@@ -380,6 +380,46 @@ fn waves() -> Assignment {
 }
 
 #[test]
+fn what_is_wrong_with_an_interface_is_said_in_both_languages() {
+    let folder = Folder::clone(&waves().folder);
+    for (from, to) in [
+        ("value = 0.15", "value = [1, 2]"),
+        ("value = 0.15", "value = \"a lot\""),
+        ("value = 0.15", "value = 1e60"),
+        ("value = 0.15\n", "\n"),
+        ("value = 0.15", "value = 0.15\ncarries = \"model\""),
+        ("probe = { within = [0.05, 0.4] }", "probe = { within = [0.05] }"),
+        ("probe = { within = [0.05, 0.4] }", "probe = { within = [0.4, 0.05] }"),
+        ("probe = { within = [0.05, 0.4] }", "probe = { within = [0.05, 0.4], also = 1 }"),
+        ("probe = { within = [0.05, 0.4] }", "probe = 0.4"),
+        ("probe = { within = [0.05, 0.4] }", "probe = { from = 1 }"),
+        ("name = \"time\"", "name = \"hour\""),
+        ("name = \"time\"", "name = \"time\"\ntype = \"clock\""),
+        ("name = \"time\"", "name = \"time\"\ntype = \"vec2\""),
+        ("is = \"t * 6.2831853\"", "is = \"t *\""),
+        ("name = \"time\"\nis = \"t * 6.2831853\"", "name = \"time\"\ncarries = \"model\""),
+        ("name = \"waves[1].length\"", "name = \"waves[0].length\""),
+        ("[[uniform]]\nname = \"time\"\nis = \"t * 6.2831853\"\n", ""),
+        ("name = \"position\"\ncarries = \"position\"", "name = \"place\"\ncarries = \"position\""),
+        ("name = \"position\"\ncarries = \"position\"", "name = \"position\"\nvalues = [1, 2, 3]"),
+        ("name = \"position\"\ncarries = \"position\"", "name = \"position\""),
+        (
+            "[[uniform]]\nname = \"model\"",
+            "[[input]]\nname = \"position\"\ncarries = \"position\"\n\n[[uniform]]\nname = \"model\"",
+        ),
+        ("eye = [0, 2, 4]", "eye = \"t t\""),
+    ] {
+        let mut folder = folder.clone();
+        let manifest = folder.text(MANIFEST).expect("text");
+        assert!(manifest.contains(from), "{from}");
+        folder.files.insert(MANIFEST.into(), manifest.replacen(from, to, 1).into());
+        let Text { en, ja } = Assignment::load(folder).expect_err(to).message;
+        assert!(en.is_ascii() || en.contains('…'), "{to}: {en}");
+        assert!(ja.contains(|c| ('ぁ'..='ん').contains(&c)), "{to}: {ja}");
+    }
+}
+
+#[test]
 fn a_homework_needs_neither_designs_nor_mistakes() {
     let waves = waves();
     let probes = waves.judging_probes();

@@ -7,6 +7,7 @@ use super::Checked;
 use super::scene::expression;
 use super::solution::{self, Solution};
 use super::stages::{Compiled, Stages};
+use crate::Text;
 use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, both, error};
 use crate::feed::{Feed, Role, Stream};
 use crate::interpreter::{Stage, Texture, Type, Variable};
@@ -33,14 +34,20 @@ pub(super) fn interface(
     if uniforms.len() > MOST_UNIFORMS {
         return Err(error(
             "uniform",
-            format!("there are {} with all parts: use at most {MOST_UNIFORMS}", uniforms.len()),
+            both(
+                format!("there are {} with all parts: use at most {MOST_UNIFORMS}", uniforms.len()),
+                format!("部分を含めて {} 個あります。{MOST_UNIFORMS} 個以下にしてください", uniforms.len()),
+            ),
         ));
     }
     reader.samplers.are_all_fed(&stages.0, &uniforms)?;
     let inputs = m.input.iter().map(|entry| reader.input(entry)).collect::<Checked<Vec<_>>>()?;
     for (index, input) in inputs.iter().enumerate() {
         if inputs[..index].iter().any(|other| other.name == input.name) {
-            return Err(error(format!("input `{}`", input.name), "stands twice"));
+            return Err(error(
+                format!("input `{}`", input.name),
+                both("stands twice: keep one", "2 回書かれています。一方を取り除いてください"),
+            ));
         }
     }
     let known = |name: &str| {
@@ -49,8 +56,13 @@ pub(super) fn interface(
             || m.constant.iter().any(|constant| constant.name == name)
     };
     if let Some(cell) = solution.given().iter().find(|cell| !known(&cell.name)) {
-        let message =
-            format!("`{}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here", cell.name);
+        let name = &cell.name;
+        let message = both(
+            format!("`{name}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here"),
+            format!(
+                "`{name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。追加するか、ここから取り除いてください"
+            ),
+        );
         return Err(solution.wrong(cell.line, message));
     }
     Ok(Interface { inputs, uniforms, outputs: solution.outputs() })
@@ -67,8 +79,22 @@ fn lies_in(name: &str, path: &str) -> bool {
     name.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
+/// A `type` that the shader contradicts.
+fn declared_as(kind: &Type) -> Text {
+    both(
+        format!("the shader declares it as {kind}: write that, or leave `type` out"),
+        format!("シェーダでは {kind} と宣言されています。その型を書くか、`type` を取り除いてください"),
+    )
+}
+
+/// What is wrong with a key of a uniform's entry.
+fn of_key(key: &str, leaf: &str, kind: &Type, what: &Text) -> Text {
+    let Text { en, ja } = what;
+    both(format!("`{key}` of `{leaf}`, a {kind}: {en}"), format!("`{leaf}` ({kind}) の `{key}`: {ja}"))
+}
+
 impl Reader<'_> {
-    fn wrong(&self, at: usize, place: &str, message: impl Into<crate::Text>) -> AssignmentError {
+    fn wrong(&self, at: usize, place: &str, message: impl Into<Text>) -> AssignmentError {
         error(format!("{}, {place}", solution::place(MANIFEST, (self.line_at)(at))), message)
     }
 
@@ -81,9 +107,10 @@ impl Reader<'_> {
                 match leaves.iter().find(|(known, _)| known.name == variable.name) {
                     Some((known, first)) if known.kind != variable.kind => {
                         let (one, other) = (&known.kind, &variable.kind);
-                        let message = format!(
-                            "`{}` is a {other} here and a {one} in {first}: declare it alike in both",
-                            variable.name
+                        let path = &variable.name;
+                        let message = both(
+                            format!("`{path}` is a {other} here and a {one} in {first}: declare it alike in both"),
+                            format!("`{path}` はここでは {other}、{first} では {one} です。同じ型で宣言してください"),
                         );
                         return Err(error(solution::place(name, variable.line), message));
                     }
@@ -98,7 +125,7 @@ impl Reader<'_> {
             return match &found[..] {
                 [] => Ok(vec![(path.clone(), kind)]),
                 [(name, known)] if name == path && *known != kind => {
-                    let message = format!("the shader declares it as {known}: write that, or leave `type` out");
+                    let message = declared_as(known);
                     Err(self.wrong(entry.name.span().start, place, message))
                 }
                 _ => Ok(found),
@@ -106,9 +133,15 @@ impl Reader<'_> {
         }
         if found.is_empty() {
             let names: Vec<&str> = self.programs.iter().map(|program| program.name.as_str()).collect();
-            let message = format!(
-                "there is no such uniform in {}: declare `uniform type {path};` there, or write `type = …` here",
-                names.join(" or ")
+            let message = both(
+                format!(
+                    "there is no such uniform in {}: declare `uniform type {path};` there, or write `type = …` here",
+                    names.join(" or ")
+                ),
+                format!(
+                    "{} にこの uniform はありません。そこで `uniform 型 {path};` と宣言するか、ここに `type = …` を書いてください",
+                    names.join(" にも ")
+                ),
             );
             return Err(self.wrong(entry.name.span().start, place, message));
         }
@@ -117,7 +150,11 @@ impl Reader<'_> {
 
     fn named(&self, text: &str, at: usize, place: &str) -> Checked<Type> {
         Type::named(text).filter(|kind| *kind != Type::Void).ok_or_else(|| {
-            self.wrong(at, place, format!("`{text}` is not a type: write one of GLSL's, such as vec3, mat4 or int"))
+            let message = both(
+                format!("`{text}` is not a type: write one of GLSL's, such as vec3, mat4 or int"),
+                format!("`{text}` は型ではありません。vec3、mat4、int など GLSL の型を書いてください"),
+            );
+            self.wrong(at, place, message)
         })
     }
 
@@ -126,7 +163,11 @@ impl Reader<'_> {
         let place = format!("uniform `{path}`");
         let leaves = self.leaves(entry, &place)?;
         if let Some((twice, _)) = leaves.iter().find(|(leaf, _)| all.iter().any(|known| known.path == *leaf)) {
-            return Err(self.wrong(at, &place, format!("`{twice}` stands twice: keep one")));
+            let message = both(
+                format!("`{twice}` stands twice: keep one"),
+                format!("`{twice}` が 2 回書かれています。一方を取り除いてください"),
+            );
+            return Err(self.wrong(at, &place, message));
         }
         for (leaf, kind) in leaves {
             let rest = &leaf[path.len()..];
@@ -134,7 +175,7 @@ impl Reader<'_> {
             let probe = match &entry.probe {
                 None => None,
                 Some(said) => values::bounds(said, rest, &kind)
-                    .map_err(|what| self.wrong(at, &place, format!("`probe` of `{leaf}`, a {kind}: {what}")))?,
+                    .map_err(|what| self.wrong(at, &place, of_key("probe", &leaf, &kind, &what)))?,
             };
             all.push(Uniform { path: leaf, kind, feed, probe });
         }
@@ -158,31 +199,47 @@ impl Reader<'_> {
             (Some(role), None, None) => self.role(role, kind).map_err(|what| self.wrong(at, place, what)),
             (None, Some(value), None) => {
                 let value = values::part(value, rest).and_then(|part| values::value(part, kind));
-                value
-                    .map(Feed::Constant)
-                    .map_err(|what| self.wrong(at, place, format!("`value` of `{leaf}`, a {kind}: {what}")))
+                value.map(Feed::Constant).map_err(|what| self.wrong(at, place, of_key("value", leaf, kind, &what)))
             }
             (None, None, Some(text)) if rest.is_empty() => {
                 let expression = expression(text, kind, place, self.line_at)?;
                 Ok(Feed::Expression(expression))
             }
             (None, None, Some(text)) => {
-                let message =
-                    format!("`is` gives a scalar, vector or matrix: write an entry for `{leaf}` and each other part");
+                let message = both(
+                    format!("`is` gives a scalar, vector or matrix: write an entry for `{leaf}` and each other part"),
+                    format!("`is` で書けるのはスカラー、ベクトル、行列です。`{leaf}` などの部分ごとに書いてください"),
+                );
                 Err(self.wrong(text.span().start, place, message))
             }
             (None, None, None) => {
-                Err(self.wrong(at, place, "write where its value comes from: `carries`, `value` or `is`"))
+                let message = both(
+                    "write where its value comes from: `carries`, `value` or `is`",
+                    "値の与え方を `carries`、`value`、`is` のいずれかで書いてください",
+                );
+                Err(self.wrong(at, place, message))
             }
-            _ => Err(self.wrong(at, place, "write one of `carries`, `value` and `is`")),
+            _ => {
+                let message = both(
+                    "write one of `carries`, `value` and `is`",
+                    "`carries`、`value`、`is` のうち 1 つだけを書いてください",
+                );
+                Err(self.wrong(at, place, message))
+            }
         }
     }
 
-    fn role(&self, role: Role, kind: &Type) -> Result<Feed, String> {
+    fn role(&self, role: Role, kind: &Type) -> Result<Feed, Text> {
         let identity = crate::scene::Matrices::new(glam::DMat4::IDENTITY, glam::DMat4::IDENTITY);
         match role.value(&identity, kind) {
             Some(_) => Ok(Feed::Role(role)),
-            None => Err(format!("it is a {kind} in the shader, and what it carries is {}", role.types())),
+            None => Err(both(
+                format!("it is a {kind} in the shader, and what it carries is {}: declare it so", role.types()),
+                format!(
+                    "シェーダでは {kind} ですが、`carries` の値は {} です。その型で宣言してください",
+                    role.types().replace(" or ", " または ")
+                ),
+            )),
         }
     }
 
@@ -196,16 +253,20 @@ impl Reader<'_> {
             (declared, Some(said)) => {
                 let kind = self.named(said, at, &place)?;
                 if let Some(declared) = declared.filter(|declared| declared.kind != kind) {
-                    let message =
-                        format!("the shader declares it as {}: write that, or leave `type` out", declared.kind);
-                    return Err(self.wrong(at, &place, message));
+                    return Err(self.wrong(at, &place, declared_as(&declared.kind)));
                 }
                 kind
             }
             (None, None) => {
-                let file = vertex.map_or("the vertex stage", |vertex| vertex.name.as_str());
-                let message = format!(
-                    "there is no such input in {file}: declare `in type {name};` there, or write `type = …` here"
+                let (en, ja) =
+                    vertex.map_or(("the vertex stage", "頂点シェーダ"), |vertex| (&vertex.name, &vertex.name));
+                let message = both(
+                    format!(
+                        "there is no such input in {en}: declare `in type {name};` there, or write `type = …` here"
+                    ),
+                    format!(
+                        "{ja} にこの入力はありません。そこで `in 型 {name};` と宣言するか、ここに `type = …` を書いてください"
+                    ),
                 );
                 return Err(self.wrong(at, &place, message));
             }
@@ -214,18 +275,26 @@ impl Reader<'_> {
             (Some(attribute), None) => Stream::Mesh(attribute),
             (None, Some(listed)) => {
                 let values = listed.iter().map(|value| values::value(value, &kind)).collect::<Result<Vec<_>, _>>();
-                Stream::Listed(
-                    values.map_err(|what| self.wrong(at, &place, format!("`values`, each a {kind}: {what}")))?,
-                )
+                let message = |what: Text| {
+                    let Text { en, ja } = what;
+                    both(format!("`values`, each a {kind}: {en}"), format!("`values` (それぞれ {kind}): {ja}"))
+                };
+                Stream::Listed(values.map_err(|what| self.wrong(at, &place, message(what)))?)
             }
-            _ => return Err(self.wrong(at, &place, "write where its values come from: `carries` or `values`")),
+            _ => {
+                let message = both(
+                    "write where its values come from: `carries` or `values`",
+                    "値の与え方を `carries` か `values` のどちらかで書いてください",
+                );
+                return Err(self.wrong(at, &place, message));
+            }
         };
         if !stream.fits(&kind) {
-            return Err(self.wrong(
-                at,
-                &place,
+            let message = both(
                 format!("a {kind} cannot hold that: declare a float, vec2, vec3 or vec4"),
-            ));
+                format!("{kind} には入りません。float、vec2、vec3、vec4 のいずれかで宣言してください"),
+            );
+            return Err(self.wrong(at, &place, message));
         }
         Ok(Input { name: name.clone(), kind, stream })
     }

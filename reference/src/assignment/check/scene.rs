@@ -115,7 +115,11 @@ impl Reader<'_> {
                 manifest::Point::Expression(text) => {
                     let expression = Expression::compile(text, &Type::vector(3));
                     let wrong = |what: &str| {
-                        error(format!("scene, `{key}`"), format!("{what}: write three numbers, or a vec3 of `t`"))
+                        let message = both(
+                            format!("{what}: write three numbers, or a vec3 of `t`"),
+                            format!("{what}: 3 つの数、または `t` の vec3 の式を書いてください"),
+                        );
+                        error(format!("scene, `{key}`"), message)
                     };
                     expression.map(Point::Moving).map_err(|refusal| wrong(refusal.what()))
                 }
@@ -260,8 +264,10 @@ pub(super) fn expression(
 ) -> Checked<Expression> {
     let wrong = |what: &str| -> AssignmentError {
         let line = solution::place(MANIFEST, line_at(text.span().start));
-        let message =
-            format!("{what}: write an expression of type {kind} with `t`, `i`, `resolution`, `turn` and `pi`");
+        let message = both(
+            format!("{what}: write an expression of type {kind} with `t`, `i`, `resolution`, `turn` and `pi`"),
+            format!("{what}: `t`、`i`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください"),
+        );
         error(format!("{line}, {place}"), message)
     };
     Expression::compile(text.get_ref(), kind).map_err(|refusal| wrong(refusal.what()))

@@ -2,7 +2,7 @@
 
 use super::solution;
 use super::{Checked, known_line};
-use crate::assignment::{MANIFEST, error};
+use crate::assignment::{MANIFEST, both, error};
 use crate::manifest;
 use crate::typeset::{Given, Term, Typeset};
 use math_core::{LatexToMathML, MathDisplay};
@@ -21,7 +21,10 @@ pub(super) fn typeset(
         let made = made.map_err(|refusal| {
             let place = solution::place(MANIFEST, line_at(text.span().start));
             let found = text.get_ref().get(refusal.0.clone()).unwrap_or_default();
-            error(format!("{place}, equation"), format!("`{found}` is not LaTeX: {}", refusal.error_message()))
+            let why = refusal.error_message();
+            let message =
+                both(format!("`{found}` is not LaTeX: {why}"), format!("`{found}` は LaTeX として読めません: {why}"));
+            error(format!("{place}, equation"), message)
         })?;
         let inside = made.mathml.strip_prefix("<math>").and_then(|rest| rest.strip_suffix("</math>"));
         Ok(inside.unwrap_or(&made.mathml).to_owned())

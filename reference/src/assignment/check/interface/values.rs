@@ -1,12 +1,13 @@
 //! Values of `assignment.toml`: numbers, lists and tables as values of GLSL.
 
-use crate::Value;
+use crate::assignment::both;
 use crate::feed::Bounds;
 use crate::interpreter::{Scalar, Type};
 use crate::value::rounded;
+use crate::{Text, Value};
 use toml::Value as Toml;
 
-type Read<T> = Result<T, String>;
+type Read<T> = Result<T, Text>;
 
 /// The part of a value that a path leads to: `.colour`, `[1].power`.
 pub(super) fn part<'v>(value: &'v Toml, path: &str) -> Read<&'v Toml> {
@@ -21,8 +22,14 @@ pub(super) fn part<'v>(value: &'v Toml, path: &str) -> Read<&'v Toml> {
     match found {
         Some(found) => part(found, rest),
         None => Err(match step {
-            Step::Index(index) => format!("there is no element {index}: write a list of all"),
-            Step::Member(name) => format!("there is no `{name} = …`: write a table of all members"),
+            Step::Index(index) => both(
+                format!("there is no element {index}: write a list of all"),
+                format!("要素 {index} がありません。すべての要素のリストを書いてください"),
+            ),
+            Step::Member(name) => both(
+                format!("there is no `{name} = …`: write a table of all members"),
+                format!("`{name} = …` がありません。すべてのメンバのテーブルを書いてください"),
+            ),
         }),
     }
 }
@@ -45,11 +52,16 @@ fn step(path: &str) -> (Step<'_>, &str) {
 
 /// A number, a truth value, or a list of them, as a value of a type; a matrix by columns.
 pub(super) fn value(value: &Toml, kind: &Type) -> Read<Value> {
-    let scalar = kind.scalar().ok_or("this has no value of its own")?;
+    let scalar = kind.scalar().ok_or_else(|| {
+        both("this has no value of its own: write its parts", "これ自体は値を持ちません。部分ごとに書いてください")
+    })?;
     let numbers = numbers(value)?;
     let count = kind.slots().unwrap_or(0);
     if numbers.len() != count {
-        return Err(format!("{} numbers are written, and it has {count}", numbers.len()));
+        return Err(both(
+            format!("{} numbers are written, and it has {count}", numbers.len()),
+            format!("{} 個の数が書かれていますが、{count} 個必要です", numbers.len()),
+        ));
     }
     check(&numbers, scalar)?;
     Ok(rounded(Value::of(kind.clone(), numbers)))
@@ -64,7 +76,10 @@ fn check(numbers: &[f64], scalar: Scalar) -> Read<()> {
         Scalar::Double => number.is_finite(),
     };
     match numbers.iter().find(|number| !fits(number)) {
-        Some(number) => Err(format!("{number} is not a {}", Type::Vector(scalar, 1))),
+        Some(number) => {
+            let kind = Type::Vector(scalar, 1);
+            Err(both(format!("{number} is not a {kind}"), format!("{number} は {kind} の値ではありません")))
+        }
         None => Ok(()),
     }
 }
@@ -75,25 +90,30 @@ fn numbers(value: &Toml) -> Read<Vec<f64>> {
         Toml::Float(number) => vec![*number],
         Toml::Boolean(holds) => vec![f64::from(u8::from(*holds))],
         Toml::Array(list) => list.iter().map(numbers).collect::<Read<Vec<_>>>()?.concat(),
-        _ => return Err("write a number or a list of numbers".into()),
+        _ => return Err(both("write a number or a list of numbers", "数または数のリストを書いてください")),
     })
 }
 
 /// What probes may draw for the part that a path leads to; nothing where it is not said.
 pub(super) fn bounds(said: &Toml, path: &str, kind: &Type) -> Read<Option<Bounds>> {
-    let Some(table) = said.as_table() else { return Err("write `{ within = [least, greatest] }`".into()) };
-    if let Some(within) = table.get("within") {
+    let within = || both("write `{ within = [least, greatest] }`", "`{ within = [最小, 最大] }` の形で書いてください");
+    let Some(table) = said.as_table() else { return Err(within()) };
+    if let Some(said) = table.get("within") {
         if table.len() > 1 {
-            return Err("`within` stands alone".into());
+            return Err(both("`within` stands alone: remove the others", "`within` は単独で書いてください"));
         }
-        let ends = within.as_array().filter(|ends| ends.len() == 2).ok_or("`within` is `[least, greatest]`")?;
+        let ends = said.as_array().filter(|ends| ends.len() == 2).ok_or_else(within)?;
         let [least, greatest] = [numbers(&ends[0])?, numbers(&ends[1])?];
         let bounds = Bounds::new(kind, &least, &greatest);
-        let message = "write the least and the greatest value, each as one number for all or as many as it has";
-        return bounds.map(Some).ok_or_else(|| message.into());
+        return bounds.map(Some).ok_or_else(|| {
+            both(
+                "write the least and the greatest value, each as one number for all or as many as it has",
+                "最小値と最大値を、全成分に共通の 1 つの数、または成分と同じ個数の数で書いてください",
+            )
+        });
     }
     let (step, rest) = match path {
-        "" => return Err("write `{ within = [least, greatest] }`".into()),
+        "" => return Err(within()),
         path => step(path),
     };
     match step {
@@ -115,8 +135,10 @@ mod tests {
         let lights = toml("[{ colour = [1, 2, 3] }, { colour = [4, 5, 6] }]");
         let found = part(&lights, "[1].colour").and_then(|part| value(part, &Type::vector(3)));
         assert_eq!(found.map(|value| value.numbers().to_vec()), Ok(vec![4.0, 5.0, 6.0]));
-        assert!(part(&lights, "[2].colour").is_err_and(|what| what.contains("element 2")));
-        assert!(part(&lights, "[0].power").is_err_and(|what| what.contains("`power")));
+        assert!(
+            part(&lights, "[2].colour").is_err_and(|what| what.en.contains("element 2") && what.ja.contains("要素 2"))
+        );
+        assert!(part(&lights, "[0].power").is_err_and(|what| what.en.contains("`power")));
     }
 
     #[test]
@@ -131,7 +153,7 @@ mod tests {
         {
             assert!(value(&toml(text), &kind).is_err(), "{text}");
         }
-        assert!(value(&toml("[1, 2]"), &Type::vector(3)).is_err_and(|what| what.contains("2 numbers")));
+        assert!(value(&toml("[1, 2]"), &Type::vector(3)).is_err_and(|what| what.en.contains("2 numbers")));
     }
 
     #[test]
