@@ -14,6 +14,9 @@ use toml::Spanned;
 
 /// More poses than this are refused.
 const MOST_POSES: usize = 10_000;
+/// More vertices than this in all frames are refused. A grading draws them all within 2 s, of which the student's own shader needs a
+/// part: 430,000 of four attributes took 1.5 s on two busy cores.
+const MOST_DRAWN: usize = 300_000;
 /// More things than this are refused.
 const MOST_INSTANCES: u32 = 1_000;
 /// The longest side of a window, in pixels.
@@ -71,6 +74,20 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn
             ),
         ));
     }
+    let drawn = drawn(&scene);
+    if drawn > MOST_DRAWN {
+        return Err(error(
+            "scene",
+            both(
+                format!(
+                    "all frames together draw {drawn} vertices: use at most {MOST_DRAWN}, by fewer poses or coarser meshes"
+                ),
+                format!(
+                    "全フレームで描く頂点が合わせて {drawn} 個あります。ポーズを減らすかメッシュを粗くして {MOST_DRAWN} 個以下にしてください"
+                ),
+            ),
+        ));
+    }
     for pose in scene.all_poses() {
         let is_seen = |matrix: glam::DMat4| matrix.is_finite();
         if !scene.instances(&pose).iter().all(|instance| is_seen(instance.moment.matrices.model_view_projection)) {
@@ -82,6 +99,14 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn
         }
     }
     Ok(scene)
+}
+
+/// The vertices of all frames.
+fn drawn(scene: &Scene) -> usize {
+    let of_frame = |view: &View| -> usize {
+        view.draws.iter().map(|draw| draw.mesh.vertices.len() * draw.instances as usize).sum()
+    };
+    scene.views.iter().map(|view| of_frame(view) * view.times.len()).sum()
 }
 
 /// A scene beside the first one, which says what it does not.

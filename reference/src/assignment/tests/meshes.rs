@@ -96,6 +96,19 @@ fn a_built_in_mesh_is_named_by_its_line() {
 }
 
 #[test]
+fn what_no_grading_could_draw_in_time_is_refused() {
+    // 72 vertices of the stool for each pose, and more of the others.
+    let text = refused(changed(MANIFEST, "poses = 4", "poses = 4000"));
+    assert!(
+        text.en.contains("scene: all frames together draw ") && text.en.contains("use at most 300000"),
+        "{}",
+        text.en
+    );
+    assert!(text.ja.contains("全フレームで描く頂点"), "{}", text.ja);
+    assert!(Assignment::load(changed(MANIFEST, "poses = 4", "poses = 40")).is_ok());
+}
+
+#[test]
 fn a_file_that_is_drawn_twice_is_read_once() {
     let assignment = Assignment::load(changed(MANIFEST, "models/leaf.glb", "models/stool.obj")).expect("an assignment");
     let draws = &assignment.scene.views[0].draws;
