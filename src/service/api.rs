@@ -1,6 +1,7 @@
 //! The HTTP API, and what else is no page.
 
 pub(super) mod archive;
+mod assignments;
 pub(super) mod batches;
 pub(super) mod body;
 mod deletions;
@@ -45,6 +46,7 @@ struct Document;
 /// The API's routes with their description.
 fn described() -> OpenApiRouter<Service> {
     OpenApiRouter::with_openapi(Document::openapi())
+        .routes(routes!(assignments::list))
         .routes(routes!(submissions::create))
         .routes(routes!(submissions::read))
         .routes(routes!(submissions::source))

@@ -10,6 +10,7 @@ use axum::http::{Request, StatusCode, header};
 use ggrade::diagnose::Hints;
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
+use ggrade::service::identity::course_secret;
 use ggrade::service::store::{NewSubmission, Via};
 use reference::{Assignment, Folder};
 use serde_json::json;
@@ -95,6 +96,11 @@ async fn each_is_graded_by_its_own_folder(database: Database) {
         let digest = if query.ends_with("waves") { waves().digest.clone() } else { ggsample06().digest.clone() };
         assert_eq!(json["report"]["assignment_digest"], digest);
     }
+    let list = bench.get("/api/v1/assignments?lang=ja").await.json();
+    let of = |index: usize, key: &str| list["assignments"][index][key].clone();
+    assert_eq!((of(0, "id"), of(1, "id"), of(1, "title")), (json!("ggsample06"), json!("waves"), json!("波")));
+    assert_eq!((of(1, "files"), of(1, "digest")), (json!(["waves.vert"]), json!(waves().digest)));
+    assert_eq!(of(1, "links"), json!({"page": "/a/waves", "starter": "/a/waves/starter"}));
     let unsaid = bench.hand_in("", lambert.clone()).await;
     assert_eq!((unsaid.status, unsaid.problem().as_str()), (StatusCode::UNPROCESSABLE_ENTITY, "unprocessable"));
     let detail = unsaid.json()["detail"].as_str().expect("a detail").to_owned();
@@ -117,6 +123,16 @@ async fn the_pages_of_each_lead_to_its_own(database: Database) {
         assert!(lost.text().contains("There is no homework `nope` here."), "{}", lost.text());
     }
     assert_eq!(bench.get("/a/waves/nope").await.status, StatusCode::NOT_FOUND);
+    // The course link is that of the course: it leads to the list.
+    let secret = course_secret(&bench.state).await.expect("a secret");
+    let (join, cookie, csrf) = page(&bench, &format!("/join/{secret}")).await;
+    assert_eq!(join.status, StatusCode::OK);
+    let joined = Request::post(format!("/join/{secret}"))
+        .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
+        .header(header::COOKIE, &cookie)
+        .body(Body::from(format!("csrf={csrf}&number=S1")));
+    let joined = bench.send(joined.expect("a request")).await;
+    assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, "/"));
     // What is handed in on the page of a homework is of that homework, and so is the page of its report.
     for (id, bytes, title) in [("waves", waves_and_new(), "Waves"), ("ggsample06", right_and_new(), "Gouraud shading")]
     {

@@ -143,7 +143,7 @@ async fn pages_show_the_terms_one_by_one(database: Database) {
     let page = text(&get(&bench, "", &format!("/r/{id}")).await);
     for term in ["ambient", "diffuse", "specular"] {
         for whose in ["yours", "expected"] {
-            assert!(page.contains(&format!("src=\"/r/{id}/terms/{term}-{whose}.png?seed=")), "{term} {whose}");
+            assert!(page.contains(&format!("src=\"/r/{id}/terms/{term}-{whose}.png?of=")), "{term} {whose}");
         }
         let (yours, expected) =
             (picture(&id, &format!("{term}-yours")).await, picture(&id, &format!("{term}-expected")).await);

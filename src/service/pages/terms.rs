@@ -1,5 +1,6 @@
 //! The pictures of single terms of the equation, which the service's pages show as the offline page does.
 
+use super::frame;
 use super::result::{png, report_of};
 use crate::fault::Fault;
 use crate::homework::Terms;
@@ -20,7 +21,8 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Sou
     let terms = Terms::of(&state.assignment, report.explanation.as_deref(), sources.first());
     // Another seed may explain the file in another way: a browser does not keep these pictures for those.
     let seed = report.probes.seed;
-    let address = |term: &str, whose| format!("/r/{id}/terms/{term}-{whose}.png?seed={seed}");
+    let name = |term: &str, whose: &str| frame::picture(Some(&state.assignment), id, &format!("terms/{term}-{whose}"));
+    let address = |term: &str, whose| format!("{}&seed={seed}", name(term, whose));
     let scenes = terms.scenes();
     let terms = scenes.iter().map(|scene| Term {
         id: scene.id().to_owned(),
