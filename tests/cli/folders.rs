@@ -238,14 +238,3 @@ fn every_command_says_what_is_wrong_with_a_folder() {
         assert!(said.contains("solution.vert"), "{arguments:?}: {said}");
     }
 }
-
-#[test]
-fn a_service_of_several_assignments_is_refused_with_what_to_do() {
-    let output = ggrade()
-        .args(["serve", "--listen", "127.0.0.1:0", "--assignment", "ggsample06", "--assignment", "ggsample06"])
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("Start a service for each"), "{said}");
-}
