@@ -49,7 +49,7 @@ fn shader(source: &Source, interface: &Interface) -> Shader {
 fn renderer() -> Renderer {
     let interface = interface();
     let fixed = translate::fixed_stage(&interface, &assignment().files[0].starter).expect("the starter links");
-    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), &fixed).expect("a renderer")
+    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), Some(&fixed)).expect("a renderer")
 }
 
 #[divan::bench]

@@ -3,12 +3,14 @@
 //! The two share no compiler and no translator. The driver's values are what is judged; where the interpreter has
 //! others, a teacher is told. It meets the student's text, and is called in a worker only.
 
+mod program;
 mod vertices;
 
 use crate::language::Text;
 use crate::render::{Batch, Sample};
 use reference::interpreter::{Outputs, Precision, Program, Stage, Undefined};
 use serde::{Deserialize, Serialize};
+pub use program::check_program;
 use vertices::Vertices;
 
 /// Largest difference of a value, relative to it where it is more than 1: x^80 in f32 loses five of seven digits at worst.

@@ -18,15 +18,14 @@ use std::time::{Duration, Instant};
 
 /// How many pictures there are: every pose of the solution, then every pose of each answer that is right as well.
 pub fn count(assignment: &Assignment) -> usize {
-    assignment.scene.all_poses().len() * (1 + assignment.accepted().len())
+    assignment.scene.all_poses().len() * (1 + assignment.accepted().count())
 }
 
 /// Those pictures, computed one at a time: all of them together are large.
 pub fn frames(assignment: &Assignment) -> impl Iterator<Item = Frame> {
-    let right = assignment.equation.right();
     let poses = assignment.scene.all_poses();
-    let of_solution = poses.clone().into_iter().map(move |pose| assignment.frame(&pose, &right));
-    let of_answers = assignment.accepted().iter().flat_map(move |answer| {
+    let of_solution = poses.clone().into_iter().map(move |pose| assignment.right_frame(&pose));
+    let of_answers = assignment.accepted().flat_map(move |answer| {
         let poses = poses.clone();
         poses.into_iter().map(move |pose| assignment.frame_of(answer, &pose))
     });

@@ -1,8 +1,11 @@
 //! The pipeline: the only module that knows all the stages.
 
+mod programs;
 mod unfinished;
 
 pub use unfinished::{handed_out, sources, unfinished};
+
+use programs::Programs;
 
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
@@ -13,7 +16,6 @@ use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::homework;
-use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
 use crate::report::{Environment, FrameResult, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
@@ -63,6 +65,8 @@ pub struct Grader {
     environment: Environment,
     /// What advice comes from.
     beyond: Vec<Beyond>,
+    /// The program, where the homework is more than a vertex shader of definitions.
+    programs: Option<Programs>,
     /// The last seed's: a class is graded with one seed.
     last: Option<Rc<Probing>>,
 }
@@ -72,6 +76,15 @@ pub struct Grader {
 struct Probing {
     fresh: ProbeSet,
     scene: Scene,
+}
+
+/// What a report is made from.
+struct Judged<'a> {
+    /// The text that messages point into.
+    source: &'a Source,
+    fresh: &'a ProbeSet,
+    rendering: &'a Rendering,
+    interpreter: Option<&'a Interpreter>,
 }
 
 impl Grader {
@@ -84,20 +97,24 @@ impl Grader {
     /// A grader on an open device. `expected` are the assignment's right pictures, in the order of [`expected::frames`].
     pub fn new(device: Device, assignment: Arc<Assignment>, expected: Vec<ExpectedFrame>) -> Result<Self, Fault> {
         let interface = homework::interface(&assignment)?;
-        let starter = &assignment.files[0].starter;
         let environment = environment(&device);
-        let renderer = Renderer::new(device, &translate::fixed_stage(&interface, starter)?)?;
+        let programs = Programs::of(&assignment)?;
+        let fixed = match &programs {
+            Some(_) => None,
+            None => Some(translate::fixed_stage(&interface, &assignment.files[0].starter)?),
+        };
+        let renderer = Renderer::new(device, fixed.as_ref())?;
         let mut expected = expected;
         let mut others = expected.split_off(assignment.scene.all_poses().len().min(expected.len()));
         let poses = expected.len();
-        let accepted = assignment.accepted().iter().map(|answer| {
+        let accepted = assignment.accepted().map(|answer| {
             let rest = others.split_off(poses.min(others.len()));
             (answer.clone(), std::mem::replace(&mut others, rest))
         });
         let accepted = accepted.collect();
         let probes = assignment.judging_probes();
         let beyond = advice::beyond(&assignment, &probes);
-        Ok(Self { assignment, interface, renderer, expected, accepted, probes, environment, beyond, last: None })
+        Ok(Self { assignment, interface, renderer, expected, accepted, probes, environment, beyond, programs, last: None })
     }
 
     /// Grades one hand-in.
@@ -122,11 +139,9 @@ impl Grader {
             Ok(arranged) => arranged.files,
             Err(why) => return Ok(self.rejected(sources, vec![Diagnostic::error(Stage::Source, why)])),
         };
-        let [file] = files.as_slice() else {
-            return Err(Fault::new(Text::new(
-                format!("assignment {}: only homework of one file can be graded yet", self.assignment.id),
-                format!("課題 {}: まだ採点できるのはファイルが 1 つの課題だけです", self.assignment.id),
-            )));
+        let file = match files.as_slice() {
+            [file] if self.programs.is_none() => file,
+            files => return self.judge_program(sources, files, order),
         };
         let source = match source::read(&file.name, &file.bytes) {
             Ok(source) => source,
@@ -161,7 +176,8 @@ impl Grader {
             rendering.undefined = None;
         }
         let interpreter = translation.interpreter(&source);
-        let report = self.report(&source, fresh, &rendering, interpreter.as_ref(), diagnostics, order.hints);
+        let judged = Judged { source: &source, fresh, rendering: &rendering, interpreter: interpreter.as_ref() };
+        let report = self.report(judged, diagnostics, order.hints);
         let cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
         let report = Report { sources, cross_check, ..report };
         Ok(Graded { report, frames: Some(rendering.frames) })
@@ -216,15 +232,8 @@ impl Grader {
     }
 
     /// The report but for what was handed in.
-    fn report(
-        &self,
-        source: &Source,
-        fresh: &ProbeSet,
-        rendering: &Rendering,
-        interpreter: Option<&Interpreter>,
-        diagnostics: Vec<Diagnostic>,
-        hints: Hints,
-    ) -> Report {
+    fn report(&self, judged: Judged<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
+        let Judged { source, fresh, rendering, interpreter } = judged;
         let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
             let frames = expected.iter().zip(0..);
             frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()

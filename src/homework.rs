@@ -10,28 +10,34 @@ use crate::language::Text;
 use crate::render::{Batch, Scene, State};
 use crate::report::{Picture, SILHOUETTE};
 use crate::translate::{Interface, Variable};
-use reference::assignment::Input;
+use reference::assignment::{Input, Stage};
 use reference::interpreter::Type;
-use reference::probes::ProbeSet;
+use reference::probes::{ProbeSet, Spot};
 use reference::rasteriser::{Coverage, Frame};
 use reference::scene::{Draw, Instance, Pose, Vertex};
 use reference::{Assignment, Value, Values};
 use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The interface of the assignment's only file.
+/// What the program feeds and takes. The fixed fragment stage is empty where that is handed in.
 pub fn interface(assignment: &Assignment) -> Result<Interface, Fault> {
     let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
     let variable = |name: &str, kind: &Type| Variable { name: name.into(), ty: kind.to_string() };
-    let fixed = assignment.fixed.first().ok_or_else(|| broken("there is no fixed stage"))?;
+    let fixed = assignment.fixed.iter().find(|fixed| fixed.stage == Stage::Fragment);
+    let fixed = fixed.map_or("", |fixed| fixed.text.as_str());
     let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
     Ok(Interface {
         inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
         uniforms: assignment.interface.uniforms.iter().map(|uniform| variable(&uniform.path, &uniform.kind)).collect(),
         output: variable(&output.name, &output.kind),
         constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
-        fragment: CString::new(fixed.text.as_str()).map_err(|_| broken("a NUL in the fixed stage"))?,
+        fragment: CString::new(fixed).map_err(|_| broken("a NUL in the fixed stage"))?,
     })
+}
+
+/// Whether a stage is handed in.
+pub fn is_handed_in(assignment: &Assignment, stage: Stage) -> bool {
+    assignment.files.iter().any(|file| file.stage == stage)
 }
 
 /// What is drawn for a submission: the course's animation and the probes, set after set.
@@ -44,15 +50,63 @@ pub fn scene(assignment: &Assignment, probes: &[&ProbeSet]) -> Scene {
     };
     let frame = |pose: &Pose| scene.instances(pose).into_iter().map(draw).collect();
     let frames = scene.all_poses().iter().map(frame).collect();
-    let drawn = |probes: &&ProbeSet| -> Vec<Batch> {
-        let vertices = |group| -> Vec<Vertex> { probes.of_group(group).iter().map(|probe| probe.vertex).collect() };
-        let groups = probes.groups.iter().enumerate();
-        groups.map(|(place, group)| batch(assignment, &group.uniforms, &vertices(place))).collect()
-    };
-    let probes = probes.iter().flat_map(drawn).collect();
+    let Scene { probes, pixels, shares, .. } = probed(assignment, probes);
     let textures = Arc::clone(&assignment.textures);
-    let (width, height) = (scene.width, scene.height);
-    Scene { width, height, background: scene.background, frames, probes, textures, ..Scene::default() }
+    let (width, height, background) = (scene.width, scene.height, scene.background);
+    Scene { width, height, background, frames, probes, pixels, shares, textures }
+}
+
+/// What is run for probes, and no frames.
+fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> Scene {
+    let mut scene = Scene::default();
+    let feeds_fragments = is_handed_in(assignment, Stage::Vertex);
+    for (set, place) in sets.iter().flat_map(|set| (0..set.groups.len()).map(move |place| (set, place))) {
+        let own = set.of_group(place);
+        let uniforms = &set.groups[place].uniforms;
+        let spots: Vec<&Spot> = own.iter().filter_map(|probe| probe.spot.as_deref()).collect();
+        if spots.is_empty() {
+            let vertices: Vec<Vertex> = own.iter().map(|probe| probe.vertex).collect();
+            scene.probes.push(batch(assignment, uniforms, &vertices));
+            continue;
+        }
+        let mut pixels = Batch { attributes: places(&spots), ..batch(assignment, uniforms, &[]) };
+        if feeds_fragments {
+            let corners: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
+            scene.probes.push(batch(assignment, uniforms, &corners));
+            scene.shares.push(spots.iter().map(|spot| spot.weights).collect());
+        } else {
+            pixels.attributes.extend(varyings(&spots));
+        }
+        scene.pixels.push(pixels);
+    }
+    scene
+}
+
+/// Where fragments lie, as the fragment stage is told.
+fn places(spots: &[&Spot]) -> Vec<(String, Values)> {
+    let places = spots.iter().flat_map(|spot| spot.place).collect();
+    let fronts = spots.iter().map(|spot| f64::from(u8::from(spot.is_front))).collect();
+    vec![
+        ("gl_FragCoord".into(), Values { kind: Type::VEC4, numbers: places }),
+        ("gl_FrontFacing".into(), Values { kind: Type::BOOL, numbers: fronts }),
+    ]
+}
+
+/// What the fixed vertex stage hands over, each scalar and vector by its path.
+fn varyings(spots: &[&Spot]) -> Vec<(String, Values)> {
+    let Some(first) = spots.first() else { return Vec::new() };
+    let mut columns = Vec::new();
+    for (number, (name, value)) in first.varyings.iter().enumerate() {
+        let mut offset = 0;
+        for (path, kind) in value.kind().parts(name) {
+            let width = kind.slots().unwrap_or(0);
+            let numbers = |spot: &&Spot| spot.varyings[number].1.numbers()[offset..offset + width].to_vec();
+            let numbers = spots.iter().flat_map(numbers).collect();
+            columns.push((path, Values { kind, numbers }));
+            offset += width;
+        }
+    }
+    columns
 }
 
 /// One draw with the program's own names; `uniforms` stand in the interface's order.

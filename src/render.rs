@@ -20,6 +20,6 @@ mod uniforms;
 pub use device::{AdapterKind, Device};
 pub use frames::{Frames, Met, Rendering, Sample};
 pub use pixels::Pixel;
-pub use renderer::Renderer;
+pub use renderer::{Captured, Renderer};
 pub use scene::{Batch, Scene, State};
 pub use tiles::Area;

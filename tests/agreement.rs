@@ -48,7 +48,7 @@ impl Bench {
         let interface = ggrade::homework::interface(&assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
-        let renderer = Renderer::new(device, &fixed).unwrap();
+        let renderer = Renderer::new(device, Some(&fixed)).unwrap();
         Self { gl, renderer, interface, assignment }
     }
 

@@ -21,7 +21,7 @@ thread_local! {
 
 fn renderer() -> Renderer {
     let fixed = translate::fixed_stage(&INTERFACE, &assignment().files[0].starter).expect("the starter links");
-    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), &fixed).expect("a renderer")
+    Renderer::new(Device::open(AdapterKind::Software).expect("a software driver"), Some(&fixed)).expect("a renderer")
 }
 
 fuzz_target!(|bytes: &[u8]| {

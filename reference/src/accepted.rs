@@ -2,6 +2,7 @@
 
 use crate::Assignment;
 use crate::Value;
+use crate::equation::Reads;
 use crate::frames::VertexStage;
 use crate::interpreter::{Column, Program};
 use crate::pipeline::{Pipeline, columns, slices};
@@ -20,29 +21,41 @@ pub struct Answer {
     pub(crate) pipeline: Pipeline,
 }
 
-/// What a shader computes for a vertex.
-type Computed = (DVec3, DVec4);
+/// A colour and a position.
+pub(crate) type Computed = (DVec3, DVec4);
 
 impl Assignment {
     /// The answers that are right beside the solution.
-    pub fn accepted(&self) -> &[Answer] {
-        &self.files[0].accepted
+    pub fn accepted(&self) -> impl Iterator<Item = &Answer> {
+        self.files.iter().flat_map(|file| &file.accepted)
     }
 
     /// The same probes with what an answer computes there.
     pub fn probes_of(&self, answer: &Answer, probes: &ProbeSet) -> ProbeSet {
-        let given: Vec<_> = probes.iter().map(|probe| (probes.uniforms(probe), probe.attributes.as_slice())).collect();
-        let computed = self.run(answer, &given);
         let mut theirs = probes.clone();
-        for (probe, (colour, position)) in theirs.probes.iter_mut().zip(computed) {
+        for (probe, (colour, position)) in theirs.probes.iter_mut().zip(self.computed_by(answer, probes)) {
             (probe.colour, probe.position) = (colour, position);
         }
         theirs
     }
 
+    /// The colour and the position that an answer computes at each probe.
+    pub(crate) fn computed_by(&self, answer: &Answer, probes: &ProbeSet) -> Vec<Computed> {
+        match self.equation.reads {
+            Reads::Attributes => {
+                let given = probes.iter().map(|probe| (probes.uniforms(probe), probe.attributes.as_slice()));
+                self.run(answer, &given.collect::<Vec<_>>())
+            }
+            Reads::Varyings | Reads::Outputs => match self.shown_at(&answer.pipeline, probes) {
+                Some(shown) => shown.iter().map(|shown| (shown.colour, shown.position)).collect(),
+                None => vec![(DVec3::NAN, DVec4::NAN); probes.probes.len()],
+            },
+        }
+    }
+
     /// The picture that an answer draws at a pose.
     pub fn frame_of(&self, answer: &Answer, pose: &Pose) -> Frame {
-        self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.program))
+        self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.pipeline.vertex))
     }
 
     /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.

@@ -52,6 +52,8 @@ pub struct Assignment {
     pub equation: Equation,
     /// What it is worth.
     pub rubric: Vec<RubricLine>,
+    /// For each line of the rubric the solution without what the line judges, where the folder says it.
+    pub features: Vec<Option<Answer>>,
     /// What goes wrong.
     pub mistakes: Vec<Mistake>,
     /// What is said of right answers that would break elsewhere.
@@ -248,7 +250,8 @@ impl Assignment {
 
     /// Whether a line is judged by where things are drawn, not by their colour.
     pub fn judges_position(&self, line: &RubricLine) -> bool {
-        self.equation.index(&line.judges) == Some(self.equation.position)
+        let judged = self.equation.index(&line.judges);
+        judged.is_some() && judged == self.equation.position
     }
 
     /// What it means that the colour depends on a negative number raised to a power, which GLSL leaves undefined.

@@ -11,6 +11,20 @@ use std::sync::Arc;
 /// Number of definitions that one expression may use.
 pub(crate) const MAX_INPUTS: usize = 8;
 
+/// What an equation is computed from, beside the uniforms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reads {
+    /// The attributes of a vertex: the solution's definitions are those of a vertex stage.
+    Attributes,
+    /// What the fragment stage is handed: the definitions are its own.
+    Varyings,
+    /// What the whole program shows: colour and position are all that is told apart.
+    Outputs,
+}
+
+/// The colour that stands for a fragment that is thrown away: no other is below 0.
+pub const DISCARDED: DVec3 = DVec3::NEG_ONE;
+
 /// A name and what it is.
 #[derive(Clone, Debug)]
 pub struct Definition {
@@ -29,12 +43,14 @@ pub struct Definition {
 /// Constants, uniforms, vertex attributes, and what is computed from them, each in a cell of the solution's sheet.
 #[derive(Clone, Debug)]
 pub struct Equation {
+    pub(crate) reads: Reads,
     pub(crate) sheet: Arc<Sheet>,
-    /// The cells of the assignment's constants, in its order, and their values.
-    pub(crate) constants: Vec<(usize, Value)>,
+    /// The cells of the assignment's constants, in its order, and their values; no cell where all is read from outputs.
+    pub(crate) constants: Vec<(Option<usize>, Value)>,
     /// The cells of the uniforms, in the interface's order; none of one that the solution does not have.
     pub(crate) uniforms: Vec<Option<usize>>,
-    /// Those of the vertex attributes.
+    /// The cells of what it reads: of the vertex attributes in the interface's order, of the fragment stage's inputs in the
+    /// program's, or of colour and position.
     pub(crate) attributes: Vec<Option<usize>>,
     /// The cell of the first definition; the others follow, and then what is free in a form.
     pub(crate) first: usize,
@@ -42,7 +58,7 @@ pub struct Equation {
     /// How many numbers all definitions have.
     pub(crate) numbers: usize,
     pub(crate) colour: usize,
-    pub(crate) position: usize,
+    pub(crate) position: Option<usize>,
     /// What each output is given, by their names.
     pub(crate) outputs: Vec<(String, usize)>,
 }
@@ -77,14 +93,25 @@ impl Equation {
         self.definitions.iter().position(|d| d.name == name)
     }
 
-    /// The place of the definition that is the vertex colour.
+    /// What it is computed from.
+    pub fn reads(&self) -> Reads {
+        self.reads
+    }
+
+    /// The place of the definition that is the colour.
     pub fn colour(&self) -> usize {
         self.colour
     }
 
-    /// The place of the definition that is the position in clip space.
-    pub fn position(&self) -> usize {
+    /// The place of the definition that is the position in clip space; a fragment stage has none.
+    pub fn position(&self) -> Option<usize> {
         self.position
+    }
+
+    /// The numbers of the colour as they are seen: a fragment's go to a target of fixed point, a vertex's to the next stage.
+    pub(crate) fn seen(&self, numbers: &[f64]) -> DVec3 {
+        let colour = value::vec3(numbers);
+        if self.reads == Reads::Varyings { colour.map(|channel| channel.clamp(0.0, 1.0)) } else { colour }
     }
 
     /// The place of the definition that an output is given.
@@ -122,7 +149,7 @@ impl Equation {
     /// The names of the constants in the expression of a definition.
     pub fn constants_in(&self, definition: usize) -> Vec<&str> {
         let uses = self.definitions.get(definition).map_or(&[][..], |d| d.formula.uses());
-        let constants = uses.iter().filter(|cell| self.constants.iter().any(|(constant, _)| constant == *cell));
+        let constants = uses.iter().filter(|cell| self.constants.iter().any(|(constant, _)| *constant == Some(**cell)));
         constants.map(|cell| self.sheet.cells()[*cell].name.as_str()).collect()
     }
 
@@ -130,7 +157,7 @@ impl Equation {
     pub(crate) fn registers(&self) -> Registers {
         let mut registers = self.sheet.registers();
         for (cell, value) in &self.constants {
-            self.sheet.set(*cell, value.numbers(), &mut registers);
+            cell.iter().for_each(|cell| self.sheet.set(*cell, value.numbers(), &mut registers));
         }
         registers
     }
@@ -147,7 +174,7 @@ impl Equation {
 }
 
 impl<'a> Variant<'a> {
-    /// Computes every definition for one vertex. `uniforms` and `attributes` stand in the interface's order.
+    /// Computes every definition for one sample. `uniforms` stand in the interface's order, `attributes` as [`Reads`] says.
     pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Outcome<'a> {
         let Equation { sheet, .. } = self.equation;
         let mut registers = self.registers.borrow_mut();
@@ -198,13 +225,13 @@ impl Outcome<'_> {
         &self.numbers[first..first + count(&self.equation.definitions[definition])]
     }
 
-    /// Red, green and blue of the vertex colour, not clamped; alpha is not seen.
+    /// Red, green and blue of the colour: a vertex's as it is, a fragment's clamped to [0, 1]; alpha is not seen.
     pub fn colour(&self) -> DVec3 {
-        self.vec3(self.equation.colour)
+        self.equation.seen(self.numbers(self.equation.colour))
     }
 
-    /// Position in clip space.
+    /// Position in clip space; the origin's where a fragment stage is all there is.
     pub fn position(&self) -> DVec4 {
-        value::vec4(self.numbers(self.equation.position))
+        self.equation.position.map_or(DVec4::W, |position| value::vec4(self.numbers(position)))
     }
 }

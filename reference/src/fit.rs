@@ -5,11 +5,13 @@
 
 mod columns;
 mod digits;
+mod features;
 mod search;
 mod solve;
 mod terms;
 mod views;
 
+pub use features::{judge_features, program_of};
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;
@@ -95,6 +97,9 @@ pub fn contradicted(
         None => None,
     };
     let samples = padded(probes, samples);
+    if let Some(shown) = features::shown_with(assignment, found, probes) {
+        return shown.iter().zip(samples).map(|(shown, sample)| !agrees(*shown, sample, tolerance)).collect();
+    }
     let pairs = probes.iter().zip(samples);
     pairs.map(|(probe, sample)| !expected(probe).is_some_and(|expected| agrees(expected, sample, tolerance))).collect()
 }

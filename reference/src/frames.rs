@@ -1,6 +1,6 @@
 //! Pictures of the animation, as a right answer or a known mistake draws them.
 
-use crate::equation::Variant;
+use crate::equation::{Reads, Variant};
 use crate::interpreter::Program;
 use crate::pipeline::{Pipeline, Vertices, positions, scalars};
 use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
@@ -20,26 +20,38 @@ pub(crate) enum VertexStage<'a> {
 }
 
 impl Assignment {
-    /// The picture that `variant` of the equation draws at `pose`.
+    /// The right picture at `pose`.
+    pub fn right_frame(&self, pose: &Pose) -> Frame {
+        match self.equation.reads {
+            Reads::Attributes => self.frame(pose, &self.equation.right()),
+            Reads::Varyings | Reads::Outputs => {
+                self.picture(pose, &self.pipeline, VertexStage::Program(&self.pipeline.vertex))
+            }
+        }
+    }
+
+    /// The picture that `variant` of a vertex stage's equation draws at `pose`.
     pub fn frame(&self, pose: &Pose, variant: &Variant<'_>) -> Frame {
         self.picture(pose, &self.pipeline, VertexStage::Equation(variant, self.equation.colour))
     }
 
-    /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition.
+    /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition of
+    /// a vertex stage.
     pub fn term_frame(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Frame> {
+        if self.equation.reads != Reads::Attributes {
+            return None;
+        }
         Some(self.picture(pose, &self.pipeline, VertexStage::Equation(variant, self.equation.index(term)?)))
     }
 
     /// The right pictures of all poses.
     pub fn frames(&self) -> Vec<Frame> {
-        let right = self.equation.right();
-        let poses = self.scene.all_poses();
-        poses.iter().map(|pose| self.frame(pose, &right)).collect()
+        self.scene.all_poses().iter().map(|pose| self.right_frame(pose)).collect()
     }
 
     /// The triangles of that picture, with the term in place of the colour.
     pub fn term_corners(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Vec<[ClipVertex; 3]>> {
-        let shown = self.equation.index(term)?;
+        let shown = self.equation.index(term).filter(|_| self.equation.reads == Reads::Attributes)?;
         let mut corners = Vec::new();
         for Instance { draw, moment } in self.scene.instances(pose) {
             let uniforms = self.uniform_values(&moment);

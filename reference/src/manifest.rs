@@ -4,11 +4,13 @@ mod interface;
 mod mistake;
 mod scene;
 mod texture;
+mod variant;
 
 pub use interface::{Input, Uniform};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 pub use texture::{Format, Texture, Wraps};
+pub use variant::Variant;
 
 use crate::Text;
 use serde::{Deserialize, Serialize};
@@ -277,8 +279,12 @@ pub struct RubricLine {
     pub points: f64,
     /// What it is called.
     pub label: Text,
-    /// The definition that it judges.
+    /// The definition that it judges; the colour, where nothing is written.
+    #[serde(default)]
     pub judges: String,
+    /// The solution without what it judges, where that is not said by the definition: where the two differ, and no other line's
+    /// do, the line can be judged by itself.
+    pub without: Option<Spanned<Variant>>,
     /// What is said where it is right: `{frames}` and `{probes}` are how many there are.
     pub right: Option<Text>,
     /// The regions where its term stands alone, beside those of earlier lines.

@@ -1,6 +1,7 @@
 //! The known mistakes: what the equation becomes, what it costs, and what is said about it.
 
 use crate::Text;
+use crate::accepted::Answer;
 use crate::interpreter::Formula;
 
 /// A mistake that students make, as one hypothesis about the equation.
@@ -14,6 +15,8 @@ pub struct Mistake {
     pub keeps: Vec<(String, f64)>,
     /// The ways in which it is written. Empty for a mistake that is not seen in the equation.
     pub forms: Vec<Form>,
+    /// The ways in which it is written, each as a whole program; their numbers follow those of the forms.
+    pub variants: Vec<Answer>,
     /// The number in the forms that is not known beforehand.
     pub fit: Option<FreeParameter>,
     /// Whether the handed-out file itself has it, so that its own line may be named.
@@ -132,6 +135,11 @@ impl Mistake {
             equation: other.and_then(|other| other.equation.as_ref()).unwrap_or(&self.equation),
             look: other.and_then(|other| other.look.as_ref()).unwrap_or(&self.look),
         }
+    }
+
+    /// The program of a form with this number, if it is one.
+    pub(crate) fn program(&self, form: usize) -> Option<&Answer> {
+        self.variants.get(form.checked_sub(self.forms.len())?)
     }
 
     /// Fraction of the line's points that is kept; 1 for a line that the mistake does not touch.

@@ -6,8 +6,10 @@
 
 mod design;
 mod nearby;
+mod spots;
 
 use crate::assignment::{Feed, Uniform};
+use crate::equation::Reads;
 use crate::interpreter::Formula;
 use crate::scene::{Matrices, Vertex, perspective};
 use crate::{Assignment, Text, Value};
@@ -16,6 +18,7 @@ pub(crate) use design::{Aim, Design, Normal};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+pub use spots::{Shown, Spot};
 use std::ops::{Range, RangeInclusive};
 
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.
@@ -54,21 +57,24 @@ pub struct Region {
     pub(crate) when: Formula,
 }
 
-/// One vertex and what a right answer computes for it.
+/// One vertex, or one fragment, and what a right answer computes for it.
 #[derive(Clone, Debug)]
 pub struct Probe {
     /// Which of the groups it belongs to: its uniforms.
     pub group: usize,
     /// The attributes, exact in f32.
     pub vertex: Vertex,
-    /// The attributes in the interface's order.
+    /// What the equation reads: for definitions of a vertex stage the attributes in the interface's order, see
+    /// [`Reads`](crate::equation::Reads).
     pub attributes: Vec<Value>,
     /// What a right answer shows here: a place among the assignment's regions.
     pub region: Option<usize>,
-    /// The right colour, not clamped.
+    /// The right colour: a vertex's not clamped, a fragment's as a target of fixed point holds it.
     pub colour: DVec3,
     /// The right position in clip space.
     pub position: DVec4,
+    /// The fragment that is probed, where the fragment stage is run as well.
+    pub spot: Option<Box<Spot>>,
 }
 
 /// Probes with the same uniforms.
@@ -159,6 +165,9 @@ impl Assignment {
 
     /// Probes under `count` cameras, of which the last `twins` are the same.
     fn draw(&self, seed: u64, random: ChaCha8Rng, count: usize, twins: usize) -> ProbeSet {
+        if self.equation.reads() != Reads::Attributes {
+            return self.draw_spots(seed, random, count);
+        }
         let mut random = Random(random);
         let mut eye_space = self.probing.aim.as_ref().map(|aim| EyeSpace::of(self, aim));
         let right = self.equation.right();
@@ -198,6 +207,7 @@ impl Assignment {
                     position: outcome.position(),
                     vertex,
                     attributes,
+                    spot: None,
                 });
             }
             groups.push(drawn);

@@ -21,7 +21,7 @@ impl Portraits {
     pub fn new(assignment: &Assignment) -> Result<Self, Fault> {
         let pose = telling_pose(assignment);
         let poses = assignment.scene.all_poses();
-        let frame = assignment.frame(&poses[pose], &assignment.equation.right());
+        let frame = assignment.right_frame(&poses[pose]);
         let right = Picture { width: frame.width, height: frame.height, rgba: frame.pixels.concat() };
         Ok(Self { pose, expected: pictures::png(&reduced(&right))? })
     }

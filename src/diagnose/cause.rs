@@ -3,12 +3,12 @@
 use super::constants::{self, ChangedConstant};
 use super::locate::Points;
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
-use crate::compare::COLOUR_TOLERANCE;
+use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::render::Sample;
 use crate::report::{FrameResult, Hypothesis};
 use reference::Assignment;
 use reference::assignment::RubricLine;
-use reference::fit::{Fit, MOST_MISTAKES, TermJudgement, is_right, judge_terms};
+use reference::fit::{Fit, MOST_MISTAKES, TermJudgement, is_right, judge_features, judge_terms, program_of};
 use reference::mistake::Found;
 
 const HARD_CODED: &str = "hard-coded";
@@ -46,6 +46,9 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         let found = vec![Found { id: mistake.id.clone(), form: 0, parameter: None }];
         return Cause::Known { constants: Vec::new(), found };
     }
+    if let Some(found) = program(evidence, &samples, all_right && shape) {
+        return Cause::Known { constants: Vec::new(), found: vec![found] };
+    }
     if all_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
         return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
@@ -57,7 +60,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let is_lookup = hard_coded::is_lookup(evidence.source, probes, evidence.samples);
     let by_term = || {
         let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-        Cause::Unexplained(addends::credit(evidence, terms))
+        unexplained(evidence, &samples, terms)
     };
     if is_lookup && addends::is_finite_nowhere(evidence) {
         return by_term();
@@ -76,8 +79,29 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
         Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
         Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) => Cause::NearlyRight,
-        Fit::Unexplained(terms) => Cause::Unexplained(addends::credit(evidence, terms)),
+        Fit::Unexplained(terms) => unexplained(evidence, &samples, terms),
     }
+}
+
+/// What nothing explains: each term as far as it stands alone, or shows by itself.
+fn unexplained(evidence: &Evidence<'_>, samples: &[[f64; 3]], terms: Vec<TermJudgement>) -> Cause {
+    let mut terms = addends::credit(evidence, terms);
+    for feature in judge_features(evidence.assignment, evidence.probes, samples, COLOUR_TOLERANCE) {
+        terms.retain(|term| term.line != feature.line);
+        terms.push(feature);
+    }
+    Cause::Unexplained(terms)
+}
+
+/// The mistake whose program draws what the shader draws.
+fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Option<Found> {
+    let scale = super::position_scale(evidence);
+    let is_there = |place: usize, position| {
+        let sample = evidence.samples.get(place);
+        sample.is_some_and(|sample| position_difference(position, sample, scale) <= POSITION_TOLERANCE)
+    };
+    let search = || program_of(evidence.assignment, evidence.probes, samples, &is_there, COLOUR_TOLERANCE);
+    (!is_right).then(search).flatten()
 }
 
 /// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So

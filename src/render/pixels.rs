@@ -2,9 +2,11 @@
 
 use super::device::Device;
 use super::fragments::{FragmentData, FragmentStage, Key};
-use super::scene::{Batch, State};
-use crate::translate::{Attribute, CAPTURE_SLOT};
+use super::scene::{Batch, Scene, State};
+use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation};
 use naga::ScalarKind;
+use reference::Values;
+use reference::interpreter::Type;
 use wgpu::util::DeviceExt;
 
 /// Pixels of a row of the target.
@@ -156,6 +158,41 @@ pub(super) fn split(stage: &FragmentStage, batches: &[Batch], outputs: &[Vec<u32
         Pixel { is_discarded: stage.outputs.iter().zip(&outputs).any(is_untouched), outputs }
     };
     batches.iter().map(|batch| (0..batch.vertices()).map(|_| next()).collect()).collect()
+}
+
+/// The batches of a scene's pixels with what a vertex stage hands over to them, from its captured header and records.
+pub(super) fn between(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> Vec<Batch> {
+    let stride = (outputs.len() + 1) * CAPTURE_SLOT as usize;
+    let records = captured.get(CAPTURE_HEADER as usize..).unwrap_or_default();
+    let frames: u32 = scene.frames.iter().flatten().map(Batch::drawn).sum();
+    let mut first = frames as usize;
+    let batches = scene.pixels.iter().zip(&scene.probes).zip(&scene.shares);
+    let of_batch = |((pixels, probes), shares): ((&Batch, &Batch), &Vec<[f64; 3]>)| {
+        let own = first;
+        first += probes.drawn() as usize;
+        let word = |vertex: usize, slot: usize, axis: usize| {
+            let at = (own + vertex) * stride + (slot + 1) * CAPTURE_SLOT as usize + 4 * axis;
+            records.get(at..).and_then(|rest| rest.first_chunk()).map_or(0, |bytes| u32::from_le_bytes(*bytes))
+        };
+        let column = |(slot, output): (usize, &Attribute)| {
+            let number = |vertex: usize, axis: usize| match output.kind {
+                Some(ScalarKind::Sint) => f64::from(word(vertex, slot, axis).cast_signed()),
+                Some(ScalarKind::Uint) => f64::from(word(vertex, slot, axis)),
+                _ => f64::from(f32::from_bits(word(vertex, slot, axis))),
+            };
+            let is_flat = output.qualifiers.interpolation == Interpolation::Flat || output.kind != Some(ScalarKind::Float);
+            let between = |(pixel, shares): (usize, &[f64; 3]), axis: usize| match is_flat {
+                true => number(3 * pixel + 2, axis),
+                false => (0..3).map(|corner| shares[corner] * number(3 * pixel + corner, axis)).sum(),
+            };
+            let pixels = shares.iter().enumerate();
+            let numbers = pixels.flat_map(|pixel| (0..4).map(move |axis| between(pixel, axis))).collect();
+            (output.name.clone(), Values { kind: Type::VEC4, numbers })
+        };
+        let handed = outputs.iter().enumerate().map(column);
+        Batch { attributes: pixels.attributes.iter().cloned().chain(handed).collect(), ..pixels.clone() }
+    };
+    batches.map(of_batch).collect()
 }
 
 /// The records of three corners around the middle of each probe's pixel, and what is added to its `gl_FragCoord`.

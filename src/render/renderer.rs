@@ -1,4 +1,4 @@
-//! One device, one fixed fragment stage, one submission after the other.
+//! One device, one submission after the other.
 
 use super::capture::{self, Capture};
 use super::device::Device;
@@ -20,17 +20,40 @@ use std::sync::Arc;
 pub struct Renderer {
     device: Device,
     stage: capture::Stage,
-    /// The fixed fragment stage.
-    fragments: FragmentStage,
+    /// The fixed fragment stage of vertex shaders.
+    fragments: Option<FragmentStage>,
     painter: Painter,
     textures: RefCell<Textures>,
 }
 
+/// The vertices of a scene after a vertex stage.
+pub struct Captured {
+    capture: Capture,
+    outputs: Vec<Attribute>,
+    rendering: Rendering,
+    /// What is fed to the fragments that are probed, where this stage does it.
+    pixels: Option<Vec<Batch>>,
+}
+
+impl std::fmt::Debug for Captured {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Captured").field("outputs", &self.outputs).finish_non_exhaustive()
+    }
+}
+
+impl Captured {
+    /// What the vertex stage met.
+    pub fn met(&self) -> Met {
+        Met { ran_out: self.rendering.ran_out, undefined: self.rendering.undefined }
+    }
+}
+
 impl Renderer {
-    /// A renderer that runs this fixed fragment stage.
-    pub fn new(device: Device, fragment: &Shader) -> Result<Self, Fault> {
+    /// A renderer of vertex shaders that are linked with this fragment stage, or of programs.
+    pub fn new(device: Device, fragment: Option<&Shader>) -> Result<Self, Fault> {
         let (stage, fragments) = checked(&device.device, || {
-            (capture::Stage::new(&device.device), FragmentStage::new(&device.device, fragment))
+            let fragments = fragment.map(|fragment| FragmentStage::new(&device.device, fragment));
+            (capture::Stage::new(&device.device), fragments)
         })?;
         Ok(Self { device, stage, fragments, painter: Painter::default(), textures: RefCell::default() })
     }
@@ -40,61 +63,81 @@ impl Renderer {
         &self.device
     }
 
-    /// Draws the scene with the shader. An error is ours: the shader was found valid before.
+    /// Draws the scene with the shader and the fixed fragment stage. An error is ours: the shader was found valid before.
     pub fn render(&mut self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
         let (capture, rendering) = self.run(shader, scene)?;
         if rendering.ran_out.is_some() {
             return Ok(rendering);
         }
         let records = Records { buffer: &capture.records, outputs: &shader.outputs };
-        let textures = self
-            .fragments
-            .reads_textures
-            .then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures));
-        paint(&self.device, &mut self.painter, &mut self.fragments, &records, scene, textures.as_ref(), rendering)
+        let Some(fragments) = &mut self.fragments else { return Err(lost("there is no fixed fragment stage")) };
+        let textures =
+            fragments.reads_textures.then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures));
+        paint(&self.device, &mut self.painter, fragments, &records, scene, textures.as_ref(), rendering)
     }
 
     /// Draws the scene with a program of which any stage may be handed in, and computes the probes of both stages.
     pub fn render_program(&mut self, program: &Linked, scene: &Scene) -> Result<Rendering, Fault> {
-        let (capture, rendering) = self.run(&program.vertex, scene)?;
+        let captured = self.capture(&program.vertex, scene)?;
+        self.draw(&captured, &program.fragment, scene)
+    }
+
+    /// Runs a vertex stage on all vertices of a scene.
+    pub fn capture(&self, vertex: &Shader, scene: &Scene) -> Result<Captured, Fault> {
+        let (capture, rendering) = self.run(vertex, scene)?;
+        let outputs = vertex.outputs.clone();
+        let pixels = (!scene.shares.is_empty() && rendering.ran_out.is_none())
+            .then(|| {
+                let bytes = map(&self.device, &capture.readback)?;
+                Ok(pixels::between(bytes.bytes(), &outputs, scene))
+            })
+            .transpose()?;
+        Ok(Captured { capture, outputs, rendering, pixels })
+    }
+
+    /// Draws a scene whose vertices are known, and computes the probes of the fragment stage.
+    pub fn draw(&mut self, captured: &Captured, fragment: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+        let Captured { capture, outputs, rendering, pixels } = captured;
         if rendering.ran_out.is_some() {
-            return Ok(rendering);
+            return Ok(rendering.clone());
         }
-        let (mut stage, rendering) = self.run_pixels(&program.fragment, scene, rendering)?;
+        let pixels = pixels.as_deref().unwrap_or(&scene.pixels);
+        let (mut stage, rendering) = self.run_pixels(fragment, scene, pixels, rendering.clone())?;
         if rendering.of_fragments.ran_out.is_some() {
             return Ok(rendering);
         }
-        let records = Records { buffer: &capture.records, outputs: &program.vertex.outputs };
-        let textures = self.textures(&[&program.fragment], scene);
+        let records = Records { buffer: &capture.records, outputs };
+        let textures = self.textures(&[fragment], scene);
         paint(&self.device, &mut self.painter, &mut stage, &records, scene, textures.as_ref(), rendering)
     }
 
     /// What the fragment stage computes for the probes of the scene; no frame is drawn.
     pub fn compute_pixels(&self, fragment: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
-        Ok(self.run_pixels(fragment, scene, Rendering::default())?.1)
+        Ok(self.run_pixels(fragment, scene, &scene.pixels, Rendering::default())?.1)
     }
 
     fn run_pixels(
         &self,
         fragment: &Shader,
         scene: &Scene,
+        pixels: &[Batch],
         mut rendering: Rendering,
     ) -> Result<(FragmentStage, Rendering), Fault> {
         let device = &self.device;
         let textures = self.textures(&[fragment], scene);
-        let (stage, pixels) = checked(&device.device, || {
+        let (stage, pass) = checked(&device.device, || {
             let mut stage = FragmentStage::new(&device.device, fragment);
-            let pixels = (!scene.pixels.is_empty())
-                .then(|| Pixels::submit(device, &mut stage, &scene.pixels, textures.as_ref()));
-            (stage, pixels)
+            let pass =
+                (!pixels.is_empty()).then(|| Pixels::submit(device, &mut stage, pixels, textures.as_ref()));
+            (stage, pass)
         })?;
-        if let Some(pixels) = pixels {
+        if let Some(pass) = pass {
             let read = |buffer: &wgpu::Buffer| -> Result<Vec<u32>, Fault> {
                 Ok(bytemuck::pod_collect_to_vec(map(device, buffer)?.bytes()))
             };
-            let outputs = pixels.readbacks().iter().map(read).collect::<Result<Vec<_>, _>>()?;
-            rendering.pixels = pixels::split(&stage, &scene.pixels, &outputs);
-            rendering.of_fragments = met(device, pixels.data.header())?;
+            let outputs = pass.readbacks().iter().map(read).collect::<Result<Vec<_>, _>>()?;
+            rendering.pixels = pixels::split(&stage, pixels, &outputs);
+            rendering.of_fragments = met(device, pass.data.header())?;
         }
         Ok((stage, rendering))
     }

@@ -69,6 +69,9 @@ pub struct Scene {
     /// The probes of a fragment stage, one a pixel: what it is fed, as attributes by path. `gl_FragCoord` and
     /// `gl_FrontFacing` may be among them.
     pub pixels: Vec<Batch>,
+    /// Where a vertex stage that is handed in feeds the fragments that are probed: for each batch of pixels the shares of three
+    /// vertices in each, which stand one after the other in the batch of probes with the same number.
+    pub shares: Vec<Vec<[f64; 3]>>,
     /// The textures; a sampler's value is the number of one.
     pub textures: Arc<[Texture]>,
 }

@@ -338,7 +338,7 @@ pub fn renderer() -> Renderer {
     let interface = ggrade::homework::interface(assignment).unwrap();
     let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
-    Renderer::new(device, &fixed).unwrap()
+    Renderer::new(device, Some(&fixed)).unwrap()
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod solution;
 mod stages;
 mod textures;
 mod typeset;
+mod variants;
 
 use super::{Assignment, AssignmentError, FixedStage, HandedIn, MANIFEST, both, error};
 use crate::Folder;
@@ -18,6 +19,7 @@ use crate::manifest::{self, Manifest};
 use solution::Solution;
 use std::collections::HashSet;
 use std::sync::Arc;
+use variants::Variants;
 
 /// Rubric lines are held as the bits of a u64.
 const MAX_LINES: usize = 64;
@@ -35,23 +37,30 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
     for (file, entry) in files.iter_mut().zip(&m.file) {
         file.accepted = stages.accepted(file.stage, &entry.accepted, &read)?;
     }
-    let mut solution = Solution::read(&files[0], &m.constant)?;
+    let mut solution = Solution::read(&files, &pipeline, &m.constant)?;
     let textures = textures::textures(&m.texture, folder, line_at)?;
     let interface = interface::interface(&m, &textures, &stages, &solution, line_at)?;
     let constants = solution.constants(std::mem::take(&mut m.constant))?;
-    let lines = rubric(&m.rubric, &solution)?;
+    let lines = rubric(&mut m.rubric, &solution)?;
     for constant in &constants {
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, line_at)).transpose()?;
+    let variants = Variants { files: &files, stages: &stages, read: &read };
+    let features = m.rubric.iter().map(|line| {
+        let place = |at: usize| format!("{MANIFEST}, line {}, rubric line `{}`", line_at(at), line.id);
+        let without = line.without.as_ref();
+        without.map(|without| variants.program(without.get_ref(), &place(without.span().start))).transpose()
+    });
+    let features = features.collect::<Checked<Vec<_>>>()?;
     let mistakes = std::mem::take(&mut m.mistake);
-    let mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, line_at)?;
+    let mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, line_at)?;
     let probing = probing::probing(&m.probes, &constants, &solution)?;
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, line_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<Checked<Vec<_>>>()?;
-    let equation = solution.finish(&m, &interface, &constants)?;
+    let equation = solution.finish(&m, &interface, &pipeline, &constants)?;
     let assignment = Assignment {
         scene: scene::scene(&m.scene, folder, line_at)?,
         files,
@@ -68,6 +77,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         constants,
         equation,
         rubric: m.rubric,
+        features,
         mistakes,
         advice,
         regions,
@@ -86,12 +96,6 @@ fn files(files: &[manifest::File], read: &dyn Fn(&str) -> Checked<String>) -> Ch
         ));
     }
     let handed_in = |file: &manifest::File| {
-        if file.stage != manifest::Stage::Vertex {
-            return Err(error(
-                format!("file `{}`", file.name),
-                both("only vertex shaders can be handed in", "提出できるのは頂点シェーダだけです"),
-            ));
-        }
         Ok(HandedIn {
             // They are read when it is known what they are linked with.
             accepted: Vec::new(),
@@ -110,14 +114,18 @@ fn fixed(m: &Manifest, read: &dyn Fn(&str) -> Checked<String>) -> Checked<Vec<Fi
     all.map(|one| Ok(FixedStage { stage: one.stage, name: one.file.clone(), text: read(&one.file)? })).collect()
 }
 
-fn rubric(lines: &[manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {
+fn rubric(lines: &mut [manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {
     if lines.len() > MAX_LINES {
         return Err(error("rubric", both("has more than 64 lines", "64 行を超えています")));
     }
     let mut ids = HashSet::new();
     for line in lines {
         let place = format!("rubric line `{}`", line.id);
-        solution.definition(&line.judges, &|| place.clone())?;
+        let judged = match line.judges.as_str() {
+            "" => solution.colour()?,
+            judges => solution.definition(judges, &|| place.clone())?,
+        };
+        line.judges = solution.name(judged).to_owned();
         if !line.points.is_finite() || line.points <= 0.0 {
             return Err(error(
                 place,

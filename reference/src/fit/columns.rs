@@ -6,7 +6,7 @@
 use crate::equation::{Equation, MAX_INPUTS};
 use crate::interpreter::{Formula, Registers};
 use crate::probes::{Probe, ProbeSet};
-use crate::{Assignment, Value, value};
+use crate::{Assignment, Value};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -185,7 +185,7 @@ impl<'a> Columns<'a> {
     /// The vertex colour at a probe.
     pub(super) fn colour(&mut self, column: u32, probe: usize) -> DVec3 {
         self.fill(column, probe);
-        value::vec3(self.columns[column as usize].at(probe))
+        self.equation.seen(self.columns[column as usize].at(probe))
     }
 
     /// The vertex colour at a probe for `base` with some definitions replaced, without making columns of them.
@@ -219,7 +219,7 @@ impl<'a> Columns<'a> {
         if changed & (1 << *colour) == 0 {
             return self.colour(self.colour_column(base), probe);
         }
-        value::vec3(sheet.get(first + colour, &self.scratch))
+        self.equation.seen(sheet.get(first + colour, &self.scratch))
     }
 
     fn fill(&mut self, column: u32, probe: usize) {

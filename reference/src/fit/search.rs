@@ -174,7 +174,7 @@ fn is_of_all(assignment: &Assignment, form: &Form) -> bool {
     let replaced = form.overrides.iter().map(|o| o.definition);
     !replaced
         .clone()
-        .any(|definition| judged().any(|term| term != equation.position && equation.depends(term, definition)))
+        .any(|definition| judged().any(|term| Some(term) != equation.position && equation.depends(term, definition)))
 }
 
 /// Whether the form's colour depends on no definition that the rubric judges.

@@ -201,6 +201,20 @@ impl Type {
         }
     }
 
+    /// The scalars and vectors that a variable of this type consists of, each with its path.
+    pub fn parts(&self, name: &str) -> Vec<(String, Self)> {
+        match self {
+            Self::Struct(own) => {
+                own.members.iter().flat_map(|(member, kind)| kind.parts(&format!("{name}.{member}"))).collect()
+            }
+            Self::Vector(..) => vec![(name.to_owned(), self.clone())],
+            _ => match self.element() {
+                Some((kind, Some(count))) => (0..count).flat_map(|at| kind.parts(&format!("{name}[{at}]"))).collect(),
+                _ => vec![(name.to_owned(), self.clone())],
+            },
+        }
+    }
+
     /// Whether a value holds a sampler somewhere.
     pub fn has_sampler(&self) -> bool {
         match self {

@@ -1,5 +1,6 @@
 //! The known mistakes as they are written.
 
+use super::Variant;
 use crate::Text;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -18,6 +19,9 @@ pub struct Mistake {
     /// The ways in which it is written: definition → expression.
     #[serde(default)]
     pub forms: Vec<BTreeMap<String, Spanned<String>>>,
+    /// The ways in which it is written, each as the solution, changed.
+    #[serde(default)]
+    pub variants: Vec<Variant>,
     /// The free parameter of its forms.
     pub fit: Option<Fit>,
     /// Whether the handed-out file itself has the mistake.

@@ -4,6 +4,7 @@ use super::Checked;
 use super::solution::Solution;
 use crate::advice::{Advice, Circumstance};
 use crate::assignment::{Constant, Interface, both, error};
+use crate::equation::Reads;
 use crate::{Value, manifest};
 
 /// An entry whose names are known.
@@ -16,6 +17,13 @@ pub(super) fn advice(
     let place = format!("advice `{}`", entry.id);
     for definition in &entry.about {
         solution.definition(definition, &|| place.clone())?;
+    }
+    if solution.reads() != Reads::Attributes {
+        let message = both(
+            "advice varies what a vertex stage of definitions is given, and this solution is none: remove it",
+            "advice は、定義からなる頂点シェーダに与える値を変えて調べます。この解答には使えません。取り除いてください",
+        );
+        return Err(error(place, message));
     }
     let manifest::Circumstance { scaled, stretched, constants: changed } = entry.when;
     if let Some(name) = scaled.keys().find(|name| !interface.inputs.iter().any(|input| input.name == **name)) {

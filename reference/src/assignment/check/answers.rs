@@ -3,6 +3,7 @@
 use super::{Checked, solution};
 use crate::Assignment;
 use crate::assignment::{MANIFEST, both, error};
+use crate::equation::Reads;
 use crate::frames::VertexStage;
 use crate::pipeline::{Pipeline, positions, scalars};
 use crate::scene::Pose;
@@ -18,9 +19,9 @@ pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
     let mut known: HashSet<&str> = HashSet::new();
     known.extend(interface.uniforms.iter().map(|uniform| uniform.path.as_str()));
     known.extend(interface.inputs.iter().map(|input| input.name.as_str()));
-    let file = &assignment.files[0];
-    for answer in &file.accepted {
-        let mut given = answer.program.uniforms().iter().chain(answer.program.inputs());
+    for answer in assignment.accepted() {
+        let inputs = answer.pipeline.vertex.inputs().iter();
+        let mut given = answer.program.uniforms().iter().chain(inputs);
         if let Some(other) = given.find(|one| !known.contains(one.name.as_str()) && !one.name.starts_with("gl_")) {
             let message = format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name);
             return Err(error(solution::place(&answer.name, other.line), message));
@@ -28,6 +29,11 @@ pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
     }
     let poses = assignment.scene.all_poses();
     let right = assignment.equation.right();
+    let own = match assignment.equation.reads {
+        Reads::Attributes => VertexStage::Equation(&right, assignment.equation.colour),
+        Reads::Varyings | Reads::Outputs => VertexStage::Program(&assignment.pipeline.vertex),
+    };
+    let file = assignment.files.last().map_or(MANIFEST, |file| &file.solution.name);
     for pose in &poses {
         let undefined = |name: &str| {
             let message = both(
@@ -36,12 +42,11 @@ pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
             );
             Err(error(format!("{name}, at t = {}", pose.t), message))
         };
-        let stage = VertexStage::Equation(&right, assignment.equation.colour);
-        if !assignment.is_defined(pose, &assignment.pipeline, stage, poses.len()) {
-            return undefined(&file.solution.name);
+        if !assignment.is_defined(pose, &assignment.pipeline, own, poses.len()) {
+            return undefined(file);
         }
-        for answer in &file.accepted {
-            let stage = VertexStage::Program(&answer.program);
+        for answer in assignment.accepted() {
+            let stage = VertexStage::Program(&answer.pipeline.vertex);
             if !assignment.is_defined(pose, &answer.pipeline, stage, poses.len()) {
                 return undefined(&answer.name);
             }

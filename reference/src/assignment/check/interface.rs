@@ -50,20 +50,22 @@ pub(super) fn interface(
             ));
         }
     }
-    let known = |name: &str| {
-        inputs.iter().any(|input| input.name == name)
-            || uniforms.iter().any(|uniform| uniform.path == name)
-            || m.constant.iter().any(|constant| constant.name == name)
-    };
-    if let Some(cell) = solution.given().iter().find(|cell| !known(&cell.name)) {
-        let name = &cell.name;
-        let message = both(
-            format!("`{name}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here"),
-            format!(
-                "`{name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。追加するか、ここから取り除いてください"
-            ),
-        );
-        return Err(solution.wrong(cell.line, message));
+    for Compiled { name, stage, program } in &stages.0 {
+        let attributes = program.inputs().iter().filter(|_| *stage == Stage::Vertex);
+        let own = attributes.filter(|input| !input.name.starts_with("gl_"));
+        let known = |name: &str| {
+            inputs.iter().any(|input| input.name == name) || uniforms.iter().any(|uniform| uniform.path == name)
+        };
+        if let Some(variable) = own.chain(program.uniforms()).find(|variable| !known(&variable.name)) {
+            let variable_name = &variable.name;
+            let message = both(
+                format!(
+                    "`{variable_name}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here"
+                ),
+                format!("`{variable_name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。追加するか、ここから取り除いてください"),
+            );
+            return Err(error(solution::place(name, variable.line), message));
+        }
     }
     Ok(Interface { inputs, uniforms, outputs: solution.outputs() })
 }

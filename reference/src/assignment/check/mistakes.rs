@@ -1,6 +1,7 @@
 //! The known mistakes of an assignment.
 
 use super::solution::{self, Solution};
+use super::variants::Variants;
 use super::{Checked, known_line};
 use crate::Text;
 use crate::assignment::{Constant, MANIFEST, both, error};
@@ -17,6 +18,7 @@ pub(super) fn all(
     rubric: &[RubricLine],
     solution: &mut Solution<'_>,
     constants: &[Constant],
+    variants: &Variants<'_>,
     line_at: &dyn Fn(usize) -> u32,
 ) -> Checked<Vec<Mistake>> {
     let lines: HashSet<String> = rubric.iter().map(|line| line.id.clone()).collect();
@@ -43,7 +45,7 @@ pub(super) fn all(
     }
     let general = general(rubric, solution)?.into_iter().filter(|entry| !ids.contains(&entry.id));
     let entries: Vec<_> = entries.into_iter().chain(general).collect();
-    entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, line_at)).collect()
+    entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, variants, line_at)).collect()
 }
 
 /// What goes wrong in any homework.
@@ -71,6 +73,7 @@ fn mistake(
     solution: &mut Solution<'_>,
     lines: &HashSet<String>,
     constants: &[Constant],
+    variants: &Variants<'_>,
     line_at: &dyn Fn(usize) -> u32,
 ) -> Checked<Mistake> {
     let place = format!("mistake `{}`", entry.id);
@@ -124,7 +127,10 @@ fn mistake(
             ),
         ));
     }
+    let numbered = entry.variants.iter().enumerate();
+    let variants = numbered.map(|(number, variant)| variants.program(variant, &format!("{place}, variant {number}")));
     Ok(Mistake {
+        variants: variants.collect::<Checked<_>>()?,
         id: entry.id,
         title: entry.title,
         keeps: entry.keeps.into_iter().collect(),
@@ -137,7 +143,7 @@ fn mistake(
         instead: entry
             .instead
             .into_iter()
-            .map(|other| alternative(other, forms.len(), &place))
+            .map(|other| alternative(other, forms.len() + entry.variants.len(), &place))
             .collect::<Checked<_>>()?,
         forms,
         seen: entry.seen,

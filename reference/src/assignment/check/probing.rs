@@ -2,8 +2,8 @@
 
 use super::solution::{self, Solution};
 use super::{Checked, listed};
-use crate::assignment::{Assignment, Attribute, Constant, Input, MANIFEST, Stream, error};
-use crate::equation::Definition;
+use crate::assignment::{Assignment, Attribute, Constant, Input, MANIFEST, Stream, both, error};
+use crate::equation::{Definition, Reads};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine};
 use crate::probes::{Aim, Design, Normal, Probing, Region};
@@ -14,6 +14,13 @@ use std::ops::RangeInclusive;
 pub(super) fn probing(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>) -> Checked<Probing> {
     if entry.groups == 0 || entry.per_group == 0 {
         return Err(error("probes", "there are none: `groups` and `per_group` are 1 or more"));
+    }
+    if !entry.design.is_empty() && solution.reads() != Reads::Attributes {
+        let message = both(
+            "designs place vertices by the definitions of a vertex stage, which this solution does not have: remove them",
+            "design は頂点シェーダの定義を使って頂点を置きますが、この解答にはその定義がありません。取り除いてください",
+        );
+        return Err(error("probes", message));
     }
     let aim = (!entry.design.is_empty()).then(|| aim(entry, constants, solution)).transpose()?;
     Ok(Probing { groups: entry.groups, per_group: entry.per_group, aim })

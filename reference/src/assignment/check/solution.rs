@@ -1,11 +1,12 @@
 //! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
 
-use super::{Checked, listed};
+use super::{Checked, listed, stages};
 use crate::Value;
 use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
-use crate::equation::{Definition, Equation, MAX_INPUTS};
+use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Type};
 use crate::manifest::{self, Manifest};
+use crate::pipeline::Pipeline;
 use std::sync::Arc;
 
 /// Definitions are held as the bits of a u64.
@@ -14,19 +15,40 @@ const MAX_DEFINITIONS: usize = 64;
 /// What `gl_Position` is given is the position.
 const POSITION: &str = "gl_Position";
 
+/// What a whole program shows, as a program: the definitions of a solution whose own cannot be told apart.
+const SHOWN_COLOUR: &str = "shown_colour";
+const SHOWN_POSITION: &str = "shown_position";
+
 /// The solution, as long as forms of mistakes are read beside it.
 pub(super) struct Solution<'a> {
+    /// The file that the definitions stand in; the last one where they are what the whole program shows.
     file: &'a HandedIn,
+    reads: Reads,
     draft: Draft,
     /// The cell of the first definition.
     first: usize,
+    /// Why the definitions of the file are not told apart.
+    why_whole: Option<AssignmentError>,
+    /// What the handed-in stages write.
+    outputs: Vec<Output>,
 }
 
 impl<'a> Solution<'a> {
-    /// Reads the solution of a file.
-    pub(super) fn read(file: &'a HandedIn, constants: &[manifest::Constant]) -> Checked<Self> {
+    /// Reads the solution: as a list of definitions where it is one file that is one, else as what the program shows.
+    pub(super) fn read(files: &'a [HandedIn], pipeline: &Pipeline, constants: &[manifest::Constant]) -> Checked<Self> {
         let names: Vec<&str> = constants.iter().map(|constant| constant.name.as_str()).collect();
-        let draft = Draft::read(&file.solution.text, Stage::Vertex, &names);
+        let why = match files {
+            [file] => match Self::of_definitions(file, &names) {
+                Ok(solution) => return Ok(solution),
+                Err(why) => why,
+            },
+            _ => error("file", both("the homework has several files", "課題のファイルが複数あります")),
+        };
+        Self::of_outputs(files, pipeline, why)
+    }
+
+    fn of_definitions(file: &'a HandedIn, constants: &[&str]) -> Checked<Self> {
+        let draft = Draft::read(&file.solution.text, stages::of(file.stage), constants);
         let draft = draft.map_err(|refusal| refused(&file.solution.name, &refusal))?;
         let first = draft.formulas().first().map(Formula::cell);
         let first = first.ok_or_else(|| {
@@ -38,15 +60,67 @@ impl<'a> Solution<'a> {
                 ),
             )
         })?;
-        let solution = Self { file, draft, first };
+        let reads = match file.stage {
+            manifest::Stage::Vertex => Reads::Attributes,
+            manifest::Stage::Fragment => Reads::Varyings,
+        };
+        let mut solution = Self { file, reads, draft, first, why_whole: None, outputs: Vec::new() };
         if solution.draft.formulas().len() > MAX_DEFINITIONS {
-            return Err(solution.wrong(0, format!("there are more than {MAX_DEFINITIONS} definitions")));
+            let message = both(
+                format!("there are more than {MAX_DEFINITIONS} definitions"),
+                format!("定義が {MAX_DEFINITIONS} 個を超えています"),
+            );
+            return Err(solution.wrong(0, message));
         }
         for formula in solution.draft.formulas() {
             let line = solution.draft.cells()[formula.cell()].line;
             solution.few_enough(formula, &|| place(&file.solution.name, line))?;
         }
+        solution.output(None)?;
+        if reads == Reads::Attributes {
+            solution.output(Some(POSITION))?;
+        }
+        let stored = solution.draft.stored().iter().filter(|stored| stored.output != POSITION);
+        let kind = |stored: &Stored| solution.draft.cells()[stored.cell].kind.clone();
+        solution.outputs =
+            stored.map(|stored| Output { name: stored.output.clone(), kind: kind(stored) }).collect();
         Ok(solution)
+    }
+
+    /// The colour and, where a vertex stage is handed in, the position are the definitions.
+    fn of_outputs(files: &'a [HandedIn], pipeline: &Pipeline, why: AssignmentError) -> Checked<Self> {
+        let nothing = || error("file", both("nothing is handed in", "提出するファイルがありません"));
+        let file = files.last().ok_or_else(nothing)?;
+        let has = |stage| files.iter().any(|file| file.stage == stage);
+        let seen = &pipeline.fragment.outputs()[pipeline.colour].name;
+        let colour = if seen.starts_with("gl_") { "colour" } else { seen };
+        let clip = if colour == "position" { "clip_position" } else { "position" };
+        let position = has(manifest::Stage::Vertex);
+        let [declared, written] = match position {
+            true => [
+                format!("in vec4 {SHOWN_POSITION};"),
+                format!("vec4 {clip} = {SHOWN_POSITION}; {POSITION} = {clip};"),
+            ],
+            false => Default::default(),
+        };
+        let text = format!(
+            "#version 410 core\nin vec4 {SHOWN_COLOUR}; {declared} out vec4 {SHOWN_COLOUR}_out;\n\
+             void main() {{ vec4 {colour} = {SHOWN_COLOUR}; {written} {SHOWN_COLOUR}_out = {colour}; }}"
+        );
+        let draft = Draft::read(&text, Stage::Vertex, &[]).map_err(|refusal| refused(&file.solution.name, &refusal))?;
+        let first = draft.formulas().first().map_or(0, Formula::cell);
+        let written = match has(manifest::Stage::Fragment) {
+            true => &pipeline.fragment,
+            false => &pipeline.vertex,
+        };
+        let own = written.outputs().iter().filter(|output| !output.name.starts_with("gl_"));
+        let outputs = own.map(|output| Output { name: output.name.clone(), kind: output.kind.clone() }).collect();
+        Ok(Self { file, reads: Reads::Outputs, draft, first, why_whole: Some(why), outputs })
+    }
+
+    /// What the equation is computed from.
+    pub(super) fn reads(&self) -> Reads {
+        self.reads
     }
 
     pub(super) fn wrong(&self, line: u32, message: impl Into<crate::Text>) -> AssignmentError {
@@ -59,17 +133,37 @@ impl<'a> Solution<'a> {
 
     /// The place of a definition.
     pub(super) fn definition(&self, name: &str, place: &dyn Fn() -> String) -> Checked<usize> {
-        let found = self.definitions().iter().position(|cell| cell.name == name);
-        found.ok_or_else(|| {
+        let stored = self.draft.stored().iter().find(|stored| stored.output == name);
+        let named = self.definitions().iter().position(|cell| cell.name == name);
+        named.or_else(|| stored.map(|stored| stored.cell - self.first)).ok_or_else(|| {
             let known = listed(self.definitions().iter().map(|cell| cell.name.as_str()));
+            let place = place();
+            if let Some(why) = &self.why_whole {
+                let AssignmentError { message, .. } = why;
+                let message = both(
+                    format!("{}; {place}, names the definition `{name}`", message.en),
+                    format!("{} ({place} が定義 `{name}` を使っています)", message.ja),
+                );
+                return AssignmentError { message, ..why.clone() };
+            }
             error(
-                place(),
+                place,
                 both(
                     format!("there is no definition `{name}` in {}, which has {known}", self.file.solution.name),
                     format!("{} に定義 `{name}` はありません (あるもの: {known})", self.file.solution.name),
                 ),
             )
         })
+    }
+
+    /// The place of the definition that is the colour.
+    pub(super) fn colour(&self) -> Checked<usize> {
+        self.output(None)
+    }
+
+    /// The name of a definition by its place.
+    pub(super) fn name(&self, definition: usize) -> &str {
+        &self.definitions()[definition].name
     }
 
     /// The place of a definition of this type.
@@ -146,23 +240,20 @@ impl<'a> Solution<'a> {
         Ok(())
     }
 
-    /// What the shader is given, and where each is declared, other than what is a constant.
-    pub(super) fn given(&self) -> &[Cell] {
-        &self.draft.cells()[..self.first]
-    }
-
-    /// The outputs beside `gl_Position`.
+    /// What the handed-in stages write beside `gl_Position`.
     pub(super) fn outputs(&self) -> Vec<Output> {
-        let stored = self.draft.stored().iter().filter(|stored| stored.output != POSITION);
-        let kind = |stored: &Stored| self.draft.cells()[stored.cell].kind.clone();
-        stored.map(|stored| Output { name: stored.output.clone(), kind: kind(stored) }).collect()
+        self.outputs.clone()
     }
 
     /// The constants with the values that they have in the solution, which are those of the handed-out file.
     pub(super) fn constants(&self, entries: Vec<manifest::Constant>) -> Checked<Vec<Constant>> {
         let names: Vec<&str> = entries.iter().map(|constant| constant.name.as_str()).collect();
+        if names.is_empty() {
+            return Ok(Vec::new());
+        }
+        let stage = stages::of(self.file.stage);
         let read = |name: &str, text: &str| {
-            Draft::constants(text, Stage::Vertex, &names).map_err(|refusal| refused(name, &refusal))
+            Draft::constants(text, stage, &names).map_err(|refusal| refused(name, &refusal))
         };
         let ours = read(&self.file.solution.name, &self.file.solution.text)?;
         let starters = read(&self.file.starter_name, &self.file.starter)?;
@@ -192,15 +283,22 @@ impl<'a> Solution<'a> {
     }
 
     /// The equation that the solution is, with what the lecture calls its definitions.
-    pub(super) fn finish(self, m: &Manifest, interface: &Interface, constants: &[Constant]) -> Checked<Equation> {
+    pub(super) fn finish(
+        self,
+        m: &Manifest,
+        interface: &Interface,
+        pipeline: &Pipeline,
+        constants: &[Constant],
+    ) -> Checked<Equation> {
         for name in m.definition.keys() {
             self.definition(name, &|| format!("definition `{name}`"))?;
         }
-        let [colour, position] = [self.output(None)?, self.output(Some(POSITION))?];
+        let colour = self.output(None)?;
+        let has_position = self.draft.stored().iter().any(|stored| stored.output == POSITION);
+        let position = has_position.then(|| self.output(Some(POSITION))).transpose()?;
         let stored = self.draft.stored().iter();
         let outputs = stored.map(|stored| (stored.output.clone(), stored.cell - self.first)).collect();
         let cells = self.draft.cells();
-        let find = |name: &String| cells.iter().position(|cell| cell.name == *name).unwrap_or(usize::MAX);
         let definition = |formula: &Formula| {
             let Cell { name, kind, .. } = cells[formula.cell()].clone();
             let said = m.definition.get(&name);
@@ -208,15 +306,20 @@ impl<'a> Solution<'a> {
             Definition { name, kind, formula: formula.clone(), slide, symbol }
         };
         let definitions: Vec<Definition> = self.draft.formulas().iter().map(definition).collect();
-        let constants = constants.iter().map(|constant| (find(&constant.name), constant.value.clone())).collect();
-        let given = |name: &str| self.given().iter().position(|cell| cell.name == *name);
+        let given = |name: &str| cells[..self.first].iter().position(|cell| cell.name == *name);
+        let constants = constants.iter().map(|constant| (given(&constant.name), constant.value.clone())).collect();
         let uniforms = interface.uniforms.iter().map(|uniform| given(&uniform.path)).collect();
-        let attributes = interface.inputs.iter().map(|input| given(&input.name)).collect();
-        let name = &self.file.solution.name;
+        let attributes = match self.reads {
+            Reads::Attributes => interface.inputs.iter().map(|input| given(&input.name)).collect(),
+            Reads::Varyings => pipeline.fragment.inputs().iter().map(|input| given(&input.name)).collect(),
+            Reads::Outputs => [SHOWN_COLOUR, SHOWN_POSITION].into_iter().map(given).collect(),
+        };
+        let (name, reads) = (&self.file.solution.name, self.reads);
         let sheet = self.draft.finish().map_err(|refusal| refused(name, &refusal))?;
         let sheet = Arc::new(sheet);
         let numbers = definitions.iter().filter_map(|definition| definition.kind.slots()).sum();
         Ok(Equation {
+            reads,
             sheet,
             constants,
             uniforms,
@@ -252,7 +355,8 @@ impl<'a> Solution<'a> {
             return Err(self.wrong(other.line, "this is one output too many: only one beside gl_Position is compared"));
         }
         let kind = &self.draft.cells()[one.cell].kind;
-        if *kind != Type::VEC4 {
+        let is_colour_of_fragment = self.reads == Reads::Varyings && *kind == Type::VEC3;
+        if *kind != Type::VEC4 && !is_colour_of_fragment {
             return Err(self.wrong(one.line, format!("`{}` is a {kind}, and has to be a vec4", one.output)));
         }
         Ok(one.cell - self.first)

@@ -2,7 +2,7 @@
 
 use super::{Checked, solution};
 use crate::accepted::Answer;
-use crate::assignment::{FixedStage, HandedIn, error};
+use crate::assignment::{FixedStage, HandedIn, both, error};
 use crate::interpreter::{Program, Stage};
 use crate::manifest;
 use crate::pipeline::Pipeline;
@@ -70,6 +70,28 @@ impl Stages {
             Ok(Answer { name: name.clone(), program: own.program, pipeline })
         };
         names.iter().map(answer).collect()
+    }
+}
+
+impl Stages {
+    /// The program in which some files have another text; `place`: what it is called where it does not fit.
+    pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> Checked<Answer> {
+        let mut own = Vec::new();
+        for (file, text) in texts {
+            let program = Program::compile(text, of(file.stage)).map_err(|refusal| {
+                let wrong = solution::refused(&file.solution.name, &refusal);
+                error(place, both(wrong.text().en, wrong.text().ja))
+            })?;
+            own.push((of(file.stage), Arc::new(program)));
+        }
+        let stage = |stage| {
+            let changed = own.iter().find(|(of, _)| *of == stage).map(|(_, program)| program);
+            Arc::clone(changed.unwrap_or(&self.get(stage).program))
+        };
+        let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
+        let pipeline = Pipeline::link(&vertex, &fragment, None).map_err(|what| error(place, what))?;
+        let program = own.last().map_or(fragment, |(_, program)| Arc::clone(program));
+        Ok(Answer { name: place.to_owned(), program, pipeline })
     }
 }
 

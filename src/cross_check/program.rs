@@ -1,0 +1,63 @@
+//! The second opinion on a program with a fragment stage: what it shows at the probes.
+
+use super::{CrossCheck, Judged, Relation, TOLERANCE, summed_up};
+use crate::language::Text;
+use crate::render::Sample;
+use crate::source::Source;
+use crate::translate::Stage as Kind;
+use reference::Assignment;
+use reference::interpreter::{Program, Stage};
+use reference::pipeline::Pipeline;
+use reference::probes::ProbeSet;
+use std::sync::Arc;
+
+/// Runs the stages that are handed in, with the homework's own, at the probes, and compares colours and positions.
+pub fn check_program(
+    assignment: &Assignment,
+    sources: &[(Kind, &Source)],
+    probes: &ProbeSet,
+    samples: &[Sample],
+) -> CrossCheck {
+    let [mut vertex, mut fragment] = [&assignment.pipeline.vertex, &assignment.pipeline.fragment].map(Arc::clone);
+    for (kind, source) in sources {
+        let (stage, own) = match kind {
+            Kind::Vertex => (Stage::Vertex, &mut vertex),
+            Kind::Fragment => (Stage::Fragment, &mut fragment),
+        };
+        match Program::compile(&source.text, stage) {
+            Ok(program) => *own = Arc::new(program),
+            Err(refusal) => return CrossCheck::not_run(&refusal.to_string(), Some(refusal.line)),
+        }
+    }
+    let shown = Pipeline::link(&vertex, &fragment, None).and_then(|pipeline| {
+        assignment.shown_at(&pipeline, probes).ok_or_else(|| "it does not come to an end, or lacks an input".to_owned())
+    });
+    let shown = match shown {
+        Ok(shown) => shown,
+        Err(why) => return CrossCheck::not_run(&why, None),
+    };
+    let judged = shown.iter().zip(samples).enumerate().map(|(number, (shown, sample))| {
+        let is_near = |ours: f64, theirs: f32| (ours - f64::from(theirs)).abs() <= TOLERANCE * ours.abs().max(1.0);
+        let mut pairs = shown.colour.to_array().into_iter().zip(sample.colour);
+        let scale = shown.position.abs().max_element().max(1.0);
+        let mut positions = shown.position.to_array().into_iter().zip(sample.position);
+        let agrees = pairs.all(|(ours, theirs)| is_near(ours, theirs))
+            && positions.all(|(ours, theirs)| is_near(ours / scale, (f64::from(theirs) / scale) as f32));
+        let relation = match (agrees, shown.is_steady) {
+            (true, _) => Relation::Agrees,
+            (false, _) if !shown.colour.is_finite() => Relation::Undefined,
+            (false, false) => Relation::Unsettled,
+            (false, true) => Relation::Differs,
+        };
+        let [ours, theirs] =
+            [shown.colour.to_array(), sample.colour_f64()].map(|colour| colour.map(|x| format!("{x:.4}")).join(", "));
+        let message = (relation == Relation::Differs).then(|| {
+            Text::new(
+                format!("fragment {number}: the colour is {theirs} for the driver and {ours} for the interpreter"),
+                format!("フラグメント {number}: 色はドライバーでは {theirs}, インタープリターでは {ours} です"),
+            )
+        });
+        Judged { relation, message }
+    });
+    summed_up(judged.collect())
+}

@@ -1,0 +1,153 @@
+//! Homework of which a fragment stage is handed in, or several files: they are linked and run as one program.
+
+use super::{Graded, Grader, Judged, Order};
+use crate::cross_check;
+use crate::diagnostic::{Diagnostic, Stage as Speaker};
+use crate::fault::Fault;
+use crate::hand_in::HandedInFile;
+use crate::homework;
+use crate::render::{Captured, Pixel, Rendering, Sample, Scene};
+use crate::report::{SourceInfo, Verdict};
+use crate::source::{self, Source};
+use crate::translate::{Linked, Program, ProgramRefusal, Refusal, Stage};
+use reference::Assignment;
+use reference::assignment;
+use reference::equation::DISCARDED;
+
+/// The program of a homework, as far as it is not handed in.
+#[derive(Debug)]
+pub(super) struct Programs {
+    program: Program,
+    /// The frames' vertices after the fixed vertex stage, once they were needed.
+    captured: Option<Captured>,
+}
+
+impl Programs {
+    /// None for homework of one vertex shader that is a list of definitions: that goes a shorter way.
+    pub fn of(assignment: &Assignment) -> Result<Option<Self>, Fault> {
+        if assignment.equation.reads() == reference::equation::Reads::Attributes {
+            return Ok(None);
+        }
+        let own = assignment.fixed.first().map(|fixed| (stage(fixed.stage), fixed.text.as_str()));
+        let program = Program::new(homework::interface(assignment)?, own)?;
+        Ok(Some(Self { program, captured: None }))
+    }
+}
+
+fn stage(stage: assignment::Stage) -> Stage {
+    match stage {
+        assignment::Stage::Vertex => Stage::Vertex,
+        assignment::Stage::Fragment => Stage::Fragment,
+    }
+}
+
+impl Grader {
+    /// Judges the files of a program, in the order of the homework.
+    pub(super) fn judge_program(
+        &mut self,
+        infos: Vec<SourceInfo>,
+        files: &[HandedInFile],
+        order: Order,
+    ) -> Result<Graded, Fault> {
+        let mut sources: Vec<(Stage, Source)> = Vec::new();
+        let mut refused: Vec<Diagnostic> = Vec::new();
+        for (file, slot) in files.iter().zip(&self.assignment.files) {
+            let stage = stage(slot.stage);
+            match source::read_stage(stage, &file.name, &file.bytes) {
+                Ok(source) => sources.push((stage, source)),
+                Err(refusal) => refused.extend(in_file(&file.name, refusal.diagnostics)),
+            }
+        }
+        if !refused.is_empty() {
+            return Ok(self.rejected(infos, refused));
+        }
+        // Vertex before fragment, whatever the order of the files.
+        sources.sort_by_key(|(stage, _)| *stage == Stage::Fragment);
+        let name = |stage: Stage| {
+            let found = sources.iter().find(|(own, _)| *own == stage).or(sources.last());
+            found.map_or("", |(_, source)| source.facts.name.as_str())
+        };
+        let notes = || sources.iter().flat_map(|(_, source)| in_file(&source.facts.name, source.notes.clone()));
+        let given: Vec<_> = sources.iter().map(|(stage, source)| (*stage, source)).collect();
+        let Some(programs) = &self.programs else { return Err(no_program()) };
+        let linked = match programs.program.translate(&given) {
+            Ok(linked) => linked,
+            Err(ProgramRefusal { refusal: Refusal::Fault(fault), .. }) => return Err(fault),
+            Err(ProgramRefusal { stage, refusal: Refusal::Rejected(diagnostics) }) => {
+                let diagnostics = in_file(name(stage), diagnostics).chain(notes()).collect();
+                return Ok(self.rejected(infos, diagnostics));
+            }
+            Err(ProgramRefusal { stage, refusal: Refusal::Stopped(diagnostics) }) => {
+                let diagnostics = in_file(name(stage), diagnostics).chain(notes()).collect();
+                return Ok(self.refused(infos, Verdict::Stopped, diagnostics));
+            }
+        };
+        let warnings = linked.diagnostics.iter().flat_map(|(stage, one)| in_file(name(*stage), vec![one.clone()]));
+        let mut diagnostics: Vec<Diagnostic> = warnings.chain(notes()).collect();
+        let probing = self.probing(order.seed);
+        let rendering = self.render_linked(&linked, &probing.scene)?;
+        let stages = [(&linked.vertex, rendering.ran_out), (&linked.fragment, rendering.of_fragments.ran_out)];
+        if let Some((shader, ran_out)) = stages.into_iter().find_map(|(shader, out)| Some((shader, out?))) {
+            let error = Diagnostic { file: Some(name(shader.stage).to_owned()), ..shader.out_of_fuel(ran_out) };
+            diagnostics.insert(0, error);
+            return Ok(self.refused(infos, Verdict::Stopped, diagnostics));
+        }
+        let rendering = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
+        let Some((_, source)) = sources.last() else { return Err(no_program()) };
+        let judged = Judged { source, fresh: &probing.fresh, rendering: &rendering, interpreter: None };
+        let mut report = self.report(judged, diagnostics, order.hints);
+        report.cross_check = order.cross_check.then(|| {
+            let samples = rendering.probe_samples.concat();
+            cross_check::check_program(&self.assignment, &given, &self.probes, &samples)
+        });
+        report.sources = infos;
+        Ok(Graded { report, frames: Some(rendering.frames) })
+    }
+
+    /// Draws a program. What the fixed vertex stage does with the frames is the same for every submission.
+    fn render_linked(&mut self, linked: &Linked, scene: &Scene) -> Result<Rendering, Fault> {
+        if !linked.vertex.is_fixed {
+            return self.renderer.render_program(linked, scene);
+        }
+        let Some(programs) = &mut self.programs else { return Err(no_program()) };
+        let captured = match &mut programs.captured {
+            Some(captured) => captured,
+            none => none.insert(self.renderer.capture(&linked.vertex, scene)?),
+        };
+        self.renderer.draw(captured, &linked.fragment, scene)
+    }
+}
+
+fn no_program() -> Fault {
+    Fault::new(crate::language::Text::verbatim("the homework has no program"))
+}
+
+/// Diagnostics about places in a file.
+fn in_file(name: &str, diagnostics: Vec<Diagnostic>) -> impl Iterator<Item = Diagnostic> {
+    let name = name.to_owned();
+    diagnostics.into_iter().map(move |diagnostic| match diagnostic.stage {
+        // What is said of no file at all has no place in one.
+        Speaker::Run if diagnostic.line.is_none() => diagnostic,
+        _ => Diagnostic { file: Some(name.clone()), ..diagnostic },
+    })
+}
+
+/// What a program shows at each probe: the position of its first corner, and the colour as a target of fixed point holds it.
+fn samples(linked: &Linked, rendering: &Rendering) -> Vec<Vec<Sample>> {
+    let seen = linked.fragment.outputs.iter().position(|output| output.location == 0).unwrap_or(0);
+    let of_batch = |(batch, pixels): (usize, &Vec<Pixel>)| {
+        let corners = rendering.probe_samples.get(batch);
+        let position =
+            |pixel: usize| corners.and_then(|corners| corners.get(3 * pixel)).map_or([0.0, 0.0, 0.0, 1.0], |c| c.position);
+        let sample = |(number, pixel): (usize, &Pixel)| Sample { position: position(number), colour: shown(pixel, seen) };
+        pixels.iter().enumerate().map(sample).collect()
+    };
+    rendering.pixels.iter().enumerate().map(of_batch).collect()
+}
+
+fn shown(pixel: &Pixel, seen: usize) -> [f32; 4] {
+    if pixel.is_discarded {
+        return DISCARDED.extend(1.0).as_vec4().to_array();
+    }
+    pixel.outputs.get(seen).map_or([0.0; 4], |colour| colour.map(|channel| channel.clamp(0.0, 1.0)))
+}
