@@ -8,9 +8,9 @@ mod vertices;
 
 use crate::language::Text;
 use crate::render::{Batch, Sample};
+pub use program::check_program;
 use reference::interpreter::{Outputs, Precision, Program, Stage, Undefined};
 use serde::{Deserialize, Serialize};
-pub use program::check_program;
 use vertices::Vertices;
 
 /// Largest difference of a value, relative to it where it is more than 1: x^80 in f32 loses five of seven digits at worst.

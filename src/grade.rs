@@ -114,7 +114,18 @@ impl Grader {
         let accepted = accepted.collect();
         let probes = assignment.judging_probes();
         let beyond = advice::beyond(&assignment, &probes);
-        Ok(Self { assignment, interface, renderer, expected, accepted, probes, environment, beyond, programs, last: None })
+        Ok(Self {
+            assignment,
+            interface,
+            renderer,
+            expected,
+            accepted,
+            probes,
+            environment,
+            beyond,
+            programs,
+            last: None,
+        })
     }
 
     /// Grades one hand-in.

@@ -10,6 +10,7 @@ use crate::report::FrameResult;
 use crate::source::Source;
 use crate::translate::{Interpreter, NO_LINE};
 use reference::assignment::RubricLine;
+use reference::equation::DISCARDED;
 use reference::fit::Worst;
 use reference::mistake::{Condition, Found, Mistake};
 
@@ -210,8 +211,12 @@ impl<'f> Blanks<'f> {
 
     fn worst(&mut self, worst: Option<Worst>) {
         let Some(worst) = worst else { return };
-        self.values.push(("expected", numbers(&worst.expected.to_array())));
-        self.values.push(("found", numbers(&worst.found.to_array())));
+        let colour = |colour: glam::DVec3| match colour == DISCARDED {
+            true => "`discard`".to_owned(),
+            false => numbers(&colour.to_array()),
+        };
+        self.values.push(("expected", colour(worst.expected)));
+        self.values.push(("found", colour(worst.found)));
         self.worst = Some(worst);
     }
 }

@@ -137,17 +137,20 @@ fn samples(linked: &Linked, rendering: &Rendering) -> Vec<Vec<Sample>> {
     let seen = linked.fragment.outputs.iter().position(|output| output.location == 0).unwrap_or(0);
     let of_batch = |(batch, pixels): (usize, &Vec<Pixel>)| {
         let corners = rendering.probe_samples.get(batch);
-        let position =
-            |pixel: usize| corners.and_then(|corners| corners.get(3 * pixel)).map_or([0.0, 0.0, 0.0, 1.0], |c| c.position);
-        let sample = |(number, pixel): (usize, &Pixel)| Sample { position: position(number), colour: shown(pixel, seen) };
+        let position = |pixel: usize| {
+            corners.and_then(|corners| corners.get(3 * pixel)).map_or([0.0, 0.0, 0.0, 1.0], |c| c.position)
+        };
+        let sample =
+            |(number, pixel): (usize, &Pixel)| Sample { position: position(number), colour: shown(pixel, seen) };
         pixels.iter().enumerate().map(sample).collect()
     };
     rendering.pixels.iter().enumerate().map(of_batch).collect()
 }
 
+/// What a fragment shows; nothing where it is thrown away, or where nothing is ever written.
 fn shown(pixel: &Pixel, seen: usize) -> [f32; 4] {
-    if pixel.is_discarded {
-        return DISCARDED.extend(1.0).as_vec4().to_array();
+    match pixel.outputs.get(seen).filter(|_| !pixel.is_discarded) {
+        Some(colour) => colour.map(|channel| channel.clamp(0.0, 1.0)),
+        None => DISCARDED.extend(1.0).as_vec4().to_array(),
     }
-    pixel.outputs.get(seen).map_or([0.0; 4], |colour| colour.map(|channel| channel.clamp(0.0, 1.0)))
 }

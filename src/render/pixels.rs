@@ -1,7 +1,7 @@
 //! A fragment stage on its own: one pixel of a target of floats for each probe, whose inputs are given.
 
 use super::device::Device;
-use super::fragments::{FragmentData, FragmentStage, Key};
+use super::fragments::{DEPTH, FragmentData, FragmentStage, Key};
 use super::scene::{Batch, Scene, State};
 use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation};
 use naga::ScalarKind;
@@ -75,40 +75,58 @@ impl Pixels {
         let key = Key {
             state: State::default(),
             targets: places.iter().map(|place| place.map(|place| formats[place])).collect(),
-            has_depth: false,
+            // A pass needs something to draw to, also for a stage that writes nothing.
+            has_depth: targets == 0,
             stride: (stage.inputs.len() as u64 + 1) * CAPTURE_SLOT,
             slots: (0..stage.inputs.len()).collect(),
             moves_each: true,
         };
         let is_placed = stage.is_placed;
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if targets > 0 {
-            let pipeline = stage.pipeline(&device.device, &data, &key);
-            let clear = wgpu::Color { r: NOTHING, g: NOTHING, b: NOTHING, a: NOTHING };
-            let attachment = |view| wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
-            };
-            let attachments: Vec<_> = places.iter().map(|place| place.map(|place| attachment(&views[place]))).collect();
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("probes"),
-                color_attachments: &attachments,
-                ..Default::default()
+        let depth = key.has_depth.then(|| {
+            let texture = device.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("depths"),
+                size,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: DEPTH,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
             });
-            pass.set_pipeline(pipeline);
-            pass.set_vertex_buffer(0, records.slice(..));
-            if is_placed {
-                pass.set_vertex_buffer(1, shifts.slice(..));
-            }
-            let mut first = 0;
-            for (number, batch) in batches.iter().enumerate().filter(|(_, batch)| batch.vertices() > 0) {
-                data.bind(&mut pass, number);
-                pass.draw(first..first + 3 * batch.vertices(), 0..1);
-                first += 3 * batch.vertices();
-            }
+            texture.create_view(&Default::default())
+        });
+        let pipeline = stage.pipeline(&device.device, &data, &key);
+        let clear = wgpu::Color { r: NOTHING, g: NOTHING, b: NOTHING, a: NOTHING };
+        let attachment = |view| wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
+        };
+        let attachments: Vec<_> = places.iter().map(|place| place.map(|place| attachment(&views[place]))).collect();
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("probes"),
+            color_attachments: &attachments,
+            depth_stencil_attachment: depth.as_ref().map(|view| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_vertex_buffer(0, records.slice(..));
+        if is_placed {
+            pass.set_vertex_buffer(1, shifts.slice(..));
         }
+        let mut first = 0;
+        for (number, batch) in batches.iter().enumerate().filter(|(_, batch)| batch.vertices() > 0) {
+            data.bind(&mut pass, number);
+            pass.draw(first..first + 3 * batch.vertices(), 0..1);
+            first += 3 * batch.vertices();
+        }
+        drop(pass);
         let readbacks = textures
             .iter()
             .map(|texture| {
@@ -160,6 +178,18 @@ pub(super) fn split(stage: &FragmentStage, batches: &[Batch], outputs: &[Vec<u32
     batches.iter().map(|batch| (0..batch.vertices()).map(|_| next()).collect()).collect()
 }
 
+/// A few pixels of the first batch.
+pub(super) fn some_of(batches: &[Batch]) -> Option<Batch> {
+    /// Enough that a loop that never ends shows, and few enough that it ends soon.
+    const SOME: usize = 4;
+    let first = batches.first()?;
+    let column = |(name, values): &(String, Values)| {
+        let numbers = values.iter().take(SOME).flatten().copied().collect();
+        (name.clone(), Values { kind: values.kind.clone(), numbers })
+    };
+    Some(Batch { attributes: first.attributes.iter().map(column).collect(), ..first.clone() })
+}
+
 /// The batches of a scene's pixels with what a vertex stage hands over to them, from its captured header and records.
 pub(super) fn between(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> Vec<Batch> {
     let stride = (outputs.len() + 1) * CAPTURE_SLOT as usize;
@@ -180,7 +210,8 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> 
                 Some(ScalarKind::Uint) => f64::from(word(vertex, slot, axis)),
                 _ => f64::from(f32::from_bits(word(vertex, slot, axis))),
             };
-            let is_flat = output.qualifiers.interpolation == Interpolation::Flat || output.kind != Some(ScalarKind::Float);
+            let is_flat =
+                output.qualifiers.interpolation == Interpolation::Flat || output.kind != Some(ScalarKind::Float);
             let between = |(pixel, shares): (usize, &[f64; 3]), axis: usize| match is_flat {
                 true => number(3 * pixel + 2, axis),
                 false => (0..3).map(|corner| shares[corner] * number(3 * pixel + corner, axis)).sum(),

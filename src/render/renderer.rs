@@ -125,19 +125,27 @@ impl Renderer {
     ) -> Result<(FragmentStage, Rendering), Fault> {
         let device = &self.device;
         let textures = self.textures(&[fragment], scene);
-        let (stage, pass) = checked(&device.device, || {
-            let mut stage = FragmentStage::new(&device.device, fragment);
-            let pass =
-                (!pixels.is_empty()).then(|| Pixels::submit(device, &mut stage, pixels, textures.as_ref()));
-            (stage, pass)
-        })?;
-        if let Some(pass) = pass {
+        let mut stage = checked(&device.device, || FragmentStage::new(&device.device, fragment))?;
+        let mut run = |pixels: &[Batch]| -> Result<_, Fault> {
+            let pass = checked(&device.device, || Pixels::submit(device, &mut stage, pixels, textures.as_ref()))?;
+            let met = met(device, pass.data.header())?;
+            Ok((pass, met))
+        };
+        // All fragments run before the first is known to have a loop that never ends, so a few of them go ahead.
+        if let Some(some) = pixels::some_of(pixels).filter(|_| !fragment.meters.is_empty()) {
+            rendering.of_fragments = run(&[some])?.1;
+            if rendering.of_fragments.ran_out.is_some() {
+                return Ok((stage, rendering));
+            }
+        }
+        if !pixels.is_empty() {
+            let (pass, met) = run(pixels)?;
             let read = |buffer: &wgpu::Buffer| -> Result<Vec<u32>, Fault> {
                 Ok(bytemuck::pod_collect_to_vec(map(device, buffer)?.bytes()))
             };
             let outputs = pass.readbacks().iter().map(read).collect::<Result<Vec<_>, _>>()?;
             rendering.pixels = pixels::split(&stage, pixels, &outputs);
-            rendering.of_fragments = met(device, pass.data.header())?;
+            rendering.of_fragments = met;
         }
         Ok((stage, rendering))
     }

@@ -46,7 +46,8 @@ pub fn judge_features(
         .iter()
         .map(|feature| {
             let computed = assignment.computed_by(feature.as_ref()?, probes);
-            let differs = computed.iter().zip(probes).map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance));
+            let differs =
+                computed.iter().zip(probes).map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance));
             Some(differs.collect())
         })
         .collect();

@@ -360,7 +360,8 @@ impl Assignment {
 
     /// What another program shows at each probe; none where it cannot be run.
     pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
-        let of_group = |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group));
+        let of_group =
+            |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group));
         let groups = probes.groups.iter().enumerate().map(of_group).collect::<Option<Vec<_>>>()?;
         Some(groups.into_iter().flatten().collect())
     }

@@ -82,8 +82,7 @@ impl<'a> Solution<'a> {
         }
         let stored = solution.draft.stored().iter().filter(|stored| stored.output != POSITION);
         let kind = |stored: &Stored| solution.draft.cells()[stored.cell].kind.clone();
-        solution.outputs =
-            stored.map(|stored| Output { name: stored.output.clone(), kind: kind(stored) }).collect();
+        solution.outputs = stored.map(|stored| Output { name: stored.output.clone(), kind: kind(stored) }).collect();
         Ok(solution)
     }
 
@@ -97,10 +96,9 @@ impl<'a> Solution<'a> {
         let clip = if colour == "position" { "clip_position" } else { "position" };
         let position = has(manifest::Stage::Vertex);
         let [declared, written] = match position {
-            true => [
-                format!("in vec4 {SHOWN_POSITION};"),
-                format!("vec4 {clip} = {SHOWN_POSITION}; {POSITION} = {clip};"),
-            ],
+            true => {
+                [format!("in vec4 {SHOWN_POSITION};"), format!("vec4 {clip} = {SHOWN_POSITION}; {POSITION} = {clip};")]
+            }
             false => Default::default(),
         };
         let text = format!(
@@ -252,9 +250,8 @@ impl<'a> Solution<'a> {
             return Ok(Vec::new());
         }
         let stage = stages::of(self.file.stage);
-        let read = |name: &str, text: &str| {
-            Draft::constants(text, stage, &names).map_err(|refusal| refused(name, &refusal))
-        };
+        let read =
+            |name: &str, text: &str| Draft::constants(text, stage, &names).map_err(|refusal| refused(name, &refusal));
         let ours = read(&self.file.solution.name, &self.file.solution.text)?;
         let starters = read(&self.file.starter_name, &self.file.starter)?;
         let constant = |entry: &manifest::Constant| {
