@@ -61,7 +61,7 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let (file, fixed) = (&assignment.files[0], &assignment.fixed[0]);
     let stage = translate::fixed_stage(&interface, &file.starter).unwrap();
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
-    let mut renderer = Renderer::new(device, &stage).unwrap();
+    let mut renderer = Renderer::new(device, Some(&stage)).unwrap();
     let source = source::read(&file.solution.name, file.solution.text.as_bytes()).expect("a text");
     let shader = translate::translate(&source, &interface).unwrap_or_else(|refusal| panic!("{refusal:?}")).shader;
     let scene = homework::scene(assignment, &[]);
