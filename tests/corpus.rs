@@ -16,7 +16,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How many samples each homework has. A sample that is lost, and a folder that is no longer walked, are seen here.
-const SAMPLES: [(&str, usize); 1] = [("ggsample06", 1465)];
+const SAMPLES: [(&str, usize); 8] = [
+    ("bumps", 7),
+    ("fog", 8),
+    ("ggsample06", 1465),
+    ("maps", 13),
+    ("per-pixel", 10),
+    ("rings", 9),
+    ("toon", 19),
+    ("waves", 8),
+];
 
 /// What a folder's name says of the verdict of all in it.
 const FOLDERS: [(&str, &str); 4] =
@@ -25,10 +34,13 @@ const FOLDERS: [(&str, &str); 4] =
 #[test]
 fn every_sample_gets_its_expected_report() {
     for (homework, count) in SAMPLES {
+        let folder = format!("tests/homeworks/{homework}");
+        let is_built_in = reference::assignment(homework).is_some();
+        let assignment = if is_built_in { homework } else { &folder };
         let output = Command::cargo_bin("ggrade")
             .unwrap()
             .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .args(["corpus", "--assignment", homework])
+            .args(["corpus", "--assignment", assignment])
             .output()
             .unwrap();
         let found = String::from_utf8_lossy(&output.stdout);
@@ -75,12 +87,17 @@ fn no_sample_is_there_twice() {
     let mut texts: BTreeMap<(Vec<Vec<u8>>, String), PathBuf> = BTreeMap::new();
     let mut twice = Vec::new();
     for (sample, expectation) in expectations() {
-        let bytes = std::fs::read(&sample).unwrap();
-        let lines = bytes.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end().to_vec());
-        let mut lines: Vec<_> = lines.collect();
-        let end = lines.iter().rposition(|line| !line.is_empty()).map_or(0, |last| last + 1);
-        lines.truncate(end);
-        let key = (lines, std::fs::read_to_string(&expectation).unwrap());
+        let mut files = if sample.is_dir() { entries(&sample) } else { vec![sample.clone()] };
+        files.sort();
+        let lines = |file: &PathBuf| {
+            let bytes = std::fs::read(file).unwrap();
+            let lines = bytes.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end().to_vec());
+            let mut lines: Vec<_> = lines.collect();
+            let end = lines.iter().rposition(|line| !line.is_empty()).map_or(0, |last| last + 1);
+            lines.truncate(end);
+            lines
+        };
+        let key = (files.iter().flat_map(lines).collect(), std::fs::read_to_string(&expectation).unwrap());
         if let Some(other) = texts.insert(key, sample.clone()) {
             twice.push(format!("{} and {}", other.display(), sample.display()));
         }
@@ -106,10 +123,13 @@ fn expectations() -> Vec<(PathBuf, PathBuf)> {
     let mut found = Vec::new();
     while let Some(folder) = folders.pop() {
         for path in entries(&folder) {
-            if path.is_dir() {
+            // A sample of several files is a folder with its expectation beside it.
+            let expectation = path.with_extension("json");
+            if path.is_dir() && expectation.exists() {
+                found.push((path, expectation));
+            } else if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_none_or(|extension| extension != "json") {
-                let expectation = path.with_extension("json");
                 found.push((path, expectation));
             }
         }

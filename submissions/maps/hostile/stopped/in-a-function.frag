@@ -1,0 +1,12 @@
+#version 430
+struct Material { sampler2D base; sampler2D gloss; float shine; };
+uniform Material material;
+uniform vec3 eye;
+in vec3 at, facing;
+in vec2 at_texture;
+out vec4 colour;
+float f(float x) { while (x >= 0.0) x += 1.0; return x; }
+void main()
+{
+  colour = vec4(f(at_texture.x));
+}

@@ -1,0 +1,12 @@
+#version 430
+struct Material { sampler2D base; sampler2D gloss; float shine; };
+uniform Material material;
+uniform vec3 eye;
+in vec3 at, facing;
+in vec2 at_texture;
+out vec4 colour;
+uniform sampler3D other;
+void main()
+{
+  colour = texture(other, facing);
+}
