@@ -62,7 +62,9 @@ pub(super) fn interface(
                 format!(
                     "`{variable_name}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here"
                 ),
-                format!("`{variable_name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。追加するか、ここから取り除いてください"),
+                format!(
+                    "`{variable_name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。追加するか、ここから取り除いてください"
+                ),
             );
             return Err(error(solution::place(name, variable.line), message));
         }
