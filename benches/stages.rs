@@ -6,7 +6,6 @@ use ggrade::cross_check;
 use ggrade::expected;
 use ggrade::grade::{Grader, Order};
 use ggrade::hand_in::HandIn;
-use ggrade::homework;
 use ggrade::render::{AdapterKind, Device, Renderer};
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, Interface, Shader};
@@ -24,7 +23,7 @@ fn assignment() -> &'static Arc<Assignment> {
 }
 
 fn interface() -> Interface {
-    homework::interface(assignment()).expect("the assignment is whole")
+    ggrade::translate::Interface::of(assignment()).expect("the assignment is whole")
 }
 
 /// A right answer that no cache has seen: another constant in code that does nothing.
@@ -69,7 +68,7 @@ fn translate_source(bencher: Bencher<'_, '_>) {
 fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
     let interface = interface();
     let renderer = RefCell::new(renderer());
-    let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
+    let scene = ggrade::render::Scene::of(assignment(), &[&assignment().probes(1)]);
     bencher
         .with_inputs(|| shader(&read(&text()), &interface))
         .bench_local_refs(|shader| renderer.borrow_mut().render(shader, &scene).expect("a rendering"));
@@ -79,7 +78,7 @@ fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
 fn compare_25_frames(bencher: Bencher<'_, '_>) {
     let (expected, _) = expected::prepared(assignment(), None, None).expect("in memory");
     let mut renderer = renderer();
-    let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
+    let scene = ggrade::render::Scene::of(assignment(), &[&assignment().probes(1)]);
     let rendering = renderer.render(&shader(&read(&text()), &interface()), &scene).expect("a rendering");
     bencher.bench_local(|| {
         expected
@@ -110,7 +109,7 @@ fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn interpret_frames_and_probes(bencher: Bencher<'_, '_>) {
     let mut renderer = renderer();
-    let scene = homework::scene(assignment(), &[&assignment().probes(1)]);
+    let scene = ggrade::render::Scene::of(assignment(), &[&assignment().probes(1)]);
     let text = text();
     let rendering = renderer.render(&shader(&read(&text), &interface()), &scene).expect("a rendering");
     let batches: Vec<_> = scene.frames.iter().flatten().chain(&scene.probes).collect();

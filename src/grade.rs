@@ -15,7 +15,6 @@ use crate::diagnostic::{Diagnostic, Stage};
 use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
-use crate::homework;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
 use crate::report::{Environment, FrameResult, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
@@ -96,7 +95,7 @@ impl Grader {
 
     /// A grader on an open device. `expected` are the assignment's right pictures, in the order of [`expected::frames`].
     pub fn new(device: Device, assignment: Arc<Assignment>, expected: Vec<ExpectedFrame>) -> Result<Self, Fault> {
-        let interface = homework::interface(&assignment)?;
+        let interface = Interface::of(&assignment)?;
         let environment = environment(&device);
         let programs = Programs::of(&assignment)?;
         let fixed = match &programs {
@@ -207,7 +206,7 @@ impl Grader {
             return Rc::clone(last);
         }
         let fresh = self.assignment.fresh_probes(seed);
-        let scene = homework::scene(&self.assignment, &[&self.probes, &fresh]);
+        let scene = Scene::of(&self.assignment, &[&self.probes, &fresh]);
         Rc::clone(self.last.insert(Rc::new(Probing { fresh, scene })))
     }
 

@@ -18,7 +18,7 @@ pub mod translate;
 
 pub mod expected;
 pub mod grade;
-pub mod homework;
+pub mod pictures;
 pub mod sandbox;
 
 pub mod batch;

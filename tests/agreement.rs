@@ -45,7 +45,7 @@ impl Bench {
     fn new() -> Self {
         let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
         let assignment = with_cameras(reference::assignment("ggsample06").unwrap(), CAMERAS);
-        let interface = ggrade::homework::interface(&assignment).unwrap();
+        let interface = ggrade::translate::Interface::of(&assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
         let renderer = Renderer::new(device, Some(&fixed)).unwrap();
@@ -61,7 +61,7 @@ impl Bench {
         let scene = &self.assignment.scene;
         let batch = |pose: &Pose| {
             let uniforms = self.assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
-            ggrade::homework::batch(&self.assignment, &uniforms, &scene.triangle(pose))
+            ggrade::render::Batch::of(&self.assignment, &uniforms, &scene.triangle(pose))
         };
         Scene {
             width: scene.width,

@@ -2,7 +2,6 @@
 //! stage, draw every frame once, read all of them back.
 
 use crate::class::Submission;
-use ggrade::homework;
 use ggrade::render::{Batch, Scene};
 use ggrade::source;
 use ggrade::translate::{self, UniformBlock};
@@ -38,7 +37,7 @@ pub struct Stage {
 impl Stage {
     /// None where it has uniforms beside the homework's, or needs what devices lack.
     pub fn of(submission: &Submission) -> Option<Self> {
-        let interface = homework::interface(reference::assignment("ggsample06")?).ok()?;
+        let interface = ggrade::translate::Interface::of(reference::assignment("ggsample06")?).ok()?;
         let source = source::read(&submission.name, submission.text.as_bytes()).ok()?;
         let shader = translate::translate(&source, &interface).ok()?.shader;
         let [uniforms] = shader.uniforms.as_slice() else { return None };
@@ -82,8 +81,8 @@ impl Bare {
         let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
         let assignment = reference::assignment("ggsample06").expect("the assignment");
-        let scene = homework::scene(assignment, &[&assignment.probes(1)]);
-        let interface = homework::interface(assignment).expect("the assignment is whole");
+        let scene = ggrade::render::Scene::of(assignment, &[&assignment.probes(1)]);
+        let interface = ggrade::translate::Interface::of(assignment).expect("the assignment is whole");
         let fragment = translate::fixed_stage(&interface, &assignment.files[0].starter).expect("the fixed stage");
         let fragment = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,

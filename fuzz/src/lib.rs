@@ -15,7 +15,7 @@ pub fn assignment() -> &'static reference::Assignment {
 
 /// Its interface.
 pub static INTERFACE: LazyLock<Interface> = LazyLock::new(|| {
-    let interface = ggrade::homework::interface(assignment()).expect("complete");
+    let interface = ggrade::translate::Interface::of(assignment()).expect("complete");
     // The compiler's tables are made under OpenGL's rules first, as a worker does.
     ggrade::translate::warm(&interface, &assignment().files[0].starter);
     interface

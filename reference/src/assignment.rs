@@ -223,6 +223,11 @@ impl Assignment {
         check::assignment(manifest, &line_at, folder)
     }
 
+    /// Whether a stage is handed in.
+    pub fn hands_in(&self, stage: Stage) -> bool {
+        self.files.iter().any(|file| file.stage == stage)
+    }
+
     /// The mistake with this id.
     pub fn mistake(&self, id: &str) -> Option<&Mistake> {
         self.mistakes.iter().find(|m| m.id == id)

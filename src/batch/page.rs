@@ -1,8 +1,8 @@
 //! The page of each student: the full report with its pictures.
 
 use crate::fault::Fault;
-use crate::homework;
 use crate::language::Language;
+use crate::pictures;
 use crate::report::html::Page;
 use crate::report::{Picture, Pictures, Report};
 use crate::source::Source;
@@ -29,8 +29,8 @@ impl Pages {
         if is_drawn {
             pictures = Pictures {
                 yours: std::mem::take(frames),
-                expected: homework::expected_pictures(&self.assignment),
-                terms: homework::term_pictures(&self.assignment, report.explanation.as_deref(), sources.first()),
+                expected: pictures::expected_pictures(&self.assignment),
+                terms: pictures::term_pictures(&self.assignment, report.explanation.as_deref(), sources.first()),
                 cycle: self.assignment.scene.cycle,
             };
         }

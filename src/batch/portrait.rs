@@ -1,7 +1,7 @@
 //! The small picture of each student's shader: one pose for the whole class, so that pictures can be compared at a glance.
 
 use crate::fault::Fault;
-use crate::homework::telling_pose;
+use crate::pictures::telling_pose;
 use crate::report::{Picture, pictures};
 use reference::Assignment;
 

@@ -81,8 +81,8 @@ pub(super) fn pictures(
     let Wish { arguments, assignment, .. } = wish;
     let pictures = Pictures {
         yours: frames,
-        expected: crate::homework::expected_pictures(assignment),
-        terms: crate::homework::term_pictures(assignment, report.explanation.as_deref(), sources.first()),
+        expected: crate::pictures::expected_pictures(assignment),
+        terms: crate::pictures::term_pictures(assignment, report.explanation.as_deref(), sources.first()),
         cycle: assignment.scene.cycle,
     };
     if let Some(folder) = &arguments.frames {

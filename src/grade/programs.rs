@@ -5,11 +5,10 @@ use crate::cross_check;
 use crate::diagnostic::{Diagnostic, Stage as Speaker};
 use crate::fault::Fault;
 use crate::hand_in::HandedInFile;
-use crate::homework;
 use crate::render::{Captured, Pixel, Rendering, Sample, Scene};
 use crate::report::{SourceInfo, Verdict};
 use crate::source::{self, Source};
-use crate::translate::{Linked, Program, ProgramRefusal, Refusal, Stage};
+use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
 use reference::assignment;
 use reference::equation::DISCARDED;
@@ -29,7 +28,7 @@ impl Programs {
             return Ok(None);
         }
         let own = assignment.fixed.first().map(|fixed| (stage(fixed.stage), fixed.text.as_str()));
-        let program = Program::new(homework::interface(assignment)?, own)?;
+        let program = Program::new(Interface::of(assignment)?, own)?;
         Ok(Some(Self { program, captured: None }))
     }
 }

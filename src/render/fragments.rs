@@ -31,6 +31,8 @@ pub(super) struct FragmentStage {
     blocks: Vec<UniformBlock>,
     /// Whether it reads `gl_FragCoord`.
     pub is_placed: bool,
+    /// Whether it gives a depth of its own, for which a pass needs a target.
+    pub writes_depth: bool,
     is_fixed: bool,
     pub reads_textures: bool,
     pipelines: Vec<(Key, wgpu::RenderPipeline)>,
@@ -77,6 +79,7 @@ impl FragmentStage {
             outputs: shader.outputs.clone(),
             blocks: shader.uniforms.clone(),
             is_placed: shader.shift.is_some(),
+            writes_depth: shader.writes_depth(),
             is_fixed: shader.is_fixed,
             reads_textures: shader.reads_textures,
             pipelines: Vec::new(),

@@ -60,7 +60,8 @@ impl Painter {
         textures: Option<&wgpu::Buffer>,
         tiles: &Tiles,
     ) -> (&mut Target, FragmentData) {
-        let has_depth = scene.frames.iter().flatten().any(|draw| draw.state.depth_test.is_some());
+        let is_tested = |draw: &Batch| draw.state.depth_test.is_some();
+        let has_depth = stage.writes_depth || scene.frames.iter().flatten().any(is_tested);
         let target = match self.target.take() {
             Some(target)
                 if target.tiles == *tiles

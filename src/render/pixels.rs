@@ -75,15 +75,15 @@ impl Pixels {
         let key = Key {
             state: State::default(),
             targets: places.iter().map(|place| place.map(|place| formats[place])).collect(),
-            // A pass needs something to draw to, also for a stage that writes nothing.
-            has_depth: targets == 0,
+            // A pass needs something to draw to, also for a stage that writes nothing, or a depth of its own.
+            has_depth: true,
             stride: (stage.inputs.len() as u64 + 1) * CAPTURE_SLOT,
             slots: (0..stage.inputs.len()).collect(),
             moves_each: true,
         };
         let is_placed = stage.is_placed;
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let depth = key.has_depth.then(|| {
+        let depth = {
             let texture = device.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some("depths"),
                 size,
@@ -95,7 +95,7 @@ impl Pixels {
                 view_formats: &[],
             });
             texture.create_view(&Default::default())
-        });
+        };
         let pipeline = stage.pipeline(&device.device, &data, &key);
         let clear = wgpu::Color { r: NOTHING, g: NOTHING, b: NOTHING, a: NOTHING };
         let attachment = |view| wgpu::RenderPassColorAttachment {
@@ -108,8 +108,8 @@ impl Pixels {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("probes"),
             color_attachments: &attachments,
-            depth_stencil_attachment: depth.as_ref().map(|view| wgpu::RenderPassDepthStencilAttachment {
-                view,
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
                 depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
                 stencil_ops: None,
             }),

@@ -1,5 +1,7 @@
 //! What a submission is drawn with.
 
+mod assigned;
+
 use reference::interpreter::Texture;
 use reference::scene::{Cull, DepthTest};
 use reference::{Value, Values};

@@ -11,7 +11,7 @@ use super::store::Submission;
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::grade::Order;
-use crate::homework::expected_pictures;
+use crate::pictures::expected_pictures;
 use crate::report::html::Film;
 use crate::report::{Picture, Pictures, pictures};
 use crate::sandbox;

@@ -3,9 +3,11 @@
 use super::spirv::Declared;
 use super::{Refusal, Shader, glslang};
 use crate::diagnostic::{Diagnostic, Stage};
+use crate::fault::Fault;
 use crate::language::Text;
 use crate::source::Source;
 use naga::{Scalar, ScalarKind, TypeInner};
+use reference::{Assignment, assignment};
 use std::ffi::CString;
 
 /// A variable of the interface.
@@ -33,6 +35,28 @@ pub struct Interface {
 }
 
 impl Interface {
+    /// What the program of an assignment feeds and takes. The fixed fragment stage is empty where that is handed in.
+    pub fn of(assignment: &Assignment) -> Result<Self, Fault> {
+        let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
+        let variable =
+            |name: &str, kind: &reference::interpreter::Type| Variable { name: name.into(), ty: kind.to_string() };
+        let fixed = assignment.fixed.iter().find(|fixed| fixed.stage == assignment::Stage::Fragment);
+        let fixed = fixed.map_or("", |fixed| fixed.text.as_str());
+        let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
+        Ok(Self {
+            inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
+            uniforms: assignment
+                .interface
+                .uniforms
+                .iter()
+                .map(|uniform| variable(&uniform.path, &uniform.kind))
+                .collect(),
+            output: variable(&output.name, &output.kind),
+            constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
+            fragment: CString::new(fixed).map_err(|_| broken("a NUL in the fixed stage"))?,
+        })
+    }
+
     /// The uniforms and blocks that the program sets, as a whole or in part.
     pub(super) fn set_uniforms(&self) -> Vec<&str> {
         let root = |path: &'_ str| path.find(['.', '[']).unwrap_or(path.len());

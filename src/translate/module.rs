@@ -100,6 +100,18 @@ impl Shader {
         Built { stage: self.stage, outputs, is_fixed: self.is_fixed, poisons }
     }
 
+    /// Whether a fragment stage gives a depth of its own.
+    pub fn writes_depth(&self) -> bool {
+        let results = self.module.entry_points.iter().filter_map(|entry| entry.function.result.as_ref());
+        let is_depth = |member: &naga::StructMember| {
+            matches!(member.binding, Some(naga::Binding::BuiltIn(naga::BuiltIn::FragDepth)))
+        };
+        results.into_iter().any(|result| match &self.module.types[result.ty].inner {
+            TypeInner::Struct { members, .. } => members.iter().any(is_depth),
+            _ => false,
+        })
+    }
+
     /// Bytes of a captured vertex: its position and its outputs.
     pub fn record_stride(&self) -> u64 {
         (self.outputs.len() as u64 + 1) * CAPTURE_SLOT

@@ -2,10 +2,10 @@
 
 use super::{Interface, Program, Refusal, Stage, Translation, translate};
 use crate::diagnostic::Severity;
-use crate::{homework, source};
+use crate::source;
 
 fn interface() -> Interface {
-    homework::interface(reference::assignment("ggsample06").expect("it is built in")).expect("it is whole")
+    Interface::of(reference::assignment("ggsample06").expect("it is built in")).expect("it is whole")
 }
 
 /// Translates a right shader at this version, with these globals, from line 5 on, and this body.

@@ -1,7 +1,6 @@
 //! Homeworks in folders: what ggrade draws and what the reference draws, against a real OpenGL driver.
 
 use super::opengl::{Draw, Kind, OpenGl, Version, Window};
-use ggrade::homework;
 use ggrade::render::{AdapterKind, Batch, Device, Renderer};
 use ggrade::source;
 use ggrade::translate;
@@ -57,14 +56,14 @@ struct Counts {
 }
 
 fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
-    let interface = homework::interface(assignment).unwrap();
+    let interface = ggrade::translate::Interface::of(assignment).unwrap();
     let (file, fixed) = (&assignment.files[0], &assignment.fixed[0]);
     let stage = translate::fixed_stage(&interface, &file.starter).unwrap();
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
     let mut renderer = Renderer::new(device, Some(&stage)).unwrap();
     let source = source::read(&file.solution.name, file.solution.text.as_bytes()).expect("a text");
     let shader = translate::translate(&source, &interface).unwrap_or_else(|refusal| panic!("{refusal:?}")).shader;
-    let scene = homework::scene(assignment, &[]);
+    let scene = ggrade::render::Scene::of(assignment, &[]);
     let ours = renderer.render(&shader, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
     let (width, height) = (scene.width as usize, scene.height as usize);
     let background = scene.background.map(|channel| f32::from(channel) / 255.0);

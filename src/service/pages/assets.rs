@@ -1,7 +1,7 @@
 //! What pages load besides themselves: styles, scripts, the right pictures of each assignment. All of it is part of the
 //! program; an address holds a hash of the content, so that a browser may keep it for ever.
 
-use crate::homework::{expected_pictures, telling_pose};
+use crate::pictures::{expected_pictures, telling_pose};
 use crate::report::html::{BASE_STYLE, Motion, REPORT_STYLE, SCRIPT, expected_sheet};
 use axum::extract::Path;
 use axum::http::{HeaderValue, StatusCode, header};

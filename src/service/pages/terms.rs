@@ -3,7 +3,7 @@
 use super::frame;
 use super::result::{png, report_of};
 use crate::fault::Fault;
-use crate::homework::Terms;
+use crate::pictures::Terms;
 use crate::report::html::Term;
 use crate::report::{Report, pictures};
 use crate::service::errors::Problem;

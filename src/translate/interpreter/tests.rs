@@ -1,5 +1,4 @@
 use super::{Given, Interpreter, Place, Value};
-use crate::homework;
 use crate::source::{self, Source};
 use crate::translate;
 use reference::Assignment;
@@ -13,7 +12,7 @@ fn assignment() -> &'static Assignment {
 }
 
 fn interpreter(source: &Source) -> Interpreter {
-    let interface = homework::interface(assignment()).expect("its interface");
+    let interface = crate::translate::Interface::of(assignment()).expect("its interface");
     let translation = translate::translate(source, &interface).expect("the shader compiles");
     translation.interpreter(source).expect("the interpreter knows the shader")
 }

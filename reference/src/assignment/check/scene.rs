@@ -60,7 +60,8 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn
     let scene = Scene {
         width,
         height,
-        background: first.background.ok_or_else(|| missing("background"))?,
+        // Nobody sees its alpha. At 0 what is painted in the background's colour is told from what is not painted.
+        background: first.background.map(|[r, g, b, _]| [r, g, b, 0]).ok_or_else(|| missing("background"))?,
         cycle: first.cycle.unwrap_or(5.0),
         views,
     };

@@ -3,14 +3,15 @@ in vec3 aPosition, aNormal;
 in vec4 aTangent;
 in vec2 aCoordinates;
 uniform mat4 model, viewProjection;
-uniform vec3 light;
-out vec3 toLight;
+out vec3 at;
+out vec3 along, across, outward;
 out vec2 coordinates;
 void main()
 {
   vec4 world = model * vec4(aPosition, 1.0);
   vec3 n = normalize(mat3(model) * aNormal), t = normalize(mat3(model) * aTangent.xyz);
-    toLight = transpose(mat3(t, cross(n, t) * aTangent.w, n)) * (light - world.xyz);
+  at = world.xyz;
+  along = t; across = aTangent.w * cross(n, t); outward = n;
   coordinates = aCoordinates;
   gl_Position = viewProjection * world;
 }

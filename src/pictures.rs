@@ -1,0 +1,83 @@
+//! What right answers draw, as pictures: the whole, and each term on its own.
+
+mod terms;
+
+pub use terms::{Terms, term_pictures};
+
+use crate::expected;
+use crate::report::{Picture, SILHOUETTE};
+use reference::Assignment;
+use reference::rasteriser::{Coverage, Frame};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What is drawn once a process, by the digest of the assignment.
+type Drawn<T> = Mutex<Vec<(String, Arc<[T]>)>>;
+
+fn once<T>(drawn: &Drawn<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
+    let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = drawn.iter().find(|(digest, _)| *digest == assignment.digest) {
+        return Arc::clone(known);
+    }
+    let new = draw();
+    drawn.push((assignment.digest.clone(), Arc::clone(&new)));
+    new
+}
+
+/// The reference's frames as pictures, drawn once a process.
+pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
+    static DRAWN: Drawn<Picture> = Mutex::new(Vec::new());
+    once(&DRAWN, assignment, || expected::of_solution(assignment).map(picture).collect())
+}
+
+/// A right picture; its alpha says where it may be drawn otherwise.
+fn picture(frame: Frame) -> Picture {
+    let pixels = frame.pixels.iter().zip(&frame.coverage);
+    let rgba = pixels.flat_map(|([r, g, b, _], coverage)| {
+        [*r, *g, *b, if *coverage == Coverage::Silhouette { SILHOUETTE } else { u8::MAX }]
+    });
+    Picture { width: frame.width, height: frame.height, rgba: rgba.collect() }
+}
+
+/// The pose at which the picture says most: where the weakest term of the equation shows best. The brightness that each
+/// term alone brings into the picture is held against the most that it brings at any pose, and the least of these shares
+/// is what a pose is worth.
+pub fn telling_pose(assignment: &Assignment) -> usize {
+    let right = assignment.equation.right();
+    let poses = assignment.scene.all_poses();
+    let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());
+    let mut worth = vec![1.0_f64; poses.len()];
+    for term in terms {
+        let brightness: Vec<f64> = poses
+            .iter()
+            .map(|pose| assignment.term_frame(pose, &right, &term.judges).map_or(0.0, |frame| brightness(&frame)))
+            .collect();
+        let most = brightness.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        for (worth, brightness) in worth.iter_mut().zip(brightness) {
+            *worth = worth.min(brightness / most);
+        }
+    }
+    // Of equals the first: the one that the course's window opens with.
+    worth.iter().enumerate().rev().max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(pose, _)| pose)
+}
+
+/// The sum of red, green and blue over what is painted.
+fn brightness(frame: &Frame) -> f64 {
+    let painted = frame.pixels.iter().zip(&frame.coverage).filter(|(_, coverage)| **coverage == Coverage::Interior);
+    painted.map(|([red, green, blue, _], _)| f64::from(*red) + f64::from(*green) + f64::from(*blue)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pose_shows_every_term() {
+        // The highlight is seen near t = 0 only, and there it is faint: see the assignment's notes on the animation.
+        let assignment = reference::assignment("ggsample06").unwrap();
+        let pose = &assignment.scene.all_poses()[telling_pose(assignment)];
+        for term in assignment.rubric.iter().filter(|line| !line.alone_in.is_empty()) {
+            let frame = assignment.term_frame(pose, &assignment.equation.right(), &term.judges).unwrap();
+            assert!(brightness(&frame) > 0.0, "{} at t = {}", term.id, pose.t);
+        }
+    }
+}

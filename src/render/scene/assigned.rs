@@ -1,0 +1,99 @@
+//! The scene of an assignment: its frames, and what is run for its probes.
+
+use super::{Batch, Scene, State};
+use reference::assignment::{Input, Stage};
+use reference::interpreter::Type;
+use reference::probes::{ProbeSet, Spot};
+use reference::scene::{Draw, Instance, Pose, Vertex};
+use reference::{Assignment, Value, Values};
+use std::sync::Arc;
+
+impl Scene {
+    /// What is drawn for a submission: the course's animation and the probes, set after set.
+    pub fn of(assignment: &Assignment, probes: &[&ProbeSet]) -> Self {
+        let scene = &assignment.scene;
+        let draw = |instance: Instance<'_>| {
+            let Draw { mesh, depth_test, cull, .. } = instance.draw;
+            let batch = Batch::of(assignment, &assignment.uniform_values(&instance.moment), &mesh.vertices);
+            Batch { triangles: mesh.triangles.clone(), state: State { depth_test: *depth_test, cull: *cull }, ..batch }
+        };
+        let frame = |pose: &Pose| scene.instances(pose).into_iter().map(draw).collect();
+        let frames = scene.all_poses().iter().map(frame).collect();
+        let Self { probes, pixels, shares, .. } = probed(assignment, probes);
+        let textures = Arc::clone(&assignment.textures);
+        let (width, height, background) = (scene.width, scene.height, scene.background);
+        Self { width, height, background, frames, probes, pixels, shares, textures }
+    }
+}
+
+/// What is run for probes, and no frames.
+fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> Scene {
+    let mut scene = Scene::default();
+    let feeds_fragments = assignment.hands_in(Stage::Vertex);
+    for (set, place) in sets.iter().flat_map(|set| (0..set.groups.len()).map(move |place| (set, place))) {
+        let own = set.of_group(place);
+        let uniforms = &set.groups[place].uniforms;
+        let spots: Vec<&Spot> = own.iter().filter_map(|probe| probe.spot.as_deref()).collect();
+        if spots.is_empty() {
+            let vertices: Vec<Vertex> = own.iter().map(|probe| probe.vertex).collect();
+            scene.probes.push(Batch::of(assignment, uniforms, &vertices));
+            continue;
+        }
+        let mut pixels = Batch { attributes: places(&spots), ..Batch::of(assignment, uniforms, &[]) };
+        if feeds_fragments {
+            let corners: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
+            scene.probes.push(Batch::of(assignment, uniforms, &corners));
+            scene.shares.push(spots.iter().map(|spot| spot.weights).collect());
+        } else {
+            pixels.attributes.extend(varyings(&spots));
+        }
+        scene.pixels.push(pixels);
+    }
+    scene
+}
+
+/// Where fragments lie, as the fragment stage is told.
+fn places(spots: &[&Spot]) -> Vec<(String, Values)> {
+    let places = spots.iter().flat_map(|spot| spot.place).collect();
+    let fronts = spots.iter().map(|spot| f64::from(u8::from(spot.is_front))).collect();
+    vec![
+        ("gl_FragCoord".into(), Values { kind: Type::VEC4, numbers: places }),
+        ("gl_FrontFacing".into(), Values { kind: Type::BOOL, numbers: fronts }),
+    ]
+}
+
+/// What the fixed vertex stage hands over, each scalar and vector by its path.
+fn varyings(spots: &[&Spot]) -> Vec<(String, Values)> {
+    let Some(first) = spots.first() else { return Vec::new() };
+    let mut columns = Vec::new();
+    for (number, (name, value)) in first.varyings.iter().enumerate() {
+        let mut offset = 0;
+        for (path, kind) in value.kind().parts(name) {
+            let width = kind.slots().unwrap_or(0);
+            let numbers = |spot: &&Spot| spot.varyings[number].1.numbers()[offset..offset + width].to_vec();
+            let numbers = spots.iter().flat_map(numbers).collect();
+            columns.push((path, Values { kind, numbers }));
+            offset += width;
+        }
+    }
+    columns
+}
+
+impl Batch {
+    /// One draw with the program's own names; `uniforms` stand in the interface's order.
+    pub fn of(assignment: &Assignment, uniforms: &[Value], vertices: &[Vertex]) -> Self {
+        let interface = &assignment.interface;
+        let uniforms = interface
+            .uniforms
+            .iter()
+            .zip(uniforms)
+            .map(|(uniform, value)| (uniform.path.clone(), value.clone()))
+            .collect();
+        let attribute = |input: &Input| {
+            let values = vertices.iter().map(|vertex| input.stream.value(&input.kind, vertex));
+            let numbers = values.flat_map(|value| value.numbers().to_vec()).collect();
+            (input.name.clone(), Values { kind: input.kind.clone(), numbers })
+        };
+        Self { uniforms, attributes: interface.inputs.iter().map(attribute).collect(), ..Batch::default() }
+    }
+}
