@@ -22,6 +22,7 @@ use cause::{Cause, belongs, cause, kept};
 pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
+use reference::assignment::Stage;
 use reference::probes::{Probe, ProbeSet};
 
 /// Mistakes that are told from other things than the colours alone.
@@ -73,7 +74,8 @@ pub struct Diagnosis {
 /// Judges the evidence.
 pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let probes = compare_probes(evidence);
-    let shape = shape_agrees(evidence, &probes);
+    // A fragment stage moves nothing: what it does to the picture is the colour's affair.
+    let shape = shape_agrees(evidence, &probes) || !evidence.assignment.hands_in(Stage::Vertex);
     let cause = cause(evidence, shape).unless_refuted(evidence);
     let mut mistakes = cause.ids();
     if !shape && !mistakes.iter().any(|id| costs_position(evidence.assignment, id)) {

@@ -8,6 +8,7 @@ use crate::render::Sample;
 use crate::report::{FrameResult, Hypothesis};
 use reference::Assignment;
 use reference::assignment::RubricLine;
+use reference::equation::Reads;
 use reference::fit::{Fit, MOST_MISTAKES, TermJudgement, is_right, judge_features, judge_terms, program_of};
 use reference::mistake::Found;
 
@@ -51,7 +52,12 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     }
     if all_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
-        return if frames_agree || !shape { Cause::Right } else { Cause::HardCoded };
+        return match assignment.equation.reads() {
+            _ if frames_agree || !shape => Cause::Right,
+            Reads::Attributes => Cause::HardCoded,
+            // Not all that a fragment stage reads is probed.
+            Reads::Varyings | Reads::Outputs => Cause::Unexplained(Vec::new()),
+        };
     }
     let constants = constants::changed(evidence.source, assignment);
     if let Some(found) = explained_by(&constants, evidence, &samples) {

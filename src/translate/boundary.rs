@@ -15,8 +15,10 @@ const FREE_INTERPOLATION: i32 = 440;
 
 /// Holds the inputs of the fragment stage against the outputs of the vertex stage, at GLSL version `version`.
 pub(super) fn check(vertex: &Shader, fragment: &Shader, source: &Source, version: i32) -> Result<(), Refusal> {
-    let errors: Vec<Diagnostic> =
+    let mut errors: Vec<Diagnostic> =
         fragment.inputs.iter().filter_map(|input| error(input, &vertex.outputs, source, version)).collect();
+    // Columns and elements of one variable stand in one place, and are wrong together.
+    errors.dedup_by_key(|error| (error.line, error.column));
     if errors.is_empty() { Ok(()) } else { Err(Refusal::Rejected(errors)) }
 }
 

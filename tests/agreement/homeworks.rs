@@ -3,11 +3,11 @@
 use super::opengl::{Draw, Kind, OpenGl, Version, Window};
 use ggrade::render::{AdapterKind, Batch, Device, Renderer};
 use ggrade::source;
-use ggrade::translate;
+use ggrade::translate::{Interface, Program, Stage};
 use reference::interpreter::{Scalar, Texels, Texture, Type};
 use reference::rasteriser::Coverage;
 use reference::scene::{Cull, DepthTest};
-use reference::{Assignment, Folder, Value};
+use reference::{Assignment, Folder, Value, assignment};
 use std::path::Path;
 
 /// Largest difference of a channel between the drivers, in 1/255, and between a driver in f32 and the reference in f64.
@@ -56,15 +56,29 @@ struct Counts {
 }
 
 fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
-    let interface = ggrade::translate::Interface::of(assignment).unwrap();
-    let (file, fixed) = (&assignment.files[0], &assignment.fixed[0]);
-    let stage = translate::fixed_stage(&interface, &file.starter).unwrap();
+    let of = |wanted: assignment::Stage| {
+        let handed_in = assignment.files.iter().map(|file| (file.stage, &file.solution.text));
+        let fixed = assignment.fixed.iter().map(|fixed| (fixed.stage, &fixed.text));
+        handed_in.chain(fixed).find(|(stage, _)| *stage == wanted).map(|(_, text)| text.as_str()).expect("a stage")
+    };
+    let texts = [of(assignment::Stage::Vertex), of(assignment::Stage::Fragment)];
+    let stage_of = |stage| match stage {
+        assignment::Stage::Vertex => Stage::Vertex,
+        assignment::Stage::Fragment => Stage::Fragment,
+    };
+    let own = assignment.fixed.first().map(|fixed| (stage_of(fixed.stage), fixed.text.as_str()));
+    let program = Program::new(Interface::of(assignment).unwrap(), own).unwrap();
+    let read = |file: &assignment::HandedIn| {
+        let stage = stage_of(file.stage);
+        (stage, source::read_stage(stage, &file.solution.name, file.solution.text.as_bytes()).expect("a text"))
+    };
+    let sources: Vec<_> = assignment.files.iter().map(read).collect();
+    let given: Vec<_> = sources.iter().map(|(stage, source)| (*stage, source)).collect();
+    let linked = program.translate(&given).unwrap_or_else(|refusal| panic!("{refusal:?}"));
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
-    let mut renderer = Renderer::new(device, Some(&stage)).unwrap();
-    let source = source::read(&file.solution.name, file.solution.text.as_bytes()).expect("a text");
-    let shader = translate::translate(&source, &interface).unwrap_or_else(|refusal| panic!("{refusal:?}")).shader;
+    let mut renderer = Renderer::new(device, None).unwrap();
     let scene = ggrade::render::Scene::of(assignment, &[]);
-    let ours = renderer.render(&shader, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
+    let ours = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
     let (width, height) = (scene.width as usize, scene.height as usize);
     let background = scene.background.map(|channel| f32::from(channel) / 255.0);
     let window = Window { width, height, background, is_float: false };
@@ -72,7 +86,7 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let mut counts = Counts::default();
     for (index, (batches, right)) in scene.frames.iter().zip(assignment.frames()).enumerate() {
         let draws: Vec<Draw> = batches.iter().map(draw).collect();
-        let theirs = gl.scene([&file.solution.text, &fixed.text], &draws, &textures, window, 1);
+        let theirs = gl.scene(texts, &draws, &textures, window, 1);
         let theirs = theirs.unwrap_or_else(|rejection| panic!("{rejection:?}")).remove(0);
         let ours = ours.picture(index as u32);
         for pixel in 0..width * height {
