@@ -11,7 +11,7 @@ mod solve;
 mod terms;
 mod views;
 
-pub use features::{judge_features, program_of};
+pub use features::{FEWEST, Footprint, alike, footprints, judge_features, program_of};
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;

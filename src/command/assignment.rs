@@ -9,6 +9,7 @@ use crate::language::{Language, Text};
 use crate::report::{Report, Verdict};
 use crate::sandbox::{Pool, Settings, Submission};
 use reference::Assignment;
+use reference::fit;
 use std::sync::Arc;
 
 /// Does what is asked.
@@ -58,9 +59,57 @@ fn run_check(arguments: &Check, language: Language) -> Result<Outcome, Fault> {
     }
     let is_unfinished = starter.verdict == Verdict::Wrong;
     say(is_unfinished, &scored("what is handed out", "配布ファイル", &starter), language);
+    let are_seen = say_features(&assignment, language) & say_variants(&assignment, language);
     let digest = Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest));
     say(true, &digest, language);
-    Ok(if is_right && is_unfinished { Outcome::FullMarks } else { Outcome::Usage })
+    Ok(if is_right && is_unfinished && are_seen { Outcome::FullMarks } else { Outcome::Usage })
+}
+
+/// Says where each line's feature shows, and whether each can be judged by itself.
+fn say_features(assignment: &Assignment, language: Language) -> bool {
+    let probes = assignment.judging_probes();
+    let all = probes.probes.len();
+    let mut are_judged = true;
+    for footprint in fit::footprints(assignment, &probes, fit::TOLERANCE) {
+        let (id, alone, shows) = (&assignment.rubric[footprint.line].id, footprint.alone.len(), footprint.shows);
+        let is_judged = alone >= fit::FEWEST;
+        let [mut en, mut ja] = [
+            format!("rubric line `{id}`: shows at {shows} of {all} probes, at {alone} by itself"),
+            format!("採点の行 `{id}`: 検査点 {all} 点中 {shows} 点に現れ、{alone} 点では単独で現れる"),
+        ];
+        if !is_judged {
+            en.push_str(&format!(
+                "; at least {} are needed to judge it: change `without`, or what probes vary",
+                fit::FEWEST
+            ));
+            ja.push_str(&format!(
+                "。採点には {} 点以上が必要です。`without` か、`probe` で変える値を見直してください",
+                fit::FEWEST
+            ));
+        }
+        say(is_judged, &Text::new(en, ja), language);
+        are_judged &= is_judged;
+    }
+    are_judged
+}
+
+/// Names the variants of mistakes that show nothing of their own.
+fn say_variants(assignment: &Assignment, language: Language) -> bool {
+    let alike = fit::alike(assignment, &assignment.judging_probes(), fit::TOLERANCE);
+    for (variant, other) in &alike {
+        let text = match other {
+            None => Text::new(
+                format!("{variant}: shows at no probe; change it, or remove it"),
+                format!("{variant}: どの検査点でも解答と同じになります。変えるか、取り除いてください"),
+            ),
+            Some(other) => Text::new(
+                format!("{variant}: shows the same as {other}, which is what will be found; remove one"),
+                format!("{variant}: {other} と同じ結果になり、見つかるのはそちらです。一方を取り除いてください"),
+            ),
+        };
+        say(false, &text, language);
+    }
+    alike.is_empty()
 }
 
 /// What one of the folder's own files has.

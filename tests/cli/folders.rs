@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 const MANIFEST: &str = "assignment.toml";
 
-/// A copy of the built-in homework's folder, in a folder called `toon`.
+/// A copy of a homework's folder, the built-in one's where nothing is said, in a folder called `toon`.
 struct Copy {
     /// What the copy stands in, beside what is not part of it.
     around: TempDir,
@@ -15,9 +15,13 @@ struct Copy {
 
 impl Copy {
     fn new() -> Self {
+        Self::of("reference/assignments/ggsample06")
+    }
+
+    fn of(original: &str) -> Self {
         let copy = Self { around: tempfile::tempdir().unwrap() };
         fs::create_dir(copy.folder()).unwrap();
-        let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments/ggsample06");
+        let original = Path::new(env!("CARGO_MANIFEST_DIR")).join(original);
         for entry in fs::read_dir(original).unwrap() {
             let entry = entry.unwrap();
             fs::copy(entry.path(), copy.folder().join(entry.file_name())).unwrap();
@@ -210,6 +214,54 @@ fn a_folder_is_checked_by_its_own_files() {
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("FAIL what is handed out: Correct"), "{said}");
+}
+
+#[test]
+fn a_check_says_what_each_line_is_judged_by() {
+    let check = |copy: &Copy| {
+        let output = ggrade().args(["assignment", "check"]).arg(copy.folder()).output().unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let (code, said) = check(&Copy::of("tests/homeworks/toon"));
+    assert_eq!(code, Some(0), "{said}");
+    for line in ["tones", "outline"] {
+        assert!(said.contains(&format!("ok   rubric line `{line}`: shows at ")), "{said}");
+    }
+    // What is never seen by itself cannot be judged by itself.
+    let hidden = "without = { replace = [[\"tint = vec4(colour, 1.0)\", \"tint = vec4(0.0)\"]] }";
+    let outline = "without = { replace = [[\"< 0.3)\", \"< -2.0)\"]] }";
+    let (code, said) = check(&Copy::of("tests/homeworks/toon").replace(MANIFEST, outline, hidden));
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("FAIL rubric line `tones`: shows at ") && said.contains(", at 0 by itself;"), "{said}");
+    // A mistake that shows nothing, and two that show the same.
+    let ceil = "\"ceil(lit * float(tones))\"";
+    let (code, said) =
+        check(&Copy::of("tests/homeworks/toon").replace(MANIFEST, ceil, "\"floor(lit * float(tones) * 1.0)\""));
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("FAIL mistake `tones-rounded`, variant 1: shows at no probe"), "{said}");
+    let (code, said) =
+        check(&Copy::of("tests/homeworks/toon").replace(MANIFEST, ceil, "\"round(lit * float(tones))\""));
+    assert_eq!(code, Some(2), "{said}");
+    let same = "FAIL mistake `tones-rounded`, variant 1: shows the same as mistake `tones-rounded`, variant 0";
+    assert!(said.contains(same), "{said}");
+}
+
+#[test]
+fn a_variant_that_cannot_be_made_is_named_with_its_line() {
+    let toon = || Copy::of("tests/homeworks/toon");
+    let outline = "\"< 0.3)\", \"< -2.0)\"";
+    let line = toon().line(MANIFEST, outline);
+    let refused = |from: &str, to: &str, en: &str, ja: &str| {
+        toon().replace(MANIFEST, from, to).is_refused(MANIFEST, Some(line), en, ja);
+    };
+    refused(outline, "\"float\", \"int\"", "`float` stands 4 times in `solution.frag`", "4 回あります");
+    refused(outline, "\"sparkle\", \"\"", "`sparkle` stands 0 times", "0 回あります");
+    refused("replace = [[\"< 0.3)\", \"< -2.0)\"]]", "", "changes nothing: write `define`", "変わるものがありません");
+    refused(outline, "\"< 0.3)\", \"< none)\"", "there is no variable none", "there is no variable none");
+    // A name of a definition where the solution's are not told apart says why they are not.
+    let copy = toon().replace(MANIFEST, "id = \"outline\"\n", "id = \"outline\"\njudges = \"lit\"\n");
+    let line = copy.line("solution.frag", "lit = floor");
+    copy.is_refused("solution.frag", Some(line), "`main` has only definitions", "`lit`");
 }
 
 #[test]

@@ -132,3 +132,54 @@ fn the_last_groups_are_twins_that_differ_in_normals_or_in_everything() {
         }
     }
 }
+
+/// A homework of the project's tests.
+fn homework(name: &str) -> Assignment {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks").join(name);
+    Assignment::load(crate::Folder::read(&folder).expect("a folder")).expect("an assignment")
+}
+
+#[test]
+fn fragments_lie_in_front_of_the_eye_and_have_steady_colours() {
+    for name in ["toon", "maps", "fog", "rings", "per-pixel", "bumps"] {
+        let assignment = homework(name);
+        let probes = assignment.judging_probes();
+        assert_eq!(probes.probes.len(), 560, "{name}");
+        for probe in &probes {
+            let spot = probe.spot.as_deref().expect("a fragment");
+            let sum: f64 = spot.weights.iter().sum();
+            assert!((sum - 1.0).abs() < 1e-9 && spot.weights.iter().all(|weight| *weight >= -1e-9), "{name}: {spot:?}");
+            assert!((0.0..=1.0).contains(&spot.place[2]) && spot.place[3] > 0.0, "{name}: {spot:?}");
+            let is_seen = |channel: &f64| (0.0..=1.0).contains(channel);
+            let colour = probe.colour.to_array();
+            assert!(colour.iter().all(is_seen) || probe.colour == crate::equation::DISCARDED, "{name}: {colour:?}");
+        }
+        // The right program shows just this, also where varyings are not rounded between the stages.
+        let shown = assignment.shown_at(&assignment.pipeline, &probes).expect("it runs");
+        for (probe, shown) in probes.iter().zip(shown) {
+            assert!((probe.colour - shown.colour).abs().max_element() < 1e-3, "{name}: {probe:?}, {shown:?}");
+        }
+        let fresh = assignment.fresh_probes(7);
+        assert_eq!(fresh.probes.len(), 80, "{name}");
+        assert!(fresh.probes[0].colour != probes.probes[0].colour, "{name}");
+    }
+}
+
+#[test]
+fn thrown_away_fragments_are_among_the_probes() {
+    let probes = homework("rings").judging_probes();
+    let gone = probes.iter().filter(|probe| probe.colour == crate::equation::DISCARDED).count();
+    // The lowest tenth of the window is left out.
+    assert!((20..140).contains(&gone), "{gone}");
+}
+
+#[test]
+fn what_varies_is_seen_by_the_probes() {
+    // Half of the cameras' uniforms are drawn at random: four tones are no more usual than any other number.
+    let assignment = homework("toon");
+    let place = assignment.interface.uniforms.iter().position(|uniform| uniform.path == "tones").expect("tones");
+    let probes = assignment.judging_probes();
+    let tones: std::collections::HashSet<i64> =
+        probes.groups.iter().map(|group| group.uniforms[place].numbers()[0] as i64).collect();
+    assert!(tones.len() >= 4, "{tones:?}");
+}

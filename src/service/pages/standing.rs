@@ -141,16 +141,14 @@ impl Standing<'_> {
 
     /// The steps of a student's work that follow upon the writing.
     pub fn steps(&self, frame: &Frame) -> Vec<&'static str> {
-        let seen = frame.say(
-            "See at once which term is right and which is not.",
-            "どの項が正しく、どの項が違うかがすぐに分かります。",
-        );
+        let seen =
+            frame.say("See at once what is right and what is not.", "どこが正しく、どこが違うかがすぐに分かります。");
         match (self.grades_drafts(), self.can_hand_in()) {
             (true, true) => vec![seen, frame.say("Hand in when you are content.", "納得できたら提出してください。")],
             (true, false) => vec![seen],
             (false, true) => vec![frame.say(
-                "Hand in, and see which term is right and which is not.",
-                "提出すると、どの項が正しく、どの項が違うかが分かります。",
+                "Hand in, and see what is right and what is not.",
+                "提出すると、どこが正しく、どこが違うかが分かります。",
             )],
             (false, false) => Vec::new(),
         }
