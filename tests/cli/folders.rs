@@ -254,14 +254,14 @@ fn a_variant_that_cannot_be_made_is_named_with_its_line() {
     let refused = |from: &str, to: &str, en: &str, ja: &str| {
         toon().replace(MANIFEST, from, to).is_refused(MANIFEST, Some(line), en, ja);
     };
-    refused(outline, "\"float\", \"int\"", "`float` stands 4 times in `solution.frag`", "4 回あります");
+    refused(outline, "\"float\", \"int\"", "`float` stands 3 times in `solution.frag`", "3 回あります");
     refused(outline, "\"sparkle\", \"\"", "`sparkle` stands 0 times", "0 回あります");
     refused("replace = [[\"< 0.3)\", \"< -2.0)\"]]", "", "changes nothing: write `define`", "変わるものがありません");
     refused(outline, "\"< 0.3)\", \"< none)\"", "there is no variable none", "there is no variable none");
     // A name of a definition where the solution's are not told apart says why they are not.
     let copy = toon().replace(MANIFEST, "id = \"outline\"\n", "id = \"outline\"\njudges = \"lit\"\n");
     let line = copy.line("solution.frag", "lit = floor");
-    copy.is_refused("solution.frag", Some(line), "`main` has only definitions", "`lit`");
+    copy.is_refused("solution.frag", Some(line), "`lit` has a value already", "`lit` を使っています");
 }
 
 #[test]

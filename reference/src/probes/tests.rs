@@ -161,7 +161,7 @@ fn fragments_lie_in_front_of_the_eye_and_have_steady_colours() {
         }
         let fresh = assignment.fresh_probes(7);
         assert_eq!(fresh.probes.len(), 80, "{name}");
-        assert!(fresh.probes[0].colour != probes.probes[0].colour, "{name}");
+        assert!(fresh.probes[0].vertex != probes.probes[0].vertex, "{name}");
     }
 }
 
