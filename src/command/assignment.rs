@@ -59,17 +59,17 @@ fn run_check(arguments: &Check, language: Language) -> Result<Outcome, Fault> {
     }
     let is_unfinished = starter.verdict == Verdict::Wrong;
     say(is_unfinished, &scored("what is handed out", "配布ファイル", &starter), language);
-    let are_seen = say_features(&assignment, language) & say_variants(&assignment, language);
+    say_features(&assignment, language);
+    let are_seen = say_variants(&assignment, language);
     let digest = Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest));
     say(true, &digest, language);
     Ok(if is_right && is_unfinished && are_seen { Outcome::FullMarks } else { Outcome::Usage })
 }
 
-/// Says where each line's feature shows, and whether each can be judged by itself.
-fn say_features(assignment: &Assignment, language: Language) -> bool {
+/// Says where each line's feature shows, and which cannot be judged by itself, as a term of a sum that always has another.
+fn say_features(assignment: &Assignment, language: Language) {
     let probes = assignment.judging_probes();
     let all = probes.probes.len();
-    let mut are_judged = true;
     for footprint in fit::footprints(assignment, &probes, fit::TOLERANCE) {
         let (id, alone, shows) = (&assignment.rubric[footprint.line].id, footprint.alone.len(), footprint.shows);
         let is_judged = alone >= fit::FEWEST;
@@ -78,19 +78,12 @@ fn say_features(assignment: &Assignment, language: Language) -> bool {
             format!("採点の行 `{id}`: 検査点 {all} 点中 {shows} 点に現れ、{alone} 点では単独で現れる"),
         ];
         if !is_judged {
-            en.push_str(&format!(
-                "; at least {} are needed to judge it: change `without`, or what probes vary",
-                fit::FEWEST
-            ));
-            ja.push_str(&format!(
-                "。採点には {} 点以上が必要です。`without` か、`probe` で変える値を見直してください",
-                fit::FEWEST
-            ));
+            en.push_str("; so it keeps its points only where all is right, or where a mistake says so");
+            ja.push_str("。したがって、すべて正しいか、mistake がそう定める場合だけ点が残ります");
         }
-        say(is_judged, &Text::new(en, ja), language);
-        are_judged &= is_judged;
+        let word = if is_judged { "ok  " } else { "note" };
+        anstream::println!("{word} {}", Text::new(en, ja).get(language));
     }
-    are_judged
 }
 
 /// Names the variants of mistakes that show nothing of their own.

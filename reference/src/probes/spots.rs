@@ -109,12 +109,18 @@ impl Assignment {
     fn spots_of_group(&self, random: &mut Random, group: usize) -> (Group, Vec<Probe>) {
         let wanted = self.probing.per_group;
         let mut best: (Group, Vec<Probe>) = (self.group(random), Vec::new());
-        for _ in 0..CAMERAS {
+        for camera in 0..2 * CAMERAS {
+            // Of a closed surface nobody sees the inside, so an answer may do there what it likes. The outside of a mesh whose
+            // triangles all run with the clock is never found.
+            let is_outside = camera < CAMERAS;
+            if !is_outside && !best.1.is_empty() {
+                break;
+            }
             let drawn = self.group(random);
             let mut probes = Vec::new();
             for _ in 0..ROUNDS {
                 let some = (0..wanted).map(|_| self.triangle(random)).collect();
-                probes.extend(self.probed(group, &drawn, some).unwrap_or_default());
+                probes.extend(self.probed(group, &drawn, some, is_outside).unwrap_or_default());
                 // What lies behind the eye altogether lies there for every triangle.
                 if probes.is_empty() || probes.len() >= wanted {
                     break;
@@ -168,8 +174,14 @@ impl Assignment {
     }
 
     /// The probes at those of these fragments that lie before the eye, are not left out, and have a colour that stays when
-    /// they are moved a little.
-    fn probed(&self, group: usize, drawn: &Group, some: Vec<([Vertex; 3], [f64; 3], Cull)>) -> Option<Vec<Probe>> {
+    /// they are moved a little. `is_outside`: only the fronts of triangles, where both sides are drawn.
+    fn probed(
+        &self,
+        group: usize,
+        drawn: &Group,
+        some: Vec<([Vertex; 3], [f64; 3], Cull)>,
+        is_outside: bool,
+    ) -> Option<Vec<Probe>> {
         let pipeline = &self.pipeline;
         let vertices: Vec<Vertex> = some.iter().flat_map(|(corners, ..)| corners).copied().collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, &drawn.uniforms, &vertices)?;
@@ -178,7 +190,8 @@ impl Assignment {
         for (number, (corners, weights, cull)) in some.into_iter().enumerate() {
             let ends = [0, 1, 2].map(|corner| positions[3 * number + corner]);
             let Some((weights, place, is_front)) = self.seen_at(ends, weights) else { continue };
-            if matches!((cull, is_front), (Cull::Back, false) | (Cull::Front, true)) {
+            let is_left_out = matches!((cull, is_front), (Cull::Back, false) | (Cull::Front, true));
+            if is_left_out || (is_outside && cull == Cull::None && !is_front) {
                 continue;
             }
             shares.push((number, weights));
