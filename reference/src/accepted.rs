@@ -10,14 +10,12 @@ use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
 use crate::scene::Pose;
 use glam::{DVec3, DVec4};
-use std::sync::Arc;
 
 /// A shader that is right beside the solution.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The name of its file.
     pub name: String,
-    pub(crate) program: Arc<Program>,
     pub(crate) pipeline: Pipeline,
 }
 
@@ -60,7 +58,7 @@ impl Assignment {
 
     /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.
     fn run(&self, answer: &Answer, given: &[(&[Value], &[Value])]) -> Vec<Computed> {
-        self.computed(&answer.program, given).unwrap_or_else(|| vec![(DVec3::NAN, DVec4::NAN); given.len()])
+        self.computed(&answer.pipeline.vertex, given).unwrap_or_else(|| vec![(DVec3::NAN, DVec4::NAN); given.len()])
     }
 
     fn computed(&self, program: &Program, given: &[(&[Value], &[Value])]) -> Option<Vec<Computed>> {

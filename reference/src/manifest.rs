@@ -187,6 +187,15 @@ pub enum Stage {
     Fragment,
 }
 
+impl From<Stage> for crate::interpreter::Stage {
+    fn from(stage: Stage) -> Self {
+        match stage {
+            Stage::Vertex => Self::Vertex,
+            Stage::Fragment => Self::Fragment,
+        }
+    }
+}
+
 /// A constant of the handed-out file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

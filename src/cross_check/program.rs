@@ -4,7 +4,6 @@ use super::{CrossCheck, Judged, Relation, TOLERANCE, summed_up};
 use crate::language::Text;
 use crate::render::Sample;
 use crate::source::Source;
-use crate::translate::Stage as Kind;
 use reference::Assignment;
 use reference::interpreter::{Program, Stage};
 use reference::pipeline::Pipeline;
@@ -14,17 +13,17 @@ use std::sync::Arc;
 /// Runs the stages that are handed in, with the homework's own, at the probes, and compares colours and positions.
 pub fn check_program(
     assignment: &Assignment,
-    sources: &[(Kind, &Source)],
+    sources: &[(Stage, &Source)],
     probes: &ProbeSet,
     samples: &[Sample],
 ) -> CrossCheck {
     let [mut vertex, mut fragment] = [&assignment.pipeline.vertex, &assignment.pipeline.fragment].map(Arc::clone);
-    for (kind, source) in sources {
-        let (stage, own) = match kind {
-            Kind::Vertex => (Stage::Vertex, &mut vertex),
-            Kind::Fragment => (Stage::Fragment, &mut fragment),
+    for (stage, source) in sources {
+        let own = match stage {
+            Stage::Vertex => &mut vertex,
+            Stage::Fragment => &mut fragment,
         };
-        match Program::compile(&source.text, stage) {
+        match Program::compile(&source.text, *stage) {
             Ok(program) => *own = Arc::new(program),
             Err(refusal) => return CrossCheck::not_run(&refusal.to_string(), Some(refusal.line)),
         }

@@ -10,7 +10,6 @@ use crate::report::{SourceInfo, Verdict};
 use crate::source::{self, Source};
 use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
-use reference::assignment;
 use reference::equation::DISCARDED;
 
 /// The program of a homework, as far as it is not handed in.
@@ -27,16 +26,9 @@ impl Programs {
         if assignment.equation.reads() == reference::equation::Reads::Attributes {
             return Ok(None);
         }
-        let own = assignment.fixed.first().map(|fixed| (stage(fixed.stage), fixed.text.as_str()));
+        let own = assignment.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
         let program = Program::new(Interface::of(assignment)?, own)?;
         Ok(Some(Self { program, captured: None }))
-    }
-}
-
-fn stage(stage: assignment::Stage) -> Stage {
-    match stage {
-        assignment::Stage::Vertex => Stage::Vertex,
-        assignment::Stage::Fragment => Stage::Fragment,
     }
 }
 
@@ -51,7 +43,7 @@ impl Grader {
         let mut sources: Vec<(Stage, Source)> = Vec::new();
         let mut refused: Vec<Diagnostic> = Vec::new();
         for (file, slot) in files.iter().zip(&self.assignment.files) {
-            let stage = stage(slot.stage);
+            let stage = Stage::from(slot.stage);
             match source::read_stage(stage, &file.name, &file.bytes) {
                 Ok(source) => sources.push((stage, source)),
                 Err(refusal) => refused.extend(in_file(&file.name, refusal.diagnostics)),

@@ -62,14 +62,10 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
         handed_in.chain(fixed).find(|(stage, _)| *stage == wanted).map(|(_, text)| text.as_str()).expect("a stage")
     };
     let texts = [of(assignment::Stage::Vertex), of(assignment::Stage::Fragment)];
-    let stage_of = |stage| match stage {
-        assignment::Stage::Vertex => Stage::Vertex,
-        assignment::Stage::Fragment => Stage::Fragment,
-    };
-    let own = assignment.fixed.first().map(|fixed| (stage_of(fixed.stage), fixed.text.as_str()));
+    let own = assignment.fixed.first().map(|fixed| (Stage::from(fixed.stage), fixed.text.as_str()));
     let program = Program::new(Interface::of(assignment).unwrap(), own).unwrap();
     let read = |file: &assignment::HandedIn| {
-        let stage = stage_of(file.stage);
+        let stage = Stage::from(file.stage);
         (stage, source::read_stage(stage, &file.solution.name, file.solution.text.as_bytes()).expect("a text"))
     };
     let sources: Vec<_> = assignment.files.iter().map(read).collect();

@@ -16,6 +16,24 @@ fn ggsample06() -> Folder {
     Folder::clone(&assignment("ggsample06").expect("built in").folder)
 }
 
+/// A homework of the project's tests.
+fn homework(name: &str) -> Folder {
+    Folder::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks").join(name)).expect("a folder")
+}
+
+/// A folder with a text of a file replaced.
+fn changed(mut folder: Folder, file: &str, from: &str, to: &str) -> Folder {
+    let text = folder.text(file).expect("a text");
+    assert!(text.contains(from), "{from}");
+    let text = text.replacen(from, to, 1);
+    folder.files.insert(file.into(), text.into());
+    folder
+}
+
+fn refused(folder: Folder) -> Text {
+    Assignment::load(folder).expect_err("a broken folder").text()
+}
+
 /// The error that replacing `from` by `to` in a file leads to.
 fn broken_in(file: &str, from: &str, to: &str) -> String {
     let change = |text: &str| {
@@ -380,8 +398,7 @@ fn regions_and_designs_speak_of_the_solution() {
 
 /// A homework that says no more than it has to: a folder of the project's tests.
 fn waves() -> Assignment {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks/waves");
-    Assignment::load(Folder::read(&folder).expect("a folder")).expect("an assignment")
+    Assignment::load(homework("waves")).expect("an assignment")
 }
 
 #[test]

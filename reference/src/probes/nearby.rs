@@ -3,7 +3,7 @@
 use super::Random;
 use crate::Assignment;
 use crate::scene::Vertex;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// How far from a vertex of the mesh a probe may lie, as a share of the mesh's size: what only the homework's own vertices
 /// have is no rule.
@@ -23,11 +23,7 @@ impl Assignment {
         let pick = |random: &mut Random, count: usize| random.between(0.0, count as f64) as usize;
         let mesh = &draws[pick(random, draws.len())].mesh;
         let own = &mesh.vertices[pick(random, mesh.vertices.len())];
-        let extent = |(low, high): (DVec3, DVec3), vertex: &Vertex| {
-            let p = vertex.position.truncate();
-            (low.min(p), high.max(p))
-        };
-        let (low, high) = mesh.vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), extent);
+        let (low, high) = mesh.bounds();
         let aside = random.direction() * random.between(0.0, ASIDE) * (high - low).length();
         let coordinates = DVec2::new(random.between(0.0, 1.0), random.between(0.0, 1.0));
         let vertex = Vertex::new(own.position.truncate() + aside, normal).textured(coordinates);

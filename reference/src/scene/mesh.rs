@@ -25,6 +25,8 @@ pub struct Mesh {
     pub vertices: Vec<Vertex>,
     /// Three vertices each, by number; the front is where they run against the clock.
     pub triangles: Vec<[u32; 3]>,
+    /// The corners of the box that holds all vertices.
+    bounds: (DVec3, DVec3),
 }
 
 /// Why there is no mesh.
@@ -104,16 +106,17 @@ impl Mesh {
             }
             vertex.number = number as u32;
         }
-        Ok(Self { vertices, triangles })
+        let points = vertices.iter().map(|vertex| vertex.position.truncate());
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let bounds = points.fold(start, |(low, high), point| (low.min(point), high.max(point)));
+        Ok(Self { vertices, triangles, bounds })
     }
 }
 
 impl Mesh {
     /// The corners of the box that holds all vertices.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let points = self.vertices.iter().map(|vertex| vertex.position.truncate());
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        points.fold(start, |(low, high), point| (low.min(point), high.max(point)))
+        self.bounds
     }
 }
 

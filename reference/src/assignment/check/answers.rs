@@ -20,8 +20,8 @@ pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
     known.extend(interface.uniforms.iter().map(|uniform| uniform.path.as_str()));
     known.extend(interface.inputs.iter().map(|input| input.name.as_str()));
     for answer in assignment.accepted() {
-        let inputs = answer.pipeline.vertex.inputs().iter();
-        let mut given = answer.program.uniforms().iter().chain(inputs);
+        let Pipeline { vertex, fragment, .. } = &answer.pipeline;
+        let mut given = vertex.uniforms().iter().chain(fragment.uniforms()).chain(vertex.inputs());
         if let Some(other) = given.find(|one| !known.contains(one.name.as_str()) && !one.name.starts_with("gl_")) {
             let message = format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name);
             return Err(error(solution::place(&answer.name, other.line), message));

@@ -1,6 +1,6 @@
 //! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
 
-use super::{Checked, listed, stages};
+use super::{Checked, listed};
 use crate::Value;
 use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
@@ -48,7 +48,7 @@ impl<'a> Solution<'a> {
     }
 
     fn of_definitions(file: &'a HandedIn, constants: &[&str]) -> Checked<Self> {
-        let draft = Draft::read(&file.solution.text, stages::of(file.stage), constants);
+        let draft = Draft::read(&file.solution.text, file.stage.into(), constants);
         let draft = draft.map_err(|refusal| refused(&file.solution.name, &refusal))?;
         let first = draft.formulas().first().map(Formula::cell);
         let first = first.ok_or_else(|| {
@@ -249,7 +249,7 @@ impl<'a> Solution<'a> {
         if names.is_empty() {
             return Ok(Vec::new());
         }
-        let stage = stages::of(self.file.stage);
+        let stage = Stage::from(self.file.stage);
         let read =
             |name: &str, text: &str| Draft::constants(text, stage, &names).map_err(|refusal| refused(name, &refusal));
         let ours = read(&self.file.solution.name, &self.file.solution.text)?;

@@ -26,7 +26,7 @@ impl Stages {
         let fixed = fixed.iter().map(|fixed| (&fixed.name, fixed.stage, &fixed.text));
         let mut stages: Vec<Compiled> = Vec::new();
         for (name, stage, text) in handed_in.chain(fixed) {
-            let compiled = compiled(name, of(stage), text)?;
+            let compiled = compiled(name, stage.into(), text)?;
             if let Some(other) = stages.iter().find(|other| other.stage == compiled.stage) {
                 let message = format!("is a second stage of this kind, beside {}: keep one", other.name);
                 return Err(error(name, message));
@@ -63,11 +63,11 @@ impl Stages {
         read: &dyn Fn(&str) -> Checked<String>,
     ) -> Checked<Vec<Answer>> {
         let answer = |name: &String| {
-            let own = compiled(name, of(stage), &read(name)?)?;
+            let own = compiled(name, stage.into(), &read(name)?)?;
             let other = |stage| if own.stage == stage { &own.program } else { &self.get(stage).program };
             let linked = Pipeline::link(other(Stage::Vertex), other(Stage::Fragment), None);
             let pipeline = linked.map_err(|what| error(name, what))?;
-            Ok(Answer { name: name.clone(), program: own.program, pipeline })
+            Ok(Answer { name: name.clone(), pipeline })
         };
         names.iter().map(answer).collect()
     }
@@ -78,31 +78,23 @@ impl Stages {
     pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> Checked<Answer> {
         let mut own = Vec::new();
         for (file, text) in texts {
-            let program = Program::compile(text, of(file.stage)).map_err(|refusal| {
+            let program = Program::compile(text, file.stage.into()).map_err(|refusal| {
                 let wrong = solution::refused(&file.solution.name, &refusal);
                 error(place, both(wrong.text().en, wrong.text().ja))
             })?;
-            own.push((of(file.stage), Arc::new(program)));
+            own.push((Stage::from(file.stage), Arc::new(program)));
         }
         let stage = |stage| {
-            let changed = own.iter().find(|(of, _)| *of == stage).map(|(_, program)| program);
+            let changed = own.iter().find(|(own, _)| *own == stage).map(|(_, program)| program);
             Arc::clone(changed.unwrap_or(&self.get(stage).program))
         };
         let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
         let pipeline = Pipeline::link(&vertex, &fragment, None).map_err(|what| error(place, what))?;
-        let program = own.last().map_or(fragment, |(_, program)| Arc::clone(program));
-        Ok(Answer { name: place.to_owned(), program, pipeline })
+        Ok(Answer { name: place.to_owned(), pipeline })
     }
 }
 
 fn compiled(name: &str, stage: Stage, text: &str) -> Checked<Compiled> {
     let program = Program::compile(text, stage).map_err(|refusal| solution::refused(name, &refusal))?;
     Ok(Compiled { name: name.to_owned(), stage, program: Arc::new(program) })
-}
-
-pub(super) fn of(stage: manifest::Stage) -> Stage {
-    match stage {
-        manifest::Stage::Vertex => Stage::Vertex,
-        manifest::Stage::Fragment => Stage::Fragment,
-    }
 }

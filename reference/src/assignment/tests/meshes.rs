@@ -1,27 +1,18 @@
 //! What is said of meshes that cannot be read.
 
+use super::{homework, refused};
+use crate::Folder;
 use crate::assignment::{Assignment, MANIFEST};
-use crate::{Folder, Text};
-use std::path::Path;
 use std::sync::Arc;
 
 /// A homework with meshes from files: a folder of the project's tests.
 fn furniture() -> Folder {
-    Folder::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks/furniture")).expect("a folder")
+    homework("furniture")
 }
 
 /// The same with a text of a file replaced.
 fn changed(file: &str, from: &str, to: &str) -> Folder {
-    let mut folder = furniture();
-    let text = folder.text(file).expect("a text");
-    assert!(text.contains(from), "{from}");
-    let text = text.replacen(from, to, 1);
-    folder.files.insert(file.into(), text.into());
-    folder
-}
-
-fn refused(folder: Folder) -> Text {
-    Assignment::load(folder).expect_err("a broken folder").text()
+    super::changed(furniture(), file, from, to)
 }
 
 #[test]

@@ -1,27 +1,18 @@
 //! What is said of textures that cannot be read, or that nothing reads.
 
+use super::{homework, refused};
+use crate::Folder;
 use crate::assignment::{Assignment, MANIFEST};
 use crate::interpreter::{Dimension, Filter, Texels, Wrap};
-use crate::{Folder, Text};
-use std::path::Path;
 
 /// A homework with every kind of texture: a folder of the project's tests.
 fn carpet() -> Folder {
-    Folder::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/homeworks/carpet")).expect("a folder")
+    homework("carpet")
 }
 
-/// The same with a text replaced.
+/// The same with a text of a file replaced.
 fn changed(file: &str, from: &str, to: &str) -> Folder {
-    let mut folder = carpet();
-    let text = folder.text(file).expect("a text");
-    assert!(text.contains(from), "{from}");
-    let text = text.replacen(from, to, 1);
-    folder.files.insert(file.into(), text.into());
-    folder
-}
-
-fn refused(folder: Folder) -> Text {
-    Assignment::load(folder).expect_err("a broken folder").text()
+    super::changed(carpet(), file, from, to)
 }
 
 /// The line of the manifest on which a text stands.
