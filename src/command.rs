@@ -25,7 +25,7 @@ use std::time::Duration;
 
 /// How a run of ggrade ends; the codes are a contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum ExitStatus {
     /// Graded, all full marks.
     FullMarks,
     /// Graded, something is not.
@@ -40,28 +40,28 @@ pub enum Outcome {
     Interrupted,
 }
 
-impl From<Outcome> for ExitCode {
-    fn from(outcome: Outcome) -> Self {
+impl From<ExitStatus> for ExitCode {
+    fn from(outcome: ExitStatus) -> Self {
         Self::from(match outcome {
-            Outcome::FullMarks => 0,
-            Outcome::Graded => 1,
-            Outcome::Usage => 2,
-            Outcome::Fault => 3,
-            Outcome::Nothing => 4,
-            Outcome::Interrupted => interrupt::EXIT_CODE,
+            ExitStatus::FullMarks => 0,
+            ExitStatus::Graded => 1,
+            ExitStatus::Usage => 2,
+            ExitStatus::Fault => 3,
+            ExitStatus::Nothing => 4,
+            ExitStatus::Interrupted => interrupt::EXIT_CODE,
         })
     }
 }
 
 /// Tells a person at the terminal what failed, and gives the outcome that stands for it.
-pub fn report_fault(fault: &Fault) -> Outcome {
+pub fn report_fault(fault: &Fault) -> ExitStatus {
     let language = language(None);
     let word = Text::new("ggrade failed (this costs no points)", "ggrade の側の障害です (減点にはなりません)");
     anstream::eprintln!("{}: {}", word.get(language), fault.message.get(language));
     if let Some(remedy) = &fault.remedy {
         anstream::eprintln!("  {}", remedy.get(language));
     }
-    Outcome::Fault
+    ExitStatus::Fault
 }
 
 /// Says on standard error what the sandbox lacks, where gradings go on all the same.

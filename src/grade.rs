@@ -21,7 +21,7 @@ use crate::slots::{self, Trust};
 use crate::source::{self, Source};
 use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
-use reference::accepted::Answer;
+use reference::accepted::AcceptedAnswer;
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -58,7 +58,7 @@ pub struct Grader {
     renderer: Renderer,
     expected: Vec<ExpectedFrame>,
     /// The same of every answer that is right beside the solution.
-    accepted: Vec<(Answer, Vec<ExpectedFrame>)>,
+    accepted: Vec<(AcceptedAnswer, Vec<ExpectedFrame>)>,
     /// The probes that judge.
     probes: ProbeSet,
     environment: Environment,

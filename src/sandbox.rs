@@ -28,7 +28,7 @@ mod syscalls;
 pub mod worker;
 
 pub use child::MOST_ASSIGNMENTS;
-pub use pool::{Answer, Pool, Submission};
+pub use pool::{GradedSubmission, Pool, Submission};
 pub use preflight::Attempt;
 pub use protection::{Layer, LayerState, Policy, Protection, Reach};
 

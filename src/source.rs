@@ -188,7 +188,7 @@ impl Source {
     pub fn unread_lines(&self) -> Vec<bool> {
         directives::standings(&self.code)
             .into_iter()
-            .map(|standing| standing == directives::Standing::Skipped)
+            .map(|standing| standing == directives::LineState::Skipped)
             .collect()
     }
 

@@ -33,7 +33,7 @@ pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT};
 pub use fuel::{MAX_TURNS, Meter};
 pub use glslang::Stage;
 pub use interface::{Interface, Variable};
-pub use interpreter::{Given, Interpreter, Place, Value, Written};
+pub use interpreter::{Interpreter, Invocation, Site, Value, Written};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use program::{Linked, Program, ProgramRefusal};
 pub use spirv::{Interpolation, Lines, Qualifiers, TEXTURES};
@@ -43,7 +43,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::source::{self, Source};
 use concessions::Renamed;
-use glslang::{Outcome, Reached, Request, Rules, StageText, compile};
+use glslang::{CompilerOutput, Reached, Request, Rules, StageText, compile};
 use module::Built;
 use std::ffi::CStr;
 
@@ -147,7 +147,7 @@ impl<'a> Submitted<'a> {
     }
 
     /// Changes the text for what the compiler minds and drivers take; whether there was anything of the kind.
-    fn concede(&mut self, verdict: &Outcome) -> bool {
+    fn concede(&mut self, verdict: &CompilerOutput) -> bool {
         let Some(granted) = concessions::grant(&self.text, verdict.log(self.stage), self.source) else { return false };
         self.text = granted.text;
         self.warnings.extend(granted.warnings);
@@ -156,7 +156,7 @@ impl<'a> Submitted<'a> {
     }
 
     /// What there is to say about a text that compiles and links.
-    fn diagnostics(&self, verdict: &Outcome) -> Result<Vec<Diagnostic>, Refusal> {
+    fn diagnostics(&self, verdict: &CompilerOutput) -> Result<Vec<Diagnostic>, Refusal> {
         let Self { source, interface, .. } = *self;
         let mut errors = hints::overlooked_errors(&source.text, interface);
         errors.extend(strict::errors(source, interface));
@@ -177,7 +177,7 @@ impl<'a> Submitted<'a> {
 
 /// The compiler's verdict on the texts of all stages, with what it minds and drivers take changed in them; or the first
 /// stage that does not compile, and why.
-fn first_pass(submitted: &mut [Submitted<'_>], fixed: &[StageText<'_>]) -> Result<Outcome, (Stage, Refusal)> {
+fn first_pass(submitted: &mut [Submitted<'_>], fixed: &[StageText<'_>]) -> Result<CompilerOutput, (Stage, Refusal)> {
     let mut verdict = check(submitted, fixed);
     for _ in 0..MAX_CONCESSIONS {
         let Reached::Stage(at) = verdict.reached else { break };
@@ -194,14 +194,14 @@ fn first_pass(submitted: &mut [Submitted<'_>], fixed: &[StageText<'_>]) -> Resul
 }
 
 /// Compiles and links under OpenGL's rules.
-fn check(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Outcome {
+fn check(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> CompilerOutput {
     let texts: Vec<_> = submitted.iter().map(|one| (one.stage, text::c_text(&one.text))).collect();
     let mut outcome = compiled(texts.iter().map(|(stage, text)| StageText::plain(*stage, text)), fixed);
     submitted.iter().for_each(|one| concessions::in_own_names(&mut outcome, &one.renamed));
     outcome
 }
 
-fn compiled<'a>(texts: impl Iterator<Item = StageText<'a>>, fixed: &[StageText<'a>]) -> Outcome {
+fn compiled<'a>(texts: impl Iterator<Item = StageText<'a>>, fixed: &[StageText<'a>]) -> CompilerOutput {
     let mut stages: Vec<_> = texts.chain(fixed.iter().copied()).collect();
     stages.sort_by_key(|text| text.stage == Stage::Fragment);
     compile(&Request { stages: &stages, rules: Rules::OpenGl, emit: Stage::Vertex })
@@ -209,7 +209,7 @@ fn compiled<'a>(texts: impl Iterator<Item = StageText<'a>>, fixed: &[StageText<'
 
 /// The verdict without `#line`: with it the compiler counts as the student tells it to, and a person counts lines of the
 /// file. None where no text has it.
-fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<Outcome> {
+fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<CompilerOutput> {
     let plain: Vec<_> = submitted.iter().map(|one| hints::without_line_directives(&one.text)).collect();
     plain.iter().any(Option::is_some).then(|| {
         let texts: Vec<_> = submitted
@@ -224,7 +224,7 @@ fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<Outco
 }
 
 /// The refusal of texts of which one does not compile.
-fn rejected(verdict: Outcome, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Refusal {
+fn rejected(verdict: CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Refusal {
     let verdict = match plainly(submitted, fixed) {
         None => verdict,
         Some(plain) if plain.reached == verdict.reached => plain,
@@ -246,7 +246,7 @@ fn refused_line_directive(submitted: &[Submitted<'_>]) -> Refusal {
 }
 
 /// Refuses texts that compile and do not link.
-fn linked(verdict: &Outcome, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Result<(), Refusal> {
+fn linked(verdict: &CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Result<(), Refusal> {
     if verdict.reached == Reached::Done {
         return Ok(());
     }
@@ -310,7 +310,7 @@ pub fn warm_up() {
 }
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
-pub fn warm(interface: &Interface, vertex: &str) -> Outcome {
+pub fn warm(interface: &Interface, vertex: &str) -> CompilerOutput {
     let vertex = text::c_text(vertex);
     let fixed = [StageText::plain(Stage::Fragment, &interface.fragment)];
     compiled(std::iter::once(StageText::plain(Stage::Vertex, &vertex)), &fixed)

@@ -13,7 +13,7 @@ use glam::{DVec3, DVec4};
 
 /// A shader that is right beside the solution.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct AcceptedAnswer {
     /// The name of its file.
     pub name: String,
     pub(crate) pipeline: Pipeline,
@@ -24,12 +24,12 @@ pub(crate) type Computed = (DVec3, DVec4);
 
 impl Assignment {
     /// The answers that are right beside the solution.
-    pub fn accepted(&self) -> impl Iterator<Item = &Answer> {
+    pub fn accepted(&self) -> impl Iterator<Item = &AcceptedAnswer> {
         self.files.iter().flat_map(|file| &file.accepted)
     }
 
     /// The same probes with what an answer computes there.
-    pub fn probes_of(&self, answer: &Answer, probes: &ProbeSet) -> ProbeSet {
+    pub fn probes_of(&self, answer: &AcceptedAnswer, probes: &ProbeSet) -> ProbeSet {
         let mut theirs = probes.clone();
         for (probe, (colour, position)) in theirs.probes.iter_mut().zip(self.computed_by(answer, probes)) {
             (probe.colour, probe.position) = (colour, position);
@@ -38,7 +38,7 @@ impl Assignment {
     }
 
     /// The colour and the position that an answer computes at each probe.
-    pub(crate) fn computed_by(&self, answer: &Answer, probes: &ProbeSet) -> Vec<Computed> {
+    pub(crate) fn computed_by(&self, answer: &AcceptedAnswer, probes: &ProbeSet) -> Vec<Computed> {
         match self.equation.reads {
             Reads::Attributes => {
                 let given = probes.iter().map(|probe| (probes.uniforms(probe), probe.attributes.as_slice()));
@@ -52,12 +52,12 @@ impl Assignment {
     }
 
     /// The picture that an answer draws at a pose.
-    pub fn frame_of(&self, answer: &Answer, pose: &Pose) -> Frame {
+    pub fn frame_of(&self, answer: &AcceptedAnswer, pose: &Pose) -> Frame {
         self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.pipeline.vertex))
     }
 
     /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.
-    fn run(&self, answer: &Answer, given: &[(&[Value], &[Value])]) -> Vec<Computed> {
+    fn run(&self, answer: &AcceptedAnswer, given: &[(&[Value], &[Value])]) -> Vec<Computed> {
         self.computed(&answer.pipeline.vertex, given).unwrap_or_else(|| vec![(DVec3::NAN, DVec4::NAN); given.len()])
     }
 

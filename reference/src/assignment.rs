@@ -3,13 +3,13 @@
 mod check;
 mod error;
 
-use crate::accepted::Answer;
+use crate::accepted::AcceptedAnswer;
 use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::{Texture, Type};
 pub use crate::manifest::{RubricLine, Stage, Task};
-use crate::mistake::{Form, Found, Mistake};
+use crate::mistake::{Form, FoundMistake, Mistake};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
@@ -53,7 +53,7 @@ pub struct Assignment {
     /// What it is worth.
     pub rubric: Vec<RubricLine>,
     /// For each line of the rubric the solution without what the line judges, where the folder says it.
-    pub features: Vec<Option<Answer>>,
+    pub features: Vec<Option<AcceptedAnswer>>,
     /// What goes wrong.
     pub mistakes: Vec<Mistake>,
     /// What is said of right answers that would break elsewhere.
@@ -77,7 +77,7 @@ pub struct HandedIn {
     /// A file that computes what is right.
     pub solution: Solution,
     /// Other answers that are right as well.
-    pub accepted: Vec<Answer>,
+    pub accepted: Vec<AcceptedAnswer>,
 }
 
 /// A stage that every hand-in is linked with.
@@ -235,7 +235,7 @@ impl Assignment {
 
     /// Fraction of a rubric line's points that is kept by a mistake in the form in which it was found: 1 for a line that
     /// the form does not reach, although others of the same mistake do.
-    pub fn keeps(&self, found: &Found, line: &RubricLine) -> f64 {
+    pub fn keeps(&self, found: &FoundMistake, line: &RubricLine) -> f64 {
         let Some(mistake) = self.mistake(&found.id) else { return 1.0 };
         let reaches = mistake.forms.get(found.form).is_none_or(|form| self.reaches(form, line));
         if reaches { mistake.keeps(&line.id) } else { 1.0 }
@@ -280,7 +280,7 @@ impl Assignment {
     }
 
     /// The equation with these mistakes in it; `None` if one is not known or has no such form.
-    pub fn variant(&self, mistakes: &[Found]) -> Option<Variant<'_>> {
+    pub fn variant(&self, mistakes: &[FoundMistake]) -> Option<Variant<'_>> {
         let mut variant = self.equation.right();
         for found in mistakes {
             let form = self.mistake(&found.id)?.forms.get(found.form)?;

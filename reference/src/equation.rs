@@ -76,7 +76,7 @@ pub struct Variant<'a> {
 
 /// What a variant computes for one vertex.
 #[derive(Clone, Debug)]
-pub struct Outcome<'a> {
+pub struct Evaluation<'a> {
     equation: &'a Equation,
     /// The numbers of all definitions, one after the other.
     numbers: Vec<f64>,
@@ -175,7 +175,7 @@ impl Equation {
 
 impl<'a> Variant<'a> {
     /// Computes every definition for one sample. `uniforms` stand in the interface's order, `attributes` as [`Reads`] says.
-    pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Outcome<'a> {
+    pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Evaluation<'a> {
         let Equation { sheet, .. } = self.equation;
         let mut registers = self.registers.borrow_mut();
         let given = self.equation.uniforms.iter().zip(uniforms);
@@ -190,7 +190,7 @@ impl<'a> Variant<'a> {
             sheet.compute(formula, &mut registers);
             numbers.extend_from_slice(sheet.get(formula.cell(), &registers));
         }
-        Outcome { equation: self.equation, numbers }
+        Evaluation { equation: self.equation, numbers }
     }
 }
 
@@ -206,7 +206,7 @@ impl Variant<'_> {
     }
 }
 
-impl Outcome<'_> {
+impl Evaluation<'_> {
     /// Value of the definition called `name`.
     pub fn get(&self, name: &str) -> Option<Value> {
         let definition = self.equation.index(name)?;

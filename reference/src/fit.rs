@@ -15,7 +15,7 @@ pub use features::{FEWEST, Footprint, alike, footprints, judge_features, program
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;
-use crate::mistake::Found;
+use crate::mistake::FoundMistake;
 use crate::probes::{Probe, ProbeSet};
 use glam::DVec3;
 
@@ -32,7 +32,7 @@ pub const TOLERANCE: f64 = 2e-3;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fit {
     /// The equation with these mistakes in it reproduces every sample; with none, the answer is right.
-    Explained(Vec<Found>),
+    Explained(Vec<FoundMistake>),
     /// No combination does: the rubric's terms, judged where they stand alone.
     Unexplained(Vec<TermJudgement>),
 }
@@ -85,7 +85,7 @@ pub fn is_right(probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> bool
 /// mistakes in it, see [`explain`].
 pub fn contradicted(
     assignment: &Assignment,
-    found: &[Found],
+    found: &[FoundMistake],
     probes: &ProbeSet,
     samples: &[[f64; 3]],
     tolerance: f64,

@@ -5,7 +5,7 @@ use crate::interpreter::Program;
 use crate::pipeline::{Pipeline, Vertices, positions, scalars};
 use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
 use crate::scene::{Instance, Pose};
-use crate::shading::{Scenery, Shape};
+use crate::shading::{Scenery, ShadedDraw};
 use crate::{Assignment, Value};
 use glam::DVec4;
 use std::collections::HashMap;
@@ -80,12 +80,12 @@ impl Assignment {
         stage: VertexStage<'_>,
     ) -> (Frame, bool) {
         let instances = self.scene.instances(pose);
-        let shapes: Vec<Shape<'_>> = instances
+        let shapes: Vec<ShadedDraw<'_>> = instances
             .iter()
             .map(|instance| {
                 let uniforms = self.uniform_values(&instance.moment);
                 let vertices = self.vertices(instance, &uniforms, pipeline, stage);
-                Shape { uniforms, vertices, triangles: &instance.draw.mesh.triangles }
+                ShadedDraw { uniforms, vertices, triangles: &instance.draw.mesh.triangles }
             })
             .collect();
         let same: Vec<Vec<u32>> = shapes.iter().map(|shape| same(&shape.vertices)).collect();

@@ -89,7 +89,7 @@ pub struct Equation {
     pub term: Vec<Term>,
     /// What the terms need.
     #[serde(default, rename = "where")]
-    pub given: Vec<Given>,
+    pub given: Vec<SymbolMeaning>,
 }
 
 /// A summand.
@@ -107,7 +107,7 @@ pub struct Term {
 /// What a symbol in the terms stands for.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Given {
+pub struct SymbolMeaning {
     /// The symbol.
     pub symbol: Spanned<String>,
     /// What it stands for.

@@ -1,7 +1,7 @@
 //! The known mistakes: what the equation becomes, what it costs, and what is said about it.
 
 use crate::Text;
-use crate::accepted::Answer;
+use crate::accepted::AcceptedAnswer;
 use crate::interpreter::Formula;
 
 /// A mistake that students make, as one hypothesis about the equation.
@@ -16,7 +16,7 @@ pub struct Mistake {
     /// The ways in which it is written. Empty for a mistake that is not seen in the equation.
     pub forms: Vec<Form>,
     /// The ways in which it is written, each as a whole program; their numbers follow those of the forms.
-    pub variants: Vec<Answer>,
+    pub variants: Vec<AcceptedAnswer>,
     /// The number in the forms that is not known beforehand.
     pub fit: Option<FreeParameter>,
     /// Whether the handed-out file itself has it, so that its own line may be named.
@@ -116,7 +116,7 @@ pub struct FreeParameter {
 
 /// A mistake that was found, in the form in which it was found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct FoundMistake {
     /// The mistake's id.
     pub id: String,
     /// Which of its forms.
@@ -138,7 +138,7 @@ impl Mistake {
     }
 
     /// The program of a form with this number, if it is one.
-    pub(crate) fn program(&self, form: usize) -> Option<&Answer> {
+    pub(crate) fn program(&self, form: usize) -> Option<&AcceptedAnswer> {
         self.variants.get(form.checked_sub(self.forms.len())?)
     }
 

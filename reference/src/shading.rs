@@ -21,13 +21,13 @@ pub(crate) struct Scenery<'a> {
     pub assignment: &'a Assignment,
     pub pipeline: &'a Pipeline,
     /// What is drawn, in this order.
-    pub shapes: Vec<Shape<'a>>,
+    pub shapes: Vec<ShadedDraw<'a>>,
     /// A variable of the fragment stage's `main` that is shown in place of the colour.
     pub local: Option<&'a str>,
 }
 
 /// A draw after the vertex stage.
-pub(crate) struct Shape<'a> {
+pub(crate) struct ShadedDraw<'a> {
     pub uniforms: Vec<Value>,
     pub vertices: Vertices,
     pub triangles: &'a [[u32; 3]],
@@ -119,7 +119,7 @@ impl Scenery<'_> {
     }
 
     fn varying(&self, setup: &Setup, scalar: usize) -> crate::rasteriser::Ramp {
-        let Shape { vertices, triangles, .. } = &self.shapes[setup.surface as usize];
+        let ShadedDraw { vertices, triangles, .. } = &self.shapes[setup.surface as usize];
         let values = triangles[setup.triangle as usize].map(|vertex| vertices.varyings[scalar][vertex as usize]);
         let varying = self.pipeline.varyings.iter().find(|varying| varying.scalars.contains(&scalar));
         setup.ramp(values, varying.map(|varying| varying.interpolation).unwrap_or_default())

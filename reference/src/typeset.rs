@@ -13,7 +13,7 @@ pub struct Typeset {
     /// The summands, in order.
     pub terms: Vec<Term>,
     /// What the terms need.
-    pub given: Vec<Given>,
+    pub given: Vec<SymbolMeaning>,
 }
 
 /// One summand.
@@ -29,7 +29,7 @@ pub struct Term {
 
 /// What a symbol in the terms stands for.
 #[derive(Clone, Debug)]
-pub struct Given {
+pub struct SymbolMeaning {
     /// The symbol.
     pub symbol: String,
     /// What it stands for.

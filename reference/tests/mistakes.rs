@@ -2,7 +2,7 @@
 
 use reference::assignment::{Feed, Role};
 use reference::fit::{Fit, TOLERANCE, explain};
-use reference::mistake::Found;
+use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
 use reference::{Assignment, Value, assignment};
 
@@ -16,9 +16,9 @@ fn ggsample06() -> &'static Assignment {
 }
 
 /// Every form of every mistake, with a likely value for its free parameter.
-fn all_forms(assignment: &Assignment) -> Vec<Found> {
-    let forms = |m: &reference::mistake::Mistake| -> Vec<Found> {
-        let found = |(form, f): (usize, &reference::mistake::Form)| Found {
+fn all_forms(assignment: &Assignment) -> Vec<FoundMistake> {
+    let forms = |m: &reference::mistake::Mistake| -> Vec<FoundMistake> {
+        let found = |(form, f): (usize, &reference::mistake::Form)| FoundMistake {
             id: m.id.clone(),
             form,
             parameter: m.fit.as_ref().filter(|_| f.free).map(|p| p.example),
@@ -28,7 +28,7 @@ fn all_forms(assignment: &Assignment) -> Vec<Found> {
     assignment.mistakes.iter().flat_map(forms).collect()
 }
 
-fn samples(assignment: &Assignment, probes: &ProbeSet, mistakes: &[Found]) -> Vec<[f64; 3]> {
+fn samples(assignment: &Assignment, probes: &ProbeSet, mistakes: &[FoundMistake]) -> Vec<[f64; 3]> {
     let variant = assignment.variant(mistakes).expect("known mistakes");
     let colour = |p: &reference::probes::Probe| {
         let outcome = variant.evaluate(probes.uniforms(p), &p.attributes);
@@ -98,7 +98,7 @@ fn every_mistake_is_found_alone() {
 }
 
 /// The mistakes that touch one line of the rubric only, in their first form.
-fn first_forms_of<'a>(assignment: &'a Assignment, line: &'a str) -> impl Iterator<Item = Found> {
+fn first_forms_of<'a>(assignment: &'a Assignment, line: &'a str) -> impl Iterator<Item = FoundMistake> {
     let ids: Vec<String> = assignment
         .mistakes
         .iter()
@@ -108,7 +108,7 @@ fn first_forms_of<'a>(assignment: &'a Assignment, line: &'a str) -> impl Iterato
     all_forms(assignment).into_iter().filter(move |f| f.form == 0 && f.parameter.is_none() && ids.contains(&f.id))
 }
 
-fn ids(mistakes: &[Found]) -> Vec<&str> {
+fn ids(mistakes: &[FoundMistake]) -> Vec<&str> {
     let mut ids: Vec<&str> = mistakes.iter().map(|m| m.id.as_str()).collect();
     ids.sort_unstable();
     ids
@@ -149,7 +149,7 @@ fn mistakes_in_two_lines_are_both_found() {
 fn three_mistakes_are_found() {
     let assignment = ggsample06();
     let probes = assignment.probes(5);
-    let mistake = |id: &str, parameter: Option<f64>| Found { id: id.to_owned(), form: 0, parameter };
+    let mistake = |id: &str, parameter: Option<f64>| FoundMistake { id: id.to_owned(), form: 0, parameter };
     for planted in [
         [mistake("ambient-missing", None), mistake("diffuse-unclamped", None), mistake("specular-phong", None)],
         [
@@ -271,7 +271,7 @@ fn an_answer_with_other_constants_is_right_for_those_constants() {
 fn two_free_numbers_are_found_together() {
     let assignment = ggsample06();
     let probes = assignment.probes(9);
-    let number = |id: &str, form: usize, x: f64| Found { id: id.to_owned(), form, parameter: Some(x) };
+    let number = |id: &str, form: usize, x: f64| FoundMistake { id: id.to_owned(), form, parameter: Some(x) };
     for planted in [
         vec![number("diffuse-scaled", 0, 0.5), number("specular-wrong-exponent", 0, 20.0)],
         vec![number("ambient-scaled", 0, 2.0), number("diffuse-scaled", 0, 0.7)],
@@ -300,7 +300,7 @@ fn a_view_vector_that_is_a_little_short_is_found() {
     let assignment = ggsample06();
     let probes = assignment.probes(10);
     for x in [0.99, 1.02, 0.7] {
-        let planted = Found { id: "specular-view-unnormalized".into(), form: 2, parameter: Some(x) };
+        let planted = FoundMistake { id: "specular-view-unnormalized".into(), form: 2, parameter: Some(x) };
         let given = noisy(&samples(assignment, &probes, &[planted]));
         match explain(assignment, &probes, &given, TOLERANCE) {
             Fit::Explained(found) => assert_eq!(ids(&found), ["specular-view-unnormalized"], "{x}"),
@@ -379,7 +379,7 @@ fn what_is_missing_is_not_wrong_as_well() {
 fn a_form_costs_only_the_lines_that_it_reaches() {
     let assignment = ggsample06();
     let kept = |form: usize| -> Vec<f64> {
-        let found = Found { id: "normal-not-transformed".into(), form, parameter: None };
+        let found = FoundMistake { id: "normal-not-transformed".into(), form, parameter: None };
         assignment.rubric.iter().map(|line| assignment.keeps(&found, line)).collect()
     };
     // The normal itself, only in the diffuse term, only in the highlight.

@@ -4,7 +4,7 @@
 //! pseudonyms again, another folder gives others, and without the key nobody can try names until one fits. What a student
 //! wrote inside the file stays as it is: a name in a comment is still there.
 
-use super::class::{Place, Refused, Student};
+use super::class::{FileLocation, Refused, Student};
 use super::folder::Folder;
 use super::formats::plain::cell;
 use super::intake::{Content, Intake, StudentWork};
@@ -107,7 +107,7 @@ impl Pseudonyms {
                     for (file, slot) in hand_in.files.iter_mut().zip(slots) {
                         slot.name.clone_into(&mut file.name);
                     }
-                    let place = |slot: &Slot| Place { path: format!("{pseudonym}/{}", slot.name), local: None };
+                    let place = |slot: &Slot| FileLocation { path: format!("{pseudonym}/{}", slot.name), local: None };
                     Content::Files { hand_in, places: slots.iter().map(place).collect() }
                 }
                 Content::Nothing(_) => Content::Nothing(nothing()),
@@ -199,7 +199,7 @@ mod tests {
             student: Student { key: key.into(), name: name.into(), moodle: None },
             content: Content::Files {
                 hand_in: HandIn::of_one(format!("{name}.vert"), "void main() {}"),
-                places: vec![Place {
+                places: vec![FileLocation {
                     path: format!("class.zip/{name}/{name}.vert"),
                     local: Some(format!("{name}.vert").into()),
                 }],

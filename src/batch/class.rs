@@ -58,7 +58,7 @@ pub struct Entry {
     /// Who.
     pub student: Student,
     /// Where the files were, in the order of the report's; none without files.
-    pub places: Vec<Place>,
+    pub places: Vec<FileLocation>,
     /// What became of it.
     pub outcome: Outcome,
     /// The files that can be read as text.
@@ -74,11 +74,11 @@ pub struct Entry {
 impl Entry {
     /// Where the files were, in one line.
     pub fn path(&self) -> Option<String> {
-        Place::joined(&self.places)
+        FileLocation::joined(&self.places)
     }
 
     /// Where a file of the report was: the one with this name, or the first.
-    pub fn place(&self, file: Option<&str>) -> Option<&Place> {
+    pub fn place(&self, file: Option<&str>) -> Option<&FileLocation> {
         let named = |name: &str| self.report()?.sources.iter().position(|source| source.name == name);
         self.places.get(file.and_then(named).unwrap_or(0))
     }
@@ -99,7 +99,7 @@ impl Entry {
 
 /// Where a file was.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct FileLocation {
     /// As a teacher would look for it: from the input on, folders and file name joined by `/`; where there are several
     /// inputs, from the folder on that holds them all.
     pub path: String,
@@ -108,7 +108,7 @@ pub struct Place {
     pub local: Option<PathBuf>,
 }
 
-impl Place {
+impl FileLocation {
     /// Several places in one line; none where there is none.
     pub fn joined(places: &[Self]) -> Option<String> {
         let paths: Vec<&str> = places.iter().map(|place| place.path.as_str()).collect();

@@ -22,7 +22,7 @@ pub use limits::{Budget, Limits};
 pub(crate) use moodle::is_blind;
 pub use place::in_working_folder;
 
-use super::class::{Place, Refused, Student};
+use super::class::{FileLocation, Refused, Student};
 use crate::fault::Fault;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
@@ -46,7 +46,7 @@ impl StudentWork {
     /// Where the files were, in one line; none without files.
     pub fn path(&self) -> Option<String> {
         match &self.content {
-            Content::Files { places, .. } => Place::joined(places),
+            Content::Files { places, .. } => FileLocation::joined(places),
             Content::Nothing(_) => None,
         }
     }
@@ -60,7 +60,7 @@ pub enum Content {
         /// Names and bytes (cut above the size that [`crate::source`] takes), in the order of the slots.
         hand_in: HandIn,
         /// Where each was.
-        places: Vec<Place>,
+        places: Vec<FileLocation>,
     },
     /// A file that is missing, double or unreadable: what to tell student and teacher.
     Nothing(Text),
@@ -110,7 +110,7 @@ pub fn read_archive(archive: &Path, title: &str, options: &Options) -> Intake {
 
 /// A part of one hand-in, as somebody named or sent it.
 #[derive(Clone, Debug)]
-pub enum Given {
+pub enum HandInPart {
     /// A folder or an archive of this machine.
     Path(PathBuf),
     /// A file, or an archive, that was read already; and where it is on this machine, where it is there.
@@ -123,7 +123,7 @@ pub enum Given {
 }
 
 /// The files of one hand-in: those that are given, and those in the folders and archives among them.
-pub fn one(given: Vec<Given>, options: &Options) -> Content {
+pub fn one(given: Vec<HandInPart>, options: &Options) -> Content {
     let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut files = Vec::new();
     let mut is_named = true;
@@ -238,14 +238,14 @@ impl Reading<'_> {
     }
 
     /// One part of a hand-in, and what it is called.
-    fn given(&mut self, given: Given) -> (String, Option<Input>) {
+    fn given(&mut self, given: HandInPart) -> (String, Option<Input>) {
         match given {
-            Given::Path(path) => {
+            HandInPart::Path(path) => {
                 let name = place::names(std::slice::from_ref(&path)).concat();
                 let input = self.input(&path, &name);
                 (name, input)
             }
-            Given::File { file: HandedInFile { name, bytes }, local } => {
+            HandInPart::File { file: HandedInFile { name, bytes }, local } => {
                 let shown = local.as_deref().and_then(in_working_folder);
                 let shown = shown.map_or_else(|| name.clone(), |path| path.to_string_lossy().into_owned());
                 if is_archive(&name, &bytes) {

@@ -86,7 +86,7 @@ impl Record {
 
 /// A journal as it is found.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct FoundJournal {
     /// Its first line.
     pub header: Header,
     /// One record a student, the last where there are several.
@@ -107,7 +107,7 @@ pub enum Unreadable {
 }
 
 /// Reads a journal.
-pub fn read(path: &Path) -> Result<Found, Unreadable> {
+pub fn read(path: &Path) -> Result<FoundJournal, Unreadable> {
     let failed = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => Unreadable::Missing,
         _ => Unreadable::Fault(unreadable(path, &error)),
@@ -135,7 +135,7 @@ pub fn read(path: &Path) -> Result<Found, Unreadable> {
             }
         }
     }
-    Ok(Found { header, records, torn })
+    Ok(FoundJournal { header, records, torn })
 }
 
 fn foreign(path: &Path, first: &[u8]) -> Text {

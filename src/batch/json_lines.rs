@@ -19,7 +19,7 @@ struct Line<'a> {
     /// Why there is no report.
     message: Option<&'a str>,
     shares_with: &'a [String],
-    report: Option<json::View<'a>>,
+    report: Option<json::JsonReport<'a>>,
 }
 
 /// The entry on one line, with a line feed at its end.

@@ -15,7 +15,7 @@ pub const CHANGES: &str = "changes.json";
 
 /// What a run can write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Given {
+pub struct OutputOptions {
     /// Whether names are pseudonyms.
     pub anonymous: bool,
     /// Whether there is a worksheet of Moodle's.
@@ -25,7 +25,7 @@ pub struct Given {
 }
 
 /// The formats that are written: those asked for, or else all that make sense of what is given.
-pub fn choose(asked: &[Format], given: Given) -> Result<Vec<Format>, Text> {
+pub fn choose(asked: &[Format], given: OutputOptions) -> Result<Vec<Format>, Text> {
     let mut chosen: Vec<Format> = match asked {
         [] => Format::value_variants().iter().copied().filter(|format| is_usual(*format, given)).collect(),
         asked => asked.to_vec(),
@@ -55,7 +55,7 @@ pub fn choose(asked: &[Format], given: Given) -> Result<Vec<Format>, Text> {
 }
 
 /// What a teacher may miss of what is written.
-pub fn hint(asked: &[Format], given: Given) -> Option<Text> {
+pub fn hint(asked: &[Format], given: OutputOptions) -> Option<Text> {
     let missed = asked.is_empty() && given.moodle && !given.worksheet && !given.anonymous;
     missed.then(|| {
         Text::new(
@@ -67,7 +67,7 @@ pub fn hint(asked: &[Format], given: Given) -> Option<Text> {
     })
 }
 
-fn is_usual(format: Format, given: Given) -> bool {
+fn is_usual(format: Format, given: OutputOptions) -> bool {
     match format {
         Format::MoodleWorksheet => given.worksheet,
         // Only the worksheet tells participants from groups.
@@ -161,30 +161,30 @@ fn json(changes: &Changes) -> Vec<u8> {
 mod tests {
     use super::*;
 
-    const ALL: Given = Given { anonymous: false, worksheet: true, moodle: true };
+    const ALL: OutputOptions = OutputOptions { anonymous: false, worksheet: true, moodle: true };
 
     #[test]
     fn by_default_everything_is_written_that_can_be() {
         let all = choose(&[], ALL).unwrap();
         let left_out: Vec<_> = Format::value_variants().iter().filter(|format| !all.contains(format)).collect();
         assert_eq!(left_out, [&Format::Nbgrader]);
-        let none = choose(&[], Given::default()).unwrap();
+        let none = choose(&[], OutputOptions::default()).unwrap();
         assert!(none.contains(&Format::Html) && !none.contains(&Format::MoodleFeedback));
     }
 
     #[test]
     fn what_was_asked_for_and_no_more_is_written() {
-        assert_eq!(choose(&[Format::Csv, Format::Csv], Given::default()).unwrap(), [Format::Csv]);
-        let with_sheet = Given { worksheet: true, ..Given::default() };
+        assert_eq!(choose(&[Format::Csv, Format::Csv], OutputOptions::default()).unwrap(), [Format::Csv]);
+        let with_sheet = OutputOptions { worksheet: true, ..OutputOptions::default() };
         assert_eq!(choose(&[Format::Csv], with_sheet).unwrap(), [Format::Csv, Format::MoodleWorksheet]);
-        choose(&[Format::MoodleWorksheet], Given::default()).unwrap_err();
+        choose(&[Format::MoodleWorksheet], OutputOptions::default()).unwrap_err();
     }
 
     #[test]
     fn pseudonyms_do_not_go_with_moodles_files() {
-        let anonymous = Given { anonymous: true, worksheet: false, moodle: true };
+        let anonymous = OutputOptions { anonymous: true, worksheet: false, moodle: true };
         assert!(!choose(&[], anonymous).unwrap().contains(&Format::MoodleFeedback));
         choose(&[Format::MoodleFeedback], anonymous).unwrap_err();
-        choose(&[], Given { worksheet: true, ..anonymous }).unwrap_err();
+        choose(&[], OutputOptions { worksheet: true, ..anonymous }).unwrap_err();
     }
 }

@@ -2,7 +2,7 @@
 
 use super::folder::Folder;
 use super::formats::{Format, KEY};
-use super::journal::{self, Found, Header, Record, Unreadable};
+use super::journal::{self, FoundJournal, Header, Record, Unreadable};
 use super::run::{page_file, portrait_file};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -37,7 +37,7 @@ impl From<Fault> for NotBegun {
 }
 
 /// The earlier results that this run goes on from; none where it begins anew.
-pub fn earlier(folder: &Folder, shown: &Path, mode: Mode) -> Result<Option<Found>, NotBegun> {
+pub fn earlier(folder: &Folder, shown: &Path, mode: Mode) -> Result<Option<FoundJournal>, NotBegun> {
     let path = folder.at(journal::NAME);
     match (journal::read(&path), mode) {
         (Err(Unreadable::Missing), _) => Ok(None),

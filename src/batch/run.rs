@@ -13,7 +13,7 @@ use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::parallel;
 use crate::report::Verdict;
-use crate::sandbox::{Answer, Pool, Submission};
+use crate::sandbox::{GradedSubmission, Pool, Submission};
 use crate::source::{self, Source};
 use reference::Assignment;
 use std::collections::HashMap;
@@ -229,7 +229,7 @@ impl Run<'_> {
     }
 
     /// What is shown of one of the hand-ins that the answer is for; `last` is what was shown of the one before.
-    fn show(&self, answer: &mut Answer, member: &Candidate, last: Option<Judged>) -> Result<Judged, Fault> {
+    fn show(&self, answer: &mut GradedSubmission, member: &Candidate, last: Option<Judged>) -> Result<Judged, Fault> {
         let Some(hand_in) = member.files() else { return Ok(Judged::without(member.nothing())) };
         // Names, sizes and line ends are each one's own.
         let sources = grade::sources(self.assignment, hand_in);

@@ -1,6 +1,6 @@
 //! `ggrade assignment`: what assignments there are, and whether one is whole.
 
-use super::{Outcome, language, warn};
+use super::{ExitStatus, language, warn};
 use crate::cli::{Action, Assignment as Arguments, Check};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
@@ -13,12 +13,12 @@ use reference::fit;
 use std::sync::Arc;
 
 /// Does what is asked.
-pub fn run(arguments: &Arguments) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Arguments) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
     match &arguments.action {
         Action::List => {
             reference::assignments().for_each(|assignment| list(assignment, language));
-            Ok(Outcome::FullMarks)
+            Ok(ExitStatus::FullMarks)
         }
         Action::Check(check) => run_check(check, language),
     }
@@ -30,9 +30,9 @@ fn list(assignment: &Assignment, language: Language) {
     anstream::println!("{}  {}  {}", assignment.id, files.join(", "), title.get(language));
 }
 
-fn run_check(arguments: &Check, language: Language) -> Result<Outcome, Fault> {
+fn run_check(arguments: &Check, language: Language) -> Result<ExitStatus, Fault> {
     let Some(assignment) = super::assignment(Some(&arguments.assignment), &[], language) else {
-        return Ok(Outcome::Usage);
+        return Ok(ExitStatus::Usage);
     };
     list(&assignment, language);
     let settings = Settings {
@@ -63,7 +63,7 @@ fn run_check(arguments: &Check, language: Language) -> Result<Outcome, Fault> {
     let are_seen = say_variants(&assignment, language);
     let digest = Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest));
     say(true, &digest, language);
-    Ok(if is_right && is_unfinished && are_seen { Outcome::FullMarks } else { Outcome::Usage })
+    Ok(if is_right && is_unfinished && are_seen { ExitStatus::FullMarks } else { ExitStatus::Usage })
 }
 
 /// Says where each line's feature shows, and which cannot be judged by itself, as a term of a sum that always has another.

@@ -4,10 +4,10 @@ mod begin;
 mod session;
 
 use super::interrupt::Interrupt;
-use super::{Outcome, deadline, language};
+use super::{ExitStatus, deadline, language};
 use crate::batch::class::Class;
 use crate::batch::intake;
-use crate::batch::output::{self, Given};
+use crate::batch::output::{self, OutputOptions};
 use crate::batch::portrait::Portraits;
 use crate::batch::resume::{self, Mode, NotBegun};
 use crate::batch::run;
@@ -20,21 +20,21 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Grades a class.
-pub fn run(arguments: &Batch) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Batch) -> Result<ExitStatus, Fault> {
     // Before any thread is started.
     let interrupt = Interrupt::watch()?;
-    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
     match grade(arguments, deadline, &interrupt) {
         Ok(outcome) => Ok(outcome),
         Err(NotBegun::Fault(fault)) => Err(fault),
         Err(NotBegun::Usage(text)) => {
             anstream::eprintln!("ggrade: {}", text.get(language(arguments.lang)));
-            Ok(Outcome::Usage)
+            Ok(ExitStatus::Usage)
         }
     }
 }
 
-fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result<Outcome, NotBegun> {
+fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result<ExitStatus, NotBegun> {
     let assignment = choice::assignment(arguments.machine.assignment.as_deref(), &[]).map_err(NotBegun::Usage)?;
     begin::outside(arguments)?;
     let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
@@ -43,9 +43,9 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
     let intake = intake::read(&arguments.inputs, &options)?;
     if intake.hand_ins.is_empty() {
         begin::tell_empty(&intake, language(arguments.lang));
-        return Ok(Outcome::Nothing);
+        return Ok(ExitStatus::Nothing);
     }
-    let given = Given {
+    let given = OutputOptions {
         anonymous: arguments.anonymous,
         worksheet: sheet.is_some(),
         moodle: intake.hand_ins.iter().any(|hand_in| hand_in.student.moodle.is_some()),
@@ -70,7 +70,7 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
     let wants = output::wants(&formats);
     let mut entries = session.reuse(&candidates, found, wants)?;
     if !session.fill(&candidates, &mut entries, wants, &portraits)? {
-        return Ok(Outcome::Interrupted);
+        return Ok(ExitStatus::Interrupted);
     }
     let class = Class {
         assignment: Arc::clone(&assignment),
@@ -85,16 +85,16 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
 }
 
 /// How a graded class ends the program.
-fn outcome(class: &Class) -> Outcome {
+fn outcome(class: &Class) -> ExitStatus {
     let has = |wanted: Standing| class.entries.iter().any(|entry| Standing::of(&entry.outcome) == wanted);
     let all = |wanted: Standing| class.entries.iter().all(|entry| Standing::of(&entry.outcome) == wanted);
     if has(Standing::Fault) {
-        Outcome::Fault
+        ExitStatus::Fault
     } else if all(Standing::NotGraded) {
-        Outcome::Nothing
+        ExitStatus::Nothing
     } else if all(Standing::Correct) && class.refused.is_empty() {
-        Outcome::FullMarks
+        ExitStatus::FullMarks
     } else {
-        Outcome::Graded
+        ExitStatus::Graded
     }
 }

@@ -1,6 +1,6 @@
 //! `ggrade corpus DIR`: a table of expected against found.
 
-use super::{Outcome, language, warn};
+use super::{ExitStatus, language, warn};
 use crate::cli::Corpus;
 use crate::corpus::{self, Checked, Expectation};
 use crate::cross_check::Opinion;
@@ -16,12 +16,12 @@ use std::time::Duration;
 const DEADLINE: Duration = Duration::from_secs(10);
 
 /// Grades the samples of a folder.
-pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Corpus) -> Result<ExitStatus, Fault> {
     if arguments.bless && std::env::var_os("CI").is_some() {
         anstream::eprintln!("ggrade: expected reports are not written in CI");
-        return Ok(Outcome::Usage);
+        return Ok(ExitStatus::Usage);
     }
-    let Some(assignment) = assignment(arguments) else { return Ok(Outcome::Usage) };
+    let Some(assignment) = assignment(arguments) else { return Ok(ExitStatus::Usage) };
     let folder = arguments.folder(&assignment);
     let settings = Settings { adapter: arguments.machine.adapter, deadline: DEADLINE, ..Settings::new(assignment) };
     let workers = parallel::processors();
@@ -48,7 +48,7 @@ pub fn run(arguments: &Corpus) -> Result<Outcome, Fault> {
     if arguments.bless && differing > 0 {
         anstream::eprintln!("ggrade: {differing} expected reports were written anew: look at them");
     }
-    Ok(if differing == 0 && disputed == 0 { Outcome::FullMarks } else { Outcome::Graded })
+    Ok(if differing == 0 && disputed == 0 { ExitStatus::FullMarks } else { ExitStatus::Graded })
 }
 
 /// The assignment that is asked for, or else the one whose samples they are by the names of the folders that they are in.

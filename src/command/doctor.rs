@@ -1,6 +1,6 @@
 //! `ggrade doctor`: what this machine has, and what to install.
 
-use super::{Outcome, language};
+use super::{ExitStatus, language};
 use crate::cli::Doctor;
 use crate::fault::Fault;
 use crate::grade::{Order, handed_out};
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Checks the machine by what it is for: opens the device in a worker, and grades the handed-out file of every homework.
-pub fn run(arguments: &Doctor) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Doctor) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
     let mut healthy = check_sandbox(language);
     for assignment in reference::assignments() {
@@ -32,7 +32,7 @@ pub fn run(arguments: &Doctor) -> Result<Outcome, Fault> {
         _ => Text::new("graphics card: none (none is needed)", "グラフィックスカード: なし (なくても採点できます)"),
     };
     say(true, &gpu, language);
-    Ok(if healthy { Outcome::FullMarks } else { Outcome::Fault })
+    Ok(if healthy { ExitStatus::FullMarks } else { ExitStatus::Fault })
 }
 
 /// Gradings on this machine, whatever the sandbox lacks: that is said once, and apart.

@@ -5,8 +5,8 @@
 
 use super::files::{self, NotTaken};
 use super::grade::Wish;
-use super::{Outcome, file_fault, grade, writing};
-use crate::batch::class::{Class, Entry, Outcome as Became, Student};
+use super::{ExitStatus, file_fault, grade, writing};
+use crate::batch::class::{Class, Entry, Outcome, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Grades one hand-in and writes it in `format`.
-pub(super) fn run(wish: &Wish<'_>, format: Format) -> Result<Outcome, Fault> {
+pub(super) fn run(wish: &Wish<'_>, format: Format) -> Result<ExitStatus, Fault> {
     let class = class(wish, format).for_students().into_owned();
     let variable = |name| std::env::var(name).ok();
     let scale = vpl::Scale::from_variables(variable("VPL_GRADEMIN").as_deref(), variable("VPL_GRADEMAX").as_deref());
@@ -26,10 +26,10 @@ pub(super) fn run(wish: &Wish<'_>, format: Format) -> Result<Outcome, Fault> {
         append_summary(&class)?;
     }
     match class.entries.into_iter().next().map(|entry| entry.outcome) {
-        Some(Became::Graded(report)) if report.verdict == Verdict::Correct => Ok(Outcome::FullMarks),
-        Some(Became::Graded(_)) => Ok(Outcome::Graded),
-        Some(Became::Fault(fault)) => Err(fault),
-        Some(Became::NotGraded(_)) | None => Ok(Outcome::Nothing),
+        Some(Outcome::Graded(report)) if report.verdict == Verdict::Correct => Ok(ExitStatus::FullMarks),
+        Some(Outcome::Graded(_)) => Ok(ExitStatus::Graded),
+        Some(Outcome::Fault(fault)) => Err(fault),
+        Some(Outcome::NotGraded(_)) | None => Ok(ExitStatus::Nothing),
     }
 }
 
@@ -40,7 +40,7 @@ fn class(wish: &Wish<'_>, format: Format) -> Class {
     let mut entry = Entry {
         student: Student { key: "submission".into(), name: name.clone(), moodle: None },
         places: files::places(&arguments.files),
-        outcome: Became::NotGraded(Text::default()),
+        outcome: Outcome::NotGraded(Text::default()),
         sources: vec![],
         portrait: None,
         page: None,
@@ -62,35 +62,35 @@ fn class(wish: &Wish<'_>, format: Format) -> Class {
 }
 
 /// Grades the hand-in; what became of it where there is no report.
-fn fill(entry: &mut Entry, class: &mut Class, wish: &Wish<'_>, format: Format) -> Result<(), Became> {
+fn fill(entry: &mut Entry, class: &mut Class, wish: &Wish<'_>, format: Format) -> Result<(), Outcome> {
     let Wish { arguments, assignment, .. } = wish;
     let (hand_in, places) = files::taken(&arguments.files, assignment).map_err(|why| match &why {
-        NotTaken::Unfit(why) => Became::NotGraded(why.clone()),
+        NotTaken::Unfit(why) => Outcome::NotGraded(why.clone()),
         NotTaken::Unreadable(path, error) => match error.kind() {
             ErrorKind::NotFound | ErrorKind::IsADirectory | ErrorKind::NotADirectory => {
                 let name = files::names(std::slice::from_ref(path));
-                Became::NotGraded(Text::new(
+                Outcome::NotGraded(Text::new(
                     format!("There is no file `{name}` to grade."),
                     format!("採点するファイル `{name}` がありません。"),
                 ))
             }
-            _ => Became::Fault(Fault::new(why.message())),
+            _ => Outcome::Fault(Fault::new(why.message())),
         },
     })?;
     entry.places = places;
     let wants_portrait = format == Format::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
-    let answer = grade::grade(wish, &hand_in, wants_frames).map_err(Became::Fault)?;
+    let answer = grade::grade(wish, &hand_in, wants_frames).map_err(Outcome::Fault)?;
     entry.sources = hand_in.readable();
     if wants_portrait && !answer.frames.is_empty() {
-        let portraits = Portraits::new(assignment).map_err(Became::Fault)?;
-        entry.portrait = portraits.of(&answer.frames).map_err(Became::Fault)?;
+        let portraits = Portraits::new(assignment).map_err(Outcome::Fault)?;
+        entry.portrait = portraits.of(&answer.frames).map_err(Outcome::Fault)?;
         class.expected_portrait = portraits.expected;
     }
     if arguments.frames.is_some() {
-        grade::pictures(wish, &answer.report, &entry.sources, answer.frames).map_err(Became::Fault)?;
+        grade::pictures(wish, &answer.report, &entry.sources, answer.frames).map_err(Outcome::Fault)?;
     }
-    entry.outcome = Became::Graded(Box::new(answer.report));
+    entry.outcome = Outcome::Graded(Box::new(answer.report));
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! The files of one hand-in, as the command line names them.
 
-use crate::batch::class::Place;
-use crate::batch::intake::{self, Content, Given, in_working_folder};
+use crate::batch::class::FileLocation;
+use crate::batch::intake::{self, Content, HandInPart, in_working_folder};
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use reference::Assignment;
@@ -34,9 +34,9 @@ impl NotTaken {
 }
 
 /// The files that the assignment asks for, and where each was: standard input is nowhere.
-pub(super) fn taken(paths: &[PathBuf], assignment: &Assignment) -> Result<(HandIn, Vec<Place>), NotTaken> {
+pub(super) fn taken(paths: &[PathBuf], assignment: &Assignment) -> Result<(HandIn, Vec<FileLocation>), NotTaken> {
     let given = paths.iter().map(|path| given(path).map_err(|error| NotTaken::Unreadable(path.clone(), error)));
-    let given: Vec<Given> = given.collect::<Result<_, _>>()?;
+    let given: Vec<HandInPart> = given.collect::<Result<_, _>>()?;
     match intake::one(given, &intake::Options::new(assignment)) {
         Content::Files { hand_in, places } => {
             let is_somewhere = !paths.iter().any(|path| is_standard_input(path));
@@ -46,17 +46,17 @@ pub(super) fn taken(paths: &[PathBuf], assignment: &Assignment) -> Result<(HandI
     }
 }
 
-fn given(path: &Path) -> std::io::Result<Given> {
+fn given(path: &Path) -> std::io::Result<HandInPart> {
     if !is_standard_input(path) && path.is_dir() {
-        return Ok(Given::Path(path.into()));
+        return Ok(HandInPart::Path(path.into()));
     }
     let (bytes, is_cut) = read(path)?;
     // An archive may be larger than a file.
     if is_cut && bytes.starts_with(b"PK") && path.is_file() {
-        return Ok(Given::Path(path.into()));
+        return Ok(HandInPart::Path(path.into()));
     }
     let local = (!is_standard_input(path)).then(|| path.to_owned());
-    Ok(Given::File { file: HandedInFile::new(name(path), bytes), local })
+    Ok(HandInPart::File { file: HandedInFile::new(name(path), bytes), local })
 }
 
 /// The bytes of the file, as far as they matter, and whether there may be more.
@@ -72,11 +72,11 @@ pub(super) fn read(path: &Path) -> std::io::Result<(Vec<u8>, bool)> {
 }
 
 /// Where the files would be, whether they are there or not.
-pub(super) fn places(paths: &[PathBuf]) -> Vec<Place> {
+pub(super) fn places(paths: &[PathBuf]) -> Vec<FileLocation> {
     let place = |path: &PathBuf| {
         let local = in_working_folder(path);
         let shown = local.as_ref().map(|path| path.to_string_lossy().into_owned());
-        Place { path: shown.unwrap_or_else(|| name(path)), local }
+        FileLocation { path: shown.unwrap_or_else(|| name(path)), local }
     };
     paths.iter().filter(|path| !is_standard_input(path)).map(place).collect()
 }

@@ -1,14 +1,14 @@
 //! `ggrade grade FILE…`: one hand-in to one report.
 
-use super::view::{View, has_colour};
-use super::{Outcome, deadline, exchange, file_fault, files, language, warn, writing};
+use super::view::{ReportView, has_colour};
+use super::{ExitStatus, deadline, exchange, file_fault, files, language, warn, writing};
 use crate::cli::{Format, Grade, Reading};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::Language;
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
-use crate::sandbox::{Answer, Pool, Settings, Submission};
+use crate::sandbox::{GradedSubmission, Pool, Settings, Submission};
 use crate::source::Source;
 use reference::Assignment;
 use std::io::Write;
@@ -16,11 +16,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Grades one hand-in and writes its report.
-pub fn run(arguments: &Grade) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Grade) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
-    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
     let asked = arguments.machine.assignment.as_deref();
-    let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(Outcome::Usage) };
+    let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(ExitStatus::Usage) };
     let wish = Wish { arguments, assignment, deadline, language };
     match arguments.format {
         Format::Reading(reading) => run_for_reading(&wish, reading),
@@ -36,28 +36,28 @@ pub(super) struct Wish<'a> {
     pub language: Language,
 }
 
-fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<Outcome, Fault> {
+fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<ExitStatus, Fault> {
     let Wish { arguments, assignment, language, .. } = wish;
     let language = *language;
     let hand_in = match files::taken(&arguments.files, assignment) {
         Ok((hand_in, _)) => hand_in,
         Err(why) => {
             anstream::eprintln!("ggrade: {}", why.message().get(language));
-            return Ok(Outcome::Nothing);
+            return Ok(ExitStatus::Nothing);
         }
     };
     let wants_frames = arguments.frames.is_some() || reading == Reading::Html;
-    let Answer { report, frames } = grade(wish, &hand_in, wants_frames)?;
+    let GradedSubmission { report, frames } = grade(wish, &hand_in, wants_frames)?;
     let sources = hand_in.readable();
     let pictures = pictures(wish, &report, &sources, frames)?;
-    let view = View { assignment, report: &report, sources: &sources, pictures: pictures.as_ref(), language };
+    let view = ReportView { assignment, report: &report, sources: &sources, pictures: pictures.as_ref(), language };
     let colour = arguments.output.is_none() && has_colour();
     put(arguments, &view.document(reading, colour)?)?;
-    Ok(if report.verdict == Verdict::Correct { Outcome::FullMarks } else { Outcome::Graded })
+    Ok(if report.verdict == Verdict::Correct { ExitStatus::FullMarks } else { ExitStatus::Graded })
 }
 
 /// Grades a hand-in in a worker.
-pub(super) fn grade(wish: &Wish<'_>, hand_in: &HandIn, wants_frames: bool) -> Result<Answer, Fault> {
+pub(super) fn grade(wish: &Wish<'_>, hand_in: &HandIn, wants_frames: bool) -> Result<GradedSubmission, Fault> {
     let Wish { arguments, assignment, deadline, language } = wish;
     let settings =
         Settings { adapter: arguments.machine.adapter, deadline: *deadline, ..Settings::new(Arc::clone(assignment)) };

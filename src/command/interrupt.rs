@@ -19,10 +19,10 @@ struct Shared {
     happened: AtomicBool,
     stop: AtomicBool,
     /// What the first signal is answered with; without it, a signal ends the program at once.
-    answer: Mutex<Option<Answer>>,
+    answer: Mutex<Option<Handler>>,
 }
 
-type Answer = Box<dyn FnOnce() + Send>;
+type Handler = Box<dyn FnOnce() + Send>;
 
 impl Interrupt {
     /// Watches from now on. No other thread may have been started before, for it would still be ended by the signals.

@@ -1,6 +1,6 @@
 //! `ggrade serve`.
 
-use super::{Outcome, language};
+use super::{ExitStatus, language};
 use crate::choice;
 use crate::cli::{LogFormat, Serve};
 use crate::fault::Fault;
@@ -15,19 +15,19 @@ use tracing_subscriber::EnvFilter;
 const SHORTEST_PASSWORD: usize = 10;
 
 /// Serves until it is told to end.
-pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Serve) -> Result<ExitStatus, Fault> {
     let config = match Config::load(arguments) {
         Ok(config) => config,
         Err(fault) => {
             anstream::eprintln!("ggrade: {}", fault.message.get(language(None)));
-            return Ok(Outcome::Usage);
+            return Ok(ExitStatus::Usage);
         }
     };
     let assignments = match choice::assignments(&config.assignment).and_then(|found| of_tokens(&config, found)) {
         Ok(assignments) => assignments,
         Err(text) => {
             anstream::eprintln!("ggrade: {}", text.get(language(None)));
-            return Ok(Outcome::Usage);
+            return Ok(ExitStatus::Usage);
         }
     };
     let runtime = tokio::runtime::Builder::new_multi_thread()
@@ -43,7 +43,7 @@ pub fn run(arguments: &Serve) -> Result<Outcome, Fault> {
         welcome(&started);
         started.serve().await
     })?;
-    Ok(Outcome::FullMarks)
+    Ok(ExitStatus::FullMarks)
 }
 
 /// The same assignments, where every homework that has a token of its own is among them.
@@ -87,7 +87,7 @@ fn welcome(started: &server::Started) {
     }
 }
 
-fn set_password(config: &Config, runtime: &tokio::runtime::Runtime) -> Result<Outcome, Fault> {
+fn set_password(config: &Config, runtime: &tokio::runtime::Runtime) -> Result<ExitStatus, Fault> {
     let language = language(None);
     if std::io::stdin().is_terminal() {
         let prompt = Text::new(
@@ -106,7 +106,7 @@ fn set_password(config: &Config, runtime: &tokio::runtime::Runtime) -> Result<Ou
             format!("パスワードは {SHORTEST_PASSWORD} 文字以上にしてください。変更していません"),
         );
         anstream::eprintln!("ggrade: {}", text.get(language));
-        return Ok(Outcome::Usage);
+        return Ok(ExitStatus::Usage);
     }
     runtime.block_on(server::set_teacher_password(config, password))?;
     let text = Text::new(
@@ -114,7 +114,7 @@ fn set_password(config: &Config, runtime: &tokio::runtime::Runtime) -> Result<Ou
         "パスワードを設定しました。ログイン中の教員は、ログインし直す必要があります。",
     );
     anstream::eprintln!("{}", text.get(language));
-    Ok(Outcome::FullMarks)
+    Ok(ExitStatus::FullMarks)
 }
 
 /// Writes the log to standard error: never a byte of what a student wrote.

@@ -12,7 +12,7 @@ use reference::Assignment;
 use std::io::IsTerminal;
 
 /// Everything that a report is shown with.
-pub(super) struct View<'a> {
+pub(super) struct ReportView<'a> {
     /// The homework.
     pub assignment: &'a Assignment,
     /// The report.
@@ -25,7 +25,7 @@ pub(super) struct View<'a> {
     pub language: Language,
 }
 
-impl View<'_> {
+impl ReportView<'_> {
     /// The report in a format.
     pub fn document(&self, format: Reading, colour: bool) -> Result<String, Fault> {
         match format {

@@ -7,8 +7,8 @@ mod change;
 mod saves;
 mod screen;
 
-use super::view::{View, has_colour};
-use super::{Outcome, deadline, files, language, warn};
+use super::view::{ReportView, has_colour};
+use super::{ExitStatus, deadline, files, language, warn};
 use crate::batch::intake::{self, Content, Options};
 use crate::cli::{Reading, Watch};
 use crate::fault::Fault;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 
 /// Grades the hand-in whenever a file of it is saved, until it is interrupted; then the last report says how it ends.
-pub fn run(arguments: &Watch) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Watch) -> Result<ExitStatus, Fault> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(|e| broken(&e))?;
     let outcome = runtime.block_on(watch(arguments));
     // A grading that is under way ends with its worker, and the worker with this process.
@@ -31,18 +31,18 @@ pub fn run(arguments: &Watch) -> Result<Outcome, Fault> {
     outcome
 }
 
-async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
+async fn watch(arguments: &Watch) -> Result<ExitStatus, Fault> {
     let mut ends = Ends::listen().map_err(|error| broken(&error))?;
     let language = language(arguments.lang);
-    let Some(deadline) = deadline(arguments.deadline) else { return Ok(Outcome::Usage) };
+    let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
     for path in &arguments.files {
         if let Err(error) = std::fs::File::open(path) {
             anstream::eprintln!("ggrade: {}", files::unreadable(path, &error).get(language));
-            return Ok(Outcome::Nothing);
+            return Ok(ExitStatus::Nothing);
         }
     }
     let asked = arguments.machine.assignment.as_deref();
-    let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(Outcome::Usage) };
+    let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(ExitStatus::Usage) };
     let mut saves = Saves::of(&arguments.files);
     let settings = Settings { adapter: arguments.machine.adapter, deadline, ..Settings::new(Arc::clone(&assignment)) };
     // The spare is for the save after an endless loop, which costs a worker.
@@ -59,7 +59,7 @@ async fn watch(arguments: &Watch) -> Result<Outcome, Fault> {
         language,
         screen: Screen::new(saves.name(), language),
         last: None,
-        outcome: Outcome::Nothing,
+        outcome: ExitStatus::Nothing,
     };
     while !session.screen.is_closed() {
         tokio::select! {
@@ -105,7 +105,7 @@ struct Session {
     screen: Screen,
     /// The report before the next.
     last: Option<Report>,
-    outcome: Outcome,
+    outcome: ExitStatus,
 }
 
 impl Session {
@@ -143,7 +143,8 @@ impl Session {
     fn show(&mut self, report: Report, hand_in: &HandIn) {
         let sources = hand_in.readable();
         let assignment = self.pool.assignment();
-        let view = View { assignment, report: &report, sources: &sources, pictures: None, language: self.language };
+        let view =
+            ReportView { assignment, report: &report, sources: &sources, pictures: None, language: self.language };
         match view.document(Reading::Text, has_colour()) {
             Ok(document) => {
                 let change = self
@@ -152,7 +153,7 @@ impl Session {
                     .map(|last| change::between(assignment, &last.for_student(), &report.for_student()));
                 self.screen.report(&document, change.as_ref().map(|change| change.get(self.language)));
                 let is_correct = report.verdict == Verdict::Correct;
-                self.outcome = if is_correct { Outcome::FullMarks } else { Outcome::Graded };
+                self.outcome = if is_correct { ExitStatus::FullMarks } else { ExitStatus::Graded };
                 self.last = Some(report);
             }
             Err(fault) => self.fault(&fault),

@@ -1,6 +1,6 @@
 //! `ggrade worker`: the child's side of the sandbox.
 
-use super::Outcome;
+use super::ExitStatus;
 use crate::cli::Worker;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -8,7 +8,7 @@ use crate::sandbox::{Attempt, Limits, worker};
 use std::io;
 
 /// Grades what the parent sends until it closes the pipe.
-pub fn run(arguments: &Worker) -> Result<Outcome, Fault> {
+pub fn run(arguments: &Worker) -> Result<ExitStatus, Fault> {
     let job = worker::Job {
         adapter: arguments.adapter,
         limits: Limits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
@@ -16,16 +16,16 @@ pub fn run(arguments: &Worker) -> Result<Outcome, Fault> {
     };
     match arguments.attempt {
         Some(attempt) => try_to_escape(job, attempt),
-        None => worker::run(job).map(|()| Outcome::FullMarks).map_err(|error| broken(&error)),
+        None => worker::run(job).map(|()| ExitStatus::FullMarks).map_err(|error| broken(&error)),
     }
 }
 
-fn try_to_escape(job: worker::Job, attempt: Attempt) -> Result<Outcome, Fault> {
+fn try_to_escape(job: worker::Job, attempt: Attempt) -> Result<ExitStatus, Fault> {
     match worker::attempt(job, attempt).map_err(|error| broken(&error))? {
-        Ok(()) => Ok(Outcome::Graded),
+        Ok(()) => Ok(ExitStatus::Graded),
         Err(error) => {
             anstream::eprintln!("refused: {error}");
-            Ok(Outcome::FullMarks)
+            Ok(ExitStatus::FullMarks)
         }
     }
 }

@@ -7,7 +7,7 @@
 use super::Evidence;
 use super::locate::{given, is_close, is_same};
 use crate::render::Sample;
-use crate::translate::{Given, Interpreter, Place, Value};
+use crate::translate::{Interpreter, Invocation, Site, Value};
 use reference::assignment::RubricLine;
 use reference::fit::TermJudgement;
 use reference::probes::Probe;
@@ -32,7 +32,7 @@ const MOST_CANDIDATES: usize = 24;
 /// A probe, and what the shader computes there when nothing overflows.
 struct Point<'a> {
     probe: &'a Probe,
-    given: Given<'a>,
+    given: Invocation<'a>,
     output: Vec<f64>,
 }
 
@@ -67,12 +67,12 @@ fn points<'a>(evidence: &Evidence<'a>) -> Option<Vec<Point<'a>>> {
     some.map(point).collect()
 }
 
-fn given_at<'a>(evidence: &Evidence<'a>, probe: &Probe) -> Given<'a> {
+fn given_at<'a>(evidence: &Evidence<'a>, probe: &Probe) -> Invocation<'a> {
     given(evidence.assignment, evidence.probes.uniforms(probe), &probe.attributes)
 }
 
 /// The colour that the text computes.
-fn computed(evidence: &Evidence<'_>, given: &Given<'_>) -> Option<Vec<f64>> {
+fn computed(evidence: &Evidence<'_>, given: &Invocation<'_>) -> Option<Vec<f64>> {
     let output = &evidence.assignment.interface.outputs.first()?.name;
     Some(evidence.interpreter?.run(given, output, &mut |_, _| None)?.output)
 }
@@ -91,11 +91,11 @@ pub(super) fn is_finite_nowhere(evidence: &Evidence<'_>) -> bool {
 fn run(
     evidence: &Evidence<'_>,
     interpreter: &Interpreter,
-    given: &Given<'_>,
-    change: &mut dyn FnMut(Place, &Value) -> Option<Value>,
+    given: &Invocation<'_>,
+    change: &mut dyn FnMut(Site, &Value) -> Option<Value>,
 ) -> Option<Vec<f64>> {
     let output = &evidence.assignment.interface.outputs.first()?.name;
-    let mut watch = |place: Place, value: &Value| change(place, value).or_else(|| finite(value));
+    let mut watch = |place: Site, value: &Value| change(place, value).or_else(|| finite(value));
     Some(interpreter.run(given, output, &mut watch)?.output)
 }
 
@@ -133,9 +133,9 @@ struct Search<'s, 'a> {
 
 impl Search<'_, '_> {
     /// Where such a value is computed at a point.
-    fn candidates(&self, point: usize, is_it: &dyn Fn(&Value) -> bool) -> Vec<Place> {
+    fn candidates(&self, point: usize, is_it: &dyn Fn(&Value) -> bool) -> Vec<Site> {
         let mut candidates = Vec::new();
-        let look = &mut |place: Place, value: &Value| {
+        let look = &mut |place: Site, value: &Value| {
             if is_it(value) && candidates.len() < MOST_CANDIDATES {
                 candidates.push(place);
             }
@@ -146,11 +146,11 @@ impl Search<'_, '_> {
     }
 
     /// Whether a place has these values, and the colour moves by exactly what is added to them.
-    fn moves(&self, candidate: Place, values: &[Vec<f64>]) -> bool {
+    fn moves(&self, candidate: Site, values: &[Vec<f64>]) -> bool {
         let mut seen = 0;
         for (point, wanted) in self.points.iter().zip(values) {
             let mut is_wanted = false;
-            let change = &mut |place: Place, value: &Value| {
+            let change = &mut |place: Site, value: &Value| {
                 if place != candidate {
                     return None;
                 }
@@ -170,7 +170,7 @@ impl Search<'_, '_> {
 
     /// Whether the term in this place is the same everywhere, and so is what is added to it before the rest: together they are
     /// a term that is not right.
-    fn has_a_constant_beside(&self, term: Place, terms: &[Vec<f64>]) -> bool {
+    fn has_a_constant_beside(&self, term: Site, terms: &[Vec<f64>]) -> bool {
         let Some(first) = terms.first().filter(|first| terms.iter().all(|term| is_same(term, first))) else {
             return false;
         };
@@ -183,9 +183,9 @@ impl Search<'_, '_> {
     }
 
     /// The colour in a place at the first point, before or after the term is moved.
-    fn value(&self, place: Place, term: Place, is_moved: bool) -> Option<Vec<f64>> {
+    fn value(&self, place: Site, term: Site, is_moved: bool) -> Option<Vec<f64>> {
         let mut found = None;
-        let look = &mut |at: Place, value: &Value| {
+        let look = &mut |at: Site, value: &Value| {
             if at == place {
                 found = value.floats();
             }

@@ -7,7 +7,7 @@ use super::Evidence;
 use super::locate::{Located, Points, Words, given, is_close, is_handed_out, of};
 use crate::language::Text;
 use crate::report::Advice;
-use crate::translate::{Given, Interpreter};
+use crate::translate::{Interpreter, Invocation};
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::advice::Variation;
@@ -62,10 +62,10 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Advice> {
 
 impl Beyond {
     /// What the shader is run with.
-    pub(super) fn given<'a>(&'a self, variation: &'a Variation) -> Given<'a> {
+    pub(super) fn given<'a>(&'a self, variation: &'a Variation) -> Invocation<'a> {
         let kept = self.advice.when.constants.iter().map(|(name, value)| (name.as_str(), of(value)));
         let given = given(&self.assignment, &variation.uniforms, &variation.attributes);
-        Given { kept: kept.collect(), ..given }
+        Invocation { kept: kept.collect(), ..given }
     }
 
     fn advice(&self, evidence: &Evidence<'_>, interpreter: &Interpreter) -> Option<Advice> {

@@ -10,7 +10,7 @@ use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::{Fit, MOST_MISTAKES, TermJudgement, is_right, judge_features, judge_terms, program_of};
-use reference::mistake::Found;
+use reference::mistake::FoundMistake;
 
 const HARD_CODED: &str = "hard-coded";
 const UNEXPLAINED: &str = "unexplained";
@@ -27,7 +27,7 @@ pub(super) enum Cause {
     /// Known mistakes explain every sample, perhaps on top of changed constants.
     Known {
         constants: Vec<ChangedConstant>,
-        found: Vec<Found>,
+        found: Vec<FoundMistake>,
     },
     /// The colour does not come from the equation at all.
     HardCoded,
@@ -44,7 +44,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
     let all_right = is_right(probes, &samples, COLOUR_TOLERANCE);
     if let (true, Some(_), Some(mistake)) = (all_right, evidence.undefined, assignment.undefined_power()) {
-        let found = vec![Found { id: mistake.id.clone(), form: 0, parameter: None }];
+        let found = vec![FoundMistake { id: mistake.id.clone(), form: 0, parameter: None }];
         return Cause::Known { constants: Vec::new(), found };
     }
     if let Some(found) = program(evidence, &samples, all_right && shape) {
@@ -100,7 +100,7 @@ fn unexplained(evidence: &Evidence<'_>, samples: &[[f64; 3]], terms: Vec<TermJud
 }
 
 /// The mistake whose program draws what the shader draws.
-fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Option<Found> {
+fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Option<FoundMistake> {
     let scale = super::position_scale(evidence);
     let is_there = |place: usize, position| {
         let sample = evidence.samples.get(place);
@@ -112,12 +112,13 @@ fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Opt
 
 /// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So
 /// many mistakes together explain much by chance.
-fn is_borne_out(evidence: &Evidence<'_>, found: &[Found]) -> bool {
+fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     let assignment = evidence.assignment;
     let Some(points) = Points::new(evidence, assignment) else { return true };
     let places: Vec<_> = (0..found.len()).map(|index| points.locate(found, index).map(|place| place.line)).collect();
-    let touches = |a: &Found, line: &RubricLine| assignment.keeps(a, line) < 1.0;
-    let share = |a: &Found, b: &Found| assignment.rubric.iter().any(|line| touches(a, line) && touches(b, line));
+    let touches = |a: &FoundMistake, line: &RubricLine| assignment.keeps(a, line) < 1.0;
+    let share =
+        |a: &FoundMistake, b: &FoundMistake| assignment.rubric.iter().any(|line| touches(a, line) && touches(b, line));
     let clash = |a: usize, b: usize| share(&found[a], &found[b]) && places[a] == places[b];
     places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
 }
@@ -129,7 +130,11 @@ fn with_constants(assignment: &Assignment, constants: &[ChangedConstant]) -> Opt
 }
 
 /// The mistakes that explain the samples when the equation has the student's own constants.
-fn explained_by(constants: &[ChangedConstant], evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Vec<Found>> {
+fn explained_by(
+    constants: &[ChangedConstant],
+    evidence: &Evidence<'_>,
+    samples: &[[f64; 3]],
+) -> Option<Vec<FoundMistake>> {
     if constants.is_empty() {
         return None;
     }

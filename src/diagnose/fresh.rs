@@ -6,7 +6,7 @@
 use crate::render::Sample;
 use reference::Assignment;
 use reference::fit::contradicted;
-use reference::mistake::Found;
+use reference::mistake::FoundMistake;
 use reference::probes::{Probe, ProbeSet};
 
 /// A verdict is contradicted if so many of the 20 vertices of every fresh camera contradict it.
@@ -28,7 +28,7 @@ pub struct Fresh<'a> {
 
 impl Fresh<'_> {
     /// Whether what is right with these mistakes in it is far from what the shader computes.
-    pub(super) fn refutes(&self, assignment: &Assignment, found: &[Found], tolerance: f64) -> bool {
+    pub(super) fn refutes(&self, assignment: &Assignment, found: &[FoundMistake], tolerance: f64) -> bool {
         let samples: Vec<[f64; 3]> = self.samples.iter().map(Sample::colour_f64).collect();
         let wrong = contradicted(assignment, found, self.probes, &samples, tolerance);
         self.is_contradicted(|place| wrong[place])

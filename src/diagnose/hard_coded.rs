@@ -5,7 +5,7 @@ use crate::render::Sample;
 use crate::source::Source;
 use reference::Assignment;
 use reference::assignment::RubricLine;
-use reference::mistake::Found;
+use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
 use std::ops::Range;
 
@@ -59,7 +59,7 @@ fn same(a: &Sample, b: &Sample) -> bool {
 /// Whether these mistakes explain a looked-up colour by chance: they were fitted to it, or it is the same everywhere
 /// and they would leave points to a term that varies, of which it shows nothing. (Black is also a product with one factor
 /// missing, and white is everything added up.)
-pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[Found]) -> bool {
+pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[FoundMistake]) -> bool {
     let is_one_colour = samples.iter().all(|sample| same(sample, &samples[0]));
     let leaves = |line: &RubricLine| found.iter().all(|found| assignment.keeps(found, line) > 0.0);
     let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
@@ -68,7 +68,7 @@ pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sam
 }
 
 /// Whether the mistakes leave nothing of the colour, so that they cannot draw a right picture.
-pub fn leaves_nothing(assignment: &Assignment, found: &[Found]) -> bool {
+pub fn leaves_nothing(assignment: &Assignment, found: &[FoundMistake]) -> bool {
     let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
     colours.all(|line| !found.iter().all(|found| assignment.keeps(found, line) > 0.0))
 }

@@ -12,7 +12,7 @@ use crate::translate::{Interpreter, NO_LINE};
 use reference::assignment::RubricLine;
 use reference::equation::DISCARDED;
 use reference::fit::Worst;
-use reference::mistake::{Condition, Found, Mistake};
+use reference::mistake::{Condition, FoundMistake, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
 pub(super) struct Told {
@@ -83,7 +83,7 @@ pub(super) struct Facts {
 
 impl Facts {
     pub fn of(evidence: &Evidence<'_>, cause: &Cause) -> Self {
-        let (changed, found): (&[ChangedConstant], &[Found]) = match cause {
+        let (changed, found): (&[ChangedConstant], &[FoundMistake]) = match cause {
             Cause::Known { constants, found } => (constants, found),
             _ => (&[], &[]),
         };

@@ -5,7 +5,7 @@
 use crate::source::Source;
 use reference::Assignment;
 use reference::fit::{Fit, explain};
-use reference::mistake::{Found, Mistake};
+use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
 
 /// The explanation of the samples; where the text refutes a part of it, another one that needs no more mistakes, if there is one.
@@ -26,7 +26,7 @@ pub fn explained(
 }
 
 /// The assignment without the found mistakes that the text refutes, if there are any.
-fn without_refuted(assignment: &Assignment, source: &Source, found: &[Found]) -> Option<Assignment> {
+fn without_refuted(assignment: &Assignment, source: &Source, found: &[FoundMistake]) -> Option<Assignment> {
     let statements = statements(source);
     let is_refuted = |mistake: &Mistake| {
         let is_found = found.iter().any(|found| found.id == mistake.id && found.parameter.is_none());
@@ -74,7 +74,7 @@ mod tests {
         let code =
             format!("const vec4 kspec = vec4(0.4);\nconst vec4 lspec = vec4(1);\nvoid main() {{\n  {statement}\n}}\n");
         let source = source::read("a.vert", code.as_bytes()).expect("a vertex shader");
-        let found = [Found { id: id.into(), form: 0, parameter: None }];
+        let found = [FoundMistake { id: id.into(), form: 0, parameter: None }];
         without_refuted(reference::assignment("ggsample06").unwrap(), &source, &found).is_some()
     }
 

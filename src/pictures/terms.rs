@@ -6,7 +6,7 @@ use crate::report::{Hypothesis, Picture, TermPictures};
 use crate::source::Source;
 use reference::Assignment;
 use reference::assignment::RubricLine;
-use reference::mistake::Found;
+use reference::mistake::FoundMistake;
 use reference::rasteriser::ClipVertex;
 use reference::scene::Pose;
 use std::sync::{Arc, Mutex};
@@ -17,7 +17,7 @@ pub struct Terms<'a> {
     assignment: &'a Assignment,
     /// The assignment with the submission's constants, where its equation is known.
     theirs: Option<Assignment>,
-    found: Vec<Found>,
+    found: Vec<FoundMistake>,
     is_right: bool,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Terms<'a> {
     pub fn of(assignment: &'a Assignment, explanation: Option<&[Hypothesis]>, source: Option<&Source>) -> Self {
         let changed = source.map(|source| constants::changed(source, assignment)).unwrap_or_default();
         let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
-        let found = |h: &Hypothesis| Found { id: h.id.clone(), form: h.form, parameter: h.parameter };
+        let found = |h: &Hypothesis| FoundMistake { id: h.id.clone(), form: h.form, parameter: h.parameter };
         Self {
             assignment,
             theirs: explanation.and_then(|_| assignment.with_constants(&values).ok()),

@@ -15,12 +15,12 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Paints frames.
 #[derive(Debug, Default)]
 pub(super) struct Painter {
-    target: Option<Target>,
+    target: Option<RenderTarget>,
 }
 
 /// The texture of all frames, kept from one submission to the next. Every pass clears it.
 #[derive(Debug)]
-pub(super) struct Target {
+pub(super) struct RenderTarget {
     tiles: Tiles,
     texture: wgpu::Texture,
     depth: Option<wgpu::Texture>,
@@ -59,7 +59,7 @@ impl Painter {
         scene: &Scene,
         textures: Option<&wgpu::Buffer>,
         tiles: &Tiles,
-    ) -> (&mut Target, FragmentData) {
+    ) -> (&mut RenderTarget, FragmentData) {
         let is_tested = |draw: &Batch| draw.state.depth_test.is_some();
         let has_depth = stage.writes_depth || scene.frames.iter().flatten().any(is_tested);
         let target = match self.target.take() {
@@ -70,7 +70,7 @@ impl Painter {
             {
                 target
             }
-            _ => Target::new(&device.device, tiles.clone(), has_depth),
+            _ => RenderTarget::new(&device.device, tiles.clone(), has_depth),
         };
         let target = self.target.insert(target);
         let draws: Vec<&Batch> = scene.frames.iter().flatten().collect();
@@ -95,7 +95,7 @@ impl Painter {
     }
 }
 
-impl Target {
+impl RenderTarget {
     fn new(device: &wgpu::Device, tiles: Tiles, has_depth: bool) -> Self {
         let texture = |label, format, usage| {
             device.create_texture(&wgpu::TextureDescriptor {

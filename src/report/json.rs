@@ -18,18 +18,18 @@ pub fn render(report: &Report, language: Language) -> String {
 }
 
 /// The same object, to be embedded in a larger answer, as its student may see it ([`Report::for_student`]).
-pub fn view(report: &Report, language: Language) -> View<'_> {
+pub fn view(report: &Report, language: Language) -> JsonReport<'_> {
     let view = staff_view(report, language);
     if report.hints > Hints::None {
         return view;
     }
     let rubric = view.rubric.into_iter().map(|line| Rubric { mistake: None, file: None, line: None, ..line });
-    View { rubric: rubric.collect(), mistakes: &[], ..view }
+    JsonReport { rubric: rubric.collect(), mistakes: &[], ..view }
 }
 
 /// The same object with all that a teacher may see.
-pub fn staff_view(report: &Report, language: Language) -> View<'_> {
-    View {
+pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
+    JsonReport {
         schema: SCHEMA,
         assignment: &report.assignment,
         assignment_digest: &report.assignment_digest,
@@ -71,7 +71,7 @@ impl Serialize for Number {
 /// A report in the shape of the contract.
 #[derive(Debug, Serialize, utoipa::ToSchema)]
 #[schema(as = Report)]
-pub struct View<'a> {
+pub struct JsonReport<'a> {
     schema: &'static str,
     assignment: &'a str,
     assignment_digest: &'a str,

@@ -4,7 +4,7 @@ use super::channel::{Channel, Lost};
 use super::ending::Ending;
 use super::library::{Library, Turn};
 use super::protection::{Policy, Protection};
-use super::protocol::{self, Body, Demand, Hello, Load, Longest, Outcome, Reply, Request};
+use super::protocol::{self, Answered, Body, Demand, Hello, Load, Longest, Reply, Request};
 use super::{Settings, environment, memory, schedule};
 use crate::expected::Pack;
 use crate::fault::Fault;
@@ -165,9 +165,9 @@ impl Worker {
             failed(cannot_read(assignment, format!("{how} {}", self.channel.tail()).trim_end()), true)
         })?;
         match reply.outcome {
-            Outcome::Loaded => {}
-            Outcome::Failed(fault) => return Err(failed(fault, false)),
-            Outcome::Graded { .. } => return Err(failed(cannot_read(assignment, "another answer"), true)),
+            Answered::Loaded => {}
+            Answered::Failed(fault) => return Err(failed(fault, false)),
+            Answered::Graded { .. } => return Err(failed(cannot_read(assignment, "another answer"), true)),
         }
         if let Turn::ForAll(maker) = turn {
             maker.done(assignment, (!body.is_empty()).then(|| Pack::of_bytes(&body)), settings);

@@ -3,8 +3,8 @@
 use super::child::Worker;
 use super::ending::{Blame, Ending};
 use super::protection::Protection;
-use super::protocol::{Outcome, Reply, Request, Tile};
-use super::roster::{Place, Roster, Wanted};
+use super::protocol::{Answered, Reply, Request, Tile};
+use super::roster::{Roster, Wanted, WorkerPermit};
 use super::{Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
@@ -39,7 +39,7 @@ pub struct Submission<'a> {
 
 /// A graded submission.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct GradedSubmission {
     /// The report.
     pub report: Report,
     /// The student's frames, where they were wanted and drawn.
@@ -102,7 +102,7 @@ impl Pool {
     }
 
     /// Grades one submission. A fault is ours; whatever the file does to a worker is a verdict.
-    pub fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
+    pub fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
         let place = self.roster.place();
         let mut grading = Grading { pool: self, place, submission, blamed: None };
         let mut wanted = Wanted::Any;
@@ -159,14 +159,14 @@ impl Submission<'_> {
 /// One submission on its way through one or more workers.
 struct Grading<'a> {
     pool: &'a Pool,
-    place: Place<'a>,
+    place: WorkerPermit<'a>,
     submission: Submission<'a>,
     /// An ending that a fresh worker has to confirm, and when the attempt began that ended so.
     blamed: Option<(Ending, Instant)>,
 }
 
 enum Attempted {
-    Done(Box<Answer>),
+    Done(Box<GradedSubmission>),
     /// No verdict yet; the fault if no further attempt is made.
     NotDone(Fault),
 }
@@ -206,12 +206,12 @@ impl Grading<'_> {
 
     fn answered(&mut self, worker: Worker, was_fresh: bool, reply: Reply, body: &[u8]) -> Result<Attempted, Fault> {
         let (report, frames) = match reply.outcome {
-            Outcome::Graded { report, frames } => (*report, self.submission.paste(&frames, body)),
-            Outcome::Loaded => {
+            Answered::Graded { report, frames } => (*report, self.submission.paste(&frames, body)),
+            Answered::Loaded => {
                 self.place.give_up(worker);
                 return Ok(Attempted::NotDone(Ending::Garbled("the answer to another question".into()).fault()));
             }
-            Outcome::Failed(fault) => {
+            Answered::Failed(fault) => {
                 self.place.give_up(worker);
                 if let Some(shortage) = self.shortage(&fault.message).filter(|_| is_for_want_of_memory(&fault)) {
                     return Err(shortage);
@@ -230,7 +230,7 @@ impl Grading<'_> {
         } else {
             self.place.give_back(worker);
         }
-        Ok(Attempted::Done(Box::new(Answer { report, frames })))
+        Ok(Attempted::Done(Box::new(GradedSubmission { report, frames })))
     }
 
     fn ended(
@@ -265,7 +265,7 @@ impl Grading<'_> {
         };
         let mut report = self.pool.stopped(self.submission, &ending, environment);
         report.elapsed_ms = began.elapsed().as_secs_f64() * 1e3;
-        Ok(Attempted::Done(Box::new(Answer { report, frames: Vec::new() })))
+        Ok(Attempted::Done(Box::new(GradedSubmission { report, frames: Vec::new() })))
     }
 
     /// The fault where this machine gives a grading less memory than it is promised.

@@ -125,12 +125,12 @@ pub(super) struct Reply {
     pub id: u64,
     /// The worker has grown so much that another should take its place.
     pub spent: bool,
-    pub outcome: Outcome,
+    pub outcome: Answered,
 }
 
 /// How it ended inside the worker.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) enum Outcome {
+pub(super) enum Answered {
     /// The assignment is read; the body is its packed pictures, where they are wanted.
     Loaded,
     Graded {

@@ -65,7 +65,7 @@ struct State {
 
 /// The right to have one worker at a time.
 #[derive(Debug)]
-pub(super) struct Place<'a> {
+pub(super) struct WorkerPermit<'a> {
     shared: &'a Shared,
 }
 
@@ -95,13 +95,13 @@ impl Roster {
     }
 
     /// Waits for a place.
-    pub fn place(&self) -> Place<'_> {
+    pub fn place(&self) -> WorkerPermit<'_> {
         let mut state = self.shared.lock();
         while state.places_taken >= self.shared.places {
             state = self.shared.wait(state);
         }
         state.places_taken += 1;
-        Place { shared: &self.shared }
+        WorkerPermit { shared: &self.shared }
     }
 
     /// What holds the workers, and the processes of those that wait for work.
@@ -131,7 +131,7 @@ impl Drop for Roster {
     }
 }
 
-impl Place<'_> {
+impl WorkerPermit<'_> {
     /// Takes a worker, waiting for one to be started where none is ready.
     pub fn take(&self, wanted: Wanted) -> Result<Worker, Fault> {
         let mut state = self.shared.lock();
@@ -183,7 +183,7 @@ impl Place<'_> {
     }
 }
 
-impl Drop for Place<'_> {
+impl Drop for WorkerPermit<'_> {
     fn drop(&mut self) {
         self.shared.lock().places_taken -= 1;
         self.shared.changed.notify_all();

@@ -4,7 +4,7 @@
 use super::confine::{self, Confined, Meter, lower};
 use super::preflight::{self, Attempt};
 use super::protection::{Layer, Protection};
-use super::protocol::{Demand, Hello, Load, Outcome, REQUEST, Reply, Request, Tile, receive, send};
+use super::protocol::{Answered, Demand, Hello, Load, REQUEST, Reply, Request, Tile, receive, send};
 use super::{Limits, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
@@ -125,8 +125,8 @@ impl Desk {
         let loaded = self.read(load, folder, pictures);
         self.size = self.size.max(self.meter.size()?);
         let (outcome, pack) = match loaded {
-            Ok(pack) => (Outcome::Loaded, pack),
-            Err(fault) => (Outcome::Failed(fault), None),
+            Ok(pack) => (Answered::Loaded, pack),
+            Err(fault) => (Answered::Failed(fault), None),
         };
         let body = pack.as_ref().map(Pack::bytes).unwrap_or_default();
         let reply = Reply { id: load.id, spent: false, outcome };
@@ -163,12 +163,12 @@ impl Desk {
         let output = &mut self.output;
         let Graded { report, frames } = match graded {
             Ok(graded) => graded,
-            Err(fault) => return send(output, &reply(Outcome::Failed(fault)), 0, |_| Ok(())),
+            Err(fault) => return send(output, &reply(Answered::Failed(fault)), 0, |_| Ok(())),
         };
         let frames = frames.filter(|_| request.wants_frames).unwrap_or_default();
         let tiles = tiles(&frames);
         let length = tiles.iter().map(|tile| tile.width as usize * tile.height as usize * 4).sum();
-        let graded = Outcome::Graded { report: Box::new(report), frames: tiles.clone() };
+        let graded = Answered::Graded { report: Box::new(report), frames: tiles.clone() };
         // Row by row from where the device left them: a copy of all would be as large as everything else.
         send(output, &reply(graded), length, |to| {
             for (index, tile) in (0..).zip(&tiles) {

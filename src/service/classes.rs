@@ -9,7 +9,7 @@ pub use download::{Download, Pick, Steps, Wanted, Whose, download, is_slow, lang
 pub use jobs::{Job, Jobs};
 #[cfg(test)]
 pub(in crate::service) use people::samples;
-pub use people::{People, Person, Standing, of_batch, people};
+pub use people::{People, Person, PersonStanding, of_batch, people};
 
 use super::State;
 use super::errors::Problem;

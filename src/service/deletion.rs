@@ -3,13 +3,13 @@
 use super::Service;
 use super::errors::Problem;
 use super::roster::Matcher;
-use super::store::{Counts, Target};
+use super::store::{Counts, DeletionTarget};
 
 /// Deletes it for good: rows, files, reports, and the pictures that are kept of them. The log has how much it was, and
 /// nothing of whose.
-pub async fn delete(service: &Service, target: &Target) -> Result<Counts, Problem> {
+pub async fn delete(service: &Service, target: &DeletionTarget) -> Result<Counts, Problem> {
     let refused = match target {
-        Target::Student(id) => refused_without(service, id).await?,
+        DeletionTarget::Student(id) => refused_without(service, id).await?,
         _ => Vec::new(),
     };
     let (counts, files) = service.store.delete(target, &refused, service.clock.now()).await?;

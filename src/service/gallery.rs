@@ -27,7 +27,8 @@ const ROOM: u64 = 96 << 20;
 /// Which pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum View {
+#[schema(as = View)]
+pub enum PictureSet {
     /// What the student's shader draws.
     #[default]
     Yours,
@@ -49,11 +50,11 @@ struct Key {
     assignment: String,
     /// The digest of the hand-in; empty for pictures of a right answer.
     sha256: String,
-    kind: Kind,
+    kind: GalleryItem,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-enum Kind {
+enum GalleryItem {
     /// Each pose as the shader draws it.
     Frames,
     /// Where each pose differs.
@@ -61,7 +62,7 @@ enum Kind {
     /// The two sheets of the moving pictures: yours, difference.
     Film,
     /// All poses as one animated PNG.
-    Animation(View),
+    Animation(PictureSet),
     /// What a report says of the file, in pictures: which, and the part of the report that they show.
     Report(String),
 }
@@ -116,7 +117,7 @@ impl Default for Gallery {
 }
 
 impl Key {
-    fn new(state: &State, sha256: &str, kind: Kind) -> Self {
+    fn new(state: &State, sha256: &str, kind: GalleryItem) -> Self {
         Self { assignment: state.assignment.digest.clone(), sha256: sha256.to_owned(), kind }
     }
 }
@@ -138,7 +139,7 @@ impl Gallery {
             })
             .await
         };
-        self.once(Key::new(state, &submission.sha256, Kind::Frames), run).await
+        self.once(Key::new(state, &submission.sha256, GalleryItem::Frames), run).await
     }
 
     /// Does work that takes a worker and that nobody who hands in waits for: one at a time.
@@ -162,7 +163,7 @@ impl Gallery {
         &self,
         state: &State,
         submission: &Submission,
-        kind: Kind,
+        kind: GalleryItem,
         make: impl FnOnce(Vec<Picture>, &Arc<[Picture]>) -> Result<Pngs, Fault> + Send + 'static,
     ) -> Result<Arc<Pngs>, Problem> {
         let frames = self.frames(state, submission).await?;
@@ -178,20 +179,20 @@ impl Gallery {
         &self,
         state: &State,
         submission: &Submission,
-        view: View,
+        view: PictureSet,
         index: usize,
     ) -> Result<Option<Vec<u8>>, Problem> {
         let all = match view {
-            View::Expected => return blocking(state, move |state| state.right.pose(index)).await,
-            View::Yours | View::All => self.frames(state, submission).await?,
-            View::Difference => {
+            PictureSet::Expected => return blocking(state, move |state| state.right.pose(index)).await,
+            PictureSet::Yours | PictureSet::All => self.frames(state, submission).await?,
+            PictureSet::Difference => {
                 let differences = |yours: Vec<Picture>, expected: &Arc<[Picture]>| {
                     yours.iter().zip(expected.iter()).map(|(a, b)| pictures::difference_png(a, b)).collect()
                 };
-                self.made_of_frames(state, submission, Kind::Differences, differences).await?
+                self.made_of_frames(state, submission, GalleryItem::Differences, differences).await?
             }
         };
-        if view != View::All {
+        if view != PictureSet::All {
             return Ok(all.get(index).cloned());
         }
         blocking(state, move |state| {
@@ -210,11 +211,11 @@ impl Gallery {
         &self,
         state: &State,
         submission: &Submission,
-        view: View,
+        view: PictureSet,
     ) -> Result<Option<Vec<u8>>, Problem> {
-        let kind = Kind::Animation(view);
+        let kind = GalleryItem::Animation(view);
         let cycle = state.assignment.scene.cycle;
-        let drawn = if view == View::Expected {
+        let drawn = if view == PictureSet::Expected {
             let make = blocking(state, move |state| {
                 Ok(vec![pictures::animated(&expected_pictures(&state.assignment), cycle)?])
             });
@@ -223,9 +224,9 @@ impl Gallery {
             let make = move |yours, expected: &Arc<[Picture]>| {
                 let pictures = Pictures { yours, expected: Arc::clone(expected), terms: Arc::default(), cycle };
                 Ok(vec![match view {
-                    View::Difference => pictures::animated(&differences(&pictures)?, cycle)?,
-                    View::All => pictures::animation(&pictures)?,
-                    View::Yours | View::Expected => pictures::animated(&pictures.yours, cycle)?,
+                    PictureSet::Difference => pictures::animated(&differences(&pictures)?, cycle)?,
+                    PictureSet::All => pictures::animation(&pictures)?,
+                    PictureSet::Yours | PictureSet::Expected => pictures::animated(&pictures.yours, cycle)?,
                 }])
             };
             self.made_of_frames(state, submission, kind, make).await?
@@ -239,7 +240,7 @@ impl Gallery {
             let film = Film::of(&yours, expected, 1)?;
             Ok(film.map(|film| vec![film.yours, film.difference]).unwrap_or_default())
         };
-        self.made_of_frames(state, submission, Kind::Film, make).await
+        self.made_of_frames(state, submission, GalleryItem::Film, make).await
     }
 
     /// What was drawn, as a report's own page takes it; empty where nothing was.
@@ -257,7 +258,7 @@ impl Gallery {
         draw: impl FnOnce(&State) -> Result<Option<Vec<u8>>, Fault> + Send + 'static,
     ) -> Result<Arc<Pngs>, Problem> {
         let make = blocking(state, move |state| Ok(draw(state)?.into_iter().collect()));
-        self.once(Key::new(state, sha256, Kind::Report(shown)), make).await
+        self.once(Key::new(state, sha256, GalleryItem::Report(shown)), make).await
     }
 
     /// The small picture of a submission for class tables, a PNG: kept in the database, since a table shows hundreds. None

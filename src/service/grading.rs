@@ -9,19 +9,19 @@ mod queue;
 
 pub use cross_checks::CrossChecks;
 pub use graders::Graders;
-pub use queue::{Full, Job, Outcome, Queue};
+pub use queue::{Full, GradingResult, Job, Queue};
 
 use crate::fault::Fault;
-use crate::sandbox::{Answer, Pool, Submission};
+use crate::sandbox::{GradedSubmission, Pool, Submission};
 
 /// What grades a file: the pool of workers, or what a test puts in its place.
 pub trait Judge: Send + Sync + std::fmt::Debug {
     /// Grades one file; may take until the deadline.
-    fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault>;
+    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault>;
 }
 
 impl Judge for Pool {
-    fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
+    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
         Self::grade(self, submission)
     }
 }

@@ -26,13 +26,13 @@ const LONGEST: usize = 255;
 
 /// A key as a client gives it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Given {
+pub struct RequestKey {
     text: String,
     /// By which somebody is told from others who is known by nothing else.
     address: String,
 }
 
-impl Given {
+impl RequestKey {
     /// The key of a request, in its header or else in a field of its form; none where it has none.
     ///
     /// The draft has it in quotes, as a structured field's string. Most clients leave them out, and are understood.
@@ -114,7 +114,7 @@ mod tests {
             headers.append(HEADER, HeaderValue::from_static(value));
         }
         let client = Client { address: [192, 0, 2, 1].into(), is_local: false };
-        Given::read(&headers, field, &client).map(|given| given.map(|given| given.text))
+        RequestKey::read(&headers, field, &client).map(|given| given.map(|given| given.text))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Figures for Prometheus.
 
 use super::Service;
-use super::grading::Outcome;
+use super::grading::GradingResult;
 use super::store::{Submission, word};
 use crate::cross_check::Opinion;
 use metrics::Label;
@@ -46,10 +46,10 @@ fn describe() {
 }
 
 /// Counts a grading.
-pub(super) fn graded(submission: &Submission, outcome: Option<&Outcome>) {
+pub(super) fn graded(submission: &Submission, outcome: Option<&GradingResult>) {
     let verdict = match outcome {
-        Some(Outcome::Graded(report)) => word(&report.verdict),
-        Some(Outcome::Failed(_)) => "fault".into(),
+        Some(GradingResult::Graded(report)) => word(&report.verdict),
+        Some(GradingResult::Failed(_)) => "fault".into(),
         None => "unstored".into(),
     };
     let labels = [of(submission), via(submission), Label::new("verdict", verdict)];

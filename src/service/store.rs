@@ -22,7 +22,7 @@ mod submissions;
 
 pub use assignments::{Assignment, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
-pub use deletions::{Counts, Deletion, Target};
+pub use deletions::{Counts, Deletion, DeletionTarget};
 pub use keys::{Key, KeyResult};
 pub use open::Location;
 pub use owners::Owner;

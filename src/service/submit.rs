@@ -3,13 +3,13 @@
 use super::State;
 use super::clock::millis;
 use super::errors::Problem;
-use super::grading::{Job, Outcome};
+use super::grading::{GradingResult, Job};
 use super::idempotency;
 use super::identity::{Identity, new_id};
 use super::roster::not_on_roster;
 use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
 use super::{Config, metrics, store};
-use crate::batch::intake::{self, Content, Given};
+use crate::batch::intake::{self, Content, HandInPart};
 use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -41,7 +41,7 @@ pub struct Upload {
     /// How much the messages shall help; never more than the course allows.
     pub hints: Option<Hints>,
     /// The key with which it may come again.
-    pub key: Option<idempotency::Given>,
+    pub key: Option<idempotency::RequestKey>,
 }
 
 /// A hand-in that is stored.
@@ -50,14 +50,14 @@ pub struct Receipt {
     /// What was stored.
     pub submission: Submission,
     /// What came of it, where that was known in time.
-    pub outcome: Option<Outcome>,
+    pub outcome: Option<GradingResult>,
 }
 
 impl Receipt {
     /// The report, where it was made in time.
     pub fn report(&self) -> Option<&Arc<Report>> {
         match &self.outcome {
-            Some(Outcome::Graded(report)) => Some(report),
+            Some(GradingResult::Graded(report)) => Some(report),
             _ => None,
         }
     }
@@ -65,7 +65,7 @@ impl Receipt {
     /// Our failure, where it was met in time.
     pub fn fault(&self) -> Option<&Arc<Fault>> {
         match &self.outcome {
-            Some(Outcome::Failed(fault)) => Some(fault),
+            Some(GradingResult::Failed(fault)) => Some(fault),
             _ => None,
         }
     }
@@ -91,7 +91,7 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
 }
 
 /// The key of an upload: everything counts that makes another upload of it.
-fn key(state: &State, given: &idempotency::Given, upload: &Upload) -> Key {
+fn key(state: &State, given: &idempotency::RequestKey, upload: &Upload) -> Key {
     let Upload { hand_in, identity, via, hints, .. } = upload;
     let parts = [&state.assignment.id, &hand_in.names(), &store::word(via), &store::word(hints), &hand_in.sha256()];
     given.of_student(identity, &parts.map(String::as_str))
@@ -104,15 +104,15 @@ async fn stored_earlier(state: &State, key: Option<&Key>) -> Result<Option<Recei
     let mut listener = state.queue.listen(&id);
     let Some(Stored { submission, report, .. }) = state.store.stored(&id).await? else { return Ok(None) };
     let outcome = match (report, &submission.fault) {
-        (Some(report), _) => Some(Outcome::Graded(Arc::new(report))),
-        (None, Some(fault)) => Some(Outcome::Failed(Arc::new(fault.clone()))),
+        (Some(report), _) => Some(GradingResult::Graded(Arc::new(report))),
+        (None, Some(fault)) => Some(GradingResult::Failed(Arc::new(fault.clone()))),
         (None, None) => in_time(state, &mut listener).await,
     };
     Ok(Some(Receipt { submission, outcome }))
 }
 
 /// What comes of a file, where it comes in time.
-async fn in_time(state: &State, listener: &mut broadcast::Receiver<Outcome>) -> Option<Outcome> {
+async fn in_time(state: &State, listener: &mut broadcast::Receiver<GradingResult>) -> Option<GradingResult> {
     tokio::select! {
         outcome = listener.recv() => outcome.ok(),
         () = tokio::time::sleep(Config::span(state.config.wait)) => None,
@@ -181,9 +181,9 @@ pub(super) async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Pro
     let assignment = Arc::clone(&state.assignment);
     let names = sent.files.into_iter().zip(0..).map(move |(file, index)| {
         let name = file_name(&file.name, assignment.files.get(index));
-        Given::File { file: HandedInFile { name, ..file }, local: None }
+        HandInPart::File { file: HandedInFile { name, ..file }, local: None }
     });
-    let given: Vec<Given> = names.collect();
+    let given: Vec<HandInPart> = names.collect();
     let options = intake::Options::new(&state.assignment);
     let chosen = tokio::task::spawn_blocking(move || intake::one(given, &options));
     let hand_in = match chosen.await.map_err(|panic| Problem::internal(&panic))? {
@@ -345,7 +345,7 @@ async fn keep_known(
     if report.cross_check.take().is_none() {
         state.cross_checks.expect(&submission, &report);
     }
-    Ok(Some(Receipt { submission, outcome: Some(Outcome::Graded(Arc::new(report))) }))
+    Ok(Some(Receipt { submission, outcome: Some(GradingResult::Graded(Arc::new(report))) }))
 }
 
 fn submission_of(new: &NewSubmission, state: store::State) -> Submission {

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 /// What a compiler makes of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Standing {
+pub(super) enum LineState {
     /// It is compiled.
     Compiled,
     /// That hangs on a condition which only the compiler can decide.
@@ -16,7 +16,7 @@ pub(super) enum Standing {
 
 /// One open `#if`.
 struct Conditional {
-    outside: Standing,
+    outside: LineState,
     /// Whether one of its branches is compiled already, as far as that is known.
     taken: Option<bool>,
 }
@@ -25,16 +25,16 @@ struct Conditional {
 struct Preprocessor<'a> {
     /// The words that stand anywhere but in conditions and as the name that is defined.
     uses: HashSet<&'a str>,
-    standing: Standing,
+    standing: LineState,
     open: Vec<Conditional>,
     /// Macros of the file: whether they are defined here, `None` where a condition decides.
     macros: HashMap<String, Option<bool>>,
 }
 
 /// The standing of each line of `code`, which has no comments.
-pub(super) fn standings(code: &str) -> Vec<Standing> {
+pub(super) fn standings(code: &str) -> Vec<LineState> {
     let mut preprocessor =
-        Preprocessor { uses: uses(code), standing: Standing::Compiled, open: Vec::new(), macros: HashMap::new() };
+        Preprocessor { uses: uses(code), standing: LineState::Compiled, open: Vec::new(), macros: HashMap::new() };
     let mut standings = Vec::new();
     let mut lines = code.lines().peekable();
     while let Some(first) = lines.next() {
@@ -67,7 +67,7 @@ fn uses(code: &str) -> HashSet<&str> {
 
 impl Preprocessor<'_> {
     /// Takes one line, continuations joined, and says how it stands.
-    fn line(&mut self, line: &str) -> Standing {
+    fn line(&mut self, line: &str) -> LineState {
         let blank = |c: char| matches!(c, ' ' | '\t' | '\u{B}' | '\u{C}');
         let Some(directive) = line.trim_start_matches(blank).strip_prefix('#') else {
             return self.standing;
@@ -83,10 +83,10 @@ impl Preprocessor<'_> {
             "elif" => return self.branch(decide(rest, &self.macros)),
             "else" => return self.branch(Some(true)),
             "endif" => self.standing = self.open.pop().map_or(self.standing, |conditional| conditional.outside),
-            "define" | "undef" if here != Standing::Skipped => {
+            "define" | "undef" if here != LineState::Skipped => {
                 return self.define(name == "define", rest);
             }
-            "error" | "pragma" => return Standing::Skipped,
+            "error" | "pragma" => return LineState::Skipped,
             _ => return here,
         }
         if name == "endif" { self.standing } else { here }
@@ -98,7 +98,7 @@ impl Preprocessor<'_> {
     }
 
     /// `#elif` and `#else`; answers how the directive itself stands.
-    fn branch(&mut self, condition: Option<bool>) -> Standing {
+    fn branch(&mut self, condition: Option<bool>) -> LineState {
         let Some(conditional) = self.open.last_mut() else {
             return self.standing;
         };
@@ -116,13 +116,13 @@ impl Preprocessor<'_> {
         conditional.outside
     }
 
-    fn define(&mut self, defined: bool, rest: &str) -> Standing {
+    fn define(&mut self, defined: bool, rest: &str) -> LineState {
         let Some(name) = first_word(rest) else {
             return self.standing;
         };
-        let certain = self.standing == Standing::Compiled;
+        let certain = self.standing == LineState::Compiled;
         self.macros.insert(name.to_owned(), certain.then_some(defined));
-        if self.uses.contains(name) { self.standing } else { Standing::Skipped }
+        if self.uses.contains(name) { self.standing } else { LineState::Skipped }
     }
 
     fn is_defined(&self, name: &str) -> Option<bool> {
@@ -130,11 +130,11 @@ impl Preprocessor<'_> {
     }
 }
 
-fn inside(outside: Standing, condition: Option<bool>) -> Standing {
+fn inside(outside: LineState, condition: Option<bool>) -> LineState {
     match (outside, condition) {
-        (Standing::Skipped, _) | (_, Some(false)) => Standing::Skipped,
-        (Standing::Undecided, _) | (_, None) => Standing::Undecided,
-        (Standing::Compiled, Some(true)) => Standing::Compiled,
+        (LineState::Skipped, _) | (_, Some(false)) => LineState::Skipped,
+        (LineState::Undecided, _) | (_, None) => LineState::Undecided,
+        (LineState::Compiled, Some(true)) => LineState::Compiled,
     }
 }
 
@@ -178,9 +178,9 @@ mod tests {
     /// One letter a line: Compiled, Undecided, Skipped.
     fn letters(code: &str) -> String {
         let letter = |standing| match standing {
-            Standing::Compiled => 'C',
-            Standing::Undecided => 'U',
-            Standing::Skipped => 'S',
+            LineState::Compiled => 'C',
+            LineState::Undecided => 'U',
+            LineState::Skipped => 'S',
         };
         standings(code).into_iter().map(letter).collect()
     }

@@ -3,7 +3,7 @@
 mod wording;
 
 use super::Source;
-use super::directives::{Standing, standings};
+use super::directives::{LineState, standings};
 use super::encoding::Encoding;
 use super::lookalikes::{ascii_for, is_bidi, is_invisible, is_space};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -23,14 +23,14 @@ struct CharacterRun<'a> {
 /// Errors and warnings about the code of `source`.
 pub(super) fn in_code(source: &Source) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let standings = standings(source.code());
-    let standing = |run: &CharacterRun| standings.get(run.line as usize - 1).copied().unwrap_or(Standing::Compiled);
+    let standing = |run: &CharacterRun| standings.get(run.line as usize - 1).copied().unwrap_or(LineState::Compiled);
     let (errors, mut warnings): (Vec<_>, Vec<_>) =
-        runs(source).into_iter().partition(|run| standing(run) == Standing::Compiled);
+        runs(source).into_iter().partition(|run| standing(run) == LineState::Compiled);
     // One word a line is enough where nothing is wrong.
-    warnings.dedup_by(|next, run| standing(run) == Standing::Skipped && next.line == run.line);
+    warnings.dedup_by(|next, run| standing(run) == LineState::Skipped && next.line == run.line);
     let errors = bounded(Severity::Error, &errors, told);
     let warnings = bounded(Severity::Warning, &warnings, |run| match standing(run) {
-        Standing::Skipped => skipped(run),
+        LineState::Skipped => skipped(run),
         _ => told(run),
     });
     let place = |diagnostics: Vec<(Option<usize>, Diagnostic)>| {

@@ -1,6 +1,6 @@
 //! What this compiler refuses and drivers take: the text is changed so that it takes it too.
 
-use super::glslang::Outcome;
+use super::glslang::CompilerOutput;
 use super::log::{self, Entry};
 use super::{spirv, text};
 use crate::diagnostic::{Diagnostic, Stage};
@@ -25,7 +25,7 @@ pub(super) struct Renamed {
 }
 
 /// What the compiler says, in the student's own names.
-pub(super) fn in_own_names(outcome: &mut Outcome, renamed: &[Renamed]) {
+pub(super) fn in_own_names(outcome: &mut CompilerOutput, renamed: &[Renamed]) {
     for Renamed { own, ours } in renamed {
         for log in [&mut outcome.link_log].into_iter().chain(outcome.logs.iter_mut().map(|(_, log)| log)) {
             let places: Vec<usize> = text::words(log).filter(|(_, word)| word == ours).map(|(at, _)| at).collect();

@@ -10,13 +10,13 @@
 //! Straight code needs no fuel: [`super::gate`] bounds how much of it there is, all calls inlined.
 
 mod lines;
+mod out_of_fuel_message;
 mod refit;
 mod tank;
-mod told;
 mod total;
 
+pub(super) use out_of_fuel_message::out_of_fuel;
 pub(super) use tank::run;
-pub(super) use told::out_of_fuel;
 pub(super) use total::settle;
 
 use super::gate::{Costs, each_statement};

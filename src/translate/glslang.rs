@@ -31,7 +31,7 @@ pub enum Reached {
 
 /// What the compiler says about the stages of a program.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CompilerOutput {
     /// How far it came.
     pub reached: Reached,
     /// Its log about each stage, as it wrote it, in the order of the request.
@@ -42,7 +42,7 @@ pub struct Outcome {
     pub spirv: Vec<u32>,
 }
 
-impl Outcome {
+impl CompilerOutput {
     /// The log about a stage; empty where it was not asked for.
     pub fn log(&self, stage: Stage) -> &str {
         self.logs.iter().find(|(one, _)| *one == stage).map_or("", |(_, log)| log)
@@ -81,13 +81,14 @@ pub struct Request<'a> {
 }
 
 /// Compiles the stages and links them; under [`Rules::SpirV`] also writes SPIR-V.
-pub fn compile(request: &Request<'_>) -> Outcome {
+pub fn compile(request: &Request<'_>) -> CompilerOutput {
     static PROCESS: OnceLock<()> = OnceLock::new();
     PROCESS.get_or_init(|| {
         // SAFETY: called once, before any other call into glslang; it has no other precondition.
         unsafe { sys::glslang_initialize_process() };
     });
-    let mut outcome = Outcome { reached: Reached::Link, logs: Vec::new(), link_log: String::new(), spirv: Vec::new() };
+    let mut outcome =
+        CompilerOutput { reached: Reached::Link, logs: Vec::new(), link_log: String::new(), spirv: Vec::new() };
     let mut shaders = Vec::with_capacity(request.stages.len());
     for text in request.stages {
         let shader = Shader::new(request.rules, text);

@@ -31,7 +31,7 @@ use super::log::Entry;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Text;
 use std::ops::Range;
-pub use tokens::{Kind, Token, tokens};
+pub use tokens::{Lexeme, LexemeKind, tokens};
 
 /// A message of the compiler with its place in the file.
 #[derive(Clone, Debug)]
@@ -131,7 +131,7 @@ pub fn declared_in_statement<'a>(file: &File<'a>, finding: &Finding<'_, '_>) -> 
 
 fn statement_range(file: &File<'_>, finding: &Finding<'_, '_>) -> Range<usize> {
     let start = finding.statement.min(file.code.len());
-    let ends = |token: &Token<'_>| matches!(token.text, ";" | "{" | "}");
+    let ends = |token: &Lexeme<'_>| matches!(token.text, ";" | "{" | "}");
     let end = file.code[start..].iter().position(ends).map_or(file.code.len(), |length| start + length);
     start..end
 }

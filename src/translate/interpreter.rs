@@ -12,7 +12,7 @@ pub use value::Value;
 
 use super::spirv::code::Instruction;
 use super::spirv::op;
-use parse::{Class, Shape};
+use parse::{Class, TypeShape};
 use std::collections::HashMap;
 
 /// A vertex shader that can be run step by step.
@@ -21,7 +21,7 @@ pub struct Interpreter {
     instructions: Vec<Instruction>,
     /// Constants by id.
     constants: Vec<Option<Value>>,
-    shapes: HashMap<u32, Shape>,
+    shapes: HashMap<u32, TypeShape>,
     names: HashMap<u32, String>,
     variables: Vec<Variable>,
     /// From functions and labels to where they begin.
@@ -45,7 +45,7 @@ struct Variable {
 
 /// What a shader is run with.
 #[derive(Clone, Debug, Default)]
-pub struct Given<'a> {
+pub struct Invocation<'a> {
     /// Attributes and uniforms by name; the others are 0.
     pub inputs: Vec<(&'a str, Value)>,
     /// Global variables that keep this value whatever the shader assigns at its start.
@@ -67,7 +67,7 @@ pub struct Written {
 
 /// A value on its way: the result of an instruction, or a constant that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Place {
+pub struct Site {
     /// The instruction, in the order of the text.
     pub instruction: u32,
     /// How often it was reached before.
@@ -77,7 +77,7 @@ pub struct Place {
 }
 
 /// Looks at a value, and gives another to be taken instead.
-pub type Watch<'w> = dyn FnMut(Place, &Value) -> Option<Value> + 'w;
+pub type Watch<'w> = dyn FnMut(Site, &Value) -> Option<Value> + 'w;
 
 /// A run has no more steps than this; a homework's answer has a few hundred.
 const MAX_STEPS: u32 = 10_000;
@@ -86,7 +86,7 @@ const MAX_CALLS: u32 = 64;
 
 impl Interpreter {
     /// Runs the shader, with `watch` beside it. `None` for what it does not know, or does not end.
-    pub fn run(&self, given: &Given<'_>, output: &str, watch: &mut Watch<'_>) -> Option<Written> {
+    pub fn run(&self, given: &Invocation<'_>, output: &str, watch: &mut Watch<'_>) -> Option<Written> {
         let mut run = Run {
             of: self,
             watch,
@@ -110,12 +110,12 @@ impl Interpreter {
     }
 
     /// The line of the student's file that an instruction comes from.
-    pub fn line(&self, place: Place) -> Option<u32> {
+    pub fn line(&self, place: Site) -> Option<u32> {
         self.instructions.get(place.instruction as usize)?.line
     }
 
     /// Whether an instruction only moves a value.
-    pub fn is_copy(&self, place: Place) -> bool {
+    pub fn is_copy(&self, place: Site) -> bool {
         let opcode = self.opcode(place);
         place.operand > 0
             || matches!(
@@ -132,16 +132,16 @@ impl Interpreter {
     }
 
     /// Whether an instruction adds or subtracts.
-    pub fn is_sum(&self, place: Place) -> bool {
+    pub fn is_sum(&self, place: Site) -> bool {
         place.operand == 0 && matches!(self.opcode(place), Some(op::F_ADD | op::F_SUB))
     }
 
-    fn opcode(&self, place: Place) -> Option<u16> {
+    fn opcode(&self, place: Site) -> Option<u16> {
         Some(self.instructions.get(place.instruction as usize)?.opcode)
     }
 
     /// The variable that the result of an instruction is loaded from, or stored in as it is.
-    pub fn variable(&self, place: Place) -> Option<&str> {
+    pub fn variable(&self, place: Site) -> Option<&str> {
         let instruction = self.instructions.get(place.instruction as usize)?;
         let variable = match (instruction.opcode, place.operand) {
             (op::LOAD, 0) => *instruction.operands.get(2)?,
@@ -159,20 +159,20 @@ impl Interpreter {
     }
 
     /// Whether an instruction stores something in the variable `name`.
-    pub fn stores_in(&self, place: Place, name: &str) -> bool {
+    pub fn stores_in(&self, place: Site, name: &str) -> bool {
         self.opcode(place) == Some(op::STORE) && self.base_of_store(place).is_some_and(|id| self.name(id) == name)
     }
 
     /// Whether an instruction reads the whole of the variable `name`.
-    pub fn is_load_of(&self, place: Place, name: &str) -> bool {
+    pub fn is_load_of(&self, place: Site, name: &str) -> bool {
         self.opcode(place) == Some(op::LOAD) && self.variable(place) == Some(name)
     }
 
     /// The last statement that assigns to the whole of the variable `name`, or to part of it where none does.
-    pub fn last_store(&self, name: &str) -> Option<Place> {
-        let all = (0..self.instructions.len() as u32).map(|instruction| Place { instruction, turn: 0, operand: 2 });
-        let stores: Vec<Place> = all.filter(|place| self.stores_in(*place, name)).collect();
-        let is_whole = |place: &&Place| self.variable(**place) == Some(name);
+    pub fn last_store(&self, name: &str) -> Option<Site> {
+        let all = (0..self.instructions.len() as u32).map(|instruction| Site { instruction, turn: 0, operand: 2 });
+        let stores: Vec<Site> = all.filter(|place| self.stores_in(*place, name)).collect();
+        let is_whole = |place: &&Site| self.variable(**place) == Some(name);
         stores.iter().rfind(is_whole).or(stores.last()).copied()
     }
 
@@ -184,8 +184,8 @@ impl Interpreter {
     /// The line of the last statement that assigns to `gl_Position`.
     pub fn last_position(&self) -> Option<u32> {
         let block = self.variables.iter().find(|v| self.position.is_some_and(|(shape, _)| shape == v.shape));
-        let mut all = (0..self.instructions.len() as u32).map(|instruction| Place { instruction, turn: 0, operand: 2 });
-        let is_it = |place: &Place| {
+        let mut all = (0..self.instructions.len() as u32).map(|instruction| Site { instruction, turn: 0, operand: 2 });
+        let is_it = |place: &Site| {
             self.opcode(*place) == Some(op::STORE)
                 && self
                     .base_of_store(*place)
@@ -194,7 +194,7 @@ impl Interpreter {
         self.line(all.rfind(is_it)?)
     }
 
-    fn base_of_store(&self, place: Place) -> Option<u32> {
+    fn base_of_store(&self, place: Site) -> Option<u32> {
         let pointer = *self.instructions.get(place.instruction as usize)?.operands.first()?;
         let chain = |i: &&Instruction| {
             matches!(i.opcode, op::ACCESS_CHAIN | op::IN_BOUNDS_ACCESS_CHAIN) && i.operands.get(1) == Some(&pointer)
@@ -203,13 +203,13 @@ impl Interpreter {
     }
 
     /// The function that an instruction stands in, by the number of its first instruction.
-    pub fn function(&self, place: Place) -> usize {
+    pub fn function(&self, place: Site) -> usize {
         let before = &self.instructions[..=place.instruction as usize];
         before.iter().rposition(|i| i.opcode == op::FUNCTION).unwrap_or(0)
     }
 
     /// Whether a constant is what a global variable begins with.
-    pub fn is_initial(&self, place: Place) -> bool {
+    pub fn is_initial(&self, place: Site) -> bool {
         let is_global = |id: u32| self.variables.iter().any(|v| v.id == id && v.class == Class::Private);
         place.operand > 0 && self.opcode(place) == Some(op::STORE) && self.base_of_store(place).is_some_and(is_global)
     }
@@ -220,7 +220,7 @@ impl Interpreter {
     }
 
     /// Whether two values are computed in the same way on the same line.
-    pub fn is_alike(&self, a: Place, b: Place) -> bool {
+    pub fn is_alike(&self, a: Site, b: Site) -> bool {
         self.line(a) == self.line(b) && self.opcode(a) == self.opcode(b)
     }
 
@@ -231,14 +231,14 @@ impl Interpreter {
     /// The zero of a type.
     fn zero(&self, shape: u32) -> Option<Value> {
         Some(match self.shapes.get(&shape)? {
-            Shape::Bool => Value::Bool(false),
-            Shape::Int => Value::Int(0),
-            Shape::Float => Value::Float(0.0),
-            Shape::Repeated(part, count) => Value::Composite(vec![self.zero(*part)?; *count]),
-            Shape::Structure(parts) => {
+            TypeShape::Bool => Value::Bool(false),
+            TypeShape::Int => Value::Int(0),
+            TypeShape::Float => Value::Float(0.0),
+            TypeShape::Repeated(part, count) => Value::Composite(vec![self.zero(*part)?; *count]),
+            TypeShape::Structure(parts) => {
                 Value::Composite(parts.iter().map(|part| self.zero(*part)).collect::<Option<_>>()?)
             }
-            Shape::Pointer(_) => return None,
+            TypeShape::Pointer(_) => return None,
         })
     }
 }
@@ -265,7 +265,7 @@ enum Flow {
 
 impl Run<'_, '_> {
     /// Fills the global variables.
-    fn start(&mut self, given: &Given<'_>) -> Option<()> {
+    fn start(&mut self, given: &Invocation<'_>) -> Option<()> {
         for (slot, variable) in self.of.variables.iter().enumerate() {
             let name = self.of.name(variable.id);
             let by_name = |named: &[(&str, Value)]| named.iter().find(|(n, _)| *n == name).map(|(_, v)| v.clone());
@@ -335,11 +335,11 @@ impl Run<'_, '_> {
     fn step(&mut self, at: usize, instruction: &Instruction) -> Option<Flow> {
         let turn = self.turns[at];
         self.turns[at] += 1;
-        let place = Place { instruction: at as u32, turn, operand: 0 };
+        let place = Site { instruction: at as u32, turn, operand: 0 };
         let operands = &instruction.operands;
         match instruction.opcode {
             op::STORE => {
-                let value = self.operand(operands[1], Place { operand: 2, ..place })?;
+                let value = self.operand(operands[1], Site { operand: 2, ..place })?;
                 let Value::Pointer(slot, way) = self.value(operands[0])? else { return None };
                 if slot >= 128 || self.kept >> slot & 1 == 0 {
                     *self.memory.get_mut(slot)?.at_mut(&way)? = value;
@@ -348,7 +348,7 @@ impl Run<'_, '_> {
             op::LOOP_MERGE | op::SELECTION_MERGE => {}
             op::BRANCH => return Some(Flow::Branch(operands[0])),
             op::BRANCH_CONDITIONAL => {
-                let truth = self.operand(operands[0], Place { operand: 1, ..place })?.bool()?;
+                let truth = self.operand(operands[0], Site { operand: 1, ..place })?.bool()?;
                 return Some(Flow::Branch(operands[if truth { 1 } else { 2 }]));
             }
             op::SWITCH => {
@@ -358,7 +358,7 @@ impl Run<'_, '_> {
             }
             op::RETURN => return Some(Flow::Return(None)),
             op::RETURN_VALUE => {
-                let value = self.operand(operands[0], Place { operand: 1, ..place })?;
+                let value = self.operand(operands[0], Site { operand: 1, ..place })?;
                 return Some(Flow::Return(Some(value)));
             }
             _ => {
@@ -376,12 +376,12 @@ impl Run<'_, '_> {
     }
 
     /// What an instruction computes; an inner `None` where that is nothing.
-    fn result(&mut self, instruction: &Instruction, place: Place) -> Option<Option<Value>> {
+    fn result(&mut self, instruction: &Instruction, place: Site) -> Option<Option<Value>> {
         let operands = &instruction.operands;
         let ids = operands.get(2..)?;
         Some(Some(match instruction.opcode {
             op::VARIABLE => {
-                let Shape::Pointer(shape) = self.of.shapes.get(&operands[0])? else { return None };
+                let TypeShape::Pointer(shape) = self.of.shapes.get(&operands[0])? else { return None };
                 let initial = operands.get(3).map(|id| self.value(*id));
                 self.memory.push(initial.unwrap_or_else(|| self.of.zero(*shape))?);
                 Value::Pointer(self.memory.len() - 1, Vec::new())
@@ -433,13 +433,15 @@ impl Run<'_, '_> {
     }
 
     /// A vector may be made of vectors; anything else is made of its parts.
-    fn construct(&mut self, shape: u32, ids: &[u32], place: Place) -> Option<Value> {
+    fn construct(&mut self, shape: u32, ids: &[u32], place: Site) -> Option<Value> {
         let mut parts = Vec::new();
         for (id, at) in ids.iter().zip(1..) {
             parts.push(self.operand(*id, place_of(place, at))?);
         }
-        let Shape::Repeated(part, count) = self.of.shapes.get(&shape)? else { return Some(Value::Composite(parts)) };
-        if parts.len() == *count || matches!(self.of.shapes.get(part)?, Shape::Repeated(..)) {
+        let TypeShape::Repeated(part, count) = self.of.shapes.get(&shape)? else {
+            return Some(Value::Composite(parts));
+        };
+        if parts.len() == *count || matches!(self.of.shapes.get(part)?, TypeShape::Repeated(..)) {
             return Some(Value::Composite(parts));
         }
         let flat = parts.into_iter().flat_map(|part| match part {
@@ -455,7 +457,7 @@ impl Run<'_, '_> {
     }
 
     /// The value of an operand; a constant is shown to the watch, for no instruction computes it.
-    fn operand(&mut self, id: u32, place: Place) -> Option<Value> {
+    fn operand(&mut self, id: u32, place: Site) -> Option<Value> {
         let value = self.value(id)?;
         let is_constant = self.of.constants.get(id as usize).is_some_and(Option::is_some);
         let is_condition = place.operand == 1 && self.of.opcode(place) == Some(op::BRANCH_CONDITIONAL);
@@ -466,8 +468,8 @@ impl Run<'_, '_> {
     }
 }
 
-fn place_of(place: Place, operand: u8) -> Place {
-    Place { operand, ..place }
+fn place_of(place: Site, operand: u8) -> Site {
+    Site { operand, ..place }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Macros written out where they are used, so that the compiler says for each operator on which line it is written.
 
-use super::hints::{Kind, Token, tokens};
+use super::hints::{Lexeme, LexemeKind, tokens};
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ const MAX_BYTES: usize = 1 << 18;
 /// A token and the line that it is written on.
 #[derive(Clone, Copy)]
 struct Placed<'a> {
-    token: Token<'a>,
+    token: Lexeme<'a>,
     line: usize,
 }
 
@@ -23,7 +23,7 @@ struct Macro<'a> {
     line: usize,
     /// The parameters, where it takes any.
     parameters: Option<Vec<&'a str>>,
-    body: Vec<Token<'a>>,
+    body: Vec<Lexeme<'a>>,
 }
 
 /// `text` with its macros written out between `#line` directives. `None` where there are none, or where it takes a
@@ -74,8 +74,9 @@ pub(super) fn on_their_lines(text: &str, version: i32) -> Option<String> {
 fn definition_of(definition: &str, line: usize) -> Option<(&str, Macro<'_>)> {
     let definition = definition.trim_start();
     let all = tokens(definition);
-    let name = all.first().filter(|token| token.kind == Kind::Word)?;
-    let known = |token: &Token<'_>| !matches!(token.kind, Kind::Other | Kind::Quoted | Kind::Directive);
+    let name = all.first().filter(|token| token.kind == LexemeKind::Word)?;
+    let known =
+        |token: &Lexeme<'_>| !matches!(token.kind, LexemeKind::Other | LexemeKind::Quoted | LexemeKind::Directive);
     if definition.ends_with('\\') || !all.iter().all(known) {
         return None;
     }
@@ -84,7 +85,8 @@ fn definition_of(definition: &str, line: usize) -> Option<(&str, Macro<'_>)> {
         return Some((name.text, Macro { line, parameters: None, body: all[1..].to_vec() }));
     }
     let close = all.iter().position(|token| token.text == ")")?;
-    let parameters = all[2..close].iter().filter(|token| token.kind == Kind::Word).map(|token| token.text).collect();
+    let parameters =
+        all[2..close].iter().filter(|token| token.kind == LexemeKind::Word).map(|token| token.text).collect();
     Some((name.text, Macro { line, parameters: Some(parameters), body: all[close + 1..].to_vec() }))
 }
 

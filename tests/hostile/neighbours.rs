@@ -6,7 +6,7 @@ use super::workers::{alone, sample};
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, Verdict};
-use ggrade::sandbox::{Answer, Pool, Settings, Submission};
+use ggrade::sandbox::{GradedSubmission, Pool, Settings, Submission};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Right, wrong and refused files; what they have in common is that they mean no harm.
@@ -89,7 +89,7 @@ fn reports_that_differ_are_told_apart() {
     assert!(lasting(right) != lasting(wrong));
 }
 
-pub fn hand_in(pool: &Pool, name: &str, bytes: &[u8]) -> Answer {
+pub fn hand_in(pool: &Pool, name: &str, bytes: &[u8]) -> GradedSubmission {
     let order = Order { seed: 7, ..Order::default() };
     let hand_in = HandIn::of_one(name, bytes);
     let submission = Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true };
@@ -97,7 +97,7 @@ pub fn hand_in(pool: &Pool, name: &str, bytes: &[u8]) -> Answer {
 }
 
 /// All that a report and its pictures say, but for the time that it took.
-pub fn lasting(answer: Answer) -> String {
+pub fn lasting(answer: GradedSubmission) -> String {
     use sha2::{Digest, Sha256};
     let report = Report { elapsed_ms: 0.0, ..answer.report };
     let pictures = answer.frames.iter().fold(Sha256::new(), |hash, picture| hash.chain_update(&picture.rgba));

@@ -5,7 +5,7 @@ use axum::Router;
 use axum::body::{Body, to_bytes};
 use axum::http::{HeaderMap, Request, StatusCode, header};
 use ggrade::fault::Fault;
-use ggrade::sandbox::{Answer, Submission};
+use ggrade::sandbox::{GradedSubmission, Submission};
 use ggrade::service::clock::Clock;
 use ggrade::service::config::Timeouts;
 use ggrade::service::grading::{Graders, Judge};
@@ -184,12 +184,12 @@ impl<F> std::fmt::Debug for Fake<F> {
 }
 
 impl<F: Fn() -> Result<(), Fault> + Send + Sync> Judge for Fake<F> {
-    fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
+    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
         (self.0)()?;
         let assignment = reference::assignment("ggsample06").expect("built in");
         let sources = ggrade::grade::sources(assignment, submission.hand_in);
         let verdict = ggrade::report::Verdict::Rejected;
         let report = ggrade::grade::unfinished(assignment, sources, verdict, Vec::new(), Default::default());
-        Ok(Answer { report, frames: Vec::new() })
+        Ok(GradedSubmission { report, frames: Vec::new() })
     }
 }

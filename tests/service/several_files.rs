@@ -12,7 +12,7 @@ use ggrade::fault::Fault;
 use ggrade::grade::{sources, unfinished};
 use ggrade::language::Text;
 use ggrade::report::Verdict;
-use ggrade::sandbox::{Answer, Submission};
+use ggrade::sandbox::{GradedSubmission, Submission};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use reference::Assignment;
@@ -50,14 +50,14 @@ struct Second {
 }
 
 impl Judge for Second {
-    fn grade(&self, submission: Submission<'_>) -> Result<Answer, Fault> {
+    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
         self.gradings.fetch_add(1, Ordering::SeqCst);
         let sources = sources(&self.homework, submission.hand_in);
         let mut missing = Diagnostic::error(Stage::Compile, Text::verbatim("`;` is missing")).at(2, Some(28));
         missing.file = sources.get(1).map(|source| source.name.clone());
         let mut report = unfinished(&self.homework, sources, Verdict::Rejected, vec![missing], Default::default());
         report.probes.seed = submission.order.seed;
-        Ok(Answer { report, frames: Vec::new() })
+        Ok(GradedSubmission { report, frames: Vec::new() })
     }
 }
 
@@ -151,7 +151,7 @@ async fn the_same_files_are_graded_once(database: Database) {
     let store = &bench.state.store;
     let sha256 = |bytes: &[u8]| ggrade::hand_in::HandIn::of_one("", bytes).sha256();
     for id in [first, second] {
-        let target = ggrade::service::store::Target::Submission(id);
+        let target = ggrade::service::store::DeletionTarget::Submission(id);
         store.delete(&target, &[], 0).await.expect("deleted");
     }
     assert!(store.has_file(&sha256(fragment.1)).await.expect("a store"), "the second hand-in has it");

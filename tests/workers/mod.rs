@@ -6,7 +6,7 @@
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::Report;
-use ggrade::sandbox::{Answer, Pool, Settings, Submission};
+use ggrade::sandbox::{GradedSubmission, Pool, Settings, Submission};
 use reference::Assignment;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -48,7 +48,7 @@ pub fn honest() -> Vec<u8> {
 }
 
 /// Grades bytes with a fixed seed and without frames.
-pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<Answer, ggrade::fault::Fault> {
+pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<GradedSubmission, ggrade::fault::Fault> {
     pool.grade(Submission {
         assignment: pool.assignment(),
         hand_in: &HandIn::of_one("ggsample06.vert", bytes),
@@ -58,7 +58,7 @@ pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<Answer, ggrade::fault::Fault> 
 }
 
 /// The report without its timing.
-pub fn timeless(answer: Answer) -> Report {
+pub fn timeless(answer: GradedSubmission) -> Report {
     Report { elapsed_ms: 0.0, ..answer.report }
 }
 

@@ -253,7 +253,7 @@ fn an_accepted_answer_is_a_shader_of_any_form() {
         .replace("dot(n, h)", "dot(reflect(-l, n), v)")
         .replace("vc = colour;", "for (int i = 0; i < 4; ++i) vc[i] = colour[i];");
     let other = with_accepted(&answer).expect("valid");
-    let phong = [Found { id: "specular-phong".into(), form: 0, parameter: None }];
+    let phong = [FoundMistake { id: "specular-phong".into(), form: 0, parameter: None }];
     let variant = other.variant(&phong).expect("a known mistake");
     let (probes, right) = (other.probes(1), other.accepted().next().expect("one"));
     for (probe, theirs) in probes.iter().zip(&other.probes_of(right, &probes)) {

@@ -2,8 +2,8 @@
 
 use super::{TermJudgement, Worst, agrees};
 use crate::Assignment;
-use crate::accepted::Answer;
-use crate::mistake::Found;
+use crate::accepted::AcceptedAnswer;
+use crate::mistake::FoundMistake;
 use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
 
@@ -16,7 +16,7 @@ pub fn program_of(
     samples: &[[f64; 3]],
     is_there: &dyn Fn(usize, DVec4) -> bool,
     tolerance: f64,
-) -> Option<Found> {
+) -> Option<FoundMistake> {
     let samples = super::padded(probes, samples);
     assignment.mistakes.iter().find_map(|mistake| {
         let shows = |number: &usize| {
@@ -26,7 +26,7 @@ pub fn program_of(
             })
         };
         let found = (0..mistake.variants.len()).find(shows)?;
-        Some(Found { id: mistake.id.clone(), form: mistake.forms.len() + found, parameter: None })
+        Some(FoundMistake { id: mistake.id.clone(), form: mistake.forms.len() + found, parameter: None })
     })
 }
 
@@ -43,7 +43,7 @@ pub struct Footprint {
 
 /// The footprints of all lines that have a feature.
 pub fn footprints(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Vec<Footprint> {
-    let differs = |feature: &Option<Answer>| Some(differs(assignment, feature.as_ref()?, probes, tolerance));
+    let differs = |feature: &Option<AcceptedAnswer>| Some(differs(assignment, feature.as_ref()?, probes, tolerance));
     let shows: Vec<Option<Vec<bool>>> = assignment.features.iter().map(differs).collect();
     let footprint = |(line, own): (usize, &Option<Vec<bool>>)| {
         let own = own.as_ref()?;
@@ -58,7 +58,7 @@ pub fn footprints(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) ->
 }
 
 /// At which probes a program shows another colour than what is right.
-fn differs(assignment: &Assignment, program: &Answer, probes: &ProbeSet, tolerance: f64) -> Vec<bool> {
+fn differs(assignment: &Assignment, program: &AcceptedAnswer, probes: &ProbeSet, tolerance: f64) -> Vec<bool> {
     let computed = assignment.computed_by(program, probes);
     computed.iter().zip(probes).map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance)).collect()
 }
@@ -120,7 +120,7 @@ pub fn judge_features(
 }
 
 /// What is shown with these mistakes in it, where one of them is a whole program.
-pub(super) fn shown_with(assignment: &Assignment, found: &[Found], probes: &ProbeSet) -> Option<Vec<DVec3>> {
+pub(super) fn shown_with(assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet) -> Option<Vec<DVec3>> {
     let [found] = found else { return None };
     let program = assignment.mistake(&found.id)?.program(found.form)?;
     Some(assignment.computed_by(program, probes).into_iter().map(|(colour, _)| colour).collect())

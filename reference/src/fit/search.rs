@@ -4,7 +4,7 @@ use super::columns::{Columns, Replaced, Resolved, Set};
 use super::views::Views;
 use super::{MOST_MISTAKES, agrees};
 use crate::Assignment;
-use crate::mistake::{Form, Found, FreeParameter, Mistake};
+use crate::mistake::{Form, FoundMistake, FreeParameter, Mistake};
 use crate::probes::ProbeSet;
 use glam::DVec3;
 use std::rc::Rc;
@@ -56,7 +56,7 @@ pub(super) struct Search<'a> {
     /// What may be spent on the combinations of the present number of mistakes.
     budget: u64,
     /// The most plausible explanation so far.
-    best: Option<(Rank, Vec<Found>)>,
+    best: Option<(Rank, Vec<FoundMistake>)>,
 }
 
 /// How plausible an explanation is among others of as many mistakes; less is more.
@@ -74,7 +74,7 @@ pub(super) fn search(
     samples: &[DVec3],
     order: &[usize],
     tolerance: f64,
-) -> Option<Vec<Found>> {
+) -> Option<Vec<FoundMistake>> {
     let mut columns = Columns::new(assignment, probes, order);
     let right = columns.right();
     let mut candidates = candidates(assignment, &mut columns);
@@ -271,7 +271,7 @@ impl<'a> Search<'a> {
         if self.best.as_ref().is_some_and(|(best, _)| *best <= rank) {
             return;
         }
-        let one = |(candidate, parameter): &Chosen| Found {
+        let one = |(candidate, parameter): &Chosen| FoundMistake {
             id: self.assignment.mistakes[candidate.mistake].id.clone(),
             form: candidate.form,
             parameter: *parameter,

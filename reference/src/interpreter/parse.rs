@@ -7,7 +7,7 @@ mod statement;
 
 use super::Refusal;
 use super::syntax::{Expression, Item, Name};
-use super::text::{Kind, Token};
+use super::text::{Token, TokenKind};
 use std::collections::HashSet;
 
 /// Deepest nesting of expressions and statements; ggrade's gate refuses deeper files before.
@@ -57,7 +57,7 @@ impl Parser<'_> {
     }
 
     fn is_name(&self, ahead: usize) -> bool {
-        self.peek(ahead).is_some_and(|token| token.kind == Kind::Name)
+        self.peek(ahead).is_some_and(|token| token.kind == TokenKind::Name)
     }
 
     fn line(&self) -> u32 {
@@ -81,7 +81,7 @@ impl Parser<'_> {
 
     fn name(&mut self) -> Result<Name, Refusal> {
         match self.peek(0) {
-            Some(token) if token.kind == Kind::Name => {
+            Some(token) if token.kind == TokenKind::Name => {
                 self.at += 1;
                 Ok(Name::clone(&self.tokens[self.at - 1].text))
             }

@@ -11,7 +11,7 @@ use std::rc::Rc;
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum TokenKind {
     /// Name or keyword.
     Name,
     /// Number.
@@ -28,7 +28,7 @@ pub enum Kind {
 #[derive(Clone, Debug)]
 pub struct Token {
     /// What it is.
-    pub kind: Kind,
+    pub kind: TokenKind,
     /// Its text.
     pub text: Rc<str>,
     /// The line in the file, from 1, `#line` directives aside; of a macro's tokens, where the macro is used.
@@ -56,17 +56,17 @@ impl Drop for Hidden {
 }
 
 impl Token {
-    fn new(kind: Kind, text: &str, line: u32) -> Self {
+    fn new(kind: TokenKind, text: &str, line: u32) -> Self {
         Self { kind, text: text.into(), line, touches: false, hidden: None }
     }
 
     /// Whether it is a name or keyword.
     pub fn is_name(&self) -> bool {
-        self.kind == Kind::Name
+        self.kind == TokenKind::Name
     }
 
     fn is(&self, symbol: &str) -> bool {
-        self.kind == Kind::Symbol && &*self.text == symbol
+        self.kind == TokenKind::Symbol && &*self.text == symbol
     }
 
     fn hides(&self, name: &str) -> bool {

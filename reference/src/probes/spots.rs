@@ -5,7 +5,7 @@
 //! computed from, at the edge of a step, no fragment is probed: there a right answer may have another one.
 
 use super::{Group, Probe, ProbeSet, Random};
-use crate::equation::{DISCARDED, Outcome, Reads};
+use crate::equation::{DISCARDED, Evaluation, Reads};
 use crate::interpreter::{Interpolation, Program, Scalar};
 use crate::pipeline::{Pipeline, positions, scalars, slices};
 use crate::scene::{Cull, Vertex};
@@ -212,7 +212,7 @@ impl Assignment {
         let probe = |(((at, spot), position), colour): (((usize, Spot), DVec4), (DVec3, bool))| {
             let (shown, is_steady) = colour;
             let attributes = self.read_at(at, &handed, shown, position);
-            let outcome: Outcome<'_> = right.evaluate(&drawn.uniforms, &attributes);
+            let outcome: Evaluation<'_> = right.evaluate(&drawn.uniforms, &attributes);
             let region = right.first_region(&self.regions);
             let colour = outcome.colour();
             let is_known = is_steady && colour.is_finite() && position.is_finite();

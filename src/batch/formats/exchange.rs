@@ -1,6 +1,6 @@
 //! The formats of autograders and CI by their names: the documents of a class, and the one of a single file.
 
-use super::github::Token;
+use super::github::StopToken;
 use super::{Format, KEY, classroom, coderunner, github, gradescope, junit, sarif, vpl};
 use crate::batch::class::{Class, Entry};
 use crate::fault::Fault;
@@ -33,7 +33,7 @@ pub fn documents(format: Format, class: &Class) -> Result<Vec<Document>, Fault> 
         names.iter().zip(texts).map(|(name, text)| Document { name: (*name).to_owned(), text }).collect()
     };
     Ok(match format {
-        Format::Github => named(vec![github::log(class, &Token::random()?), github::summary(class, github::LIMIT)]),
+        Format::Github => named(vec![github::log(class, &StopToken::random()?), github::summary(class, github::LIMIT)]),
         Format::Junit => named(vec![junit::render(class)?]),
         Format::Sarif => named(vec![sarif::render(class)]),
         _ => {
@@ -50,7 +50,7 @@ pub fn documents(format: Format, class: &Class) -> Result<Vec<Document>, Fault> 
 pub fn single(format: Format, class: &Class, scale: vpl::Scale) -> Result<Option<String>, Fault> {
     let class = &*class.for_students();
     Ok(match format {
-        Format::Github => Some(github::log(class, &Token::random()?)),
+        Format::Github => Some(github::log(class, &StopToken::random()?)),
         Format::Junit => Some(junit::render(class)?),
         Format::Sarif => Some(sarif::render(class)),
         _ => class.entries.first().and_then(|entry| per_student(format, entry, class, scale)),

@@ -22,9 +22,9 @@ use crate::{excerpt, report};
 
 /// What ends a stretch of text in which the runner obeys nothing. Nobody who writes that text can guess it.
 #[derive(Clone, Debug)]
-pub struct Token(String);
+pub struct StopToken(String);
 
-impl Token {
+impl StopToken {
     /// A new one of 128 random bits.
     pub fn random() -> Result<Self, Fault> {
         let mut bytes = [0; 16];
@@ -46,7 +46,7 @@ impl Token {
 }
 
 /// What a step prints: the annotations, then for people one line a student, or the full report of the only one.
-pub fn log(class: &Class, token: &Token) -> String {
+pub fn log(class: &Class, token: &StopToken) -> String {
     let text = match &class.entries[..] {
         [entry] if entry.report().is_some() => full_report(entry, class),
         entries => entries.iter().map(|entry| line(entry, class)).collect(),
@@ -124,7 +124,7 @@ pub(super) mod tests {
             class.entries.push(nasty::attack(report.clone()));
             let single = Class { entries: vec![nasty::attack(report)], ..nasty::class() };
             for class in [class, single] {
-                let log = log(&class, &Token::random().unwrap());
+                let log = log(&class, &StopToken::random().unwrap());
                 for command in obeyed(&log) {
                     let ours = ["::error ", "::warning ", "::notice ", "::error::", "::notice::"];
                     assert!(ours.iter().any(|start| command.starts_with(start)), "{command}");
@@ -135,7 +135,7 @@ pub(super) mod tests {
 
     #[test]
     fn each_token_is_another_and_long_enough() {
-        let (a, b) = (Token::random().unwrap(), Token::random().unwrap());
+        let (a, b) = (StopToken::random().unwrap(), StopToken::random().unwrap());
         assert_ne!(a.0, b.0);
         // 128 bits are 32 hexadecimal digits.
         assert!(a.0.len() == 32 && a.0.bytes().all(|byte| byte.is_ascii_hexdigit()));
@@ -145,7 +145,7 @@ pub(super) mod tests {
     fn each_of_several_students_has_a_line_with_the_mistakes_by_title() {
         let entries: Vec<_> =
             (0..2).map(|number| nasty::entry(number, Outcome::Graded(Box::new(samples::wrong())))).collect();
-        let log = log(&Class { entries, ..nasty::class() }, &Token::random().unwrap());
+        let log = log(&Class { entries, ..nasty::class() }, &StopToken::random().unwrap());
         let lines = log.lines().filter(|line| line.ends_with("80 / 100 Half vector not normalised"));
         assert_eq!(lines.count(), 2, "{log}");
     }
@@ -153,7 +153,7 @@ pub(super) mod tests {
     #[test]
     fn the_only_student_gets_the_full_report_with_the_line_quoted() {
         let entry = nasty::entry(0, Outcome::Graded(Box::new(samples::rejected())));
-        let log = log(&Class { entries: vec![entry], ..nasty::class() }, &Token::random().unwrap());
+        let log = log(&Class { entries: vec![entry], ..nasty::class() }, &StopToken::random().unwrap());
         assert!(log.contains("vec3 h = (l + v) / 2.0;") && log.contains("0 / 100"), "{log}");
     }
 }

@@ -1,6 +1,6 @@
 //! A class made by hand for the tests of the formats: every outcome, and students who attack whoever reads it.
 
-use crate::batch::class::{Class, Entry, Outcome, Place, Student};
+use crate::batch::class::{Class, Entry, FileLocation, Outcome, Student};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
@@ -77,6 +77,6 @@ pub(super) fn attack(mut report: Report) -> Entry {
     entry
 }
 
-fn place(path: String) -> Place {
-    Place { local: Some(PathBuf::from(&path)), path }
+fn place(path: String) -> FileLocation {
+    FileLocation { local: Some(PathBuf::from(&path)), path }
 }

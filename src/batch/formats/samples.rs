@@ -1,6 +1,6 @@
 //! Classes made by hand, for the tests of the formats.
 
-use crate::batch::class::{Class, Entry, Outcome, Participant, Place, Refused, Student};
+use crate::batch::class::{Class, Entry, FileLocation, Outcome, Participant, Refused, Student};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::samples;
@@ -40,7 +40,7 @@ pub(super) fn class(language: Language) -> Class {
                 name: (*name).to_owned(),
                 moodle: Some(Participant { name: (*name).to_owned(), number: Some(number) }),
             },
-            places: vec![Place {
+            places: vec![FileLocation {
                 path: format!("class.zip/{name}_{number}_assignsubmission_file/ggsample06.vert"),
                 local: None,
             }],

@@ -7,7 +7,7 @@ use self::region::Lines;
 use self::rules::Rules;
 use super::untrusted::visible;
 use super::wording;
-use crate::batch::class::{Class, Entry, Outcome, Place};
+use crate::batch::class::{Class, Entry, FileLocation, Outcome};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use crate::report::{Advice, RubricLine, SourceInfo, Verdict};
@@ -160,7 +160,7 @@ fn location(uri: &str, index: usize) -> Value {
 }
 
 /// The file as a relative reference (RFC 3986): from the working folder on, or else from the input on.
-fn uri(place: &Place) -> String {
+fn uri(place: &FileLocation) -> String {
     let local = place.local.as_ref().map(|local| local.to_string_lossy());
     utf8_percent_encode(local.as_deref().unwrap_or(&place.path), PATH).to_string()
 }

@@ -4,7 +4,7 @@ use super::folder;
 use super::students::{Group, Owned};
 use super::tree::Held;
 use super::{Content, Options, in_working_folder};
-use crate::batch::class::Place;
+use crate::batch::class::FileLocation;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::slots::{self, Offered, Problem, Trust, wording};
@@ -66,7 +66,7 @@ fn taken<'a>(offers: impl Iterator<Item = &'a Offer<'a>>, options: &Options) -> 
             Err(reason) => return Content::Nothing(reason),
         }
         let local = offer.file.file.local.as_deref().and_then(in_working_folder);
-        places.push(Place { path: offer.file.path.clone(), local });
+        places.push(FileLocation { path: offer.file.path.clone(), local });
     }
     Content::Files { hand_in: slots::tell_apart(&options.slots, hand_in), places }
 }

@@ -4,7 +4,7 @@ use crate::batch::anonymous::{self, Pseudonyms};
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::worksheet;
 use crate::batch::intake::Intake;
-use crate::batch::journal::{self, Found, Header, Unreadable};
+use crate::batch::journal::{self, FoundJournal, Header, Unreadable};
 use crate::batch::resume::NotBegun;
 use crate::cli::Batch;
 use crate::command::{file_fault, language, writing};
@@ -61,7 +61,7 @@ pub(super) fn read_sheet(path: &Path) -> Result<Vec<u8>, NotBegun> {
 }
 
 /// The earlier results to compare with: a journal, or the folder that has it.
-pub(super) fn read_earlier(path: &Path) -> Result<Found, NotBegun> {
+pub(super) fn read_earlier(path: &Path) -> Result<FoundJournal, NotBegun> {
     let path = if path.is_dir() { &path.join(journal::NAME) } else { path };
     journal::read(path).map_err(|error| match error {
         Unreadable::Missing => usage_unreadable(path, "no such file"),
@@ -83,8 +83,8 @@ pub(super) fn tell_empty(intake: &Intake, language: Language) {
 pub(super) fn header(
     arguments: &Batch,
     assignment: &Assignment,
-    found: Option<&Found>,
-    before: Option<&Found>,
+    found: Option<&FoundJournal>,
+    before: Option<&FoundJournal>,
 ) -> Header {
     let earlier = found.map(|found| &found.header);
     let seed = earlier.or(before.map(|before| &before.header)).map(|header| header.seed);

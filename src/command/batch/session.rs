@@ -4,7 +4,7 @@ use crate::batch::changes::Changes;
 use crate::batch::class::{Class, Entry};
 use crate::batch::folder::Folder;
 use crate::batch::formats::Format;
-use crate::batch::journal::{self, Found, Header, Journal, Record, RecordOf};
+use crate::batch::journal::{self, FoundJournal, Header, Journal, Record, RecordOf};
 use crate::batch::page::Pages;
 use crate::batch::portrait::Portraits;
 use crate::batch::progress::Progress;
@@ -13,7 +13,7 @@ use crate::batch::run::{Candidate, Run, Wants};
 use crate::batch::{anonymous, json_lines, output, summary};
 use crate::cli::Batch;
 use crate::command::interrupt::Interrupt;
-use crate::command::{Outcome, report_fault, warn, width};
+use crate::command::{ExitStatus, report_fault, warn, width};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
@@ -53,7 +53,7 @@ impl Session<'_> {
     pub fn reuse(
         &self,
         candidates: &[Candidate],
-        found: Option<Found>,
+        found: Option<FoundJournal>,
         wants: Wants,
     ) -> Result<Vec<Option<Entry>>, NotBegun> {
         let nothing = || candidates.iter().map(|_| None).collect();
@@ -188,8 +188,8 @@ impl Session<'_> {
         candidates: &[Candidate],
         class: &Class,
         wanted: &Wanted,
-        before: Option<Found>,
-    ) -> Result<Outcome, NotBegun> {
+        before: Option<FoundJournal>,
+    ) -> Result<ExitStatus, NotBegun> {
         let records: Vec<_> =
             candidates.iter().zip(&class.entries).map(|(candidate, entry)| candidate.record(&entry.outcome)).collect();
         journal::write(self.folder, self.header, &records)?;

@@ -4,7 +4,7 @@
 //! and what counts is the file that then stands under the name. Folders that tell nothing, on network drives say, are
 //! looked at twice a second.
 
-use crate::batch::intake::Given;
+use crate::batch::intake::HandInPart;
 use crate::command::files;
 use crate::hand_in::HandedInFile;
 use crate::language::Text;
@@ -27,7 +27,7 @@ const LOOK: Duration = Duration::from_millis(500);
 /// What a save left behind.
 #[derive(Debug)]
 pub(super) enum Save {
-    Content(Vec<Given>),
+    Content(Vec<HandInPart>),
     /// A file went away and did not come back at once.
     Gone,
     Unreadable(Text),
@@ -162,8 +162,8 @@ fn contents(stamps: &Stamps) -> Result<Vec<Vec<u8>>, (PathBuf, std::io::Error)> 
     stamps.iter().map(|(path, _)| read(path)).collect()
 }
 
-fn given(stamps: &Stamps, contents: &[Vec<u8>]) -> Vec<Given> {
-    let files = stamps.iter().zip(contents).map(|((path, _), bytes)| Given::File {
+fn given(stamps: &Stamps, contents: &[Vec<u8>]) -> Vec<HandInPart> {
+    let files = stamps.iter().zip(contents).map(|((path, _), bytes)| HandInPart::File {
         file: HandedInFile::new(files::names(std::slice::from_ref(path)), bytes.as_slice()),
         local: Some(path.clone()),
     });

@@ -5,7 +5,7 @@ use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::Evidence;
 use crate::diagnose::advice::Beyond;
 use crate::source::Source;
-use crate::translate::{Given, Interpreter, Place, Value, Written};
+use crate::translate::{Interpreter, Invocation, Site, Value, Written};
 use reference::advice::Variation;
 use reference::equation::Variant;
 use reference::interpreter::Type;
@@ -34,12 +34,12 @@ pub(in crate::diagnose) struct Points<'a> {
 
 /// One probe.
 pub(super) struct Point<'a> {
-    pub given: Given<'a>,
+    pub given: Invocation<'a>,
     uniforms: &'a [Reference],
     attributes: &'a [Reference],
     steps: u32,
     /// Every value on the way to the colour, in the order in which they are computed.
-    pub values: Vec<(Place, Value)>,
+    pub values: Vec<(Site, Value)>,
 }
 
 impl<'a> Points<'a> {
@@ -87,13 +87,13 @@ impl<'a> Points<'a> {
     }
 
     /// Whether the student wrote the line on which a value is computed: what was handed out is right.
-    pub(super) fn is_own(&self, place: Place) -> bool {
+    pub(super) fn is_own(&self, place: Site) -> bool {
         let starter = &self.assignment.files[0].starter;
         self.interpreter.line(place).is_some_and(|line| !is_handed_out(self.source, line, starter))
     }
 
     /// Whether a value is computed in the text of a macro.
-    pub(super) fn is_in_macro(&self, place: Place) -> bool {
+    pub(super) fn is_in_macro(&self, place: Site) -> bool {
         let line = self.interpreter.line(place).map(|line| self.source.code_line(line));
         line.is_some_and(|line| line.trim_start().starts_with('#'))
     }
@@ -112,7 +112,7 @@ impl<'a> Points<'a> {
     }
 
     /// Whether the colour is `wanted` at every point when the values are changed so.
-    pub(super) fn becomes(&self, wanted: &[[f64; 3]], change: &dyn Fn(usize, Place, &Value) -> Option<Value>) -> bool {
+    pub(super) fn becomes(&self, wanted: &[[f64; 3]], change: &dyn Fn(usize, Site, &Value) -> Option<Value>) -> bool {
         self.points.iter().zip(wanted).enumerate().all(|(index, (point, wanted))| {
             let Some(left) = self.budget.get().checked_sub(u64::from(point.steps)) else { return false };
             self.budget.set(left);
@@ -125,7 +125,7 @@ impl<'a> Points<'a> {
     /// Whether the colour stays the same at every point when a constant has another value.
     pub(super) fn is_unchanged_with(&self, constant: &str, value: &Value) -> bool {
         self.points.iter().all(|point| {
-            let other = Given { kept: vec![(constant, value.clone())], ..point.given.clone() };
+            let other = Invocation { kept: vec![(constant, value.clone())], ..point.given.clone() };
             let [before, after] =
                 [&point.given, &other].map(|given| self.interpreter.run(given, self.output, &mut |_, _| None));
             before == after
@@ -136,7 +136,7 @@ impl<'a> Points<'a> {
     pub fn name_of(&self, definition: &str) -> Option<&'a str> {
         let index = self.assignment.equation.index(definition)?;
         let right = self.definitions(&self.assignment.equation.right());
-        let holds = |place: &Place| {
+        let holds = |place: &Site| {
             self.points.iter().zip(&right).all(|(point, right)| {
                 let value = point.values.iter().find(|(p, _)| p == place).and_then(|(_, value)| value.floats());
                 value.is_some_and(|value| is_same(&value, &right[index]))
@@ -156,12 +156,12 @@ impl<'a> Point<'a> {
     fn new(
         interpreter: &Interpreter,
         output: &str,
-        given: Given<'a>,
+        given: Invocation<'a>,
         uniforms: &'a [Reference],
         attributes: &'a [Reference],
     ) -> Option<(Self, Written)> {
         let mut values = Vec::new();
-        let look = &mut |place: Place, value: &Value| {
+        let look = &mut |place: Site, value: &Value| {
             values.push((place, value.clone()));
             None
         };
@@ -175,10 +175,13 @@ pub(in crate::diagnose) fn given<'a>(
     assignment: &'a Assignment,
     uniforms: &[Reference],
     attributes: &[Reference],
-) -> Given<'a> {
+) -> Invocation<'a> {
     let uniforms = assignment.interface.uniforms.iter().map(|u| u.path.as_str()).zip(uniforms);
     let attributes = assignment.interface.inputs.iter().map(|i| i.name.as_str()).zip(attributes);
-    Given { inputs: uniforms.chain(attributes).map(|(name, value)| (name, of(value))).collect(), ..Given::default() }
+    Invocation {
+        inputs: uniforms.chain(attributes).map(|(name, value)| (name, of(value))).collect(),
+        ..Invocation::default()
+    }
 }
 
 /// A value of the reference as the interpreter has it.

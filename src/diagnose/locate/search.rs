@@ -2,9 +2,9 @@
 
 use super::points::{Points, fits, is_close, is_same};
 use super::{Located, Role};
-use crate::translate::{Place, Value};
+use crate::translate::{Site, Value};
 use reference::Assignment;
-use reference::mistake::{Found, Mistake};
+use reference::mistake::{FoundMistake, Mistake};
 
 /// What is searched for: one mistake among those that were found.
 struct Search<'s, 'a> {
@@ -43,7 +43,7 @@ impl Points<'_> {
     }
 
     /// Where mistake `index` of those that were found stands.
-    pub fn locate(&self, found: &[Found], index: usize) -> Option<Located> {
+    pub fn locate(&self, found: &[FoundMistake], index: usize) -> Option<Located> {
         let search = Search::new(self, found, index)?;
         if search.is_zero() { search.missing() } else { search.wrong_value() }
     }
@@ -55,9 +55,9 @@ fn colours(assignment: &Assignment, definitions: &[Vec<Vec<f64>>]) -> Option<Vec
 }
 
 impl<'s, 'a> Search<'s, 'a> {
-    fn new(points: &'s Points<'a>, found: &[Found], index: usize) -> Option<Self> {
+    fn new(points: &'s Points<'a>, found: &[FoundMistake], index: usize) -> Option<Self> {
         let found_one = found.get(index)?;
-        let others: Vec<Found> = found.iter().filter(|other| *other != found_one).cloned().collect();
+        let others: Vec<FoundMistake> = found.iter().filter(|other| *other != found_one).cloned().collect();
         let assignment = points.assignment;
         let mistake = assignment.mistake(&found_one.id)?;
         let right = points.definitions(&assignment.variant(&others)?);
@@ -82,14 +82,14 @@ impl<'s, 'a> Search<'s, 'a> {
     fn replaced(
         points: &Points<'_>,
         mistake: &Mistake,
-        found: &Found,
-        others: &[Found],
+        found: &FoundMistake,
+        others: &[FoundMistake],
         wrong: &[[f64; 3]],
     ) -> Option<Vec<usize>> {
         let assignment = points.assignment;
         let is_equal = |form: usize| {
-            let other = Found { form, ..found.clone() };
-            let all: Vec<Found> = others.iter().cloned().chain([other]).collect();
+            let other = FoundMistake { form, ..found.clone() };
+            let all: Vec<FoundMistake> = others.iter().cloned().chain([other]).collect();
             let colours = assignment.variant(&all).and_then(|v| colours(assignment, &points.definitions(&v)));
             colours.is_some_and(|colours| colours.iter().zip(wrong).all(|(a, b)| is_close(*b, a)))
         };
@@ -118,30 +118,30 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// When a value is computed.
-    fn order(&self, place: Place) -> usize {
+    fn order(&self, place: Site) -> usize {
         self.points.points[0].values.iter().position(|(at, _)| *at == place).unwrap_or(usize::MAX)
     }
 
-    fn located(&self, place: Place, role: Role) -> Option<Located> {
+    fn located(&self, place: Site, role: Role) -> Option<Located> {
         let interpreter = self.points.interpreter;
         let name = interpreter.variable(place).map(str::to_owned);
         Some(Located { line: interpreter.line(place)?, name, role })
     }
 
     /// The values at the first point, which is a wrong one.
-    fn values(&self) -> impl DoubleEndedIterator<Item = (Place, Vec<f64>)> {
+    fn values(&self) -> impl DoubleEndedIterator<Item = (Site, Vec<f64>)> {
         self.points.points[0].values.iter().filter_map(|(place, value)| Some((*place, value.floats()?)))
     }
 
     /// The first value that mends the colour when it is what definition `d` should be.
-    fn direct(&self, d: usize) -> Option<Place> {
+    fn direct(&self, d: usize) -> Option<Site> {
         let mut places = self.mending(d);
         if self.at_use {
             return places.last();
         }
         let first = places.next()?;
         // Where it is right further down, and made wrong again after that, what stands before is not to blame.
-        let is_right = |place: &Place| self.is_definition(*place, d) && self.order(*place) > self.order(first);
+        let is_right = |place: &Site| self.is_definition(*place, d) && self.order(*place) > self.order(first);
         let Some((right, _)) = self.values().rfind(|(place, _)| place.operand == 0 && is_right(place)) else {
             return Some(first);
         };
@@ -149,7 +149,7 @@ impl<'s, 'a> Search<'s, 'a> {
         later.or(Some(first))
     }
 
-    fn mending(&self, d: usize) -> impl Iterator<Item = Place> {
+    fn mending(&self, d: usize) -> impl Iterator<Item = Site> {
         let candidates = self.values().filter(move |(place, value)| {
             fits(value, &self.right[0][d])
                 && (self.handed_out || self.points.is_own(*place))
@@ -162,20 +162,20 @@ impl<'s, 'a> Search<'s, 'a> {
         })
     }
 
-    fn mends(&self, change: &dyn Fn(usize, Place, &Value) -> Option<Value>) -> bool {
+    fn mends(&self, change: &dyn Fn(usize, Site, &Value) -> Option<Value>) -> bool {
         self.points.becomes(&self.wanted, change)
     }
 
     /// The first of the values that mend the colour when each that is the wrong definition `d` becomes the right one:
     /// something that is computed anew wherever it is needed.
-    fn everywhere(&self, d: usize) -> Option<Place> {
+    fn everywhere(&self, d: usize) -> Option<Site> {
         let is_wrong = |point: usize, value: &[f64]| {
             is_same(value, &self.wrong[point][d]) && !is_same(value, &self.right[point][d])
         };
         if self.wrong.iter().all(|wrong| is_same(&wrong[d], &self.wrong[0][d])) {
             return None;
         }
-        let change = |point: usize, _: Place, value: &Value| {
+        let change = |point: usize, _: Site, value: &Value| {
             let floats = value.floats()?;
             is_wrong(point, &floats).then(|| put(value, &self.right[point][d]))?
         };
@@ -189,7 +189,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The first condition that mends the colour when it always holds, or never.
-    fn condition(&self) -> Option<Place> {
+    fn condition(&self) -> Option<Site> {
         let conditions = self.points.points.iter().flat_map(|point| &point.values);
         let mut conditions = conditions.filter(|(_, value)| matches!(value, Value::Bool(_))).map(|(place, _)| *place);
         conditions.find(|place| {
@@ -199,11 +199,11 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// The last value on its way into a product that mends the colour when it is scaled as the mistake scales; where
     /// that is right by itself, what it is added to.
-    fn factor(&self) -> Option<Place> {
+    fn factor(&self) -> Option<Site> {
         let interpreter = self.points.interpreter;
         let all = self.replaced.iter().chain(&self.following);
         for d in all {
-            let scaled: Vec<Place> = self
+            let scaled: Vec<Site> = self
                 .values()
                 .map(|(place, _)| place)
                 .filter(|place| !interpreter.is_copy(*place))
@@ -225,13 +225,13 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Whether a value is made of another.
-    fn depends(&self, place: Place, on: Place) -> bool {
+    fn depends(&self, place: Site, on: Site) -> bool {
         // Neither 0 nor 1.
         const OTHER: f64 = 1.7;
         let point = &self.points.points[0];
         let before = point.values.iter().find(|(at, _)| *at == place).map(|(_, value)| value);
         let mut after = None;
-        let look = &mut |at: Place, value: &Value| {
+        let look = &mut |at: Site, value: &Value| {
             if at == place {
                 after = Some(value.clone());
             }
@@ -242,21 +242,21 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Whether a value is that of some definition of the right equation, at every point.
-    fn is_right(&self, place: Place) -> bool {
+    fn is_right(&self, place: Site) -> bool {
         (0..self.right[0].len()).any(|d| self.is_definition(place, d))
     }
 
     /// Whether a value is that of definition `d` at every point.
-    fn is_definition(&self, place: Place, d: usize) -> bool {
+    fn is_definition(&self, place: Site, d: usize) -> bool {
         self.at_all_points(place, |value, point| is_same(value, &self.right[point][d]))
     }
 
-    fn is_zero_at_all_points(&self, place: Place) -> bool {
+    fn is_zero_at_all_points(&self, place: Site) -> bool {
         self.at_all_points(place, |value, _| value.iter().take(3).all(|x| *x == 0.0))
     }
 
     /// Whether something holds of a value wherever it is computed.
-    fn at_all_points(&self, place: Place, holds: impl Fn(&[f64], usize) -> bool) -> bool {
+    fn at_all_points(&self, place: Site, holds: impl Fn(&[f64], usize) -> bool) -> bool {
         self.points.points.iter().enumerate().all(|(index, point)| {
             let value = point.values.iter().find(|(at, _)| *at == place).and_then(|(_, value)| value.floats());
             value.is_none_or(|value| holds(&value, index))
@@ -264,7 +264,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The sums that mend the colour when what definition `d` lacks is added.
-    fn sums(&self, d: usize) -> impl Iterator<Item = Place> {
+    fn sums(&self, d: usize) -> impl Iterator<Item = Site> {
         let sums = self.values().filter(|(place, _)| self.points.interpreter.is_sum(*place));
         sums.map(|(place, _)| place).filter(move |place| {
             self.mends(&|point, at, value| {
@@ -288,7 +288,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Whether a constant is what a sum begins with, and not a term.
-    fn is_start_of_sum(&self, place: Place) -> bool {
+    fn is_start_of_sum(&self, place: Site) -> bool {
         let interpreter = self.points.interpreter;
         if place.operand == 0 || !self.is_zero_at_all_points(place) {
             return false;
@@ -316,9 +316,9 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// A function or a macro that computes something right where it is used elsewhere is not to blame: what it is given
     /// here is, or else what is made of it.
-    fn outside_of_helper(&self, place: Place) -> Place {
+    fn outside_of_helper(&self, place: Site) -> Site {
         let interpreter = self.points.interpreter;
-        let is_other_use = |at: &Place| {
+        let is_other_use = |at: &Site| {
             let is_shared = at.instruction == place.instruction
                 || self.points.is_in_macro(place) && interpreter.is_alike(*at, place);
             *at != place && at.operand == 0 && is_shared && self.is_right(*at)
@@ -326,7 +326,7 @@ impl<'s, 'a> Search<'s, 'a> {
         if !self.values().any(|(at, _)| is_other_use(&at)) {
             return place;
         }
-        let is_outside = |at: &Place| {
+        let is_outside = |at: &Site| {
             interpreter.line(*at) != interpreter.line(place)
                 && interpreter.function(*at) == interpreter.function_of_main()
         };

@@ -12,7 +12,7 @@ use crate::report::text::number;
 use crate::report::{Advice, Hints, Report, RubricLine, Verdict};
 use askama::Template;
 use reference::Assignment;
-use reference::typeset::{Given, Typeset};
+use reference::typeset::{SymbolMeaning, Typeset};
 
 /// How much of its points a line or a whole file earned, as a teacher marks it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -214,7 +214,7 @@ impl<'a> EquationView<'a> {
                 points: format!("{} / {}", line.points, line.max_points),
             })
         });
-        let given = |given: &'a Given| (&*given.symbol, &*given.value, language.of(&given.source));
+        let given = |given: &'a SymbolMeaning| (&*given.symbol, &*given.value, language.of(&given.source));
         Self {
             source: language.of(&equation.source),
             total: &equation.total,

@@ -3,7 +3,7 @@
 use super::body::other;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::idempotency::{self, Given};
+use crate::service::idempotency::{self, RequestKey};
 use crate::service::identity::hex;
 use crate::service::limits::Client;
 use crate::service::store::Key;
@@ -91,7 +91,7 @@ impl Archive {
     /// `assignment` is whose class it is.
     pub fn key(&self, assignment: &str, headers: &HeaderMap, client: &Client) -> Result<Option<Key>, Problem> {
         let field = self.fields.get(idempotency::FIELD).map(String::as_str);
-        let given = Given::read(headers, field, client)?;
+        let given = RequestKey::read(headers, field, client)?;
         Ok(given.map(|given| given.of_teacher(&[assignment, &self.title(), &self.sha256])))
     }
 

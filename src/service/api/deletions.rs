@@ -6,7 +6,7 @@ use crate::service::Service;
 use crate::service::deletion::delete;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, normal_number};
-use crate::service::store::{Counts, Target};
+use crate::service::store::{Counts, DeletionTarget};
 use axum::Json;
 use axum::extract::{Path, State as Shared};
 use axum::http::HeaderMap;
@@ -82,19 +82,19 @@ async fn deleted(service: &Service, (teacher, headers): &Caller, named: Named) -
         Named::Submission(id) => match store.submission(&id).await? {
             Some(found) => {
                 teacher.check(&found.assignment)?;
-                Some(Target::Submission(found.id))
+                Some(DeletionTarget::Submission(found.id))
             }
             None => None,
         },
         Named::Batch(id) => match store.batch(&id).await? {
             Some(found) => {
                 teacher.check(&found.assignment)?;
-                Some(Target::Batch(found.id))
+                Some(DeletionTarget::Batch(found.id))
             }
             None => None,
         },
         Named::Student(number) => match normal_number(&number) {
-            Some(number) => store.student_by_number(&number).await?.map(|found| Target::Student(found.id)),
+            Some(number) => store.student_by_number(&number).await?.map(|found| DeletionTarget::Student(found.id)),
             None => None,
         },
     };

@@ -5,7 +5,7 @@ use super::schema::{FrameJson, FramesJson};
 use super::submissions::find;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::gallery::View;
+use crate::service::gallery::PictureSet;
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State as Shared};
@@ -20,7 +20,7 @@ use serde::Deserialize;
 pub(in crate::service) struct ViewQuery {
     /// `yours` (what the shader draws), `expected`, `difference`, or `all`: the three side by side.
     #[param(inline)]
-    pub view: View,
+    pub view: PictureSet,
 }
 
 /// The pictures of a submission
@@ -88,7 +88,7 @@ pub(in crate::service) async fn frame_of(
     service: &Service,
     id: &str,
     frame: &str,
-    view: View,
+    view: PictureSet,
 ) -> Result<Response, Problem> {
     let index = frame.strip_suffix(".png").filter(|n| n.bytes().all(|byte| byte.is_ascii_digit()));
     let index: usize = index.and_then(|index| index.parse().ok()).ok_or_else(Problem::not_found)?;
@@ -97,7 +97,11 @@ pub(in crate::service) async fn frame_of(
 }
 
 /// The animation of a submission.
-pub(in crate::service) async fn animation_of(service: &Service, id: &str, view: View) -> Result<Response, Problem> {
+pub(in crate::service) async fn animation_of(
+    service: &Service,
+    id: &str,
+    view: PictureSet,
+) -> Result<Response, Problem> {
     let (state, submission) = service.submission(id).await?;
     png(state.gallery.animation(&state, &submission, view).await?)
 }

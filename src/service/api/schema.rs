@@ -4,7 +4,7 @@ use crate::batch::class::Refused;
 use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::report::Report;
-use crate::report::json::{self, View};
+use crate::report::json::{self, JsonReport};
 use crate::service::store::{Batch, BatchEntry, Progress, State, Submission, Via};
 use clap::ValueEnum;
 use serde::Serialize;
@@ -31,7 +31,7 @@ pub(super) struct SubmissionJson<'a> {
     /// Position in the queue, while it waits there.
     pub position: Option<u64>,
     /// The report.
-    pub report: Option<View<'a>>,
+    pub report: Option<JsonReport<'a>>,
     /// Why it could not be graded.
     pub fault: Option<FaultJson<'a>>,
     /// Where else to look.

@@ -7,7 +7,7 @@ use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::service::download;
 use crate::service::errors::Problem;
-use crate::service::idempotency::{self, Given};
+use crate::service::idempotency::{self, RequestKey};
 use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
 use crate::service::language::Lang;
 use crate::service::limits::Client;
@@ -112,7 +112,7 @@ pub(super) async fn create(
     let Query(about) = about.map_err(super::body::other)?;
     let headers = request.headers().clone();
     let form = Form::read(request, &service).await?;
-    let key = Given::read(&headers, form.fields.get(idempotency::FIELD).map(String::as_str), &client)?;
+    let key = RequestKey::read(&headers, form.fields.get(idempotency::FIELD).map(String::as_str), &client)?;
     let about = about.with(&form)?;
     let state = service.named(about.assignment.as_deref())?;
     let identity = identity(&state, &about, visitor, teacher, &headers).await?;

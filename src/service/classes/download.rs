@@ -1,7 +1,7 @@
 //! A class in a format of `ggrade batch`.
 
 use super::people::{Person, people};
-use crate::batch::class::{Class, Entry, Outcome, Participant, Place, Refused, Student};
+use crate::batch::class::{Class, Entry, FileLocation, Outcome, Participant, Refused, Student};
 use crate::batch::folder::{Folder, NotOpened};
 use crate::batch::formats::{Format, KEY, worksheet};
 use crate::batch::intake::{Content, StudentWork};
@@ -273,8 +273,8 @@ fn class(
 }
 
 /// Where the files were: the path that an archive's list has of them, which names each of several, or else their names.
-fn places(path: Option<String>, hand_in: &HandIn) -> Vec<Place> {
-    let place = |path: &str| Place { path: path.to_owned(), local: None };
+fn places(path: Option<String>, hand_in: &HandIn) -> Vec<FileLocation> {
+    let place = |path: &str| FileLocation { path: path.to_owned(), local: None };
     match (path, hand_in.files.as_slice()) {
         (Some(path), [_]) => vec![place(&path)],
         (Some(path), files) if path.split(", ").count() == files.len() => path.split(", ").map(place).collect(),

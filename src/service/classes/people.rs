@@ -41,13 +41,13 @@ impl Person {
     }
 
     /// How they stand.
-    pub fn standing(&self) -> Standing {
+    pub fn standing(&self) -> PersonStanding {
         match (self.best().and_then(|best| best.row.verdict), self.rows.first()) {
-            (Some(verdict), _) => Standing::Graded(verdict),
-            (None, None) if self.note.is_some() => Standing::Ungraded,
-            (None, None) => Standing::Nothing,
-            (None, Some(row)) if row.row.submission.state == Progress::Failed => Standing::Failed,
-            (None, Some(_)) => Standing::Queued,
+            (Some(verdict), _) => PersonStanding::Graded(verdict),
+            (None, None) if self.note.is_some() => PersonStanding::Ungraded,
+            (None, None) => PersonStanding::Nothing,
+            (None, Some(row)) if row.row.submission.state == Progress::Failed => PersonStanding::Failed,
+            (None, Some(_)) => PersonStanding::Queued,
         }
     }
 
@@ -64,7 +64,7 @@ impl Person {
 
 /// How somebody stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum PersonStanding {
     /// By the verdict of the best attempt.
     Graded(Verdict),
     /// Being graded.
@@ -77,7 +77,7 @@ pub enum Standing {
     Nothing,
 }
 
-impl Standing {
+impl PersonStanding {
     /// Its name in an address.
     pub fn id(self) -> &'static str {
         match self {
@@ -270,7 +270,7 @@ mod tests {
             |files: &[(Millis, f64, &str)]| person("a", files).best().map(|best| best.row.submission.received_at);
         assert_eq!(best(&[(1, 50.0, ""), (2, 80.0, ""), (3, 80.0, ""), (4, 0.0, "")]), Some(2));
         assert_eq!(best(&[]), None);
-        assert_eq!(person("a", &[]).standing(), Standing::Nothing);
-        assert_eq!(person("a", &[(1, 100.0, ""), (2, 0.0, "")]).standing(), Standing::Graded(Verdict::Correct));
+        assert_eq!(person("a", &[]).standing(), PersonStanding::Nothing);
+        assert_eq!(person("a", &[(1, 100.0, ""), (2, 0.0, "")]).standing(), PersonStanding::Graded(Verdict::Correct));
     }
 }

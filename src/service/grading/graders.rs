@@ -1,6 +1,6 @@
 //! The graders: one task for each file that is graded at once.
 
-use super::{Job, Outcome, cross_checks};
+use super::{GradingResult, Job, cross_checks};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
@@ -151,7 +151,7 @@ async fn grade(service: &Service, job: Job) {
     let outcome = keep(service, &submission, judged).await;
     metrics::stage("store", stored.elapsed());
     metrics::graded(&submission, outcome.as_ref());
-    if let Some(Outcome::Graded(report)) = &outcome {
+    if let Some(GradingResult::Graded(report)) = &outcome {
         service.cross_checks.expect(&submission, report);
     }
     service.queue.done(&submission.id, outcome, start.elapsed());
@@ -175,7 +175,7 @@ async fn judge(service: &Service, job: Job) -> Result<Report, Fault> {
 
 /// Stores what came of a grading, however long the database does not answer: until then nothing else is graded here.
 /// When the service ends before, the claim ends with it, and the file is graded again.
-async fn keep(service: &Service, submission: &Submission, judged: Result<Report, Fault>) -> Option<Outcome> {
+async fn keep(service: &Service, submission: &Submission, judged: Result<Report, Fault>) -> Option<GradingResult> {
     if let Err(fault) = &judged {
         tracing::error!(fault = kind_of(fault), submission = submission.id, "grading failed");
     }
@@ -195,8 +195,8 @@ async fn keep(service: &Service, submission: &Submission, judged: Result<Report,
         tokio::time::sleep(PAUSE).await;
     }
     Some(match judged {
-        Ok(report) => Outcome::Graded(Arc::new(report)),
-        Err(fault) => Outcome::Failed(Arc::new(fault)),
+        Ok(report) => GradingResult::Graded(Arc::new(report)),
+        Err(fault) => GradingResult::Failed(Arc::new(fault)),
     })
 }
 

@@ -12,7 +12,7 @@ use tokio::sync::{Notify, broadcast};
 
 /// What came of a grading.
 #[derive(Clone, Debug)]
-pub enum Outcome {
+pub enum GradingResult {
     /// The report.
     Graded(Arc<Report>),
     /// Our failure.
@@ -56,7 +56,7 @@ struct Inner {
     waiting: VecDeque<Job>,
     /// Files that are graded right now.
     running: usize,
-    listeners: HashMap<String, broadcast::Sender<Outcome>>,
+    listeners: HashMap<String, broadcast::Sender<GradingResult>>,
     /// When the last grading ended; none before the first.
     ended: Option<Instant>,
     /// Mean seconds of a grading, lately.
@@ -66,7 +66,7 @@ struct Inner {
 
 /// A place in the queue, taken before a file is stored.
 #[derive(Debug)]
-pub struct Place<'a> {
+pub struct Reservation<'a> {
     queue: &'a Queue,
 }
 
@@ -83,7 +83,7 @@ impl Queue {
     }
 
     /// Takes a place for a file that is about to be stored, or says how full it is.
-    pub fn reserve(&self) -> Result<Place<'_>, Full> {
+    pub fn reserve(&self) -> Result<Reservation<'_>, Full> {
         let mut inner = self.lock();
         let ahead = inner.waiting.len() + inner.reserved;
         if ahead >= self.capacity {
@@ -91,7 +91,7 @@ impl Queue {
             return Err(Full { position: ahead as u64 + 1, retry_after: seconds.ceil().clamp(1.0, 60.0) as u64 });
         }
         inner.reserved += 1;
-        Ok(Place { queue: self })
+        Ok(Reservation { queue: self })
     }
 
     /// Tells the graders that there are files in the database that nobody holds.
@@ -119,7 +119,7 @@ impl Queue {
     }
 
     /// Listens for what comes of a file.
-    pub fn listen(&self, id: &str) -> broadcast::Receiver<Outcome> {
+    pub fn listen(&self, id: &str) -> broadcast::Receiver<GradingResult> {
         self.lock().listeners.entry(id.to_owned()).or_insert_with(|| broadcast::Sender::new(1)).subscribe()
     }
 
@@ -139,7 +139,7 @@ impl Queue {
         self.lock().running += 1;
     }
 
-    pub(super) fn done(&self, id: &str, outcome: Option<Outcome>, took: Duration) {
+    pub(super) fn done(&self, id: &str, outcome: Option<GradingResult>, took: Duration) {
         /// The share of the newest grading in the mean.
         const SHARE: f64 = 0.1;
         let mut inner = self.lock();
@@ -157,7 +157,7 @@ impl Queue {
     }
 }
 
-impl Place<'_> {
+impl Reservation<'_> {
     /// Puts the stored file there.
     pub fn fill(self, job: Job) {
         self.queue.lock().waiting.push_back(job);
@@ -165,7 +165,7 @@ impl Place<'_> {
     }
 }
 
-impl Drop for Place<'_> {
+impl Drop for Reservation<'_> {
     fn drop(&mut self) {
         let mut inner = self.queue.lock();
         inner.reserved = inner.reserved.saturating_sub(1);

@@ -4,7 +4,7 @@ use super::cookies::{TEACHER_COOKIE, read};
 use super::secrets::same;
 use super::{csrf, token_hash};
 use crate::service::errors::Problem;
-use crate::service::store::Target;
+use crate::service::store::DeletionTarget;
 use crate::service::{Scope, Service};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -53,10 +53,10 @@ impl Teacher {
 
     /// Lets who may delete this pass, where they may see the homework that it was found in. With somebody goes what they
     /// handed in for every homework.
-    pub fn may_delete(&self, target: &Target) -> Result<(), Problem> {
+    pub fn may_delete(&self, target: &DeletionTarget) -> Result<(), Problem> {
         match target {
-            Target::Submission(_) | Target::Batch(_) | Target::Entry(..) => Ok(()),
-            Target::Student(_) | Target::Browser(_) => self.check_course(),
+            DeletionTarget::Submission(_) | DeletionTarget::Batch(_) | DeletionTarget::Entry(..) => Ok(()),
+            DeletionTarget::Student(_) | DeletionTarget::Browser(_) => self.check_course(),
         }
     }
 

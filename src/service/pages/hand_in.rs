@@ -1,7 +1,7 @@
 //! The student's page and its forms: looking, trying, handing in.
 
 use super::frame::Frame;
-use super::standing::Standing;
+use super::standing::StudentStanding;
 use super::student::{Desk, LISTED};
 use super::{result, shown};
 use crate::grade::handed_out;
@@ -9,7 +9,7 @@ use crate::hand_in::{HandIn, HandedInFile};
 use crate::service::State;
 use crate::service::download;
 use crate::service::errors::Problem;
-use crate::service::idempotency::{self, Given};
+use crate::service::idempotency::{self, RequestKey};
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
@@ -82,7 +82,7 @@ pub(super) async fn desk(
     let desk = Desk {
         frame,
         homework: std::sync::Arc::clone(&state.assignment),
-        standing: Standing {
+        standing: StudentStanding {
             settings: &settings,
             now: state.clock.now(),
             may_hand_in: !needs_number && stranger.is_none(),
@@ -176,7 +176,7 @@ async fn take(
     let hand_in = form.hand_in(state)?;
     // A page that stays open may be sent again with another text, and first to try it: those are other requests.
     let field = field.map(|field| format!("{field} {} {}", store::word(&via), hand_in.sha256()));
-    let key = Given::read(headers, field.as_deref(), &client)?;
+    let key = RequestKey::read(headers, field.as_deref(), &client)?;
     submit(state, Upload { hand_in, identity: visitor.identity, via, hints: None, key }).await
 }
 

@@ -1,7 +1,7 @@
 //! The list of the homeworks, where a service has several: for students, and for teachers.
 
 use super::frame::Frame;
-use super::standing::{Fact, Standing};
+use super::standing::{Fact, StudentStanding};
 use super::{internal, shown, student};
 use crate::language::Language;
 use crate::report::html::rich::Piece;
@@ -27,7 +27,7 @@ pub(super) fn router() -> Router<Service> {
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/homeworks.html")]
-struct View {
+struct HomeworksPage {
     frame: Frame,
     heading: &'static str,
     homeworks: Vec<Homework>,
@@ -73,7 +73,7 @@ async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) 
     }
     let heading = frame.say("Homework", "課題の一覧");
     let who = visitor.identity.student().map(|student| student.number.clone());
-    shown(View { frame, heading, homeworks, who, csrf: None }.render())
+    shown(HomeworksPage { frame, heading, homeworks, who, csrf: None }.render())
 }
 
 /// Dates, attempts, and the best of what this browser has handed in.
@@ -86,7 +86,7 @@ async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fa
         history = state.store.history(id, owner, student::LISTED).await?;
         used = state.store.attempts(id, owner, identity.student().map(|student| student.id.as_str())).await?;
     }
-    let standing = Standing { settings: &settings, now: state.clock.now(), may_hand_in: true, used };
+    let standing = StudentStanding { settings: &settings, now: state.clock.now(), may_hand_in: true, used };
     let mut facts = standing.facts(frame);
     facts.extend(student::best_fact(frame, &history));
     Ok(facts)
@@ -115,7 +115,7 @@ async fn classes(
     }
     let heading = frame.say("Classes", "クラスの一覧");
     let csrf = Some(teacher.csrf(&service));
-    shown(View { frame, heading, homeworks, who: None, csrf }.render())
+    shown(HomeworksPage { frame, heading, homeworks, who: None, csrf }.render())
 }
 
 /// An address of a homework that there is not.

@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/join.html")]
-struct View {
+struct JoinPage {
     frame: Frame,
     /// The title of the homework, where there is one only.
     title: String,
@@ -28,7 +28,7 @@ struct View {
 
 /// The form of the page.
 #[derive(Debug, Default, Deserialize)]
-pub(super) struct Given {
+pub(super) struct JoinForm {
     #[serde(default)]
     csrf: String,
     #[serde(default)]
@@ -42,9 +42,9 @@ fn view(
     visitor: &Visitor,
     number: String,
     problem: Option<String>,
-) -> View {
+) -> JoinPage {
     let who = visitor.identity.student().map(|student| student.number.clone());
-    View {
+    JoinPage {
         title: service.only().map(|state| student::title(&state.assignment, frame.language)).unwrap_or_default(),
         problem,
         action: format!("/join/{secret}"),
@@ -73,7 +73,7 @@ pub(super) async fn join(
     Path(secret): Path<String>,
     frame: Frame,
     visitor: Visitor,
-    Form(given): Form<Given>,
+    Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &given.csrf)?;
     match identity::join(&service, visitor.clone(), &secret, &given.number).await {
@@ -92,7 +92,7 @@ pub(super) async fn join(
 pub(super) async fn leave(
     Shared(service): Shared<Service>,
     visitor: Visitor,
-    Form(given): Form<Given>,
+    Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &given.csrf)?;
     Ok(to_desk(&service, &identity::leave()))

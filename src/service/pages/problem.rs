@@ -10,7 +10,7 @@ use axum::response::Html;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/problem.html")]
-struct View {
+struct ProblemPage {
     frame: Frame,
     status: u16,
     heading: &'static str,
@@ -35,5 +35,5 @@ pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String
     let detail = problem.detail.get(language).replace('`', "");
     let status = problem.status.as_u16();
     // A string of a template of ours: there is nothing that could fail.
-    Html(View { frame, status, heading, detail, is_teachers }.render().unwrap_or_default())
+    Html(ProblemPage { frame, status, heading, detail, is_teachers }.render().unwrap_or_default())
 }

@@ -11,7 +11,7 @@ use askama::Template;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/receipt.html")]
-struct View<'a> {
+struct ReceiptPage<'a> {
     frame: &'a Frame,
     at: Moment,
     name: &'a str,
@@ -49,7 +49,7 @@ pub(super) async fn receipt(
             .to_owned(),
         (None, _) => frame.say("Being graded", "採点中").to_owned(),
     };
-    let view = View {
+    let view = ReceiptPage {
         frame,
         at: frame.exact_moment(submission.received_at),
         name: &submission.name,

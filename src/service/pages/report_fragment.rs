@@ -17,7 +17,7 @@ use serde::Serialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/report_fragment.html")]
-struct View {
+struct FragmentPage {
     label: &'static str,
     mark: Mark,
     is_drawn: bool,
@@ -46,7 +46,7 @@ pub(super) fn render(
 ) -> Result<String, Fault> {
     let has_footer = level == 1;
     let part = Part { assignment, report, source, gallery, language: frame.language, level, has_footer };
-    let view = View {
+    let view = FragmentPage {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),
         is_drawn: matches!(report.verdict, Verdict::Correct | Verdict::Wrong),

@@ -8,7 +8,7 @@ use crate::report::html::Lines;
 use crate::report::text::number;
 use crate::service::download;
 use crate::service::errors::Problem;
-use crate::service::gallery::View as Pictured;
+use crate::service::gallery::PictureSet;
 use crate::service::identity::Teacher;
 use crate::service::store::{State as Progress, Stored, Submission, Via};
 use crate::service::{Service, State};
@@ -20,7 +20,7 @@ use serde::Deserialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/report.html")]
-struct View {
+struct ResultPage {
     frame: Frame,
     title: String,
     back: String,
@@ -65,7 +65,7 @@ pub(super) async fn page(
         Via::Editor | Via::Batch => None,
     };
     shown(
-        View {
+        ResultPage {
             title: format!("{} / {} · {}", number(report.score), number(report.max_score), submission.name),
             back: state.page(),
             back_name: frame.say("To the homework", "課題のページへ"),
@@ -218,7 +218,7 @@ pub(super) fn png(bytes: Vec<u8>) -> Response {
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Asked {
     #[serde(default)]
-    view: Pictured,
+    view: PictureSet,
 }
 
 /// `GET /r/{id}/{picture}`: the sheets of the page, the portrait, the animation.

@@ -11,7 +11,7 @@ const URGENT: Millis = 24 * 3_600_000;
 
 /// How a student stands towards the deadline and the number of attempts.
 #[derive(Clone, Copy)]
-pub(super) struct Standing<'a> {
+pub(super) struct StudentStanding<'a> {
     /// What the teacher set.
     pub settings: &'a Assignment,
     pub now: Millis,
@@ -46,7 +46,7 @@ impl Fact {
     }
 }
 
-impl Standing<'_> {
+impl StudentStanding<'_> {
     pub fn attempts_left(&self) -> Option<u64> {
         self.settings.attempts.map(|most| most.saturating_sub(self.used))
     }

@@ -4,7 +4,7 @@ use super::assets;
 use super::datetime::Moment;
 use super::frame::Frame;
 use super::report_fragment;
-use super::standing::{Fact, Standing};
+use super::standing::{Fact, StudentStanding};
 use crate::language::Language;
 use crate::report::Verdict;
 use crate::report::html::Mark;
@@ -27,7 +27,7 @@ pub(super) struct Desk<'a> {
     /// The homework.
     pub homework: std::sync::Arc<reference::Assignment>,
     /// What may still be handed in.
-    pub standing: Standing<'a>,
+    pub standing: StudentStanding<'a>,
     /// Student number.
     pub who: Option<String>,
     pub csrf: String,
@@ -41,7 +41,7 @@ pub(super) struct Desk<'a> {
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/student.html")]
-struct View<'a> {
+struct StudentPage<'a> {
     frame: Frame,
     title: String,
     /// The names of the homework's files.
@@ -115,7 +115,7 @@ impl Desk<'_> {
         };
         let (has_editor, accepted) = (slots.len() == 1, accepted(slots));
         let (own, text) = self.own.take().unzip();
-        View {
+        StudentPage {
             title: title(&self.homework, language),
             file: file_name,
             has_editor,

@@ -21,7 +21,7 @@ mod table;
 use super::frame::Frame;
 use super::report_fragment;
 use crate::service::State;
-use crate::service::classes::Standing;
+use crate::service::classes::PersonStanding;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::http::StatusCode;
@@ -53,7 +53,7 @@ pub(super) fn router() -> Router<State> {
 
 /// Where a page stands among the teacher's, for its navigation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum Tab {
     /// The class.
     Class,
     /// Archives.
@@ -63,13 +63,13 @@ pub(super) enum Place {
 }
 
 /// How somebody stands, in words.
-fn word(frame: &Frame, standing: Standing) -> &'static str {
+fn word(frame: &Frame, standing: PersonStanding) -> &'static str {
     match standing {
-        Standing::Graded(verdict) => report_fragment::verdict(frame, verdict),
-        Standing::Queued => frame.say("Being graded", "採点中"),
-        Standing::Failed => frame.say("Our fault", "サーバ側の障害"),
-        Standing::Ungraded => frame.say("Nothing to grade", "採点対象なし"),
-        Standing::Nothing => frame.say("Nothing handed in", "未提出"),
+        PersonStanding::Graded(verdict) => report_fragment::verdict(frame, verdict),
+        PersonStanding::Queued => frame.say("Being graded", "採点中"),
+        PersonStanding::Failed => frame.say("Our fault", "サーバ側の障害"),
+        PersonStanding::Ungraded => frame.say("Nothing to grade", "採点対象なし"),
+        PersonStanding::Nothing => frame.say("Nothing handed in", "未提出"),
     }
 }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is to be deleted.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Target {
+pub enum DeletionTarget {
     /// One file with its report and pictures.
     Submission(String),
     /// An archive with all its files.
@@ -53,7 +53,7 @@ fn deleted_note() -> Text {
 
 type Rows = Vec<(String, String, String)>;
 
-impl Target {
+impl DeletionTarget {
     /// The word in the log: people without a number are students as well.
     pub fn word(&self) -> &'static str {
         match self {
@@ -171,7 +171,7 @@ impl Deletion {
 
 impl Store {
     /// How much belongs to it.
-    pub async fn count(&self, target: &Target) -> Result<Counts> {
+    pub async fn count(&self, target: &DeletionTarget) -> Result<Counts> {
         let (sql, id, position) = target.submissions();
         let (entries, browsers) = target.others();
         on!(&self.read, db => {
@@ -187,7 +187,7 @@ impl Store {
     /// pictures of it.
     pub async fn delete(
         &self,
-        target: &Target,
+        target: &DeletionTarget,
         refused: &[(String, String)],
         now: Millis,
     ) -> Result<(Counts, Vec<String>)> {

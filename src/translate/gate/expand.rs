@@ -10,19 +10,19 @@ use std::rc::Rc;
 
 /// A name, a number, or one other character.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Token {
+pub(super) struct ExpandedToken {
     pub text: Rc<str>,
     /// Line from 1; for what a macro writes, the line of its use.
     pub line: u32,
 }
 
 /// The tokens of one line.
-pub(super) fn tokens(line: &str, number: u32) -> Vec<Token> {
+pub(super) fn tokens(line: &str, number: u32) -> Vec<ExpandedToken> {
     let mut found = Vec::new();
     let mut rest = line.trim_start();
     while !rest.is_empty() {
         let (text, others) = rest.split_at(token_length(rest));
-        found.push(Token { text: text.into(), line: number });
+        found.push(ExpandedToken { text: text.into(), line: number });
         rest = others.trim_start();
     }
     found
@@ -51,13 +51,13 @@ struct Macro {
 /// What is still to be read.
 #[derive(Clone, Debug)]
 enum Item {
-    Token(Token),
+    ExpandedToken(ExpandedToken),
     /// From here on the macro's name is not expanded (−1: it may be again).
     Hide(Rc<str>, i32),
 }
 
 /// Receives the tokens that are left when all macros are expanded.
-pub(super) type Sink<'a> = dyn FnMut(&Token) -> Result<(), (Excess, u32)> + 'a;
+pub(super) type Sink<'a> = dyn FnMut(&ExpandedToken) -> Result<(), (Excess, u32)> + 'a;
 
 /// The macros of a file, and how many tokens they have written.
 #[derive(Debug, Default)]
@@ -93,14 +93,14 @@ impl Expander {
     }
 
     /// Expands `tokens` and gives each that is left to `sink`.
-    pub fn expand(&mut self, tokens: Vec<Token>, sink: &mut Sink<'_>) -> Result<(), (Excess, u32)> {
+    pub fn expand(&mut self, tokens: Vec<ExpandedToken>, sink: &mut Sink<'_>) -> Result<(), (Excess, u32)> {
         // The next item is the last: what a macro writes is pushed in front of what is still to come.
-        let mut items: Vec<Item> = tokens.into_iter().rev().map(Item::Token).collect();
+        let mut items: Vec<Item> = tokens.into_iter().rev().map(Item::ExpandedToken).collect();
         self.hidden.clear();
         while let Some(item) = items.pop() {
             match item {
                 Item::Hide(name, change) => *self.hidden.entry(name).or_default() += change,
-                Item::Token(token) => match self.written_by(&token, &mut items)? {
+                Item::ExpandedToken(token) => match self.written_by(&token, &mut items)? {
                     true => {}
                     false => sink(&token)?,
                 },
@@ -110,7 +110,7 @@ impl Expander {
     }
 
     /// Pushes what the macro `token` writes; false where it names none.
-    fn written_by(&mut self, token: &Token, items: &mut Vec<Item>) -> Result<bool, (Excess, u32)> {
+    fn written_by(&mut self, token: &ExpandedToken, items: &mut Vec<Item>) -> Result<bool, (Excess, u32)> {
         let is_hidden = self.hidden.get(&token.text).is_some_and(|count| *count > 0);
         let Some(found) = self.macros.get(&token.text).filter(|_| !is_hidden) else { return Ok(false) };
         let takes_arguments = found.iter().any(|one| one.parameters.is_some());
@@ -142,7 +142,7 @@ pub(super) fn split_name(text: &str) -> (&str, &str) {
 /// Takes `( … )` from the items and splits it at its commas; none where no parenthesis follows.
 fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Option<Vec<Vec<Item>>> {
     let next = items.iter().rev().find_map(|item| match item {
-        Item::Token(token) => Some(&*token.text == "("),
+        Item::ExpandedToken(token) => Some(&*token.text == "("),
         Item::Hide(..) => None,
     })?;
     if !next {
@@ -152,7 +152,7 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
     let mut found = vec![Vec::new()];
     while let Some(item) = items.pop() {
         let token = match &item {
-            Item::Token(token) => token,
+            Item::ExpandedToken(token) => token,
             // Before the parenthesis.
             Item::Hide(name, change) if depth == 0 => {
                 *hidden.entry(name.clone()).or_default() += change;
@@ -219,7 +219,7 @@ fn settle(argument: Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Vec<Item> 
 
 impl Macro {
     /// Writes what stands for `token`; arguments that no parameter takes are written as well.
-    fn write(&self, token: &Token, arguments: &[Vec<Item>], pushed: &mut Vec<Item>) {
+    fn write(&self, token: &ExpandedToken, arguments: &[Vec<Item>], pushed: &mut Vec<Item>) {
         let parameters = self.parameters.as_deref().unwrap_or_default();
         let mut is_pasted = false;
         let mut at = 0;
@@ -239,7 +239,7 @@ impl Macro {
                     pushed.extend(argument.iter().cloned());
                     pushed.push(Item::Hide(token.text.clone(), 1));
                 }
-                None => pushed.push(Item::Token(Token { text: text.clone(), line: token.line })),
+                None => pushed.push(Item::ExpandedToken(ExpandedToken { text: text.clone(), line: token.line })),
             }
             if let Some(before) = before {
                 paste(before, pushed, start, token.line);
@@ -255,9 +255,9 @@ impl Macro {
 
 /// Takes the last token out of the items.
 fn take_last(items: &mut Vec<Item>) -> Option<Rc<str>> {
-    let at = items.iter().rposition(|item| matches!(item, Item::Token(_)))?;
+    let at = items.iter().rposition(|item| matches!(item, Item::ExpandedToken(_)))?;
     match items.remove(at) {
-        Item::Token(token) => Some(token.text),
+        Item::ExpandedToken(token) => Some(token.text),
         Item::Hide(..) => None,
     }
 }
@@ -265,10 +265,10 @@ fn take_last(items: &mut Vec<Item>) -> Option<Rc<str>> {
 /// Makes `before` and the first token from `start` on one, as `##` does. What is pasted is none of an argument's own, so
 /// it stands in front of what lets the macro's name be expanded there.
 fn paste(before: Rc<str>, items: &mut Vec<Item>, start: usize, line: u32) {
-    let first = (start..items.len()).find(|&at| matches!(items[at], Item::Token(_)));
+    let first = (start..items.len()).find(|&at| matches!(items[at], Item::ExpandedToken(_)));
     let text = match first.map(|at| items.remove(at)) {
-        Some(Item::Token(token)) => format!("{before}{}", token.text).into(),
+        Some(Item::ExpandedToken(token)) => format!("{before}{}", token.text).into(),
         _ => before,
     };
-    items.insert(start, Item::Token(Token { text, line }));
+    items.insert(start, Item::ExpandedToken(ExpandedToken { text, line }));
 }

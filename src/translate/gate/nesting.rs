@@ -62,11 +62,11 @@ impl Nesting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::translate::gate::expand::{Token, tokens};
+    use crate::translate::gate::expand::{ExpandedToken, tokens};
 
     fn deepest(code: &str) -> usize {
         let mut nesting = Nesting::default();
-        let depth = |token: Token| {
+        let depth = |token: ExpandedToken| {
             nesting.take(&token.text);
             nesting.depth()
         };

@@ -15,7 +15,7 @@ use std::collections::{HashMap, HashSet};
 
 /// What the program does not provide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum StorageKind {
     Texture,
     Buffer,
     Shared,
@@ -129,25 +129,25 @@ const BUFFER_BLOCK: u32 = 3;
 /// What a variable in this storage class is (SPIR-V specification, section 3.7).
 ///
 /// A plain uniform of OpenGL's default block is in the class of textures.
-fn kind(class: u32, is_texture: bool, is_buffer: bool) -> Option<Kind> {
+fn kind(class: u32, is_texture: bool, is_buffer: bool) -> Option<StorageKind> {
     match class {
-        0 if is_texture => Some(Kind::Texture),
-        2 if is_buffer => Some(Kind::Buffer),
-        12 => Some(Kind::Buffer),
-        4 => Some(Kind::Shared),
-        5 | 9 | 10 | 11 => Some(Kind::Other),
+        0 if is_texture => Some(StorageKind::Texture),
+        2 if is_buffer => Some(StorageKind::Buffer),
+        12 => Some(StorageKind::Buffer),
+        4 => Some(StorageKind::Shared),
+        5 | 9 | 10 | 11 => Some(StorageKind::Other),
         _ => None,
     }
 }
 
-fn refusal(kind: Kind, name: &str, source: &Source, stage: GlslStage) -> Refusal {
+fn refusal(kind: StorageKind, name: &str, source: &Source, stage: GlslStage) -> Refusal {
     let (en, ja) = match kind {
-        Kind::Texture => ("a texture or an image", "テクスチャや画像"),
-        Kind::Buffer => {
+        StorageKind::Texture => ("a texture or an image", "テクスチャや画像"),
+        StorageKind::Buffer => {
             ("a shader storage buffer or an atomic counter", "シェーダストレージバッファやアトミックカウンタ")
         }
-        Kind::Shared => ("shared memory", "共有メモリ"),
-        Kind::Other => ("a resource", "リソース"),
+        StorageKind::Shared => ("shared memory", "共有メモリ"),
+        StorageKind::Other => ("a resource", "リソース"),
     };
     let (to, to_ja) = match stage {
         GlslStage::Vertex => ("vertex shader", "頂点シェーダ"),

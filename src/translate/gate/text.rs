@@ -1,6 +1,6 @@
 //! The look before the compiler: it is the compiler that a macro bomb or a tower of parentheses kills.
 
-use super::expand::{Expander, Token, split_name, tokens};
+use super::expand::{ExpandedToken, Expander, split_name, tokens};
 use super::nesting::{MAX_NESTING, Nesting};
 use super::stopped;
 use super::structures::{MAX_MEMBERS, Structures};
@@ -69,7 +69,7 @@ fn check_extensions(source: &Source) -> Result<(), Refusal> {
 
 fn check(code: &str) -> Result<(), (Excess, u32)> {
     let mut expander = Expander::default();
-    let mut shape = Shape::default();
+    let mut shape = TextMeasure::default();
     let mut conditions = 0_usize;
     // Plain lines are expanded together: a macro's arguments may go on to the next line.
     let mut plain = Vec::new();
@@ -91,7 +91,7 @@ fn check(code: &str) -> Result<(), (Excess, u32)> {
                 if conditions > MAX_CONDITIONS {
                     return Err((Excess::Conditions, number));
                 }
-                measure(&mut expander, &mut Shape::default(), tokens.into_iter().skip(2).collect())?;
+                measure(&mut expander, &mut TextMeasure::default(), tokens.into_iter().skip(2).collect())?;
             }
             _ => {}
         }
@@ -101,12 +101,12 @@ fn check(code: &str) -> Result<(), (Excess, u32)> {
 
 /// What is followed through the tokens that the macros leave.
 #[derive(Debug, Default)]
-struct Shape {
+struct TextMeasure {
     nesting: Nesting,
     structures: Structures,
 }
 
-fn measure(expander: &mut Expander, shape: &mut Shape, tokens: Vec<Token>) -> Result<(), (Excess, u32)> {
+fn measure(expander: &mut Expander, shape: &mut TextMeasure, tokens: Vec<ExpandedToken>) -> Result<(), (Excess, u32)> {
     expander.expand(tokens, &mut |token| {
         shape.nesting.take(&token.text);
         if shape.nesting.depth() > MAX_NESTING {

@@ -1,7 +1,7 @@
 //! Components of vectors, members, indices and conditions.
 
 use super::file::File;
-use super::tokens::Kind;
+use super::tokens::LexemeKind;
 use super::{Finding, expression, types};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -78,7 +78,7 @@ fn swizzle(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 
 /// How the length of the vector is written whose member `.length` was meant to be.
 fn length_of_vector(file: &File<'_>, index: usize) -> Text {
-    let name = index.checked_sub(2).filter(|before| file.code[*before].kind == Kind::Word);
+    let name = index.checked_sub(2).filter(|before| file.code[*before].kind == LexemeKind::Word);
     let example = format!("length({})", name.map_or("…", |before| file.code[before].text));
     Text::new(
         format!("The length of a vector is a function: `{example}`."),

@@ -1,6 +1,6 @@
 //! What a file declares, found without parsing it: a type, then a name, then what follows a declared name.
 
-use super::tokens::{Kind, Token};
+use super::tokens::{Lexeme, LexemeKind};
 use super::vocabulary;
 
 /// What kind of thing is declared.
@@ -56,7 +56,7 @@ const MAX_DECLARATIONS: usize = 2_000;
 const MAX_LIST: usize = 500;
 
 /// Everything that `code` declares, in order.
-pub fn find<'a>(code: &[Token<'a>]) -> Vec<Declaration<'a>> {
+pub fn find<'a>(code: &[Lexeme<'a>]) -> Vec<Declaration<'a>> {
     let mut all: Vec<Declaration<'a>> = Vec::new();
     let braces = Braces::new(code);
     for index in 1..code.len() {
@@ -75,17 +75,17 @@ pub fn find<'a>(code: &[Token<'a>]) -> Vec<Declaration<'a>> {
     all
 }
 
-fn structure(code: &[Token<'_>], index: usize) -> Option<(String, Role)> {
+fn structure(code: &[Lexeme<'_>], index: usize) -> Option<(String, Role)> {
     let opens = code.get(index + 1).is_some_and(|next| next.text == "{");
     let keyword = code[index - 1].text;
-    (code[index].kind == Kind::Word && opens && matches!(keyword, "struct" | "uniform" | "in" | "out" | "buffer"))
+    (code[index].kind == LexemeKind::Word && opens && matches!(keyword, "struct" | "uniform" | "in" | "out" | "buffer"))
         .then(|| (keyword.to_owned(), Role::Structure))
 }
 
 /// The type and role of the name at `index`, if it is one that is declared there.
-fn typed(code: &[Token<'_>], index: usize, before: &[Declaration<'_>]) -> Option<(String, Role)> {
+fn typed(code: &[Lexeme<'_>], index: usize, before: &[Declaration<'_>]) -> Option<(String, Role)> {
     let name = code[index];
-    if name.kind != Kind::Word || vocabulary::is_keyword(name.text) {
+    if name.kind != LexemeKind::Word || vocabulary::is_keyword(name.text) {
         return None;
     }
     let mut at = index - 1;
@@ -113,7 +113,7 @@ fn typed(code: &[Token<'_>], index: usize, before: &[Declaration<'_>]) -> Option
 }
 
 /// Whether the declaration whose type is at `at` stands in the parentheses of a function's parameters.
-fn parenthesis_before(code: &[Token<'_>], at: usize) -> bool {
+fn parenthesis_before(code: &[Lexeme<'_>], at: usize) -> bool {
     let mut depth = 0_i32;
     for (index, token) in code[..at].iter().enumerate().rev().take(MAX_LIST) {
         match token.text {
@@ -128,7 +128,7 @@ fn parenthesis_before(code: &[Token<'_>], at: usize) -> bool {
 }
 
 /// Where the further names of `vec3 a, b = c, d;` stand.
-fn more_names(code: &[Token<'_>], first: usize) -> Vec<usize> {
+fn more_names(code: &[Lexeme<'_>], first: usize) -> Vec<usize> {
     let mut more = Vec::new();
     let mut depth = 0_i32;
     for index in first + 1..code.len() {
@@ -137,7 +137,7 @@ fn more_names(code: &[Token<'_>], first: usize) -> Vec<usize> {
             ")" | "]" => depth -= 1,
             ";" | "{" | "}" => break,
             "," if depth == 0 => {
-                let named = code.get(index + 1).is_some_and(|next| next.kind == Kind::Word);
+                let named = code.get(index + 1).is_some_and(|next| next.kind == LexemeKind::Word);
                 let ends = code.get(index + 2).is_some_and(|next| matches!(next.text, "," | ";" | "=" | "["));
                 if !(named && ends) {
                     break;
@@ -154,14 +154,14 @@ fn more_names(code: &[Token<'_>], first: usize) -> Vec<usize> {
 }
 
 /// The qualifiers in front of the declaration whose first name is at `index`.
-fn qualifiers<'a>(code: &[Token<'a>], index: usize) -> Vec<&'a str> {
+fn qualifiers<'a>(code: &[Lexeme<'a>], index: usize) -> Vec<&'a str> {
     let before =
         code[..index].iter().rev().take(MAX_LIST).take_while(|token| !matches!(token.text, ";" | "{" | "}" | "="));
     before.map(|token| token.text).filter(|text| vocabulary::is_qualifier(text)).collect()
 }
 
 fn declaration<'a>(
-    code: &[Token<'a>],
+    code: &[Lexeme<'a>],
     braces: &Braces,
     index: usize,
     ty: &str,
@@ -191,7 +191,7 @@ struct Braces {
 }
 
 impl Braces {
-    fn new(code: &[Token<'_>]) -> Self {
+    fn new(code: &[Lexeme<'_>]) -> Self {
         let mut open = Vec::new();
         let mut braces = Self { around: Vec::with_capacity(code.len()), end: vec![usize::MAX; code.len()] };
         for (index, token) in code.iter().enumerate() {
@@ -210,7 +210,7 @@ impl Braces {
     }
 
     /// Where the scope of the name at `index` ends, and whether it is the whole file's.
-    fn scope(&self, code: &[Token<'_>], index: usize, role: Role) -> (usize, bool) {
+    fn scope(&self, code: &[Lexeme<'_>], index: usize, role: Role) -> (usize, bool) {
         if role == Role::Parameter {
             // A parameter lives in the body that follows its list.
             let body = (index..code.len()).find(|&at| matches!(code[at].text, "{" | ";"));

@@ -1,7 +1,7 @@
 //! Preprocessor lines: `#version` and conditions, comments without an end, and `#line`.
 
 use super::file::File;
-use super::tokens::{Kind, Token, tokens};
+use super::tokens::{Lexeme, LexemeKind, tokens};
 use super::{Entry, Finding, vocabulary};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
@@ -44,8 +44,8 @@ pub fn refused_line_directive(text: &str) -> Diagnostic {
     }
 }
 
-fn is_line(token: &Token<'_>) -> bool {
-    token.kind == Kind::Directive && directive_name(token.text) == "line"
+fn is_line(token: &Lexeme<'_>) -> bool {
+    token.kind == LexemeKind::Directive && directive_name(token.text) == "line"
 }
 
 pub fn directive_name(directive: &str) -> &str {
@@ -88,7 +88,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     // Where a line ends too early, the compiler is on the next one already.
     let above = || file.directives.iter().find(|token| Some(file.line(token.end()) + 1) == line);
     let condition = entry.token == "preprocessor evaluation";
-    let about = |token: &&Token<'_>| condition || entry.token.strip_prefix('#') == Some(directive_name(token.text));
+    let about = |token: &&Lexeme<'_>| condition || entry.token.strip_prefix('#') == Some(directive_name(token.text));
     let above = above().filter(about);
     let directive = if condition { above.or(directive) } else { directive.or(above) }?;
     let name = directive_name(directive.text);
@@ -128,8 +128,8 @@ fn misspelt(name: &str, mark: impl Fn(Text) -> Diagnostic) -> Diagnostic {
     }
 }
 
-fn version(file: &File<'_>, directive: Option<&Token<'_>>, message: &str) -> Option<Diagnostic> {
-    let own = |token: &&Token<'_>| directive_name(token.text) == "version";
+fn version(file: &File<'_>, directive: Option<&Lexeme<'_>>, message: &str) -> Option<Diagnostic> {
+    let own = |token: &&Lexeme<'_>| directive_name(token.text) == "version";
     let line = directive.or_else(|| file.directives.iter().find(own));
     let text = if message.starts_with("must occur first") {
         Text::new(
@@ -152,7 +152,7 @@ fn version(file: &File<'_>, directive: Option<&Token<'_>>, message: &str) -> Opt
 }
 
 /// The `#if` whose `#endif` is missing.
-fn unclosed_condition<'f, 'a>(file: &'f File<'a>) -> Option<&'f Token<'a>> {
+fn unclosed_condition<'f, 'a>(file: &'f File<'a>) -> Option<&'f Lexeme<'a>> {
     let mut open = Vec::new();
     for directive in &file.directives {
         match directive_name(directive.text) {
@@ -209,7 +209,7 @@ fn meant_version(file: &File<'_>) -> Option<Diagnostic> {
         }
     }
     let first = file.code.first().filter(|first| first.text == "version" || is_meant(first.text));
-    if let Some(first) = first.filter(|_| file.code.get(1).is_some_and(|next| next.kind == Kind::Number)) {
+    if let Some(first) = first.filter(|_| file.code.get(1).is_some_and(|next| next.kind == LexemeKind::Number)) {
         let text = Text::new(
             format!("`{}` lacks the `#` before it: the line is written `#version …`.", first.text),
             format!("`{}` の前に `#` がありません。`#version …` と書きます。", first.text),

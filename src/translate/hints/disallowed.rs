@@ -1,7 +1,7 @@
 //! Words of other languages, declarations that GLSL does not allow, and what another version has.
 
 use super::file::{File, macro_name};
-use super::tokens::Token;
+use super::tokens::Lexeme;
 use super::{Finding, suggestions, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -249,7 +249,7 @@ pub fn warn(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
     if message.contains("consecutive underscores") {
         let token = match finding.entry.token {
             "#define" => {
-                let here = |directive: &&Token<'_>| file.line(directive.start) == line;
+                let here = |directive: &&Lexeme<'_>| file.line(directive.start) == line;
                 file.directives.iter().find(here).and_then(|directive| macro_name(directive.text)).unwrap_or_default()
             }
             token => token,

@@ -1,19 +1,19 @@
 //! The type of an expression, where it follows from names, sizes and operators.
 
 use super::file::File;
-use super::tokens::{Kind, Token};
+use super::tokens::{Lexeme, LexemeKind};
 use super::types::Numeric;
 use super::vocabulary;
 
 /// The type of the expression that `tokens` are, where it follows from names, sizes and operators.
-pub fn type_of(file: &File<'_>, tokens: &[Token<'_>]) -> Option<Numeric> {
-    let mut reader = Reader { file, tokens, at: 0, depth: 0 };
+pub fn type_of(file: &File<'_>, tokens: &[Lexeme<'_>]) -> Option<Numeric> {
+    let mut reader = ExpressionReader { file, tokens, at: 0, depth: 0 };
     let ty = reader.sum()?;
     (reader.at == tokens.len()).then_some(ty)
 }
 
 /// Splits the arguments between the brackets at `open` and `close` at their commas.
-pub fn arguments<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
+pub fn arguments<'t, 'a>(tokens: &'t [Lexeme<'a>]) -> Vec<&'t [Lexeme<'a>]> {
     let mut depth = 0_i32;
     if tokens.is_empty() {
         return Vec::new();
@@ -33,14 +33,14 @@ pub fn arguments<'t, 'a>(tokens: &'t [Token<'a>]) -> Vec<&'t [Token<'a>]> {
 /// Expressions nest no deeper than this where a hint looks into them.
 const MAX_DEPTH: u32 = 40;
 
-struct Reader<'r, 'a> {
+struct ExpressionReader<'r, 'a> {
     file: &'r File<'a>,
-    tokens: &'r [Token<'r>],
+    tokens: &'r [Lexeme<'r>],
     at: usize,
     depth: u32,
 }
 
-impl<'r> Reader<'r, '_> {
+impl<'r> ExpressionReader<'r, '_> {
     fn next_is(&self, signs: &[&str]) -> bool {
         self.tokens.get(self.at).is_some_and(|token| signs.contains(&token.text))
     }
@@ -94,18 +94,18 @@ impl<'r> Reader<'r, '_> {
         let token = *self.tokens.get(self.at)?;
         if token.text == "(" {
             let inside = self.bracketed()?;
-            return Reader { file: self.file, tokens: inside, at: 0, depth: self.depth }.whole();
+            return ExpressionReader { file: self.file, tokens: inside, at: 0, depth: self.depth }.whole();
         }
         self.at += 1;
         match token.kind {
-            Kind::Number => Some(Numeric { base: number_base(token.text), ..Numeric::FLOAT }),
-            Kind::Word if self.next_is(&["("]) => {
+            LexemeKind::Number => Some(Numeric { base: number_base(token.text), ..Numeric::FLOAT }),
+            LexemeKind::Word if self.next_is(&["("]) => {
                 let inside = self.bracketed()?;
-                let nested = |tokens| Reader { file: self.file, tokens, at: 0, depth: self.depth }.whole();
+                let nested = |tokens| ExpressionReader { file: self.file, tokens, at: 0, depth: self.depth }.whole();
                 result(self.file, token, || arguments(inside).into_iter().map(nested).collect())
             }
-            Kind::Word if matches!(token.text, "true" | "false") => Numeric::named("bool"),
-            Kind::Word => Numeric::named(&self.file.visible(token.text, token.start)?.ty),
+            LexemeKind::Word if matches!(token.text, "true" | "false") => Numeric::named("bool"),
+            LexemeKind::Word => Numeric::named(&self.file.visible(token.text, token.start)?.ty),
             _ => None,
         }
     }
@@ -116,7 +116,7 @@ impl<'r> Reader<'r, '_> {
     }
 
     /// Steps over a bracket and returns what it holds.
-    fn bracketed(&mut self) -> Option<&'r [Token<'r>]> {
+    fn bracketed(&mut self) -> Option<&'r [Lexeme<'r>]> {
         let open = self.at;
         let mut depth = 0_usize;
         for (index, token) in self.tokens.iter().enumerate().skip(open) {
@@ -175,7 +175,7 @@ fn swizzle(ty: Numeric, field: &str) -> Option<Numeric> {
 }
 
 /// The type that the function or constructor `name` returns for arguments of the types that `types` gives.
-fn result(file: &File<'_>, name: Token<'_>, types: impl Fn() -> Option<Vec<Numeric>>) -> Option<Numeric> {
+fn result(file: &File<'_>, name: Lexeme<'_>, types: impl Fn() -> Option<Vec<Numeric>>) -> Option<Numeric> {
     if let Some(function) = file.anywhere(name.text) {
         return Numeric::named(&function.ty);
     }

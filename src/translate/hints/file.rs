@@ -1,7 +1,7 @@
 //! The student's file as the hints look at it: text, lines, tokens, declarations, and the assignment's interface.
 
 use super::declarations::{self, Declaration};
-use super::tokens::{self, Kind, Token};
+use super::tokens::{self, Lexeme, LexemeKind};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::translate::Interface;
@@ -11,9 +11,9 @@ pub struct File<'a> {
     /// The student's text; lines end with `\n`.
     pub text: &'a str,
     /// The tokens outside preprocessor lines.
-    pub code: Vec<Token<'a>>,
+    pub code: Vec<Lexeme<'a>>,
     /// The preprocessor lines.
-    pub directives: Vec<Token<'a>>,
+    pub directives: Vec<Lexeme<'a>>,
     /// What the file declares, in order.
     pub declarations: Vec<Declaration<'a>>,
     /// What the assignment's program offers and takes.
@@ -25,7 +25,7 @@ impl<'a> File<'a> {
     /// Looks through `text`.
     pub fn new(text: &'a str, interface: &'a Interface) -> Self {
         let (directives, code): (Vec<_>, Vec<_>) =
-            tokens::tokens(text).into_iter().partition(|token| token.kind == Kind::Directive);
+            tokens::tokens(text).into_iter().partition(|token| token.kind == LexemeKind::Directive);
         let declarations = declarations::find(&code);
         let ends = text.match_indices('\n').map(|(end, _)| end + 1);
         let line_starts = std::iter::once(0).chain(ends).collect();
@@ -113,7 +113,7 @@ impl<'a> File<'a> {
     }
 
     /// The `#define` line of `name`.
-    pub fn definition(&self, name: &str) -> Option<&Token<'a>> {
+    pub fn definition(&self, name: &str) -> Option<&Lexeme<'a>> {
         self.directives.iter().find(|line| macro_name(line.text) == Some(name))
     }
 

@@ -2,7 +2,7 @@
 
 use super::declarations::Role;
 use super::file::{File, macro_name};
-use super::tokens::Kind;
+use super::tokens::LexemeKind;
 use super::vocabulary;
 use super::{Entry, Finding, suggestions};
 use crate::diagnostic::Diagnostic;
@@ -73,7 +73,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
 
 fn undeclared(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Diagnostic {
     let next = file.code.get(finding.index + 1);
-    let is_type = next.is_some_and(|next| next.kind == Kind::Word) && !vocabulary::is_function(name);
+    let is_type = next.is_some_and(|next| next.kind == LexemeKind::Word) && !vocabulary::is_function(name);
     if file.word(Some(finding.index)) == name && is_type {
         return unknown_type(file, finding.index);
     }
@@ -99,7 +99,7 @@ fn place(file: &File<'_>, finding: &Finding<'_, '_>, name: &str, text: Text) -> 
     let found = file.directives.iter().find_map(|line| {
         let after = line.text.find(macro_name(line.text)?)?;
         let body = super::tokens::tokens(&line.text[after..]);
-        let word = body.iter().find(|token| token.kind == Kind::Word && token.text == name);
+        let word = body.iter().find(|token| token.kind == LexemeKind::Word && token.text == name);
         word.map(|token| line.start + after + token.start)
     });
     match found {

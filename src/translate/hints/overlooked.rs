@@ -4,7 +4,7 @@ use super::declarations::{Declaration, Role};
 use super::directives::directive_name;
 use super::file::File;
 use super::suggestions;
-use super::tokens::Kind;
+use super::tokens::LexemeKind;
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::language::Text;
 use crate::translate::Interface;
@@ -59,7 +59,7 @@ fn swizzles(file: &File<'_>) -> Vec<Diagnostic> {
     for index in 2..file.code.len() {
         let field = file.code[index];
         let is_field = file.code[index - 1].text == "."
-            && field.kind == Kind::Word
+            && field.kind == LexemeKind::Word
             && file.code[index - 2].text != "gl_DepthRange";
         let called = file.word(Some(index + 1)) == "(";
         // A member of a structure, a macro, or a branch of `#if` that nobody compiles may be called anything.

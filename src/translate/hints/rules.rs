@@ -2,7 +2,7 @@
 
 use super::declarations::Role;
 use super::file::File;
-use super::tokens::Kind;
+use super::tokens::LexemeKind;
 use super::{Finding, brackets, disallowed, expression, mismatch};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -92,7 +92,7 @@ fn not_assignable(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 fn assigned(file: &File<'_>, index: usize) -> Option<usize> {
     let operator = file.word(Some(index));
     let mut at = index.checked_sub(1)?;
-    if matches!(operator, "++" | "--") && file.code[at].kind != Kind::Word && file.code[at].text != "]" {
+    if matches!(operator, "++" | "--") && file.code[at].kind != LexemeKind::Word && file.code[at].text != "]" {
         return Some(index + 1);
     }
     loop {
@@ -101,7 +101,7 @@ fn assigned(file: &File<'_>, index: usize) -> Option<usize> {
         } else if at >= 2 && file.code[at - 1].text == "." {
             at -= 2;
         } else {
-            return (file.code[at].kind == Kind::Word).then_some(at);
+            return (file.code[at].kind == LexemeKind::Word).then_some(at);
         }
     }
 }

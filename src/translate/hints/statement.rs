@@ -3,7 +3,7 @@
 use super::declarations::Role;
 use super::file::File;
 use super::syntax::{in_brackets, is_operand_end};
-use super::tokens::Kind;
+use super::tokens::LexemeKind;
 use super::{brackets, names, suggestions, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -12,7 +12,7 @@ use crate::language::Text;
 pub fn missing_type(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     let open = brackets::open_before(file, at).last().copied();
     let head = open.and_then(|open| open.checked_sub(1));
-    let parameter = file.code.get(at)?.kind == Kind::Word
+    let parameter = file.code.get(at)?.kind == LexemeKind::Word
         && matches!(file.word(at.checked_sub(1)), "(" | ",")
         && file.declarations.iter().any(|d| d.role == Role::Function && Some(d.index) == head);
     let name = if parameter {
@@ -20,7 +20,7 @@ pub fn missing_type(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     } else {
         let name = at.checked_sub(1)?;
         let qualifier = name.checked_sub(1).is_some_and(|before| vocabulary::is_qualifier(file.code[before].text));
-        let plain = file.code[name].kind == Kind::Word && !vocabulary::is_keyword(file.code[name].text);
+        let plain = file.code[name].kind == LexemeKind::Word && !vocabulary::is_keyword(file.code[name].text);
         (qualifier && plain && matches!(file.word(Some(at)), "=" | ";")).then_some(name)?
     };
     let text = Text::new(
@@ -94,7 +94,7 @@ pub fn unknown_first_word(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     let token = file.code.get(at)?;
     let outside = brackets::open_before(file, at).is_empty();
     let structure = at.checked_sub(1).is_some_and(|before| ends_structure(file, before));
-    if outside && !structure && token.kind == Kind::Word && file.statement(at) == at {
+    if outside && !structure && token.kind == LexemeKind::Word && file.statement(at) == at {
         if !vocabulary::is_keyword(token.text) && file.word(Some(at + 1)) != "=" {
             return Some(names::unknown_type(file, at));
         }
@@ -113,7 +113,7 @@ pub fn unknown_first_word(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     let first = at.checked_sub(1)?;
     let before = file.code.get(file.statement(at)..first)?;
     let qualified = before.iter().all(|token| vocabulary::is_qualifier(token.text));
-    let adjacent = file.code[first].kind == Kind::Word && token.kind == Kind::Word && qualified;
+    let adjacent = file.code[first].kind == LexemeKind::Word && token.kind == LexemeKind::Word && qualified;
     let unknown =
         !vocabulary::is_keyword(file.code[first].text) && file.visible(file.code[first].text, token.start).is_none();
     (adjacent && unknown).then(|| names::unknown_type(file, first))
@@ -165,7 +165,7 @@ pub fn semicolon(file: &File<'_>, at: usize, message: &str) -> Option<Diagnostic
 fn goes_on(file: &File<'_>, at: usize) -> bool {
     let token = file.code[at];
     let next = file.word(Some(at + 1));
-    let operand = matches!(token.kind, Kind::Word | Kind::Number) && !vocabulary::is_keyword(token.text);
+    let operand = matches!(token.kind, LexemeKind::Word | LexemeKind::Number) && !vocabulary::is_keyword(token.text);
     let value = vocabulary::is_function(token.text) && next == "(";
     value || (operand && matches!(next, "+" | "-" | "*" | "/" | ";" | ")" | ","))
 }
@@ -213,7 +213,7 @@ pub fn construct(file: &File<'_>, at: usize) -> Option<Diagnostic> {
         );
         return Some(file.error_at(at, text));
     }
-    if token.kind == Kind::Number && word.matches('.').count() > 1 {
+    if token.kind == LexemeKind::Number && word.matches('.').count() > 1 {
         let text = Text::new(format!("`{word}` is no number."), format!("`{word}` は数値として読めません。"));
         return Some(file.error_at(at, text));
     }
@@ -244,8 +244,9 @@ pub fn nothing_between(file: &File<'_>, at: usize) -> Option<Diagnostic> {
         );
         return Some(file.error_after(before, text));
     }
-    let operator = previous.kind == Kind::Sign && !matches!(previous.text, ")" | "]" | "}" | ";" | "{" | "++" | "--");
-    if operator && token.kind == Kind::Sign {
+    let operator =
+        previous.kind == LexemeKind::Sign && !matches!(previous.text, ")" | "]" | "}" | ";" | "{" | "++" | "--");
+    if operator && token.kind == LexemeKind::Sign {
         let text = Text::new(
             format!("Something is missing between `{}` and `{word}`.", previous.text),
             format!("`{}` と `{word}` の間に式がありません。", previous.text),
@@ -265,7 +266,7 @@ pub fn operands(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     let token = file.code.get(at)?;
     let (previous, word) = (file.code[before], token.text);
     let inside = in_brackets(file, at);
-    let starts = matches!(token.kind, Kind::Word | Kind::Number) || word == "(";
+    let starts = matches!(token.kind, LexemeKind::Word | LexemeKind::Number) || word == "(";
     if !(is_operand_end(file, Some(before)) && starts) {
         return None;
     }

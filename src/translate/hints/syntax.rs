@@ -1,7 +1,7 @@
 //! Where the parser gave up, and what it stumbled over.
 
 use super::file::File;
-use super::tokens::Kind;
+use super::tokens::LexemeKind;
 use super::{Entry, Finding, brackets, statement, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -137,8 +137,8 @@ fn alien_sign(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 pub fn is_operand_end(file: &File<'_>, index: Option<usize>) -> bool {
     let Some(token) = index.and_then(|index| file.code.get(index)) else { return false };
     match token.kind {
-        Kind::Word => !vocabulary::is_keyword(token.text) || matches!(token.text, "true" | "false"),
-        Kind::Number => true,
+        LexemeKind::Word => !vocabulary::is_keyword(token.text) || matches!(token.text, "true" | "false"),
+        LexemeKind::Number => true,
         _ => matches!(token.text, ")" | "]" | "++" | "--"),
     }
 }
@@ -146,7 +146,7 @@ pub fn is_operand_end(file: &File<'_>, index: Option<usize>) -> bool {
 /// A macro whose text ends with `;`, used where the parser gave up.
 fn macro_with_semicolon(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     let line = file.line(file.code.get(at)?.start);
-    let used = |line_text: &&super::tokens::Token<'_>| {
+    let used = |line_text: &&super::tokens::Lexeme<'_>| {
         let name = super::file::macro_name(line_text.text).unwrap_or_default();
         let near = file.code[..=at].iter().rev().take_while(|token| file.line(token.start) == line);
         near.into_iter().any(|token| token.text == name)

@@ -5,7 +5,7 @@ mod link;
 mod robustness;
 
 use crate::diagnostic::Diagnostic;
-use crate::translate::glslang::{self, Outcome, Request, Rules, Stage, StageText};
+use crate::translate::glslang::{self, CompilerOutput, Request, Rules, Stage, StageText};
 use crate::translate::hints::overlooked_errors;
 use crate::translate::log::{link_diagnostics, stage_diagnostics};
 use crate::translate::{Interface, Variable};
@@ -55,7 +55,7 @@ pub fn interface() -> Interface {
     }
 }
 
-fn outcome(text: &str, interface: &Interface) -> Outcome {
+fn outcome(text: &str, interface: &Interface) -> CompilerOutput {
     let vertex = CString::new(text).expect("no test has a NUL");
     let stages = [StageText::plain(Stage::Vertex, &vertex), StageText::plain(Stage::Fragment, &interface.fragment)];
     glslang::compile(&Request { stages: &stages, rules: Rules::OpenGl, emit: Stage::Vertex })

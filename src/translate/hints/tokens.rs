@@ -2,7 +2,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum LexemeKind {
     /// A name, keyword or type.
     Word,
     /// A number.
@@ -19,16 +19,16 @@ pub enum Kind {
 
 /// A piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Token<'a> {
+pub struct Lexeme<'a> {
     /// What it is.
-    pub kind: Kind,
+    pub kind: LexemeKind,
     /// As written.
     pub text: &'a str,
     /// Byte offset of its first character.
     pub start: usize,
 }
 
-impl Token<'_> {
+impl Lexeme<'_> {
     /// Byte offset after its last character.
     pub fn end(&self) -> usize {
         self.start + self.text.len()
@@ -42,7 +42,7 @@ const SIGNS: [&str; 23] = [
 ];
 
 /// The tokens of `text` in order; comments and white space are none.
-pub fn tokens(text: &str) -> Vec<Token<'_>> {
+pub fn tokens(text: &str) -> Vec<Lexeme<'_>> {
     let mut all = Vec::new();
     let mut at = 0;
     let mut line_is_empty = true;
@@ -54,7 +54,7 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
         } else {
             let (kind, length) = token(rest, first, line_is_empty);
             line_is_empty = false;
-            all.push(Token { kind, text: rest[..length].trim_end(), start: at });
+            all.push(Lexeme { kind, text: rest[..length].trim_end(), start: at });
             length
         };
         at += length;
@@ -99,19 +99,19 @@ fn blank_length(rest: &str) -> Option<usize> {
     rest.chars().next().filter(|c| c.is_whitespace()).map(char::len_utf8)
 }
 
-fn token(rest: &str, first: char, line_is_empty: bool) -> (Kind, usize) {
+fn token(rest: &str, first: char, line_is_empty: bool) -> (LexemeKind, usize) {
     let length_while = |accept: fn(char) -> bool| rest.find(|c| !accept(c)).unwrap_or(rest.len());
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     match first {
-        '#' if line_is_empty => (Kind::Directive, directive_length(rest)),
-        'a'..='z' | 'A'..='Z' | '_' => (Kind::Word, length_while(is_word)),
-        '0'..='9' => (Kind::Number, number_length(rest)),
-        '.' if rest[1..].starts_with(|c: char| c.is_ascii_digit()) => (Kind::Number, number_length(rest)),
-        '"' | '\'' => (Kind::Quoted, quoted_length(rest, first)),
+        '#' if line_is_empty => (LexemeKind::Directive, directive_length(rest)),
+        'a'..='z' | 'A'..='Z' | '_' => (LexemeKind::Word, length_while(is_word)),
+        '0'..='9' => (LexemeKind::Number, number_length(rest)),
+        '.' if rest[1..].starts_with(|c: char| c.is_ascii_digit()) => (LexemeKind::Number, number_length(rest)),
+        '"' | '\'' => (LexemeKind::Quoted, quoted_length(rest, first)),
         _ => match SIGNS.iter().find(|sign| rest.starts_with(**sign)) {
-            Some(sign) => (Kind::Sign, sign.len()),
-            None if "()[]{}.,;:?=+-*/%<>!~&|^".contains(first) => (Kind::Sign, 1),
-            None => (Kind::Other, first.len_utf8()),
+            Some(sign) => (LexemeKind::Sign, sign.len()),
+            None if "()[]{}.,;:?=+-*/%<>!~&|^".contains(first) => (LexemeKind::Sign, 1),
+            None => (LexemeKind::Other, first.len_utf8()),
         },
     }
 }

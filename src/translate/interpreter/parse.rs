@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 /// What a type consists of.
 #[derive(Clone, Debug)]
-pub(super) enum Shape {
+pub(super) enum TypeShape {
     Bool,
     Int,
     Float,
@@ -60,7 +60,8 @@ impl Interpreter {
         for instruction in &code.globals {
             interpreter.global(instruction, &code.heads)?;
         }
-        let is_large = |shape: &Shape| matches!(shape, Shape::Pointer(of) if interpreter.size(*of) > MAX_COMPONENTS);
+        let is_large =
+            |shape: &TypeShape| matches!(shape, TypeShape::Pointer(of) if interpreter.size(*of) > MAX_COMPONENTS);
         if interpreter.shapes.values().any(is_large) {
             return None;
         }
@@ -77,8 +78,10 @@ impl Interpreter {
     /// How many components a value of a type has.
     fn size(&self, shape: u32) -> usize {
         match self.shapes.get(&shape) {
-            Some(Shape::Repeated(part, count)) => self.size(*part).saturating_mul(*count),
-            Some(Shape::Structure(parts)) => parts.iter().map(|part| self.size(*part)).fold(0, usize::saturating_add),
+            Some(TypeShape::Repeated(part, count)) => self.size(*part).saturating_mul(*count),
+            Some(TypeShape::Structure(parts)) => {
+                parts.iter().map(|part| self.size(*part)).fold(0, usize::saturating_add)
+            }
             _ => 1,
         }
     }
@@ -88,7 +91,7 @@ impl Interpreter {
         let operands = &instruction.operands;
         let value = match instruction.opcode {
             op::VARIABLE => {
-                let Shape::Pointer(shape) = *self.shapes.get(operands.first()?)? else { return None };
+                let TypeShape::Pointer(shape) = *self.shapes.get(operands.first()?)? else { return None };
                 let class = match *operands.get(2)? {
                     storage::PRIVATE => Class::Private,
                     storage::OUTPUT => Class::Output,
@@ -123,32 +126,34 @@ impl Interpreter {
 
     fn number(&self, shape: u32, words: &[u32]) -> Option<Value> {
         match (self.shapes.get(&shape)?, words) {
-            (Shape::Int, [bits]) => Some(Value::Int(*bits)),
-            (Shape::Float, [bits]) => Some(Value::Float(f64::from(f32::from_bits(*bits)))),
-            (Shape::Float, [low, high]) => Some(Value::Float(f64::from_bits(u64::from(*high) << 32 | u64::from(*low)))),
+            (TypeShape::Int, [bits]) => Some(Value::Int(*bits)),
+            (TypeShape::Float, [bits]) => Some(Value::Float(f64::from(f32::from_bits(*bits)))),
+            (TypeShape::Float, [low, high]) => {
+                Some(Value::Float(f64::from_bits(u64::from(*high) << 32 | u64::from(*low))))
+            }
             _ => None,
         }
     }
 }
 
 /// The types by id; those that nothing here computes with are left out.
-fn shapes(code: &Code) -> Option<HashMap<u32, Shape>> {
+fn shapes(code: &Code) -> Option<HashMap<u32, TypeShape>> {
     let mut shapes = HashMap::new();
     for instruction in &code.globals {
         let operands = &instruction.operands;
         let count = |at: usize| operands.get(at).map(|count| *count as usize);
         let shape = match instruction.opcode {
-            op::TYPE_BOOL => Shape::Bool,
-            op::TYPE_INT => Shape::Int,
-            op::TYPE_FLOAT => Shape::Float,
-            op::TYPE_VECTOR | op::TYPE_MATRIX => Shape::Repeated(*operands.get(1)?, count(2)?),
+            op::TYPE_BOOL => TypeShape::Bool,
+            op::TYPE_INT => TypeShape::Int,
+            op::TYPE_FLOAT => TypeShape::Float,
+            op::TYPE_VECTOR | op::TYPE_MATRIX => TypeShape::Repeated(*operands.get(1)?, count(2)?),
             op::TYPE_ARRAY => {
                 let length =
                     code.globals.iter().find(|i| i.opcode == op::CONSTANT && i.operands.get(1) == operands.get(2));
-                Shape::Repeated(*operands.get(1)?, *length?.operands.get(2)? as usize)
+                TypeShape::Repeated(*operands.get(1)?, *length?.operands.get(2)? as usize)
             }
-            op::TYPE_STRUCT => Shape::Structure(operands.get(1..)?.to_vec()),
-            op::TYPE_POINTER => Shape::Pointer(*operands.get(2)?),
+            op::TYPE_STRUCT => TypeShape::Structure(operands.get(1..)?.to_vec()),
+            op::TYPE_POINTER => TypeShape::Pointer(*operands.get(2)?),
             _ => continue,
         };
         shapes.insert(*operands.first()?, shape);

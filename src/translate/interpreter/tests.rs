@@ -1,4 +1,4 @@
-use super::{Given, Interpreter, Place, Value};
+use super::{Interpreter, Invocation, Site, Value};
 use crate::source::{self, Source};
 use crate::translate;
 use reference::Assignment;
@@ -22,7 +22,7 @@ fn answer(lines: &str) -> Source {
     read(&assignment().files[0].starter.replace("vc = cv;", lines))
 }
 
-fn given(seed: u64, place: usize) -> Given<'static> {
+fn given(seed: u64, place: usize) -> Invocation<'static> {
     let assignment = assignment();
     let probes = assignment.probes(seed);
     let probe = &probes.probes[place];
@@ -30,7 +30,7 @@ fn given(seed: u64, place: usize) -> Given<'static> {
     let attributes = assignment.interface.inputs.iter().zip(&probe.attributes);
     let uniforms = uniforms.map(|(u, value)| (u.path.as_str(), Value::of_columns(value.numbers(), 4)));
     let attributes = attributes.map(|(a, value)| (a.name.as_str(), Value::of_floats(value.numbers())));
-    Given { inputs: uniforms.chain(attributes).collect(), ..Given::default() }
+    Invocation { inputs: uniforms.chain(attributes).collect(), ..Invocation::default() }
 }
 
 const RIGHT: &str = "vec3 h = normalize(l + v);\n  vec4 a = kamb * lamb;\n  vc = a;\n  vc += max(dot(n, l), 0.0) * kdiff * ldiff;\n  vc += pow(max(dot(n, h), 0.0), kshi) * kspec * lspec;";
@@ -59,7 +59,7 @@ fn functions_loops_branches_structures_and_arrays_run() {
          mat2 m = mat2(1.0, 2.0, 3.0, 4.0);\n  vec2 q = m * vec2(1.0, 1.0);\n  int k = 7 % 4;\n  switch (k) { case 3: q.x += 0.5; break; default: q.x = 0.0; }\n\
          vc = vec4(s.a[0], s.a[1], s.a[2], q.x);\n  vc.w += float(k) + (q.y < 0.0 ? 1.0 : 2.0);\n  gl_Position = pv;\n}\n",
     );
-    let written = interpreter(&source).run(&Given::default(), "vc", &mut |_, _| None).expect("it runs");
+    let written = interpreter(&source).run(&Invocation::default(), "vc", &mut |_, _| None).expect("it runs");
     // y is 1, 2, 3 in turn; x over 2 only in the third. q = (1 + 3, 2 + 4), k = 3.
     assert_eq!(written.output, [-1.0, -2.0, 9.0, 4.5 + 3.0 + 2.0]);
 }
@@ -69,23 +69,23 @@ fn values_have_their_lines_and_names_and_can_be_changed() {
     let source = answer(RIGHT);
     let shader = interpreter(&source);
     let line_of = |part: &str| source.text.lines().position(|line| line.contains(part)).expect("a line") as u32 + 1;
-    let mut places: Vec<(Place, Vec<f64>)> = Vec::new();
-    let look = &mut |place: Place, value: &Value| {
+    let mut places: Vec<(Site, Vec<f64>)> = Vec::new();
+    let look = &mut |place: Site, value: &Value| {
         places.extend(value.floats().map(|floats| (place, floats)));
         None
     };
     let plain = shader.run(&given(1, 0), "vc", look).expect("it runs");
     // Constants are variables: their product is computed where it is written.
-    let product = |(place, value): &&(Place, Vec<f64>)| {
+    let product = |(place, value): &&(Site, Vec<f64>)| {
         !shader.is_copy(*place) && value.len() == 4 && (value[0] - 0.12).abs() < 1e-6 && value[1] == 0.0
     };
     let (ambient, _) = places.iter().find(product).expect("kamb * lamb");
     assert_eq!(shader.line(*ambient), Some(line_of("vec4 a = ")));
     assert_eq!(shader.variable(*ambient), Some("a"));
-    let change = &mut |place: Place, _: &Value| (place == *ambient).then(|| Value::of_floats(&[1.12, 0.0, 0.0, 1.0]));
+    let change = &mut |place: Site, _: &Value| (place == *ambient).then(|| Value::of_floats(&[1.12, 0.0, 0.0, 1.0]));
     let changed = shader.run(&given(1, 0), "vc", change).expect("it runs");
     assert!((changed.output[0] - plain.output[0] - 1.0).abs() < 1e-6);
-    let brighter = Given { kept: vec![("lamb", Value::of_floats(&[1.2, 1.2, 1.2, 1.0]))], ..given(1, 0) };
+    let brighter = Invocation { kept: vec![("lamb", Value::of_floats(&[1.2, 1.2, 1.2, 1.0]))], ..given(1, 0) };
     let brighter = shader.run(&brighter, "vc", &mut |_, _| None).expect("it runs");
     assert!((brighter.output[0] - plain.output[0] - 0.6).abs() < 1e-6);
 }
@@ -96,7 +96,7 @@ fn the_parts_of_a_statement_on_several_lines_have_their_own_lines() {
         answer("vc = kamb * lamb\n    + max(dot(n, l), 0.0)\n      * kdiff * ldiff\n    + vec4(pow(0.5,\n      2.0));");
     let shader = interpreter(&source);
     let mut lines = Vec::new();
-    let look = &mut |place: Place, value: &Value| {
+    let look = &mut |place: Site, value: &Value| {
         if place.operand == 0 && !shader.is_copy(place) && value.floats().is_some() {
             lines.extend(shader.line(place));
         }
@@ -115,5 +115,5 @@ fn a_loop_without_an_end_gives_no_answer() {
     let source = read(
         "#version 410 core\nin vec4 pv;\nout vec4 vc;\nvoid main() { vc = pv; while (vc.x < 1.0) vc.x -= 1.0; gl_Position = pv; }\n",
     );
-    assert_eq!(interpreter(&source).run(&Given::default(), "vc", &mut |_, _| None), None);
+    assert_eq!(interpreter(&source).run(&Invocation::default(), "vc", &mut |_, _| None), None);
 }

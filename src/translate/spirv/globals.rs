@@ -45,7 +45,7 @@ pub struct Uniforms {
 }
 
 /// Where a global variable goes.
-enum Place {
+enum Destination {
     /// Member of the default block, by its number.
     Member(u32),
     /// Private, with what is its initial value anyhow.
@@ -71,7 +71,7 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
         let [pointer, id, class, ..] = variable.operands[..] else { continue };
         let Some(pointee) = pointee(code, pointer) else { continue };
         if plain.contains(&id) {
-            places.insert(id, (Place::Private, pointee));
+            places.insert(id, (Destination::Private, pointee));
         }
         if !matches!(class, storage::UNIFORM_CONSTANT | storage::UNIFORM) || !has_size(code, pointee) {
             continue;
@@ -80,16 +80,16 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
         let name_of = |id| names.get(&id).cloned().unwrap_or_default();
         let name = name_of(if is_block { element(code, pointee) } else { id });
         if !is_block && set.contains(&name.as_str()) && fits_block(code, pointee) {
-            places.insert(id, (Place::Member(members.len() as u32), pointee));
+            places.insert(id, (Destination::Member(members.len() as u32), pointee));
             declare(code, samplers, pointee, name.clone(), false, &mut uniforms.declared);
             members.push((name, pointee));
         } else if is_block && is_set_block(code, set, pointee, &name, names.get(&id)) {
             declare(code, samplers, pointee, name, true, &mut uniforms.declared);
         } else if name == DEPTH_RANGE {
-            places.insert(id, (Place::Private, pointee));
+            places.insert(id, (Destination::Private, pointee));
             initials.insert(id, depth_range(code, pointee));
         } else {
-            places.insert(id, (Place::Private, pointee));
+            places.insert(id, (Destination::Private, pointee));
             uniforms.unset.push(Unset { name, ty: if is_block { "block" } else { short_name(code, pointee) } });
         }
     }
@@ -281,11 +281,11 @@ fn default_block(code: &mut Code, memory: &mut Memory, members: &[(String, u32)]
 }
 
 /// Takes away a variable that becomes a member, and declares one that becomes private anew.
-fn replace(code: &mut Code, variable: &Instruction, place: &Place, pointee: u32, initial: Option<u32>) {
+fn replace(code: &mut Code, variable: &Instruction, place: &Destination, pointee: u32, initial: Option<u32>) {
     let id = variable.operands[1];
     code.undecorate(id);
     code.globals.retain(|i| i.opcode != op::VARIABLE || i.operands[1] != id);
-    if matches!(place, Place::Member(_)) {
+    if matches!(place, Destination::Member(_)) {
         return;
     }
     if variable.operands[2] != storage::UNIFORM_CONSTANT {
@@ -297,10 +297,10 @@ fn replace(code: &mut Code, variable: &Instruction, place: &Place, pointee: u32,
 }
 
 /// Leads every use of the variables, and of pointers into them, to their new places.
-fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Place, u32)>, block: Option<u32>) {
+fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Destination, u32)>, block: Option<u32>) {
     let mut classes: HashMap<u32, u32> = HashMap::new();
     for (id, (place, _)) in places {
-        classes.insert(*id, if matches!(place, Place::Private) { storage::PRIVATE } else { storage::UNIFORM });
+        classes.insert(*id, if matches!(place, Destination::Private) { storage::PRIVATE } else { storage::UNIFORM });
     }
     let functions = std::mem::take(&mut code.functions);
     let mut out = Vec::with_capacity(functions.len());
@@ -327,7 +327,7 @@ fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Place, u32)>, b
                 instruction.operands[0] = code.ty(op::TYPE_POINTER, &[class, own(pointee)]);
             }
         }
-        if let (Some((Place::Member(number), pointee)), Some(block)) = (places.get(&base), block) {
+        if let (Some((Destination::Member(number), pointee)), Some(block)) = (places.get(&base), block) {
             let number = index(code, *number);
             if instruction.opcode == op::LOAD {
                 let pointer = code.ty(op::TYPE_POINTER, &[class, own(*pointee)]);
@@ -361,7 +361,7 @@ fn hand_over(
     out: &mut Vec<Instruction>,
     call: &mut Instruction,
     classes: &HashMap<u32, u32>,
-    places: &HashMap<u32, (Place, u32)>,
+    places: &HashMap<u32, (Destination, u32)>,
     block: Option<u32>,
 ) {
     for at in 3..call.operands.len() {
@@ -371,7 +371,7 @@ fn hand_over(
         }
         let uint = code.ty(op::TYPE_INT, &[32, 0]);
         let mut pointer = given;
-        if let (Some((Place::Member(number), _)), Some(block)) = (places.get(&given), block) {
+        if let (Some((Destination::Member(number), _)), Some(block)) = (places.get(&given), block) {
             let (number, ty) = (index(code, *number), code.ty(op::TYPE_POINTER, &[storage::UNIFORM, uint]));
             pointer = code.fresh();
             let operands = vec![ty, pointer, block, number];

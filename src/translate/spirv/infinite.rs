@@ -48,13 +48,13 @@ pub(super) fn rework(code: &mut Code) {
 
 /// What a number is that is not finite.
 #[derive(Clone, Copy, Debug)]
-struct Kind {
+struct NonFinite {
     /// The bits of a float of 32 bits that is the same.
     bits: u32,
     is_double: bool,
 }
 
-fn kind(code: &Code, constant: &Instruction) -> Option<Kind> {
+fn kind(code: &Code, constant: &Instruction) -> Option<NonFinite> {
     let float = code.global(*constant.operands.first()?).filter(|ty| ty.opcode == op::TYPE_FLOAT)?;
     let bits = match (float.operands.get(1)?, constant.operands.get(2..)?) {
         (32, &[bits]) => f32::from_bits(bits),
@@ -65,16 +65,16 @@ fn kind(code: &Code, constant: &Instruction) -> Option<Kind> {
         }
         _ => return None,
     };
-    (!bits.is_finite()).then(|| Kind { bits: bits.to_bits(), is_double: float.operands.get(1) == Some(&64) })
+    (!bits.is_finite()).then(|| NonFinite { bits: bits.to_bits(), is_double: float.operands.get(1) == Some(&64) })
 }
 
 /// The instructions that make one of them.
-fn written(code: &mut Code, ty: u32, id: u32, parts: Option<Vec<u32>>, kind: Option<&Kind>) -> Vec<Instruction> {
+fn written(code: &mut Code, ty: u32, id: u32, parts: Option<Vec<u32>>, kind: Option<&NonFinite>) -> Vec<Instruction> {
     let instruction =
         |opcode, id: u32, ty: u32, operands: &[u32]| Instruction::new(opcode, [&[ty, id], operands].concat());
     match (parts, kind) {
         (Some(parts), _) => vec![instruction(op::COMPOSITE_CONSTRUCT, id, ty, &parts)],
-        (None, Some(Kind { bits, is_double })) => {
+        (None, Some(NonFinite { bits, is_double })) => {
             let uint = code.ty(op::TYPE_INT, &[32, 0]);
             let bits = code.constant(op::CONSTANT, uint, &[*bits]);
             if !is_double {

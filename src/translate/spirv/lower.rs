@@ -28,7 +28,7 @@ pub(super) fn rewrite(code: &mut Code, replaced: impl Fn(&mut Builder<'_>, &Inst
 
 /// What a number type consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shape {
+pub(super) struct NumberType {
     /// The type of a component.
     pub scalar: u32,
     /// Bits of a component.
@@ -56,13 +56,13 @@ impl Builder<'_> {
     }
 
     /// What a scalar or vector of numbers consists of.
-    pub fn shape(&self, ty: u32) -> Option<Shape> {
+    pub fn shape(&self, ty: u32) -> Option<NumberType> {
         let declared = self.code.global(ty)?;
         let operand = |at: usize| declared.operands.get(at).copied();
         match declared.opcode {
-            op::TYPE_FLOAT => Some(Shape { scalar: ty, width: operand(1)?, size: 1, is_signed: false }),
-            op::TYPE_INT => Some(Shape { scalar: ty, width: operand(1)?, size: 1, is_signed: operand(2)? == 1 }),
-            op::TYPE_VECTOR => Some(Shape { size: operand(2)?, ..self.shape(operand(1)?)? }),
+            op::TYPE_FLOAT => Some(NumberType { scalar: ty, width: operand(1)?, size: 1, is_signed: false }),
+            op::TYPE_INT => Some(NumberType { scalar: ty, width: operand(1)?, size: 1, is_signed: operand(2)? == 1 }),
+            op::TYPE_VECTOR => Some(NumberType { size: operand(2)?, ..self.shape(operand(1)?)? }),
             _ => None,
         }
     }
@@ -86,7 +86,7 @@ impl Builder<'_> {
 
     /// The constant of type `ty` of which every component has the bits `bits`.
     pub fn splat(&mut self, ty: u32, bits: &[u32]) -> u32 {
-        let Some(Shape { scalar, size, .. }) = self.shape(ty) else { return self.code.null(ty) };
+        let Some(NumberType { scalar, size, .. }) = self.shape(ty) else { return self.code.null(ty) };
         let one = self.code.constant(op::CONSTANT, scalar, bits);
         if size == 1 { one } else { self.code.constant(op::CONSTANT_COMPOSITE, ty, &vec![one; size as usize]) }
     }
@@ -95,7 +95,7 @@ impl Builder<'_> {
     pub fn float(&mut self, ty: u32, value: f64) -> u32 {
         let bits = value.to_bits();
         match self.shape(ty) {
-            Some(Shape { width: 64, .. }) => self.splat(ty, &[bits as u32, (bits >> 32) as u32]),
+            Some(NumberType { width: 64, .. }) => self.splat(ty, &[bits as u32, (bits >> 32) as u32]),
             _ => self.splat(ty, &[(value as f32).to_bits()]),
         }
     }
@@ -145,7 +145,7 @@ fn lowered(b: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
 
 fn outer_product(b: &mut Builder<'_>, id: u32, ty: u32, column: u32, row: u32) -> Option<()> {
     let column_ty = b.type_of(column)?;
-    let Shape { scalar, size, .. } = b.shape(b.type_of(row)?)?;
+    let NumberType { scalar, size, .. } = b.shape(b.type_of(row)?)?;
     let columns: Vec<u32> = (0..size)
         .map(|at| {
             let factor = b.op(op::COMPOSITE_EXTRACT, scalar, &[row, at]);
@@ -217,7 +217,7 @@ fn extended(b: &mut Builder<'_>, id: u32, ty: u32, number: u32, arguments: &[u32
             b.op_as(id, op::LOAD, ty, &[pointer]);
         }
         (glsl::INTERPOLATE_AT_OFFSET, &[pointer, offset]) => {
-            let Shape { scalar, size, .. } = b.shape(ty)?;
+            let NumberType { scalar, size, .. } = b.shape(ty)?;
             let mut value = b.op(op::LOAD, ty, &[pointer]);
             let middle = value;
             for (axis, derivative) in [(0, op::D_PDX), (1, op::D_PDY)] {

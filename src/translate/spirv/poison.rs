@@ -1,7 +1,7 @@
 //! Makes visible what depends on an undefined result.
 
 use super::code::{Code, Instruction};
-use super::lower::{Builder, Shape, rewrite};
+use super::lower::{Builder, NumberType, rewrite};
 use super::{op, op::glsl};
 
 /// A base below this is negative; what rounding makes of 0 is not.
@@ -19,7 +19,7 @@ fn poisoned(builder: &mut Builder<'_>, instruction: &Instruction) -> Option<()> 
     if instruction.opcode != op::EXT_INST {
         return None;
     }
-    let Shape { size, .. } = builder.shape(ty)?;
+    let NumberType { size, .. } = builder.shape(ty)?;
     let limit = builder.float(ty, f64::from(NEGATIVE));
     let bools = builder.bools(size);
     let is_negative = builder.op(op::F_ORD_LESS_THAN, bools, &[base, limit]);

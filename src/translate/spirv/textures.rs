@@ -20,7 +20,7 @@ pub const TEXTURES: (u32, u32) = (1, 1);
 
 /// What a sampler's or image's type is made of (SPIR-V specification, `OpTypeImage`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Kind {
+pub(super) struct ImageType {
     dimension: u32,
     has_layers: bool,
     compares: bool,
@@ -37,7 +37,7 @@ enum Texel {
 const CUBE: u32 = 3;
 const RECTANGLE: u32 = 4;
 
-impl Kind {
+impl ImageType {
     /// How many coordinates there are, layers aside.
     fn axes(self) -> u32 {
         match self.dimension {
@@ -72,7 +72,7 @@ impl Kind {
 
 /// The types that were samplers and images, by id.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Samplers(HashMap<u32, Kind>);
+pub(super) struct Samplers(HashMap<u32, ImageType>);
 
 impl Samplers {
     /// The name of the type, where it is one of these.
@@ -82,7 +82,7 @@ impl Samplers {
 
     /// Makes numbers of them. Buffers, and what has several samples, are none.
     pub fn take(code: &mut Code) -> Self {
-        let mut found: HashMap<u32, Kind> = HashMap::new();
+        let mut found: HashMap<u32, ImageType> = HashMap::new();
         let scalars: HashMap<u32, Texel> = code
             .globals
             .iter()
@@ -97,7 +97,7 @@ impl Samplers {
             let kind = match (declared.opcode, &declared.operands[..]) {
                 (op::TYPE_IMAGE, &[_, texel, dimension @ 0..=RECTANGLE, depth, layers, 0, 1, ..]) => {
                     let scalar = scalars.get(&texel).copied().unwrap_or(Texel::Float);
-                    Some(Kind { dimension, has_layers: layers == 1, compares: depth == 1, scalar })
+                    Some(ImageType { dimension, has_layers: layers == 1, compares: depth == 1, scalar })
                 }
                 (op::TYPE_SAMPLED_IMAGE, [_, image, ..]) => found.get(image).copied(),
                 _ => None,
@@ -261,7 +261,13 @@ impl LookUp<'_, '_> {
     }
 
     /// Coordinates as four floats and the reference, both divided where they are projected.
-    fn place(&mut self, kind: Kind, at: u32, reference: Option<u32>, is_projected: bool) -> Option<(u32, Option<u32>)> {
+    fn place(
+        &mut self,
+        kind: ImageType,
+        at: u32,
+        reference: Option<u32>,
+        is_projected: bool,
+    ) -> Option<(u32, Option<u32>)> {
         let float = self.b.code.ty(op::TYPE_FLOAT, &[32]);
         let given = self.b.shape(self.b.type_of(at)?)?.size;
         let mut parts: Vec<u32> = if given == 1 {
@@ -284,7 +290,7 @@ impl LookUp<'_, '_> {
     }
 
     /// The level of detail. Outside of fragments it is 0 where none is given.
-    fn detail(&mut self, kind: Kind, texture: u32, at: u32, operands: &Operands) -> Option<u32> {
+    fn detail(&mut self, kind: ImageType, texture: u32, at: u32, operands: &Operands) -> Option<u32> {
         let float = self.b.code.ty(op::TYPE_FLOAT, &[32]);
         if let Some(level) = operands.level {
             return Some(level);
@@ -330,7 +336,7 @@ impl LookUp<'_, '_> {
     }
 
     /// Gives four floats as what the instruction gives.
-    fn give(&mut self, kind: Kind, id: u32, ty: u32, found: u32, is_single: bool) {
+    fn give(&mut self, kind: ImageType, id: u32, ty: u32, found: u32, is_single: bool) {
         match (is_single, kind.scalar) {
             (true, _) => self.b.op_as(id, op::COMPOSITE_EXTRACT, ty, &[found, 0]),
             (false, Texel::Float) => self.b.op_as(id, op::COPY_OBJECT, ty, &[found]),

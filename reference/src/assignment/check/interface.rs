@@ -26,7 +26,7 @@ pub(super) fn interface(
     line_at: &dyn Fn(usize) -> u32,
 ) -> Checked<Interface> {
     let samplers = Samplers { entries: &m.texture, textures, line_at };
-    let reader = Reader { programs: &stages.0, samplers, line_at };
+    let reader = InterfaceReader { programs: &stages.0, samplers, line_at };
     let mut uniforms = Vec::new();
     for entry in &m.uniform {
         reader.uniforms(entry, &mut uniforms)?;
@@ -72,7 +72,7 @@ pub(super) fn interface(
     Ok(Interface { inputs, uniforms, outputs: solution.outputs() })
 }
 
-struct Reader<'a> {
+struct InterfaceReader<'a> {
     programs: &'a [Compiled],
     samplers: Samplers<'a>,
     line_at: &'a dyn Fn(usize) -> u32,
@@ -97,7 +97,7 @@ fn of_key(key: &str, leaf: &str, kind: &Type, what: &Text) -> Text {
     both(format!("`{key}` of `{leaf}`, a {kind}: {en}"), format!("`{leaf}` ({kind}) の `{key}`: {ja}"))
 }
 
-impl Reader<'_> {
+impl InterfaceReader<'_> {
     fn wrong(&self, at: usize, place: &str, message: impl Into<Text>) -> AssignmentError {
         error(format!("{}, {place}", solution::place(MANIFEST, (self.line_at)(at))), message)
     }

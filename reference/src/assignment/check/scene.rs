@@ -55,7 +55,7 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn
     let views = scenes
         .0
         .iter()
-        .map(|own| Reader { own, first, meshes: &meshes, line_at }.view())
+        .map(|own| SceneReader { own, first, meshes: &meshes, line_at }.view())
         .collect::<Checked<Vec<_>>>()?;
     let scene = Scene {
         width,
@@ -111,14 +111,14 @@ fn drawn(scene: &Scene) -> usize {
 }
 
 /// A scene beside the first one, which says what it does not.
-struct Reader<'a> {
+struct SceneReader<'a> {
     own: &'a manifest::Scene,
     first: &'a manifest::Scene,
     meshes: &'a Meshes<'a>,
     line_at: &'a dyn Fn(usize) -> u32,
 }
 
-impl Reader<'_> {
+impl SceneReader<'_> {
     fn get<T>(&self, key: &str, of: impl Fn(&manifest::Scene) -> Option<T>) -> Checked<T> {
         of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
             error(

@@ -1,7 +1,7 @@
 //! The stages of the right program: those of the solution, and those that are fixed.
 
 use super::{Checked, solution};
-use crate::accepted::Answer;
+use crate::accepted::AcceptedAnswer;
 use crate::assignment::{FixedStage, HandedIn, both, error};
 use crate::interpreter::{Program, Stage};
 use crate::manifest;
@@ -61,13 +61,13 @@ impl Stages {
         stage: manifest::Stage,
         names: &[String],
         read: &dyn Fn(&str) -> Checked<String>,
-    ) -> Checked<Vec<Answer>> {
+    ) -> Checked<Vec<AcceptedAnswer>> {
         let answer = |name: &String| {
             let own = compiled(name, stage.into(), &read(name)?)?;
             let other = |stage| if own.stage == stage { &own.program } else { &self.get(stage).program };
             let linked = Pipeline::link(other(Stage::Vertex), other(Stage::Fragment), None);
             let pipeline = linked.map_err(|what| error(name, what))?;
-            Ok(Answer { name: name.clone(), pipeline })
+            Ok(AcceptedAnswer { name: name.clone(), pipeline })
         };
         names.iter().map(answer).collect()
     }
@@ -75,7 +75,7 @@ impl Stages {
 
 impl Stages {
     /// The program in which some files have another text; `place`: what it is called where it does not fit.
-    pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> Checked<Answer> {
+    pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> Checked<AcceptedAnswer> {
         let mut own = Vec::new();
         for (file, text) in texts {
             let program = Program::compile(text, file.stage.into()).map_err(|refusal| {
@@ -90,7 +90,7 @@ impl Stages {
         };
         let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
         let pipeline = Pipeline::link(&vertex, &fragment, None).map_err(|what| error(place, what))?;
-        Ok(Answer { name: place.to_owned(), pipeline })
+        Ok(AcceptedAnswer { name: place.to_owned(), pipeline })
     }
 }
 

@@ -37,7 +37,7 @@ pub(super) fn textures(
     let mut room = MOST_TEXELS;
     let mut all = Vec::new();
     for (number, entry) in entries.iter().enumerate() {
-        let reader = Reader { entry, folder, line_at };
+        let reader = TextureReader { entry, folder, line_at };
         if entries[..number].iter().any(|other| other.name.get_ref() == entry.name.get_ref()) {
             return Err(
                 reader.wrong("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください")
@@ -58,7 +58,7 @@ pub(super) fn place(entry: &manifest::Texture, line_at: &dyn Fn(usize) -> u32) -
     format!("{line}, texture `{}`", entry.name.get_ref())
 }
 
-struct Reader<'a> {
+struct TextureReader<'a> {
     entry: &'a manifest::Texture,
     folder: &'a Folder,
     line_at: &'a dyn Fn(usize) -> u32,
@@ -73,7 +73,7 @@ struct Pictures {
     texels: Texels,
 }
 
-impl Reader<'_> {
+impl TextureReader<'_> {
     fn wrong(&self, en: impl Into<String>, ja: impl Into<String>) -> AssignmentError {
         error(place(self.entry, self.line_at), both(en, ja))
     }

@@ -4,7 +4,7 @@ use super::solution;
 use super::{Checked, known_line};
 use crate::assignment::{MANIFEST, both, error};
 use crate::manifest;
-use crate::typeset::{Given, Term, Typeset};
+use crate::typeset::{SymbolMeaning, Term, Typeset};
 use math_core::{LatexToMathML, MathDisplay};
 use std::collections::HashSet;
 use toml::Spanned;
@@ -33,8 +33,8 @@ pub(super) fn typeset(
         known_line(lines, &term.line, "equation")?;
         Ok(Term { symbol: formula(&term.symbol)?, value: formula(&term.value)?, line: term.line })
     };
-    let given = |given: manifest::Given| {
-        Ok(Given { symbol: formula(&given.symbol)?, value: formula(&given.value)?, source: given.source })
+    let given = |given: manifest::SymbolMeaning| {
+        Ok(SymbolMeaning { symbol: formula(&given.symbol)?, value: formula(&given.value)?, source: given.source })
     };
     Ok(Typeset {
         total: formula(&entry.total)?,

@@ -2,7 +2,7 @@
 
 use super::stages::Stages;
 use super::{Checked, listed};
-use crate::accepted::Answer;
+use crate::accepted::AcceptedAnswer;
 use crate::assignment::{HandedIn, both, error};
 use crate::manifest;
 
@@ -15,7 +15,7 @@ pub(super) struct Variants<'a> {
 
 impl Variants<'_> {
     /// The program of a variant; `place`: where it stands.
-    pub fn program(&self, variant: &manifest::Variant, place: &str) -> Checked<Answer> {
+    pub fn program(&self, variant: &manifest::Variant, place: &str) -> Checked<AcceptedAnswer> {
         let manifest::Variant { define, replace, file, of } = variant;
         if define.is_empty() && replace.is_empty() && file.is_none() {
             let message = both(

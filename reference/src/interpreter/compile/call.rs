@@ -1,7 +1,7 @@
 //! Calls of functions.
 
 use super::conversion::{Direction, Signature, resolve};
-use super::place::Place;
+use super::place::LValue;
 use super::scope::Symbol;
 use super::{Compiler, Value};
 use crate::interpreter::Refusal;
@@ -14,7 +14,7 @@ use crate::interpreter::types::Type;
 /// What stands for a parameter.
 enum Argument {
     Value(Value),
-    Place(Place, Value),
+    Place(LValue, Value),
 }
 
 impl Argument {

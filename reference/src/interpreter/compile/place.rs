@@ -9,7 +9,7 @@ use crate::interpreter::types::Type;
 
 /// A variable, or a part of one.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct LValue {
     /// What lies there.
     pub kind: Type,
     /// The first slot, as far as it is known.
@@ -22,7 +22,7 @@ pub struct Place {
 
 impl Compiler {
     /// The place that an expression names; none where it is a value.
-    pub(super) fn place(&mut self, expression: &Expression) -> Result<Option<Place>, Refusal> {
+    pub(super) fn place(&mut self, expression: &Expression) -> Result<Option<LValue>, Refusal> {
         self.builder.line = expression.line;
         match &expression.kind {
             ExpressionKind::Name(name) => self.variable(name).map(Some),
@@ -45,13 +45,13 @@ impl Compiler {
         }
     }
 
-    fn variable(&mut self, name: &Name) -> Result<Place, Refusal> {
+    fn variable(&mut self, name: &Name) -> Result<LValue, Refusal> {
         if self.scopes.get(name).is_none() && name.starts_with("gl_") {
             self.declare_built_in(name)?;
         }
         match self.scopes.get(name) {
             Some(Symbol::Variable { kind, slot }) => {
-                Ok(Place { kind: kind.clone(), base: *slot, offset: None, components: None })
+                Ok(LValue { kind: kind.clone(), base: *slot, offset: None, components: None })
             }
             Some(Symbol::Unsupported(what)) => Err(self.limit(*what)),
             Some(Symbol::Structure(_)) => Err(self.invalid(format!("{name} is a type"))),
@@ -60,13 +60,13 @@ impl Compiler {
     }
 
     /// Slots of a value in a row, so that they can be indexed.
-    pub(super) fn laid_out(&mut self, value: Value) -> Result<Place, Refusal> {
+    pub(super) fn laid_out(&mut self, value: Value) -> Result<LValue, Refusal> {
         let base = self.builder.allocate(value.slots.len())?;
         self.store(base, &value.slots);
-        Ok(Place { kind: value.kind, base, offset: None, components: None })
+        Ok(LValue { kind: value.kind, base, offset: None, components: None })
     }
 
-    pub(super) fn element(&mut self, place: Place, index: &Value) -> Result<Place, Refusal> {
+    pub(super) fn element(&mut self, place: LValue, index: &Value) -> Result<LValue, Refusal> {
         let element = place.kind.element();
         let (kind, count) = element.ok_or_else(|| self.invalid(format!("{} has no elements", place.kind)))?;
         let count = count.unwrap_or(UNSIZED);
@@ -74,21 +74,21 @@ impl Compiler {
         let index = *index.slots.first().ok_or_else(|| self.invalid("an index is a whole number"))?;
         if let Some(known) = self.builder.known(index).filter(|&known| known >= 0.0 && known < count as f64) {
             let base = place.base + known as Slot * stride as Slot;
-            return Ok(Place { kind, base, ..place });
+            return Ok(LValue { kind, base, ..place });
         }
         let (to, line) = (self.builder.temporary(), self.builder.line);
         let (count, stride) = (count as u32, stride as u32);
         self.builder.push(Node::Offset { to, before: place.offset, index, count, stride, line });
-        Ok(Place { kind, offset: Some(to), ..place })
+        Ok(LValue { kind, offset: Some(to), ..place })
     }
 
-    fn member(&mut self, place: Place, name: &str) -> Result<Place, Refusal> {
+    fn member(&mut self, place: LValue, name: &str) -> Result<LValue, Refusal> {
         match &place.kind {
             Type::Struct(structure) => {
                 let mut base = place.base;
                 for (member, kind) in &structure.members {
                     if member == name {
-                        return Ok(Place { kind: kind.clone(), base, ..place });
+                        return Ok(LValue { kind: kind.clone(), base, ..place });
                     }
                     base += kind.slots().unwrap_or(0) as Slot;
                 }
@@ -102,14 +102,14 @@ impl Compiler {
                     Some(before) => chosen.into_iter().map(|index| before[index as usize]).collect(),
                     None => chosen,
                 };
-                Ok(Place { kind, components: Some(chosen), ..place })
+                Ok(LValue { kind, components: Some(chosen), ..place })
             }
             other => Err(self.invalid(format!("{other} has no member {name}"))),
         }
     }
 
     /// The slots of a place, before an unknown index is added.
-    fn slots_of(&self, place: &Place) -> Result<Vec<Slot>, Refusal> {
+    fn slots_of(&self, place: &LValue) -> Result<Vec<Slot>, Refusal> {
         match &place.components {
             Some(components) => Ok(components.iter().map(|component| place.base + component).collect()),
             None => {
@@ -120,7 +120,7 @@ impl Compiler {
     }
 
     /// The value at a place: a variable's own slots where that is possible.
-    pub(super) fn read(&mut self, place: &Place) -> Result<Value, Refusal> {
+    pub(super) fn read(&mut self, place: &LValue) -> Result<Value, Refusal> {
         let mut slots = self.slots_of(place)?;
         if let Some(offset) = place.offset {
             for slot in &mut slots {
@@ -133,7 +133,7 @@ impl Compiler {
     }
 
     /// Writes a value, which has the place's type.
-    pub(super) fn write(&mut self, place: &Place, value: &Value) -> Result<(), Refusal> {
+    pub(super) fn write(&mut self, place: &LValue, value: &Value) -> Result<(), Refusal> {
         let slots = self.slots_of(place)?;
         if slots.iter().any(|&slot| self.builder.known(slot).is_some()) {
             return Err(self.invalid("a constant is written"));

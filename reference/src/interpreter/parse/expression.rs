@@ -4,7 +4,7 @@ use super::Parser;
 use super::literal::literal;
 use crate::interpreter::Refusal;
 use crate::interpreter::syntax::{Base, Binary, Expression, ExpressionKind, TypeName, Unary};
-use crate::interpreter::text::Kind;
+use crate::interpreter::text::TokenKind;
 use crate::interpreter::types::Type;
 
 /// Built-in functions that write into an argument.
@@ -170,13 +170,13 @@ impl Parser<'_> {
             return self.bracket();
         }
         match self.peek(0) {
-            Some(token) if token.kind == Kind::Number => {
+            Some(token) if token.kind == TokenKind::Number => {
                 let literal = literal(&token.text);
                 let literal = literal.ok_or_else(|| Refusal::invalid(line, format!("{} is no number", token.text)))?;
                 self.at += 1;
                 Ok(plain(literal))
             }
-            Some(token) if token.kind == Kind::Name => match &*token.text {
+            Some(token) if token.kind == TokenKind::Name => match &*token.text {
                 word @ ("true" | "false") => {
                     let value = word == "true";
                     self.at += 1;

@@ -1,6 +1,6 @@
 //! The expressions of `#if` and `#elif`.
 
-use super::{Kind, Token};
+use super::{Token, TokenKind};
 use crate::interpreter::Refusal;
 
 /// Deepest nesting of brackets and signs.
@@ -8,7 +8,7 @@ const MAX_DEPTH: usize = 300;
 
 /// Whether the condition holds. Macros are expanded already, and `defined` is answered.
 pub fn holds(tokens: &[Token], line: u32) -> Result<bool, Refusal> {
-    let mut reader = Reader { tokens, at: 0, line, depth: 0 };
+    let mut reader = ConditionReader { tokens, at: 0, line, depth: 0 };
     let value = reader.binary(0)?;
     match tokens.get(reader.at) {
         // What follows on the line is ignored, as compilers do.
@@ -31,14 +31,14 @@ const LEVELS: [&[&str]; 10] = [
     &["*", "/", "%"],
 ];
 
-struct Reader<'a> {
+struct ConditionReader<'a> {
     tokens: &'a [Token],
     at: usize,
     line: u32,
     depth: usize,
 }
 
-impl Reader<'_> {
+impl ConditionReader<'_> {
     fn wrong(&self) -> Refusal {
         Refusal::invalid(self.line, "this condition of the preprocessor cannot be read")
     }
@@ -95,20 +95,20 @@ impl Reader<'_> {
         }
         let token = self.next().ok_or_else(|| self.wrong())?;
         let value = match (token.kind, &*token.text) {
-            (Kind::Symbol, "!") => i64::from(self.unary()? == 0),
-            (Kind::Symbol, "-") => self.unary()?.wrapping_neg(),
-            (Kind::Symbol, "+") => self.unary()?,
-            (Kind::Symbol, "~") => !self.unary()?,
-            (Kind::Symbol, "(") => {
+            (TokenKind::Symbol, "!") => i64::from(self.unary()? == 0),
+            (TokenKind::Symbol, "-") => self.unary()?.wrapping_neg(),
+            (TokenKind::Symbol, "+") => self.unary()?,
+            (TokenKind::Symbol, "~") => !self.unary()?,
+            (TokenKind::Symbol, "(") => {
                 let value = self.binary(0)?;
                 match self.next() {
                     Some(close) if close.is(")") => value,
                     _ => return Err(self.wrong()),
                 }
             }
-            (Kind::Number, text) => integer(text).ok_or_else(|| self.wrong())?,
+            (TokenKind::Number, text) => integer(text).ok_or_else(|| self.wrong())?,
             // A name that stands for nothing is 0.
-            (Kind::Name, _) => 0,
+            (TokenKind::Name, _) => 0,
             _ => return Err(self.wrong()),
         };
         self.depth -= 1;

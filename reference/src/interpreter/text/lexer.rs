@@ -1,6 +1,6 @@
 //! Characters → tokens, with the ends of lines still among them.
 
-use super::{Kind, Token};
+use super::{Token, TokenKind};
 
 /// Operators of more than one character, longer ones first.
 const SYMBOLS: [&str; 24] = [
@@ -55,9 +55,9 @@ impl Lexer {
     fn token(&mut self) -> bool {
         let Some(&(first, line)) = self.characters.get(self.at) else { return false };
         match first {
-            '\n' => self.push(Kind::LineEnd, 1),
+            '\n' => self.push(TokenKind::LineEnd, 1),
             _ if first.is_whitespace() => self.at += 1,
-            'a'..='z' | 'A'..='Z' | '_' => self.run(Kind::Name, |lexer, n| is_word(lexer.peek(n))),
+            'a'..='z' | 'A'..='Z' | '_' => self.run(TokenKind::Name, |lexer, n| is_word(lexer.peek(n))),
             '0'..='9' => self.number(),
             '.' if self.peek(1).is_ascii_digit() => self.number(),
             _ => self.symbol(first, line),
@@ -65,7 +65,7 @@ impl Lexer {
         true
     }
 
-    fn push(&mut self, kind: Kind, length: usize) {
+    fn push(&mut self, kind: TokenKind, length: usize) {
         let part = &self.characters[self.at..self.at + length];
         let text: String = part.iter().map(|&(character, _)| character).collect();
         self.tokens.push(Token { touches: self.end == self.at, ..Token::new(kind, &text, part[0].1) });
@@ -73,7 +73,7 @@ impl Lexer {
         self.end = self.at;
     }
 
-    fn run(&mut self, kind: Kind, goes_on: impl Fn(&Self, usize) -> bool) {
+    fn run(&mut self, kind: TokenKind, goes_on: impl Fn(&Self, usize) -> bool) {
         let mut length = 1;
         while goes_on(self, length) {
             length += 1;
@@ -83,7 +83,7 @@ impl Lexer {
 
     fn number(&mut self) {
         let is_hexadecimal = self.peek(0) == '0' && matches!(self.peek(1), 'x' | 'X');
-        self.run(Kind::Number, |lexer, n| match lexer.peek(n) {
+        self.run(TokenKind::Number, |lexer, n| match lexer.peek(n) {
             '+' | '-' => !is_hexadecimal && matches!(lexer.peek(n - 1), 'e' | 'E'),
             other => other == '.' || is_word(other),
         });
@@ -104,12 +104,12 @@ impl Lexer {
                 }
                 self.at += 2;
             }
-            Some(symbol) => self.push(Kind::Symbol, symbol.len()),
+            Some(symbol) => self.push(TokenKind::Symbol, symbol.len()),
             None if first.is_ascii_punctuation() && !matches!(first, '$' | '@' | '`' | '"' | '\'' | '\\') => {
-                self.push(Kind::Symbol, 1);
+                self.push(TokenKind::Symbol, 1);
             }
             None => {
-                self.tokens.push(Token::new(Kind::Stray, &first.to_string(), line));
+                self.tokens.push(Token::new(TokenKind::Stray, &first.to_string(), line));
                 self.at += 1;
             }
         }
@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     fn texts(text: &str) -> Vec<String> {
-        tokens(text).iter().filter(|t| t.kind != Kind::LineEnd).map(|t| t.text.to_string()).collect()
+        tokens(text).iter().filter(|t| t.kind != TokenKind::LineEnd).map(|t| t.text.to_string()).collect()
     }
 
     #[test]
@@ -142,7 +142,7 @@ mod tests {
     fn comments_and_joined_lines_keep_the_numbering() {
         let tokens = tokens("a /* one\ntwo */ b\r\nc \\\n d // e\\\n f\rg");
         let lines: Vec<_> =
-            tokens.iter().filter(|t| t.kind == Kind::Name).map(|t| (t.text.to_string(), t.line)).collect();
+            tokens.iter().filter(|t| t.kind == TokenKind::Name).map(|t| (t.text.to_string(), t.line)).collect();
         let expected = [("a", 1), ("b", 2), ("c", 3), ("d", 4), ("g", 6)].map(|(name, line)| (name.to_owned(), line));
         assert_eq!(lines, expected);
     }

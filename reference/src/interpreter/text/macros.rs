@@ -1,6 +1,6 @@
 //! `#define` and the expansion of what it defines.
 
-use super::{Hidden, Kind, Token, lexer};
+use super::{Hidden, Token, TokenKind, lexer};
 use crate::interpreter::Refusal;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -40,7 +40,7 @@ impl Macros {
     /// Takes what stands behind `#define`.
     pub fn define(&mut self, tokens: &[Token], line: u32) -> Result<(), Refusal> {
         let (name, rest) = match tokens {
-            [name, rest @ ..] if name.kind == Kind::Name => (name, rest),
+            [name, rest @ ..] if name.kind == TokenKind::Name => (name, rest),
             _ => return Err(Refusal::invalid(line, "#define without a name")),
         };
         let (parameters, body) = parameters(rest)?;
@@ -50,7 +50,7 @@ impl Macros {
 
     /// Defines a name as a number.
     pub fn define_number(&mut self, name: &str, value: i64) {
-        let body = vec![Token::new(Kind::Number, &value.to_string(), 0)];
+        let body = vec![Token::new(TokenKind::Number, &value.to_string(), 0)];
         self.defined.insert(name.into(), Rc::new(Macro { parameters: None, body }));
     }
 
@@ -77,7 +77,7 @@ impl Macros {
         input.reverse();
         let mut output = Vec::with_capacity(input.len());
         while let Some(token) = input.pop() {
-            if token.kind != Kind::Name || token.hides(&token.text) {
+            if token.kind != TokenKind::Name || token.hides(&token.text) {
                 output.push(token);
                 continue;
             }
@@ -116,7 +116,7 @@ impl Macros {
             "__VERSION__" => i64::from(self.version),
             _ => return None,
         };
-        Some(Token::new(Kind::Number, &value.to_string(), token.line))
+        Some(Token::new(TokenKind::Number, &value.to_string(), token.line))
     }
 
     /// The body with the arguments in their places.
@@ -130,7 +130,7 @@ impl Macros {
         let hidden = Rc::new(Hidden { name: Rc::clone(&used.text), others: used.hidden.clone() });
         let parameters = of.parameters.as_deref().unwrap_or_default();
         let argument = |token: &Token| {
-            let is_it = |parameter: &Rc<str>| token.kind == Kind::Name && *parameter == token.text;
+            let is_it = |parameter: &Rc<str>| token.kind == TokenKind::Name && *parameter == token.text;
             parameters.iter().position(is_it).map(|index| &arguments[index])
         };
         let mut output: Vec<Token> = Vec::new();
@@ -166,7 +166,7 @@ fn paste(left: &mut Vec<Token>, right: &mut [Token], used: &Token) -> Result<(),
     let Some(before) = left.pop() else { return Ok(()) };
     let text = format!("{}{}", before.text, right[0].text);
     let mut joined = lexer::tokens(&text);
-    joined.retain(|token| token.kind != Kind::LineEnd);
+    joined.retain(|token| token.kind != TokenKind::LineEnd);
     match <[Token; 1]>::try_from(joined) {
         Ok([token]) => {
             right[0] = Token { line: used.line, hidden: before.hidden, ..token };
@@ -185,7 +185,7 @@ fn parameters(rest: &[Token]) -> Result<(Option<Vec<Rc<str>>>, &[Token]), Refusa
     let mut parameters = Vec::new();
     while let Some((token, after)) = rest.split_first() {
         rest = after;
-        if token.kind == Kind::Name {
+        if token.kind == TokenKind::Name {
             parameters.push(Rc::clone(&token.text));
         } else if token.is(")") {
             return Ok((Some(parameters), rest));

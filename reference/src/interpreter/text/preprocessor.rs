@@ -1,7 +1,7 @@
 //! Directives.
 
 use super::macros::Macros;
-use super::{Kind, Token, condition, lexer};
+use super::{Token, TokenKind, condition, lexer};
 use crate::interpreter::Refusal;
 use std::rc::Rc;
 
@@ -40,7 +40,7 @@ pub fn preprocess(text: &str) -> Result<Preprocessed, Refusal> {
     for name in PREDEFINED {
         preprocessor.macros.define_number(name, 1);
     }
-    for line in lexer::tokens(text).split(|token| token.kind == Kind::LineEnd) {
+    for line in lexer::tokens(text).split(|token| token.kind == TokenKind::LineEnd) {
         match line {
             [hash, directive @ ..] if hash.is("#") => preprocessor.directive(directive, hash.line)?,
             _ if preprocessor.is_active() => preprocessor.pending.extend_from_slice(line),
@@ -166,7 +166,7 @@ impl Preprocessor {
             let is_defined = name.is_some_and(|name| self.macros.is_defined(&name.text));
             answered.push(Token {
                 text: Rc::from(if is_defined { "1" } else { "0" }),
-                kind: Kind::Number,
+                kind: TokenKind::Number,
                 ..token.clone()
             });
         }

@@ -19,14 +19,14 @@ pub struct Lookup {
 }
 
 /// A place on one layer or face, in the texture's own coordinates.
-struct Place {
+struct LayerPosition {
     at: [f64; 3],
     axes: usize,
     layer: usize,
 }
 
 impl Texture {
-    fn place(&self, lookup: &Lookup) -> Place {
+    fn place(&self, lookup: &Lookup) -> LayerPosition {
         let given = |index: usize| lookup.coordinates.get(index).copied().unwrap_or(0.0);
         let axes = usize::from(self.dimension.count());
         let layers = self.levels[0].size[if self.dimension == Dimension::One { 1 } else { 2 }];
@@ -35,14 +35,14 @@ impl Texture {
         if self.dimension == Dimension::Cube {
             let (face, [s, t]) = cube::face([given(0), given(1), given(2)]);
             let layer = if self.array { nearest(given(3), layers / 6) } else { 0 };
-            return Place { at: [s, t, 0.0], axes: 2, layer: layer * 6 + face };
+            return LayerPosition { at: [s, t, 0.0], axes: 2, layer: layer * 6 + face };
         }
         let layer = if self.array { nearest(given(axes), layers) } else { 0 };
-        Place { at: [given(0), given(1), given(2)], axes, layer }
+        LayerPosition { at: [given(0), given(1), given(2)], axes, layer }
     }
 
     /// The level of detail (section 3.8.11): the logarithm of how many texels lie between neighbours.
-    fn level_of_detail(&self, lookup: &Lookup, place: &Place) -> f64 {
+    fn level_of_detail(&self, lookup: &Lookup, place: &LayerPosition) -> f64 {
         let Some(gradient) = lookup.gradient else { return lookup.level };
         let size = self.levels[0].size;
         let along = |derivative: [f64; 3]| {
@@ -91,7 +91,7 @@ impl Texture {
         }
     }
 
-    fn filtered(&self, level: usize, filter: Filter, place: &Place, lookup: &Lookup) -> [f64; 4] {
+    fn filtered(&self, level: usize, filter: Filter, place: &LayerPosition, lookup: &Lookup) -> [f64; 4] {
         let level = &self.levels[level];
         let scaled = |axis: usize| {
             let size = if self.dimension == Dimension::Rectangle { 1.0 } else { level.size[axis] as f64 };
@@ -155,7 +155,7 @@ impl Texture {
     }
 
     /// The texel at whole coordinates, wherever they are.
-    fn texel(&self, level: &Level, texel: [f64; 3], place: &Place) -> [f64; 4] {
+    fn texel(&self, level: &Level, texel: [f64; 3], place: &LayerPosition) -> [f64; 4] {
         let mut index = [0_usize; 3];
         for (axis, index) in index.iter_mut().enumerate().take(place.axes) {
             let wrap = if self.dimension == Dimension::Cube { Wrap::ClampToEdge } else { self.wrap[axis] };

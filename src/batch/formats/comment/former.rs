@@ -21,7 +21,7 @@ pub(super) struct Former {
 
 /// Where a comment of 0.1.0 stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Found {
+pub(super) struct FormerComment {
     pub span: Range<usize>,
     /// Whether its end is taken to be that of the paragraph, since a message of unknown wording comes last.
     pub is_end_guessed: bool,
@@ -60,10 +60,10 @@ impl Former {
     }
 
     /// The first comment in a text of a worksheet.
-    pub fn find(&self, text: &str) -> Option<Found> {
+    pub fn find(&self, text: &str) -> Option<FormerComment> {
         let same = self.same.iter().filter_map(|same| {
             let start = text.find(same.as_str()).filter(|_| !same.is_empty())?;
-            Some(Found { span: start..start + same.len(), is_end_guessed: false })
+            Some(FormerComment { span: start..start + same.len(), is_end_guessed: false })
         });
         let graded = self.beginning(text, 0).map(|start| self.graded(text, start));
         // Of two at one place the one whose end is known.
@@ -80,7 +80,7 @@ impl Former {
     }
 
     /// The graded comment that begins at `start`.
-    fn graded(&self, text: &str, start: usize) -> Found {
+    fn graded(&self, text: &str, start: usize) -> FormerComment {
         let score = start + text[start..].find(" / ").map_or(0, |at| at + " / ".len());
         let title = text[score..].find(GAP).map_or(text.len(), |at| score + at + GAP.len());
         let next = self.beginning(text, title).unwrap_or(text.len());
@@ -91,10 +91,10 @@ impl Former {
             Some(end + points(&text[end..])?)
         });
         if let Some(end) = full {
-            return Found { span: start..end, is_end_guessed: false };
+            return FormerComment { span: start..end, is_end_guessed: false };
         }
         let end = text[title..next].find(GAP).map_or(next, |at| title + at);
-        Found { span: start..end, is_end_guessed: end < next }
+        FormerComment { span: start..end, is_end_guessed: end < next }
     }
 }
 
@@ -110,7 +110,7 @@ fn points(text: &str) -> Option<usize> {
 }
 
 /// The first comment that says why there was nothing to grade.
-fn not_graded(text: &str) -> Option<Found> {
+fn not_graded(text: &str) -> Option<FormerComment> {
     let titles = LANGUAGES.map(|language: Language| format!("{}{GAP}", Standing::NotGraded.word(language)));
     let found = titles.iter().filter_map(|title| {
         let start = text.find(title.as_str())?;
@@ -118,5 +118,5 @@ fn not_graded(text: &str) -> Option<Found> {
         let end = text[reason..].find(GAP).map_or(text.len(), |at| reason + at);
         REASONS.iter().any(|part| text[reason..end].contains(part)).then_some(start..end)
     });
-    found.min_by_key(|span| span.start).map(|span| Found { span, is_end_guessed: false })
+    found.min_by_key(|span| span.start).map(|span| FormerComment { span, is_end_guessed: false })
 }

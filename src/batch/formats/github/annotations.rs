@@ -1,6 +1,6 @@
 //! Annotations: `::error file=…,line=…::message`.
 
-use crate::batch::class::{Class, Entry, Place};
+use crate::batch::class::{Class, Entry, FileLocation};
 use crate::batch::formats::untrusted::{one_line, visible};
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
@@ -20,7 +20,7 @@ const LEVELS: [&str; 3] = ["error", "warning", "notice"];
 struct Annotation<'a> {
     level: &'static str,
     entry: &'a Entry,
-    place: Option<&'a Place>,
+    place: Option<&'a FileLocation>,
     line: Option<u32>,
     columns: Option<(u32, u32)>,
     title: String,

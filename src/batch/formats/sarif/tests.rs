@@ -1,5 +1,5 @@
 use super::*;
-use crate::batch::class::Place;
+use crate::batch::class::FileLocation;
 use crate::batch::formats::nasty;
 use crate::report::samples;
 
@@ -126,7 +126,7 @@ fn paths_are_relative_references_whatever_they_are_made_of() {
 #[test]
 fn a_file_that_is_not_below_the_working_folder_is_named_from_the_input_on() {
     let mut class = nasty::class();
-    class.entries[2].places = vec![Place { path: "class.zip/a b/x.vert".into(), local: None }];
+    class.entries[2].places = vec![FileLocation { path: "class.zip/a b/x.vert".into(), local: None }];
     let log = log(&class);
     let location = &results(&log)[2]["locations"][0]["physicalLocation"]["artifactLocation"];
     assert_eq!(location["uri"], "class.zip/a%20b/x.vert");

@@ -103,8 +103,8 @@ fn a_moodle_download_has_the_files_of_each_participant_together() {
     assert_eq!(sets, ["ggsample11.vert=1 ggsample11.frag=2", "ggsample11.vert=3 ggsample11.frag=4"]);
 }
 
-fn given(files: &[(&str, &[u8])]) -> Vec<Given> {
-    files.iter().map(|(name, bytes)| Given::File { file: HandedInFile::new(*name, *bytes), local: None }).collect()
+fn given(files: &[(&str, &[u8])]) -> Vec<HandInPart> {
+    files.iter().map(|(name, bytes)| HandInPart::File { file: HandedInFile::new(*name, *bytes), local: None }).collect()
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn one_hand_in_comes_as_files_as_a_folder_or_as_an_archive() {
     let files: [(&str, &[u8]); 2] = [("ggsample11.frag", b"2"), ("ggsample11.vert", b"1")];
     assert_eq!(names(one(given(&files), &options())), right);
     let folder = folder(&[("ggsample11.vert", "1"), ("deep/ggsample11.frag", "2"), ("notes.md", "")]);
-    assert_eq!(names(one(vec![Given::Path(folder.path().join("class"))], &options())), right);
+    assert_eq!(names(one(vec![HandInPart::Path(folder.path().join("class"))], &options())), right);
     let members =
         [builder::Member::stored("x/ggsample11.vert", "1"), builder::Member::stored("x/ggsample11.frag", "2")];
     let archive = builder::archive(&members);

@@ -5,7 +5,7 @@ use super::super::frame::Frame;
 use super::super::shown;
 use super::downloads::{Offer, begun, formats};
 use super::table::{Filter, Table};
-use super::{Place, refused};
+use super::{Tab, refused};
 use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::service::State;
@@ -27,7 +27,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 #[template(path = "service/pages/templates/batches.html")]
 struct List {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     /// What is wrong with the archive that was sent.
     problem: Option<String>,
@@ -48,7 +48,7 @@ struct Line {
 #[template(path = "service/pages/templates/batch.html")]
 struct One {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     title: String,
     at: Moment,
@@ -98,7 +98,7 @@ async fn view_list(
         regradings.push(Line { id: regrading.id, title: title.to_owned(), at, progress });
     }
     let (csrf, archive_mib) = (teacher.csrf(state), state.config.archive_mib);
-    shown(List { frame, place: Place::Batches, csrf, problem, archive_mib, batches, regradings }.render())
+    shown(List { frame, place: Tab::Batches, csrf, problem, archive_mib, batches, regradings }.render())
 }
 
 /// `POST /teacher/batches`: stores an archive. One that cannot be read leads back to the form.
@@ -163,7 +163,7 @@ async fn view_one(
     let said = |text: &crate::language::Text| text.get(frame.language).replace('`', "");
     shown(
         One {
-            place: Place::Batches,
+            place: Tab::Batches,
             csrf: teacher.csrf(state),
             at: frame.moment(batch.created_at),
             events: format!("/api/v1/batches/{}/events", batch.id),

@@ -5,9 +5,9 @@ use super::super::{internal, shown, student};
 use super::charts::{self, Course, HEIGHT, Histogram, SPARK, Trend, WIDTH};
 use super::downloads::{Offer, formats};
 use super::table::{Filter, Table, titled};
-use super::{Place, word};
+use super::{Tab, word};
 use crate::service::State;
-use crate::service::classes::{People, Person, Standing, people};
+use crate::service::classes::{People, Person, PersonStanding, people};
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use askama::Template;
@@ -18,9 +18,9 @@ use base64::engine::general_purpose::STANDARD;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/class.html")]
-struct View {
+struct ClassPage {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     title: String,
     file: String,
@@ -92,8 +92,8 @@ pub(in crate::service::pages) async fn page(
         "削除しました。削除の記録は設定ページにあります。",
     );
     shown(
-        View {
-            place: Place::Class,
+        ClassPage {
+            place: Tab::Class,
             csrf: teacher.csrf(&state),
             title: student::title(&state.assignment, frame.language),
             file: id.clone(),
@@ -126,16 +126,16 @@ pub(in crate::service::pages) async fn page(
 fn tallies(frame: &Frame, all: &[&Person]) -> Vec<Tally> {
     let total = all.len().max(1) as f64;
     let mut x = 0.0;
-    let tally = |standing: Standing| {
+    let tally = |standing: PersonStanding| {
         let count = all.iter().filter(|person| person.standing() == standing).count();
         let width = 1000.0 * count as f64 / total;
         let mark = match standing {
-            Standing::Graded(verdict) => Some(student::mark(verdict, Some(1.0)).id()),
+            PersonStanding::Graded(verdict) => Some(student::mark(verdict, Some(1.0)).id()),
             _ => None,
         };
         let tally = Tally { id: standing.id(), word: word(frame, standing), mark, count, x, width };
         x += width;
         tally
     };
-    Standing::ALL.into_iter().map(tally).filter(|tally| tally.count > 0).collect()
+    PersonStanding::ALL.into_iter().map(tally).filter(|tally| tally.count > 0).collect()
 }

@@ -2,13 +2,13 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::{Place, batches};
+use super::{Tab, batches};
 use crate::service::State;
 use crate::service::classes::people;
 use crate::service::deletion;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
-use crate::service::store::{Submission, Target};
+use crate::service::store::{DeletionTarget, Submission};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
@@ -17,9 +17,9 @@ use serde::Deserialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/delete.html")]
-struct View {
+struct DeletePage {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     chosen: Chosen,
     heading: &'static str,
@@ -41,8 +41,8 @@ pub(in crate::service::pages) struct Chosen {
 }
 
 /// What was chosen, found.
-struct Found {
-    target: Target,
+struct FoundTarget {
+    target: DeletionTarget,
     heading: &'static str,
     name: String,
     /// The page that it is on.
@@ -50,18 +50,18 @@ struct Found {
     is_on_roster: bool,
 }
 
-async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, Problem> {
+async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<FoundTarget, Problem> {
     if !chosen.submission.is_empty() {
         return found_submission(state, frame, &chosen.submission).await;
     }
     if !chosen.batch.is_empty() {
         let batch = batches::found(state, &chosen.batch).await?;
-        return Ok(Found {
+        return Ok(FoundTarget {
             heading: frame
                 .say("Delete this archive with everything in it?", "このアーカイブと中の提出をすべて削除しますか?"),
             name: format!("{} · {}", batch.title, frame.moment(batch.created_at).text),
             back: format!("{}/batches/{}", frame.teacher(), batch.id),
-            target: Target::Batch(batch.id),
+            target: DeletionTarget::Batch(batch.id),
             is_on_roster: false,
         });
     }
@@ -72,7 +72,7 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
     }
     let student = state.store.student_by_id(&person.key).await?;
     let key = percent_encoding::utf8_percent_encode(&person.key, percent_encoding::NON_ALPHANUMERIC);
-    Ok(Found {
+    Ok(FoundTarget {
         heading: frame.say("Delete this student with everything of theirs?", "この学生のデータをすべて削除しますか?"),
         name: match format!("{} {}", person.number, person.name).trim() {
             "" => frame.say("no number", "番号なし").to_owned(),
@@ -81,24 +81,24 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<Found, P
         back: format!("{}/person?key={key}", frame.teacher()),
         is_on_roster: student.as_ref().is_some_and(|student| student.is_on_roster()),
         target: match (&student, person.key.split_once('/')) {
-            (Some(student), _) => Target::Student(student.id.clone()),
+            (Some(student), _) => DeletionTarget::Student(student.id.clone()),
             (None, Some((batch, position))) => {
-                Target::Entry(batch.to_owned(), position.parse().map_err(|_| Problem::not_found())?)
+                DeletionTarget::Entry(batch.to_owned(), position.parse().map_err(|_| Problem::not_found())?)
             }
-            (None, None) => Target::Browser(person.key.clone()),
+            (None, None) => DeletionTarget::Browser(person.key.clone()),
         },
     })
 }
 
 /// One file: also where a file is all that is known of somebody.
-async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<Found, Problem> {
+async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<FoundTarget, Problem> {
     let of_this = |submission: &Submission| submission.assignment == state.assignment.id;
     let submission = state.store.submission(id).await?.filter(of_this).ok_or_else(Problem::not_found)?;
-    Ok(Found {
+    Ok(FoundTarget {
         heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
         name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
         back: format!("/r/{}", submission.id),
-        target: Target::Submission(submission.id),
+        target: DeletionTarget::Submission(submission.id),
         is_on_roster: false,
     })
 }
@@ -118,7 +118,7 @@ pub(in crate::service::pages) async fn page(
     }
     let csrf = teacher.csrf(&state);
     let (heading, name, back) = (found.heading, found.name, found.back);
-    shown(View { frame, place: Place::Class, csrf, chosen, heading, name, counts, back }.render())
+    shown(DeletePage { frame, place: Tab::Class, csrf, chosen, heading, name, counts, back }.render())
 }
 
 /// `POST /teacher/delete`.

@@ -2,7 +2,7 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::{Place, batches};
+use super::{Tab, batches};
 use crate::batch::formats::Format;
 use crate::language::Text;
 use crate::service::State;
@@ -42,9 +42,9 @@ pub(super) fn formats(frame: &Frame) -> Vec<Offer> {
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/download.html")]
-struct View {
+struct DownloadsPage {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     format: String,
     back: String,
@@ -113,8 +113,8 @@ pub(in crate::service::pages) async fn page(
         Some(Err(problem)) => (None, Vec::new(), Some(said(&problem.detail))),
     };
     shown(
-        View {
-            place: Place::Class,
+        DownloadsPage {
+            place: Tab::Class,
             csrf: teacher.csrf(&state),
             format: said(&job.format.description()),
             back: job.back.clone(),

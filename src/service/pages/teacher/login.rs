@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/login.html")]
-struct View {
+struct LoginPage {
     frame: Frame,
     csrf: String,
     problem: Option<String>,
@@ -30,7 +30,7 @@ pub(in crate::service::pages) async fn page(
     if teacher.is_some() {
         return Ok(Redirect::to("/teacher").into_response());
     }
-    shown(View { frame, csrf: visitor.csrf(&service), problem: None }.render())
+    shown(LoginPage { frame, csrf: visitor.csrf(&service), problem: None }.render())
 }
 
 /// `POST /teacher/login`.
@@ -45,7 +45,7 @@ pub(in crate::service::pages) async fn login(
         Ok(response) => Ok(response),
         Err(problem) if problem.kind == "login" => {
             let detail = problem.detail.get(frame.language).to_owned();
-            let mut page = shown(View { frame, csrf: visitor.csrf(&service), problem: Some(detail) }.render())?;
+            let mut page = shown(LoginPage { frame, csrf: visitor.csrf(&service), problem: Some(detail) }.render())?;
             *page.status_mut() = problem.status;
             Ok(page)
         }
@@ -55,7 +55,7 @@ pub(in crate::service::pages) async fn login(
 
 /// The form of the button.
 #[derive(Debug, Default, Deserialize)]
-pub(in crate::service::pages) struct Token {
+pub(in crate::service::pages) struct CsrfForm {
     #[serde(default)]
     pub csrf: String,
 }
@@ -64,7 +64,7 @@ pub(in crate::service::pages) struct Token {
 pub(in crate::service::pages) async fn logout(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
-    Form(token): Form<Token>,
+    Form(token): Form<CsrfForm>,
 ) -> Result<Response, Problem> {
     identity::logout(&service, &teacher, &token.csrf).await
 }

@@ -3,7 +3,7 @@
 use super::super::datetime::Moment;
 use super::super::frame::Frame;
 use super::super::{report_fragment, shown, student};
-use super::Place;
+use super::Tab;
 use super::table::titled;
 use crate::service::State;
 use crate::service::classes::people;
@@ -26,9 +26,9 @@ pub(in crate::service::pages) struct Whom {
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/person.html")]
-struct View {
+struct PersonPage {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     number: String,
     name: String,
@@ -64,8 +64,8 @@ pub(in crate::service::pages) async fn page(
     let best = person.best().map(|best| best.row.submission.id.clone());
     let hidden = whom.anonymous == "on";
     shown(
-        View {
-            place: Place::Class,
+        PersonPage {
+            place: Tab::Class,
             csrf: teacher.csrf(&state),
             attempts: person.rows.iter().map(|row| attempt(&frame, row, best.as_deref(), hidden)).collect(),
             note: person.note.as_ref().map(|note| note.get(frame.language).replace('`', "")),

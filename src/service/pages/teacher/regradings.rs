@@ -3,8 +3,8 @@
 use super::super::datetime::Moment;
 use super::super::frame::Frame;
 use super::super::{report_fragment, shown, student};
-use super::Place;
-use super::login::Token;
+use super::Tab;
+use super::login::CsrfForm;
 use super::table::{Pager, titled};
 use crate::report::Verdict;
 use crate::report::text::number;
@@ -26,9 +26,9 @@ const SAME_POINTS: f64 = 1e-6;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/regrading.html")]
-struct View {
+struct RegradingsPage {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     at: Moment,
     id: String,
@@ -95,7 +95,7 @@ pub(in crate::service::pages) async fn adopt(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
-    Form(token): Form<Token>,
+    Form(token): Form<CsrfForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &token.csrf)?;
     regrade::adopt(&state, &id).await?;
@@ -130,8 +130,8 @@ pub(in crate::service::pages) async fn page(
     let changes = changed.len();
     let pager = Pager::new(changes, &page, |page| format!("?page={page}"));
     shown(
-        View {
-            place: Place::Batches,
+        RegradingsPage {
+            place: Tab::Batches,
             csrf: teacher.csrf(&state),
             at: frame.moment(regrading.created_at),
             seed: regrading.seed,

@@ -3,8 +3,8 @@
 use super::super::datetime::{self, Moment};
 use super::super::frame::Frame;
 use super::super::shown;
-use super::Place;
-use super::login::Token;
+use super::Tab;
+use super::login::CsrfForm;
 use super::refused;
 use crate::diagnose::Hints;
 use crate::language::Language;
@@ -22,9 +22,9 @@ use serde::Deserialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/settings.html")]
-struct View {
+struct SettingsPage {
     frame: Frame,
-    place: Place,
+    place: Tab,
     csrf: String,
     said: Said,
     rules: Rules,
@@ -133,8 +133,8 @@ pub(super) async fn view(
     let settings = state.store.assignment(&state.assignment.id).await?;
     let deletions = state.store.deletions().await?;
     shown(
-        View {
-            place: Place::Settings,
+        SettingsPage {
+            place: Tab::Settings,
             csrf: teacher.csrf(state),
             said,
             rules: typed.rules.unwrap_or_else(|| Rules::of(&settings, &frame.course)),
@@ -281,7 +281,7 @@ pub(in crate::service::pages) async fn save_course(
 pub(in crate::service::pages) async fn renew(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    Form(token): Form<Token>,
+    Form(token): Form<CsrfForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &token.csrf)?;
     teacher.check_course()?;
