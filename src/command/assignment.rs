@@ -1,16 +1,12 @@
 //! `ggrade assignment`: what assignments there are, and whether one is whole.
 
-use super::{ExitStatus, language, warn};
-use crate::cli::{Action, Assignment as Arguments, Check};
+mod check;
+
+use super::{ExitStatus, language};
+use crate::cli::{Action, Assignment as Arguments};
 use crate::fault::Fault;
-use crate::grade::{self, Order};
-use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::{Language, Text};
-use crate::report::{Report, Verdict};
-use crate::sandbox::{Pool, Settings, Submission};
 use reference::Assignment;
-use reference::fit;
-use std::sync::Arc;
 
 /// Does what is asked.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, Fault> {
@@ -20,7 +16,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, Fault> {
             reference::assignments().for_each(|assignment| list(assignment, language));
             Ok(ExitStatus::FullMarks)
         }
-        Action::Check(check) => run_check(check, language),
+        Action::Check(check) => check::run(check, language),
     }
 }
 
@@ -28,92 +24,4 @@ fn list(assignment: &Assignment, language: Language) {
     let files: Vec<_> = assignment.files.iter().map(|file| file.name.as_str()).collect();
     let title = Text::new(&assignment.title.en, &assignment.title.ja);
     anstream::println!("{}  {}  {}", assignment.id, files.join(", "), title.get(language));
-}
-
-fn run_check(arguments: &Check, language: Language) -> Result<ExitStatus, Fault> {
-    let Some(assignment) = super::assignment(Some(&arguments.assignment), &[], language) else {
-        return Ok(ExitStatus::Usage);
-    };
-    list(&assignment, language);
-    let settings = Settings {
-        adapter: arguments.adapter,
-        policy: arguments.sandbox,
-        spares: 0,
-        warm_up: false,
-        ..Settings::new(Arc::clone(&assignment))
-    };
-    let pool = Pool::start(settings, 1)?;
-    warn(&pool, language);
-    let grade = |hand_in: &HandIn| {
-        let assignment = pool.assignment();
-        let answer = pool.grade(Submission { assignment, hand_in, order: Order::default(), wants_frames: false });
-        answer.map(|answer| answer.report)
-    };
-    let solution = assignment.files.iter().map(|file| HandedInFile::new(&file.name, file.solution.text.as_bytes()));
-    let solution = grade(&HandIn { files: solution.collect() })?;
-    let starter = grade(&grade::handed_out(&assignment))?;
-    let is_right = solution.verdict == Verdict::Correct;
-    say(is_right, &scored("the solution", "解答", &solution), language);
-    for diagnostic in solution.diagnostics.iter().filter(|_| !is_right) {
-        anstream::println!("     {}", diagnostic.message.get(language));
-    }
-    let is_unfinished = starter.verdict == Verdict::Wrong;
-    say(is_unfinished, &scored("what is handed out", "配布ファイル", &starter), language);
-    say_features(&assignment, language);
-    let are_seen = say_variants(&assignment, language);
-    let digest = Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest));
-    say(true, &digest, language);
-    Ok(if is_right && is_unfinished && are_seen { ExitStatus::FullMarks } else { ExitStatus::Usage })
-}
-
-/// Says where each line's feature shows, and which cannot be judged by itself, as a term of a sum that always has another.
-fn say_features(assignment: &Assignment, language: Language) {
-    let probes = assignment.judging_probes();
-    let all = probes.probes.len();
-    for footprint in fit::footprints(assignment, &probes, fit::TOLERANCE) {
-        let (id, alone, shows) = (&assignment.rubric[footprint.line].id, footprint.alone.len(), footprint.shows);
-        let is_judged = alone >= fit::FEWEST;
-        let [mut en, mut ja] = [
-            format!("rubric line `{id}`: shows at {shows} of {all} probes, at {alone} by itself"),
-            format!("採点の行 `{id}`: 検査点 {all} 点中 {shows} 点に現れ、{alone} 点では単独で現れる"),
-        ];
-        if !is_judged {
-            en.push_str("; so it keeps its points only where all is right, or where a mistake says so");
-            ja.push_str("。したがって、すべて正しいか、mistake がそう定める場合だけ点が残ります");
-        }
-        let word = if is_judged { "ok  " } else { "note" };
-        anstream::println!("{word} {}", Text::new(en, ja).get(language));
-    }
-}
-
-/// Names the variants of mistakes that show nothing of their own.
-fn say_variants(assignment: &Assignment, language: Language) -> bool {
-    let alike = fit::alike(assignment, &assignment.judging_probes(), fit::TOLERANCE);
-    for (variant, other) in &alike {
-        let text = match other {
-            None => Text::new(
-                format!("{variant}: shows at no probe; change it, or remove it"),
-                format!("{variant}: どの検査点でも解答と同じになります。変えるか、取り除いてください"),
-            ),
-            Some(other) => Text::new(
-                format!("{variant}: shows the same as {other}, which is what will be found; remove one"),
-                format!("{variant}: {other} と同じ結果になり、見つかるのはそちらです。一方を取り除いてください"),
-            ),
-        };
-        say(false, &text, language);
-    }
-    alike.is_empty()
-}
-
-/// What one of the folder's own files has.
-fn scored(en: &str, ja: &str, report: &Report) -> Text {
-    let Report { verdict, score, max_score, .. } = report;
-    Text::new(
-        format!("{en}: {verdict:?}, {score} of {max_score} points"),
-        format!("{ja}: {verdict:?}、{max_score} 点中 {score} 点"),
-    )
-}
-
-fn say(good: bool, text: &Text, language: Language) {
-    anstream::println!("{} {}", if good { "ok  " } else { "FAIL" }, text.get(language));
 }
