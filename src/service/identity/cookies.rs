@@ -37,6 +37,12 @@ pub(in crate::service) fn named<'a>(headers: &'a HeaderMap, name: &str) -> Optio
     pairs.find(|(found, _)| *found == name).map(|(_, value)| value)
 }
 
+/// Whether a response sets this cookie of ours.
+pub(super) fn is_set(service: &Service, headers: &HeaderMap, base: &str) -> bool {
+    let start = format!("{}=", name(service, base));
+    headers.get_all(header::SET_COOKIE).iter().any(|value| value.as_bytes().starts_with(start.as_bytes()))
+}
+
 /// A `Set-Cookie` of one of our secrets, which are hexadecimal; 0 seconds removes it.
 pub(super) fn set(service: &Service, base: &str, value: &str, seconds: u64) -> Option<HeaderValue> {
     let secure = if service.config.is_secure() { "; Secure" } else { "" };

@@ -1,6 +1,6 @@
 //! The browser that a page is for.
 
-use super::cookies::{STUDENT_COOKIE, read, set};
+use super::cookies::{STUDENT_COOKIE, is_set, read, set};
 use super::{Identity, csrf, new_token, token_hash};
 use crate::service::errors::Problem;
 use crate::service::{Scope, Service};
@@ -86,7 +86,7 @@ pub async fn visit(Shared(service): Shared<Service>, mut request: Request, next:
     request.extensions_mut().insert(visitor.clone());
     let mut response = next.run(request).await;
     // A handler may have put another browser in its place.
-    if visitor.is_new && !response.headers().contains_key(header::SET_COOKIE) {
+    if visitor.is_new && !is_set(&service, response.headers(), STUDENT_COOKIE) {
         visitor.set_cookie(&service, &mut response);
     }
     Ok(response)
