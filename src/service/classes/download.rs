@@ -272,14 +272,28 @@ fn class(
     })
 }
 
-/// Where the files were: the path that an archive's list has of them, which names each of several, or else their names.
+/// Where the files were: the paths that an archive's list has in one line, or else their names.
 fn places(path: Option<String>, hand_in: &HandIn) -> Vec<FileLocation> {
-    let place = |path: &str| FileLocation { path: path.to_owned(), local: None };
-    match (path, hand_in.files.as_slice()) {
-        (Some(path), [_]) => vec![place(&path)],
-        (Some(path), files) if path.split(", ").count() == files.len() => path.split(", ").map(place).collect(),
-        (_, files) => files.iter().map(|file| place(&file.name)).collect(),
+    let names: Vec<&str> = hand_in.files.iter().map(|file| file.name.as_str()).collect();
+    let equal = |path| Some(str::split(path, ", ").collect()).filter(|parts: &Vec<&str>| parts.len() == names.len());
+    let paths = path.as_deref().and_then(|path| split(path, &names).or_else(|| equal(path)));
+    let paths = paths.unwrap_or(names);
+    paths.into_iter().map(|path| FileLocation { path: path.to_owned(), local: None }).collect()
+}
+
+/// The paths of files with these names, of which [`FileLocation::joined`] has made one line. A folder or a name may have in it what
+/// stands between two of them.
+fn split<'a>(joined: &'a str, names: &[&str]) -> Option<Vec<&'a str>> {
+    let [name, rest @ ..] = names else { return None };
+    if rest.is_empty() {
+        return Some(vec![joined]);
     }
+    let is_named = |path: &str| path.rsplit('/').next() == Some(*name);
+    joined.match_indices(", ").find_map(|(end, between)| {
+        let path = &joined[..end];
+        let further = split(&joined[end + between.len()..], rest).filter(|_| is_named(path))?;
+        Some([vec![path], further].concat())
+    })
 }
 
 fn outcome(stored: Stored) -> Outcome {
@@ -360,4 +374,29 @@ fn zipped(folder: &Path) -> std::io::Result<Vec<u8>> {
 
 fn disk(error: &std::io::Error) -> Fault {
     Fault::new(Text::new(format!("a temporary file: {error}"), format!("一時ファイルの障害: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hand_in::HandedInFile;
+
+    #[test]
+    fn each_file_has_its_own_path_whatever_its_folder_is_called() {
+        let found = |path: Option<&str>, names: &[&str]| {
+            let files = names.iter().map(|name| HandedInFile::new(*name, "")).collect();
+            places(path.map(str::to_owned), &HandIn { files }).into_iter().map(|place| place.path).collect::<Vec<_>>()
+        };
+        let both = ["a.vert", "a.frag"];
+        assert_eq!(found(Some("S1/a.vert, S1/a.frag"), &both), ["S1/a.vert", "S1/a.frag"]);
+        assert_eq!(
+            found(Some("Smith, Ann_1/a.vert, Smith, Ann_1/a.frag"), &both),
+            ["Smith, Ann_1/a.vert", "Smith, Ann_1/a.frag"]
+        );
+        assert_eq!(found(Some("x, y.vert, a.frag"), &["x, y.vert", "a.frag"]), ["x, y.vert", "a.frag"]);
+        assert_eq!(found(Some("Smith, Ann/a.vert"), &both[..1]), ["Smith, Ann/a.vert"]);
+        // Two files of one name are stored under those of their slots.
+        assert_eq!(found(Some("S1/a/x.txt, S1/b/x.txt"), &both), ["S1/a/x.txt", "S1/b/x.txt"]);
+        assert_eq!(found(None, &both), both);
+    }
 }
