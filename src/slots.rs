@@ -69,14 +69,32 @@ pub enum Trust {
 /// # Errors
 /// What is missing or double, in the slots' order.
 pub fn fill<F: Offered>(slots: &[Slot], files: &[F], trust: Trust) -> Result<Vec<usize>, Vec<Problem>> {
-    let mut filling = Filling { slots, files, of_slot: vec![None; slots.len()], problems: Vec::new() };
-    for rank in Fit::CHOSEN {
-        filling.rank(rank);
-    }
+    let mut filling = Filling::ranked(slots, files);
     if trust == Trust::Named {
         filling.last();
     }
     filling.done()
+}
+
+/// The file of each slot for which there is one, in the slots' order. A slot without a file is no problem here.
+///
+/// # Errors
+/// What is double, in the slots' order.
+pub fn place<F: Offered>(slots: &[Slot], files: &[F]) -> Result<Vec<Option<usize>>, Vec<Problem>> {
+    let mut filling = Filling::ranked(slots, files);
+    filling.sort();
+    if filling.problems.is_empty() { Ok(filling.of_slot) } else { Err(filling.problems) }
+}
+
+/// Files of which it is known that each is for the slot in its place, under names by which [`fill`] finds the same: their
+/// own names where these do, else those of the slots.
+pub fn keep_order(slots: &[Slot], mut hand_in: HandIn) -> HandIn {
+    if fill(slots, &hand_in.files, Trust::Named) != Ok((0..slots.len()).collect()) {
+        for (file, slot) in hand_in.files.iter_mut().zip(slots) {
+            file.name.clone_from(&slot.name);
+        }
+    }
+    hand_in
 }
 
 /// The files of a hand-in that the slots ask for, in the slots' order.
@@ -115,7 +133,16 @@ struct Filling<'a, F> {
     problems: Vec<Problem>,
 }
 
-impl<F: Offered> Filling<'_, F> {
+impl<'a, F: Offered> Filling<'a, F> {
+    /// What the names and the texts of the files say.
+    fn ranked(slots: &'a [Slot], files: &'a [F]) -> Self {
+        let mut filling = Self { slots, files, of_slot: vec![None; slots.len()], problems: Vec::new() };
+        for rank in Fit::CHOSEN {
+            filling.rank(rank);
+        }
+        filling
+    }
+
     /// Fills the slots for which there are files of this rank.
     fn rank(&mut self, rank: Fit) {
         let open: Vec<usize> = (0..self.slots.len()).filter(|&slot| self.is_open(slot)).collect();
@@ -146,10 +173,14 @@ impl<F: Offered> Filling<'_, F> {
         let open = (0..self.slots.len()).filter(|&slot| self.is_open(slot)).map(|slot| Problem::Missing { slot });
         let missing: Vec<Problem> = open.collect();
         self.problems.extend(missing);
+        self.sort();
+        if self.problems.is_empty() { Ok(self.of_slot.into_iter().flatten().collect()) } else { Err(self.problems) }
+    }
+
+    fn sort(&mut self) {
         self.problems.sort_by_key(|problem| match problem {
             Problem::Missing { slot } | Problem::Several { slot, .. } => *slot,
         });
-        if self.problems.is_empty() { Ok(self.of_slot.into_iter().flatten().collect()) } else { Err(self.problems) }
     }
 
     /// Whether nothing is decided for a slot.

@@ -78,10 +78,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
 /// # Errors
 /// As of [`read`].
 pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
-    let in_words = |refusal: Diagnostic| match stage {
-        Stage::Vertex => refusal,
-        Stage::Fragment => kind::of_fragment_shader(refusal),
-    };
+    let in_words = |refusal: Diagnostic| of_stage(stage, refusal);
     let mut facts = Facts {
         name: name.to_owned(),
         bytes: bytes.len(),
@@ -129,9 +126,18 @@ pub fn encoding(bytes: &[u8]) -> Option<Encoding> {
     decode(bytes).ok().map(|decoded| decoded.encoding)
 }
 
-/// Why `bytes` cannot be read as text, where they cannot: too many, a binary format, no sense in any encoding.
-pub fn not_text(bytes: &[u8]) -> Option<Diagnostic> {
-    decode(bytes).err().map(|error| *error)
+/// Why `bytes`, which are to be a shader of this stage, cannot be read as text, where they cannot: too many, a binary
+/// format, no sense in any encoding.
+pub fn not_text(stage: Stage, bytes: &[u8]) -> Option<Diagnostic> {
+    decode(bytes).err().map(|error| of_stage(stage, *error))
+}
+
+/// A refusal in the words of a homework that asks for this stage.
+fn of_stage(stage: Stage, refusal: Diagnostic) -> Diagnostic {
+    match stage {
+        Stage::Vertex => refusal,
+        Stage::Fragment => kind::of_fragment_shader(refusal),
+    }
 }
 
 /// The text of a file with its comments blanked, whatever it is; none where it cannot be read as text.

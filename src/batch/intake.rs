@@ -124,6 +124,23 @@ pub enum HandInPart {
 
 /// The files of one hand-in: those that are given, and those in the folders and archives among them.
 pub fn one(given: Vec<HandInPart>, options: &Options) -> Content {
+    match together(given, options) {
+        Ok(group) => choose::choose(&group, options),
+        Err(why) => Content::Nothing(why),
+    }
+}
+
+/// What there is for each slot among the files that are given, and in the archives among them; a single file that does not
+/// say what it is is for the slot `asked`.
+///
+/// # Errors
+/// Why nothing of it is for a slot, or for which slot there are several.
+pub fn some(given: Vec<HandInPart>, asked: usize, options: &Options) -> Result<Vec<Option<HandedInFile>>, Text> {
+    choose::place(&together(given, options)?, asked, options)
+}
+
+/// The files that are given, and those in the folders and archives among them, as those of one person.
+fn together(given: Vec<HandInPart>, options: &Options) -> Result<Group, Text> {
     let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut files = Vec::new();
     let mut is_named = true;
@@ -143,10 +160,10 @@ pub fn one(given: Vec<HandInPart>, options: &Options) -> Content {
     }
     if let (true, Some(refused)) = (files.is_empty(), reading.refused.into_iter().next()) {
         let Text { en, ja } = refused.reason;
-        return Content::Nothing(Text::new(format!("{}: {en}", refused.path), format!("{}: {ja}", refused.path)));
+        return Err(Text::new(format!("{}: {en}", refused.path), format!("{}: {ja}", refused.path)));
     }
     let who = Who { name: String::new(), moodle: None, place: String::new() };
-    choose::choose(&Group { who, files, is_named, has_online_text: false }, options)
+    Ok(Group { who, files, is_named, has_online_text: false })
 }
 
 /// Whether a file is to be opened as an archive: documents of office programs are archives as well, and have names of

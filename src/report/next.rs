@@ -45,8 +45,8 @@ impl Labels {
                 "最初のエラーを直して、もう一度採点してください。後のエラーは最初のエラーが原因であることがよくあります。"
             }
             (false, true) => "エラーを直して、もう一度採点してください。",
-            (true, false) => "Mend the first error and grade the file again: later errors often follow from the first.",
-            (false, false) => "Mend the error and grade the file again.",
+            (true, false) => "Mend the first error and grade again: later errors often follow from the first.",
+            (false, false) => "Mend the error and grade again.",
         }
     }
 
@@ -54,7 +54,7 @@ impl Labels {
         if self.japanese() {
             "繰り返しの条件や計算量を見直して、もう一度採点してください。"
         } else {
-            "Check the conditions of your loops and how much they compute, and grade the file again."
+            "Check the conditions of your loops and how much they compute, and grade again."
         }
     }
 }

@@ -36,7 +36,7 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
     components(schemas(super::errors::ProblemJson, FormatName, FilledFormatName)),
     modifiers(&Security),
     tags(
-        (name = "submissions", description = "One file. Its id opens it: who has the id may read the report."),
+        (name = "submissions", description = "One hand-in. Its id opens it: who has the id may read the report."),
         (name = "batches", description = "Whole classes, for teachers: with the teacher's token."),
         (name = "operations", description = "For who runs the service.")
     )

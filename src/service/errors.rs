@@ -159,8 +159,8 @@ impl Problem {
             ),
             StatusCode::PAYLOAD_TOO_LARGE => (
                 "too-large",
-                "The upload is too large. A shader has a few kilobytes; hand in the .vert file itself.",
-                "アップロードが大きすぎます。シェーダは数キロバイトです。.vert ファイルそのものを提出してください。",
+                "The upload is too large. A shader has a few kilobytes; hand in the source file itself.",
+                "アップロードが大きすぎます。シェーダは数キロバイトです。ソースファイルそのものを提出してください。",
             ),
             StatusCode::UNSUPPORTED_MEDIA_TYPE => (
                 "unsupported-media-type",

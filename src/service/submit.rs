@@ -14,6 +14,7 @@ use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::hand_in::{HandIn, HandedInFile};
+use crate::language::Text;
 use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
@@ -135,9 +136,9 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
         let mut problem = Problem::new(
             StatusCode::TOO_MANY_REQUESTS,
             "queue-full",
-            format!("Many files wait to be graded; yours would be number {}. It was not stored: please send it again.",
+            format!("Many hand-ins wait to be graded; yours would be number {}. It was not stored: please send it again.",
                 full.position),
-            format!("採点待ちのファイルが多く、あなたのファイルは {} 番目になります。保存していませんので、もう一度送信してください。",
+            format!("採点待ちの提出が多く、あなたの提出は {} 番目になります。保存していませんので、もう一度送信してください。",
                 full.position),
         )
         .retry_after(full.retry_after);
@@ -177,28 +178,16 @@ async fn checked(state: &State, upload: &Upload) -> Result<(store::Assignment, H
 
 /// The files that the homework asks for among those that somebody sent, archives opened. What is missing, double or no
 /// text is named; it is not stored and costs no attempt.
-pub(super) async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Problem> {
-    let assignment = Arc::clone(&state.assignment);
-    let names = sent.files.into_iter().zip(0..).map(move |(file, index)| {
-        let name = file_name(&file.name, assignment.files.get(index));
-        HandInPart::File { file: HandedInFile { name, ..file }, local: None }
-    });
-    let given: Vec<HandInPart> = names.collect();
+async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Problem> {
+    let given = given(state, sent.files);
     let options = intake::Options::new(&state.assignment);
     let chosen = tokio::task::spawn_blocking(move || intake::one(given, &options));
     let hand_in = match chosen.await.map_err(|panic| Problem::internal(&panic))? {
         Content::Files { hand_in, .. } => hand_in,
-        Content::Nothing(why) => {
-            return Err(Problem::new(
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "files",
-                format!("{} Nothing was stored.", why.en),
-                format!("{}何も保存されていません。", why.ja),
-            ));
-        }
+        Content::Nothing(why) => return Err(unfilled(&why)),
     };
-    for file in &hand_in.files {
-        check_text(&file.bytes).map_err(|problem| match hand_in.files.len() {
+    for (file, slot) in hand_in.files.iter().zip(&state.assignment.files) {
+        check_text(slot, &file.bytes).map_err(|problem| match hand_in.files.len() {
             1 => problem,
             _ => problem.about(&file.name),
         })?;
@@ -206,18 +195,49 @@ pub(super) async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Pro
     Ok(hand_in)
 }
 
-/// Whether the file can be read as text. What cannot is not stored and costs no attempt.
-pub(super) fn check_text(bytes: &[u8]) -> Result<(), Problem> {
+/// What there is for which slot among the files that somebody chose, archives opened, see [`intake::some`].
+pub(super) async fn for_slots(
+    state: &State,
+    sent: Vec<HandedInFile>,
+    shown: usize,
+) -> Result<impl Iterator<Item = (usize, HandedInFile)>, Problem> {
+    let given = given(state, sent);
+    let options = intake::Options::new(&state.assignment);
+    let placed = tokio::task::spawn_blocking(move || intake::some(given, shown, &options));
+    let placed = placed.await.map_err(|panic| Problem::internal(&panic))?.map_err(|why| unfilled(&why))?;
+    Ok((0..).zip(placed).filter_map(|(slot, file)| Some((slot, file?))))
+}
+
+fn given(state: &State, sent: Vec<HandedInFile>) -> Vec<HandInPart> {
+    let named = |(index, file): (usize, HandedInFile)| {
+        let name = file_name(&file.name, state.assignment.files.get(index));
+        HandInPart::File { file: HandedInFile { name, ..file }, local: None }
+    };
+    sent.into_iter().enumerate().map(named).collect()
+}
+
+/// The answer to files of which the homework's slots cannot be filled.
+fn unfilled(why: &Text) -> Problem {
+    Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "files",
+        format!("{} Nothing was stored.", why.en),
+        format!("{}何も保存されていません。", why.ja),
+    )
+}
+
+/// Whether the file for a slot can be read as text. What cannot is not stored and costs no attempt.
+pub(super) fn check_text(slot: &Slot, bytes: &[u8]) -> Result<(), Problem> {
     if bytes.is_empty() {
         return Err(Problem::unprocessable(
-            "The file is empty. Choose the .vert file that you have saved.",
-            "ファイルが空です。保存した .vert ファイルを選んでください。",
+            "The file is empty. Save it in your text editor and choose it again.",
+            "ファイルが空です。テキストエディタで保存してから、もう一度選んでください。",
         ));
     }
     if bytes.len() > MAX_UPLOAD {
         return Err(too_large());
     }
-    let Some(Diagnostic { message, hint, .. }) = source::not_text(bytes) else { return Ok(()) };
+    let Some(Diagnostic { message, hint, .. }) = source::not_text(slot.stage.into(), bytes) else { return Ok(()) };
     let (en, ja) = hint.map(|hint| (format!("{} ", hint.en), hint.ja)).unwrap_or_default();
     Err(Problem::new(
         StatusCode::UNPROCESSABLE_ENTITY,
@@ -254,8 +274,8 @@ async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upl
     if is_draft && !assignment.grades_drafts(now) {
         return forbidden(
             "no-drafts",
-            "The number of attempts is limited, so nothing is graded while you type: hand the file in.",
-            "提出回数に制限があるため、入力中の採点は行いません。ファイルを提出してください。",
+            "The number of attempts is limited, so nothing is graded while you type: hand in to be graded.",
+            "提出回数に制限があるため、入力中の採点は行いません。提出すると採点します。",
         );
     }
     let Some(limit) = assignment.attempts.filter(|_| !is_draft) else { return Ok(()) };

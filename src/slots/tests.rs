@@ -148,3 +148,40 @@ fn names_are_ranked() {
         assert_eq!(fit(name, &slot("ggsample06.vert", Stage::Vertex)), expected, "{name}");
     }
 }
+
+/// The names of what is placed by slot, or what is said instead.
+fn placed(files: &[(&str, &str)]) -> Result<Vec<Option<String>>, Vec<Problem>> {
+    let files: Vec<_> = files.iter().map(|(name, text)| HandedInFile::new(*name, *text)).collect();
+    let placed = place(&both(), &files)?;
+    Ok(placed.into_iter().map(|index| index.map(|index| files[index].name.clone())).collect())
+}
+
+#[test]
+fn a_part_of_the_files_is_placed_by_itself() {
+    let named = |name: &str| Some(name.to_owned());
+    assert_eq!(placed(&[("mine.fs", "f")]).unwrap(), [None, named("mine.fs")]);
+    assert_eq!(placed(&[("x.glsl", VERTEX), ("main.cpp", "")]).unwrap(), [named("x.glsl"), None]);
+    assert_eq!(placed(&[("a.frag", "f"), ("b.vert", "v")]).unwrap(), [named("b.vert"), named("a.frag")]);
+    assert_eq!(placed(&[("main.cpp", "")]).unwrap(), [None, None]);
+    let double = placed(&[("a.frag", "1"), ("b.frag", "2")]).unwrap_err();
+    assert_eq!(double, [Problem::Several { slot: 1, files: vec![0, 1] }]);
+}
+
+#[test]
+fn files_whose_slots_are_known_are_found_there_again() {
+    let kept = |names: [&str; 2]| {
+        let files = names.map(|name| HandedInFile::new(name, name)).into();
+        let kept = keep_order(&both(), HandIn { files });
+        let contents: Vec<_> =
+            kept.files.iter().map(|file| String::from_utf8_lossy(&file.bytes).into_owned()).collect();
+        assert_eq!(contents, names, "nothing changes its place");
+        let found = fill(&both(), &kept.files, Trust::Named);
+        assert_eq!(found, Ok(vec![0, 1]), "{names:?}");
+        kept.files.into_iter().map(|file| file.name).collect::<Vec<_>>()
+    };
+    assert_eq!(kept(["mine.vert", "other.frag"]), ["mine.vert", "other.frag"]);
+    assert_eq!(kept(["ggsample11.vert", "notes.txt"]), ["ggsample11.vert", "notes.txt"]);
+    // Names that say something else than the person who put the files there.
+    assert_eq!(kept(["mine.frag", "mine.vert"]), ["ggsample11.vert", "ggsample11.frag"]);
+    assert_eq!(kept(["a.txt", "b.txt"]), ["ggsample11.vert", "ggsample11.frag"]);
+}

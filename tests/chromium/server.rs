@@ -1,6 +1,7 @@
 //! The service that the browser looks at: the program itself, on a free port, with a database of its own.
 
 use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 
 /// The teacher's token of a test's service.
@@ -17,11 +18,17 @@ pub struct Server {
 impl Server {
     /// Starts it and waits until it listens.
     pub fn start() -> Self {
+        Self::serving(&[])
+    }
+
+    /// The same with the homeworks of these folders in place of those that are built in.
+    pub fn serving(homeworks: &[PathBuf]) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let mut child = Command::new(env!("CARGO_BIN_EXE_ggrade"))
             .args(["serve", "--listen", "127.0.0.1:0", "--log", "warn", "--teacher-token", TOKEN])
             .args(["--uploads-per-student", "600", "--deadline", "10", "--wait", "20", "--database"])
             .arg(folder.path().join("ggrade.db"))
+            .args(homeworks.iter().flat_map(|folder| ["--assignment".as_ref(), folder.as_os_str()]))
             .env("LC_ALL", "C")
             .stderr(Stdio::piped())
             .spawn()

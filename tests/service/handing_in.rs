@@ -291,7 +291,12 @@ async fn hostile_files_are_answered_as_any_other(database: Database) {
         let expected: serde_json::Value =
             serde_json::from_slice(&std::fs::read(path.with_extension("json")).expect("an expectation")).expect("JSON");
         let bytes = std::fs::read(path).expect("a sample");
-        assert_eq!(ggrade::source::not_text(&bytes), None, "{}: no text, so refused at the door", path.display());
+        assert_eq!(
+            ggrade::source::not_text(reference::interpreter::Stage::Vertex, &bytes),
+            None,
+            "{}: no text, so refused at the door",
+            path.display()
+        );
         let reply = bench.hand_in("", bytes).await;
         assert_eq!(reply.status, StatusCode::CREATED, "{}: {reply:?}", path.display());
         assert_eq!(reply.json()["report"]["verdict"], expected["verdict"], "{}", path.display());

@@ -19,6 +19,28 @@ pub(super) fn choose(group: &Group, options: &Options) -> Content {
     }
 }
 
+/// What there is for each slot among the files of one person, see [`super::some`].
+pub(super) fn place(group: &Group, asked: usize, options: &Options) -> Result<Vec<Option<HandedInFile>>, Text> {
+    let offers: Vec<Offer> = group.files.iter().map(|file| Offer { file, options }).collect();
+    let slots = &options.slots;
+    let nothing = vec![None; slots.len()];
+    let mut placed = slots::place(slots, &offers);
+    let is_told = placed.as_ref().is_ok_and(|placed| *placed != nothing);
+    if let (false, true, [_], Some(_)) = (is_told, group.is_named, offers.as_slice(), slots.get(asked)) {
+        let mut alone = nothing.clone();
+        alone[asked] = Some(0);
+        placed = Ok(alone);
+    }
+    let missing = || (0..slots.len()).map(|slot| Problem::Missing { slot }).collect();
+    let placed = match placed {
+        Ok(placed) if placed == nothing => Err(missing()),
+        placed => placed,
+    };
+    let placed = placed.map_err(|problems| why_not(group, options, &offers, &problems))?;
+    let file = |offer: &Offer| Ok(HandedInFile::new(&offer.file.name, offer.content()?));
+    placed.into_iter().map(|index| index.map(|index| file(&offers[index])).transpose()).collect()
+}
+
 /// A file that may be chosen. It is read when its content matters.
 struct Offer<'a> {
     file: &'a Owned,

@@ -29,7 +29,7 @@ pub(super) struct AssignmentJson {
 pub(super) struct AssignmentLinks {
     /// The student's page.
     page: String,
-    /// The handed-out file; several as a ZIP.
+    /// The handed-out file; several as a ZIP, and each by itself with `?file=` and its name.
     starter: String,
 }
 

@@ -36,8 +36,8 @@ impl Form {
             _ => Err(Problem::new(
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
                 "unsupported-media-type",
-                "Send the file as multipart/form-data (part `file`), or as the body with Content-Type: text/plain.",
-                "ファイルは multipart/form-data の `file` として、または Content-Type: text/plain の本文として送ってください。",
+                "Send the file as multipart/form-data (part `file`, one for each file), or one file as the body with Content-Type: text/plain.",
+                "ファイルは multipart/form-data の `file`（ファイルごとに 1 つ）として、または 1 つだけなら Content-Type: text/plain の本文として送ってください。",
             )),
         }
     }

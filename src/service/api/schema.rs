@@ -12,7 +12,7 @@ use utoipa::openapi::RefOr;
 use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityScheme};
 
-/// A file that was handed in, and what came of it.
+/// What was handed in, and what came of it.
 #[derive(Debug, Serialize, utoipa::ToSchema)]
 pub(super) struct SubmissionJson<'a> {
     /// Unguessable: who has it may read the report.
@@ -23,7 +23,7 @@ pub(super) struct SubmissionJson<'a> {
     pub state: State,
     /// The way by which it came.
     pub via: Via,
-    /// File name as handed in.
+    /// File name as handed in; the names of several files are joined by commas, and `report.sources` has each.
     pub name: &'a str,
     /// When it came.
     #[schema(format = DateTime)]
@@ -59,7 +59,7 @@ pub(super) struct Links {
     pub frames: String,
     /// The pictures as one animation.
     pub animation: String,
-    /// The file as handed in.
+    /// The file as handed in; several as a ZIP.
     pub source: String,
 }
 

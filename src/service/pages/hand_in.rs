@@ -1,33 +1,33 @@
 //! The student's page and its forms: looking, trying, handing in.
 
+use super::form::Form;
 use super::frame::Frame;
 use super::standing::StudentStanding;
 use super::student::{Desk, LISTED};
 use super::{result, shown};
 use crate::grade::handed_out;
-use crate::hand_in::{HandIn, HandedInFile};
 use crate::service::State;
 use crate::service::download;
 use crate::service::errors::Problem;
-use crate::service::idempotency::{self, RequestKey};
+use crate::service::idempotency::RequestKey;
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, asked_for, is_stranger, submit};
-use crate::slots::wording;
+use crate::service::submit::{Receipt, Upload, check_text, for_slots, is_stranger, submit};
 use crate::source;
-use axum::Router;
 use axum::extract::{Multipart, Query, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{get, post};
-use serde::Deserialize;
+use axum::{Json, Router};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use serde::{Deserialize, Serialize};
 
 /// What the page may be asked to show.
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Wish {
-    /// Id of a submission whose text to go on with.
+    /// Id of a submission whose texts to go on with.
     from: Option<String>,
 }
 
@@ -70,12 +70,12 @@ pub(super) async fn desk(
         }),
     };
     let own = match &wish.from {
-        Some(submission) => text_of(&state, submission).await?.map(|text| (submission.clone(), text)),
+        Some(submission) => texts_of(&state, submission).await?.map(|texts| (submission.clone(), texts)),
         None => None,
     };
     let lost = (wish.from.is_some() && own.is_none()).then(|| {
         frame.say(
-            "The text to go on with is no longer kept; below is the handed-out file, or your newest draft.",
+            "The hand-in to go on with is no longer kept; below is what was handed out, or your newest draft.",
             "開こうとした提出の内容は残っていません。配布ファイルまたは最新の下書きを表示しています。",
         )
     });
@@ -97,31 +97,60 @@ pub(super) async fn desk(
     shown(desk.render())
 }
 
-/// The text of a submission, where it is one that the editor can go on with.
-async fn text_of(state: &State, id: &str) -> Result<Option<String>, Problem> {
-    let Some(hand_in) = state.store.hand_in(id).await? else { return Ok(None) };
-    let [only] = hand_in.files.as_slice() else { return Ok(None) };
-    Ok(source::readable(only).map(|source| source.text))
+/// The texts of a submission's files in the order of the slots, where the editors can go on with them.
+async fn texts_of(state: &State, id: &str) -> Result<Option<Vec<String>>, Problem> {
+    let submission = state.store.submission(id).await?;
+    if submission.is_none_or(|submission| submission.assignment != state.assignment.id) {
+        return Ok(None);
+    }
+    let sources = state.store.hand_in(id).await?.unwrap_or_default().readable();
+    let texts: Vec<String> = sources.into_iter().map(|source| source.text).collect();
+    Ok(Some(texts).filter(|texts| texts.len() == state.assignment.files.len()))
 }
 
-/// `GET /a/{assignment}/starter`: the handed-out file; several as a ZIP.
-pub(super) async fn starter(Shared(state): Shared<State>) -> Result<Response, Problem> {
-    let [file] = state.assignment.files.as_slice() else {
-        return download::files(&state.assignment.id, &handed_out(&state.assignment));
+/// Which of the files that are handed out is asked for.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct Wanted {
+    /// Its name.
+    file: Option<String>,
+}
+
+/// `GET /a/{assignment}/starter`: the handed-out file, or the one that is named; several as a ZIP.
+pub(super) async fn starter(Shared(state): Shared<State>, Query(wanted): Query<Wanted>) -> Result<Response, Problem> {
+    let file = match (state.assignment.files.as_slice(), wanted.file) {
+        (slots, Some(name)) => slots.iter().find(|slot| slot.name == name).ok_or_else(Problem::not_found)?,
+        ([only], None) => only,
+        _ => return download::files(&state.assignment.id, &handed_out(&state.assignment)),
     };
     let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-cache")];
     Ok((headers, file.starter.clone()).into_response())
 }
 
-/// `POST /a/{assignment}/read`: the text of a file as grading reads it, for the editor. Nothing is stored.
+/// A file as the editor of its slot takes it.
+#[derive(Debug, Serialize)]
+struct Read {
+    /// Which slot, counted from 0.
+    slot: usize,
+    name: String,
+    /// Its text as grading reads it.
+    text: String,
+    /// Its bytes in base64: they are what is handed in as long as nobody changes the text.
+    bytes: String,
+}
+
+/// `POST /a/{assignment}/read`: which of the files that somebody chose is for which slot, and their texts, for the editors.
+/// Nothing is stored.
 pub(super) async fn read(Shared(state): Shared<State>, visitor: Visitor, form: Multipart) -> Result<Response, Problem> {
     let form = Form::read(form).await?;
     visitor.check_csrf(&state, &form.csrf)?;
-    let hand_in = asked_for(&state, form.hand_in(&state)?).await?;
-    let text = hand_in.files.first().and_then(source::readable).map(|source| source.text);
-    let text = text.ok_or_else(|| Problem::internal(&"a text without a text"))?;
-    let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-store")];
-    Ok((headers, text).into_response())
+    let mut files = Vec::new();
+    for (slot, file) in for_slots(&state, form.files, form.shown).await? {
+        check_text(&state.assignment.files[slot], &file.bytes).map_err(|problem| problem.about(&file.name))?;
+        let text = source::readable(&file).map(|source| source.text);
+        let text = text.ok_or_else(|| Problem::internal(&"a text without a text"))?;
+        files.push(Read { slot, name: file.name, text, bytes: BASE64_STANDARD.encode(&file.bytes) });
+    }
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(files)).into_response())
 }
 
 /// `POST /a/{assignment}`: hands in, and goes to the report. A script gets the receipt as a part of its page.
@@ -173,97 +202,9 @@ async fn take(
     visitor.check_csrf(state, &form.csrf)?;
     let field = form.key.take();
     let visitor = visitor.known(state).await?;
-    let hand_in = form.hand_in(state)?;
+    let hand_in = form.hand_in(&state.assignment.files)?;
     // A page that stays open may be sent again with another text, and first to try it: those are other requests.
     let field = field.map(|field| format!("{field} {} {}", store::word(&via), hand_in.sha256()));
     let key = RequestKey::read(headers, field.as_deref(), &client)?;
     submit(state, Upload { hand_in, identity: visitor.identity, via, hints: None, key }).await
-}
-
-/// The form as it came.
-#[derive(Default)]
-struct Form {
-    csrf: String,
-    key: Option<String>,
-    files: Vec<HandedInFile>,
-    text: Option<String>,
-    send: Option<Sent>,
-}
-
-/// Which of the two a browser without scripts hands in: its form has the text as well as the files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sent {
-    File,
-    Text,
-}
-
-impl Form {
-    async fn read(mut parts: Multipart) -> Result<Self, Problem> {
-        let mut form = Self::default();
-        while let Some(field) = parts.next_field().await.map_err(|error| unreadable(&error))? {
-            match field.name().unwrap_or_default() {
-                idempotency::FIELD => form.key = Some(field.text().await.map_err(|error| unreadable(&error))?),
-                "csrf" => form.csrf = field.text().await.map_err(|error| unreadable(&error))?,
-                "text" => form.text = Some(field.text().await.map_err(|error| unreadable(&error))?),
-                "send" => {
-                    form.send = match field.text().await.map_err(|error| unreadable(&error))?.as_str() {
-                        "file" => Some(Sent::File),
-                        "text" => Some(Sent::Text),
-                        _ => None,
-                    }
-                }
-                "file" => {
-                    let name = field.file_name().unwrap_or_default().to_owned();
-                    let bytes = field.bytes().await.map_err(|error| unreadable(&error))?;
-                    // A browser sends a field without a name where no file is chosen.
-                    if !name.is_empty() {
-                        form.files.push(HandedInFile::new(name, bytes.to_vec()));
-                    }
-                }
-                _ => {}
-            }
-        }
-        Ok(form)
-    }
-
-    /// What is handed in: the one of files and text that the person chose, else the files, else the text, which browsers
-    /// send with CRLF.
-    fn hand_in(self, state: &State) -> Result<HandIn, Problem> {
-        let slots = &state.assignment.files;
-        let wanted = wording::wanted(slots);
-        let has_files = !self.files.is_empty() && self.send != Some(Sent::Text);
-        match (has_files, self.text, self.send) {
-            (true, ..) => Ok(HandIn { files: self.files }),
-            (false, _, Some(Sent::File)) => Err(Problem::bad_request(
-                format!("No file is chosen. Go back and choose {}, or hand in the text of the editor.", wanted.en),
-                format!(
-                    "ファイルが選ばれていません。前のページに戻って {} を選ぶか、エディタの内容を提出してください。",
-                    wanted.ja
-                ),
-            )),
-            (false, Some(text), _) => {
-                let name = slots.first().map(|slot| slot.name.clone()).unwrap_or_default();
-                Ok(HandIn::of_one(name, text.replace("\r\n", "\n")))
-            }
-            (false, None, _) => Err(Problem::bad_request(
-                format!("The form has no file and no text. Choose {}, or type in the editor.", wanted.en),
-                format!("ファイルもテキストも送られていません。{} を選ぶか、エディタに入力してください。", wanted.ja),
-            )),
-        }
-    }
-}
-
-fn unreadable(error: &axum::extract::multipart::MultipartError) -> Problem {
-    match error.status() {
-        StatusCode::PAYLOAD_TOO_LARGE => Problem::new(
-            StatusCode::PAYLOAD_TOO_LARGE,
-            "too-large",
-            "The file is too large. A shader has a few kilobytes: is it the right file?",
-            "ファイルが大きすぎます。シェーダは数キロバイトです。ファイルが正しいか確認してください。",
-        ),
-        _ => Problem::bad_request(
-            "The upload arrived incomplete. Please send it again.",
-            "アップロードが途中で切れました。もう一度送信してください。",
-        ),
-    }
 }

@@ -105,10 +105,10 @@ async fn classes(
     let mut homeworks = Vec::new();
     for state in visible {
         let versions = service.store.class_version(&state.assignment.id, None).await?;
-        let files: i64 = versions.iter().map(|(_, count, _)| count).sum();
+        let hand_ins: i64 = versions.iter().map(|(_, count, _)| count).sum();
         let text = match frame.language {
-            Language::En => format!("{files} {}", if files == 1 { "file" } else { "files" }),
-            Language::Ja => format!("提出 {files} 件"),
+            Language::En => format!("{hand_ins} {}", if hand_ins == 1 { "hand-in" } else { "hand-ins" }),
+            Language::Ja => format!("提出 {hand_ins} 件"),
         };
         let facts = vec![Fact::plain("", text)];
         homeworks.push(Homework::of(&state, &frame, format!("{}/teacher", state.base()), facts)?);

@@ -1,4 +1,4 @@
-//! The receipt of a file that was handed in: what came, when, and as which attempt.
+//! The receipt of what was handed in: what came, when, and as which attempt.
 
 use super::datetime::Moment;
 use super::frame::Frame;
@@ -17,7 +17,8 @@ struct ReceiptPage<'a> {
     name: &'a str,
     attempt: String,
     score: String,
-    sha256: &'a str,
+    /// The SHA-256 of each file, and its name.
+    files: Vec<(String, String)>,
     address: String,
 }
 
@@ -43,19 +44,21 @@ pub(super) async fn receipt(
         }
         (None, Progress::Failed) => frame
             .say(
-                "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.",
+                "Grading failed on our side. What you handed in is kept and will be graded again soon; this costs no points.",
                 "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。",
             )
             .to_owned(),
         (None, _) => frame.say("Being graded", "採点中").to_owned(),
     };
+    let hand_in = state.store.hand_in(&submission.id).await?.unwrap_or_default();
+    let files = hand_in.files.into_iter().map(|file| (file.sha256(), file.name)).collect();
     let view = ReceiptPage {
         frame,
         at: frame.exact_moment(submission.received_at),
         name: &submission.name,
         attempt,
         score,
-        sha256: &submission.sha256,
+        files,
         address: format!("/r/{}", submission.id),
     };
     view.render().map_err(|error| Problem::internal(&error))

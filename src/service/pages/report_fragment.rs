@@ -26,9 +26,11 @@ struct FragmentPage {
     body: String,
 }
 
-/// A line of the file that something is said about.
+/// A line of a file that something is said about.
 #[derive(Debug, Serialize)]
 struct LineMark {
+    /// Which of the homework's files, counted from 0.
+    file: usize,
     line: u32,
     column: Option<u32>,
     length: u32,
@@ -91,16 +93,22 @@ pub(super) fn verdict(frame: &Frame, verdict: Verdict) -> &'static str {
 }
 
 fn marks(report: &Report) -> Vec<LineMark> {
+    let file = |name: &Option<String>| {
+        let index = report.sources.iter().position(|source| Some(&source.name) == name.as_ref());
+        index.unwrap_or_default()
+    };
     let diagnostics = report.diagnostics.iter().filter_map(|diagnostic| {
         let kind = match diagnostic.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
             Severity::Note => return None,
         };
-        Some(LineMark { line: diagnostic.line?, column: diagnostic.column, length: diagnostic.length.max(1), kind })
+        let (line, file) = (diagnostic.line?, file(&diagnostic.file));
+        Some(LineMark { file, line, column: diagnostic.column, length: diagnostic.length.max(1), kind })
     });
-    let rubric = report.rubric.iter().filter(|line| line.points < line.max_points);
-    let rubric = rubric.filter_map(|line| Some(LineMark { line: line.line?, column: None, length: 0, kind: "rubric" }));
+    let rubric = report.rubric.iter().filter(|line| line.points < line.max_points).filter_map(|line| {
+        Some(LineMark { file: file(&line.file), line: line.line?, column: None, length: 0, kind: "rubric" })
+    });
     diagnostics.chain(rubric).collect()
 }
 

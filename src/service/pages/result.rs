@@ -29,6 +29,7 @@ struct ResultPage {
     again: Option<String>,
     address: String,
     source: String,
+    source_name: &'static str,
     receipt: Option<String>,
     part: String,
 }
@@ -70,10 +71,13 @@ pub(super) async fn page(
             back: state.page(),
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
-            again: (sources.len() == 1 && state.assignment.files.len() == 1)
-                .then(|| format!("{}?from={id}", state.page())),
+            again: (sources.len() == state.assignment.files.len()).then(|| format!("{}?from={id}", state.page())),
             address: format!("/r/{id}"),
             source: format!("/r/{id}/source"),
+            source_name: match report.sources.len() {
+                0 | 1 => frame.say("The file", "ファイル"),
+                _ => frame.say("The files (ZIP)", "ファイル (ZIP)"),
+            },
             receipt,
             part,
             frame,
@@ -100,11 +104,11 @@ fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Respo
                 .into()
         }
         (true, _) => {
-            "Grading failed on our side. Your file is kept and will be graded again soon; this costs no points.".into()
+            "Grading failed on our side. What you handed in is kept and will be graded again soon; this costs no points.".into()
         }
         (false, "ja") => format!("提出は保存されました。順番: {position} 番目。結果が出るとこのページに表示されます。"),
         (false, _) => {
-            format!("Your file is kept. Place in the queue: {position}. The report will appear on this page.")
+            format!("What you handed in is kept. Place in the queue: {position}. The report will appear on this page.")
         }
     };
     let heading = if failed {

@@ -118,25 +118,34 @@ impl StudentStanding<'_> {
         }
     }
 
-    /// What the page does with what is typed.
-    pub fn how(&self, frame: &Frame) -> &'static str {
-        match (self.grades_drafts(), self.can_hand_in()) {
+    /// What the page does with what is typed; `has_several` says whether the homework is several files.
+    pub fn how(&self, frame: &Frame, has_several: bool) -> String {
+        let given = if has_several {
+            frame.say(
+                "Drop files here, several at once or a ZIP of them, paste, or type.",
+                "ファイルをここにドロップするか（複数まとめて、または ZIP でも可）、貼り付けるか、直接入力してください。",
+            )
+        } else {
+            frame.say(
+                "Drop a file here, paste, or type.",
+                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。",
+            )
+        };
+        let graded = match (self.grades_drafts(), self.can_hand_in()) {
             (true, true) => frame.say(
-                "Drop a file here, paste, or type. What you type is graded as you go; that is a draft and not an attempt.",
-                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。\
-                 入力中の内容はそのつど採点されますが、下書きであり、提出にはなりません。",
+                " What you type is graded as you go; that is a draft and not an attempt.",
+                "入力中の内容はそのつど採点されますが、下書きであり、提出にはなりません。",
             ),
             (true, false) => frame.say(
-                "Drop a file here, paste, or type. What you type is graded as you go, as practice.",
-                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。\
-                 入力中の内容は、練習としてそのつど採点されます。",
+                " What you type is graded as you go, as practice.",
+                "入力中の内容は、練習としてそのつど採点されます。",
             ),
-            (false, true) => frame.say(
-                "Drop a file here, paste, or type; it is graded when you hand it in.",
-                "ファイルをここにドロップするか、貼り付けるか、直接入力してください。採点は提出したときに行います。",
-            ),
-            (false, false) => frame.say("Nothing is graded here at the moment.", "現在、採点は行っていません。"),
-        }
+            (false, true) => frame.say(" It is graded when you hand it in.", "採点は提出したときに行います。"),
+            (false, false) => {
+                return frame.say("Nothing is graded here at the moment.", "現在、採点は行っていません。").to_owned();
+            }
+        };
+        format!("{given}{graded}")
     }
 
     /// The steps of a student's work that follow upon the writing.

@@ -15,6 +15,7 @@ use crate::service::store::{HistoryRow, State as Progress};
 use crate::service::submit::{MAX_UPLOAD, too_large};
 use crate::slots::Slot;
 use askama::Template;
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use reference::assignment::Stage;
 use reference::typeset::Typeset;
 
@@ -33,8 +34,8 @@ pub(super) struct Desk<'a> {
     pub csrf: String,
     /// What this browser has handed in, the newest first.
     pub history: &'a [HistoryRow],
-    /// Id and text of a submission to go on with, in place of the hand-out.
-    pub own: Option<(String, String)>,
+    /// Id and texts of a submission to go on with, in place of the hand-out.
+    pub own: Option<(String, Vec<String>)>,
     /// What is to be said first.
     pub notice: Option<String>,
 }
@@ -46,42 +47,53 @@ struct StudentPage<'a> {
     title: String,
     /// The names of the homework's files.
     file: String,
-    /// Whether the homework is one file, which the editor shows.
-    has_editor: bool,
+    /// An editor for each file of the homework.
+    sheets: Vec<Sheet>,
     /// Extensions of the files that may be chosen.
     accepted: String,
     facts: Vec<Fact>,
     now: Millis,
     hindrance: Option<&'static str>,
-    how: &'static str,
+    how: String,
     steps: Vec<&'static str>,
     draft_word: &'static str,
     notice: Option<String>,
     who: Option<String>,
     action: String,
     draft: String,
-    starter_address: String,
-    key: String,
+    /// Where all that is handed out is downloaded.
+    starter: String,
     csrf: String,
     /// By which the service knows a form that is sent twice.
     form_key: String,
-    text: String,
-    /// Id of the submission whose text it is.
+    /// Id of the submission whose texts these are.
     own: Option<String>,
     /// Where files are read as text, what the largest has in bytes, and what is said of others.
     read: String,
     most: usize,
     too_large: String,
-    several: String,
     can_hand_in: bool,
     grades_drafts: bool,
     expected: String,
-    /// The name of what is computed, by which the line to change is found.
-    output: &'a str,
     task: Vec<Piece>,
     picture: &'a str,
     equation: Option<&'a Typeset>,
     attempts: Vec<Attempt>,
+}
+
+/// The editor of one file.
+struct Sheet {
+    /// The file's name.
+    name: String,
+    /// The id of its text field.
+    id: String,
+    /// Under which the browser keeps drafts of it.
+    key: String,
+    /// Where the file that is handed out for it is.
+    starter: String,
+    /// The name of what is computed in it, by which the line to change is found.
+    output: String,
+    text: String,
 }
 
 /// One attempt.
@@ -102,28 +114,19 @@ impl Desk<'_> {
         let homework = std::sync::Arc::clone(&self.homework);
         let id = &homework.id;
         let language = self.frame.language;
-        let file = self.homework.files.first();
-        let starter = file.map(|file| file.starter.clone()).unwrap_or_default();
         let standing = self.standing;
-        let slots = &self.homework.files;
-        let file_name = file_names(&self.homework);
-        let several = match language {
-            Language::En => format!("Several files: give one at a time. The homework is {file_name}."),
-            Language::Ja => {
-                format!("ファイルが複数あります。1 つずつ選んでください。課題のファイルは {file_name} です。")
-            }
-        };
-        let (has_editor, accepted) = (slots.len() == 1, accepted(slots));
-        let (own, text) = self.own.take().unzip();
+        let slots = &homework.files;
+        let has_several = slots.len() > 1;
+        let (own, texts) = self.own.take().unzip();
         StudentPage {
             title: title(&self.homework, language),
-            file: file_name,
-            has_editor,
-            accepted,
+            file: file_names(&homework),
+            sheets: sheets(&homework, texts),
+            accepted: accepted(slots),
             facts: self.facts(),
             now: standing.now,
             hindrance: standing.hindrance(&self.frame),
-            how: standing.how(&self.frame),
+            how: standing.how(&self.frame, has_several),
             steps: standing.steps(&self.frame),
             draft_word: standing.draft_word(&self.frame),
             can_hand_in: standing.can_hand_in(),
@@ -133,18 +136,14 @@ impl Desk<'_> {
             who: self.who,
             action: format!("/a/{id}"),
             draft: format!("/a/{id}/draft"),
-            starter_address: format!("/a/{id}/starter"),
-            key: format!("ggrade {id}"),
+            starter: starter(id),
             csrf: self.csrf,
             form_key: new_id(),
             own,
-            text: text.unwrap_or(starter),
             read: format!("/a/{id}/read"),
             most: MAX_UPLOAD,
             too_large: too_large().detail.get(language).to_owned(),
-            several,
             expected: assets::expected(&homework),
-            output: homework.interface.outputs.first().map_or("", |output| &output.name),
             task: task(&homework, &self.frame),
             picture: homework
                 .task
@@ -191,6 +190,38 @@ impl Desk<'_> {
     }
 }
 
+/// The address of all that is handed out.
+fn starter(id: &str) -> String {
+    format!("/a/{id}/starter")
+}
+
+/// The editors of a homework's files, with these texts or what is handed out.
+fn sheets(homework: &reference::Assignment, texts: Option<Vec<String>>) -> Vec<Sheet> {
+    let slots = &homework.files;
+    let id = &homework.id;
+    let mut texts = texts.unwrap_or_default().into_iter();
+    let sheet = |(index, slot): (usize, &Slot)| {
+        let suffix = if index == 0 { String::new() } else { format!("-{}", index + 1) };
+        let encoded = utf8_percent_encode(&slot.name, NON_ALPHANUMERIC);
+        Sheet {
+            name: slot.name.clone(),
+            id: format!("code{suffix}"),
+            key: if slots.len() == 1 { format!("ggrade {id}") } else { format!("ggrade {id} {}", slot.name) },
+            starter: format!("{}?file={encoded}", starter(id)),
+            output: computed(homework, slot.stage).to_owned(),
+            text: texts.next().unwrap_or_else(|| slot.starter.clone()),
+        }
+    };
+    slots.iter().enumerate().map(sheet).collect()
+}
+
+/// The name of what a stage of the homework computes.
+fn computed(homework: &reference::Assignment, stage: Stage) -> &str {
+    let is_last = stage == Stage::Fragment || homework.files.iter().all(|slot| slot.stage == stage);
+    let output = homework.interface.outputs.first().filter(|_| is_last);
+    output.map_or("gl_Position", |output| &output.name)
+}
+
 /// The extensions of the files of a homework, for the browser's dialogue.
 fn accepted(slots: &[Slot]) -> String {
     let mut extensions: Vec<&str> = Vec::new();
@@ -221,10 +252,16 @@ pub(super) fn best_fact(frame: &Frame, history: &[HistoryRow]) -> Option<Fact> {
 
 /// What there is to do.
 pub(super) fn task(homework: &reference::Assignment, frame: &Frame) -> Vec<Piece> {
-    let draw_this = frame.say(
-        "Complete the file so that it draws this picture.",
-        "この画像を描くように、ファイルを完成させてください。",
-    );
+    let draw_this = match homework.files.len() {
+        1 => frame.say(
+            "Complete the file so that it draws this picture.",
+            "この画像を描くように、ファイルを完成させてください。",
+        ),
+        _ => frame.say(
+            "Complete the files so that they draw this picture.",
+            "この画像を描くように、すべてのファイルを完成させてください。",
+        ),
+    };
     pieces(homework.task.as_ref().map_or(draw_this, |task| frame.language.of(&task.text)))
 }
 

@@ -126,3 +126,27 @@ fn one_hand_in_comes_as_files_as_a_folder_or_as_an_archive() {
     assert!(names(one(given(&[("mine.zip", b"PK\x03\x04")]), &options())).starts_with("mine.zip: "));
     assert!(names(one(Vec::new(), &options())).starts_with("No file was handed in."));
 }
+
+/// What somebody sent, by slot.
+fn placed(files: &[(&str, &str)], asked: usize) -> Result<Vec<Option<String>>, String> {
+    let given = |(name, text): &(&str, &str)| HandInPart::File { file: HandedInFile::new(*name, *text), local: None };
+    let placed = some(files.iter().map(given).collect(), asked, &options()).map_err(|why| why.en)?;
+    Ok(placed.into_iter().map(|file| file.map(|file| file.name)).collect())
+}
+
+#[test]
+fn a_part_of_a_hand_in_goes_to_its_slots() {
+    let named = |name: &str| Some(name.to_owned());
+    assert_eq!(placed(&[("ggsample11.frag", FRAGMENT)], 0).unwrap(), [None, named("ggsample11.frag")]);
+    assert_eq!(placed(&[("one.txt", FRAGMENT), ("two.txt", VERTEX)], 0).unwrap(), [named("two.txt"), named("one.txt")]);
+    // One that does not say what it is goes where the person is.
+    assert_eq!(placed(&[("notes.txt", "void f() {}")], 1).unwrap(), [None, named("notes.txt")]);
+    assert_eq!(placed(&[("a.glsl", "void f() {}")], 0).unwrap(), [named("a.glsl"), None]);
+    let double = placed(&[("a.frag", "1"), ("b.frag", "2"), ("a.vert", "3")], 0).unwrap_err();
+    assert!(double.starts_with("It is not clear which file is `ggsample11.frag`: `a.frag`, `b.frag`."), "{double}");
+    let none = placed(&[("main.cpp", ""), ("a.h", "")], 0).unwrap_err();
+    assert!(
+        none.starts_with("There is no `ggsample11.vert` and no `ggsample11.frag`, only `main.cpp`, `a.h`."),
+        "{none}"
+    );
+}

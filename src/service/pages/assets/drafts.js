@@ -1,12 +1,12 @@
 "use strict";
-// What was typed stays in this browser, in versions that one can see and go back to. Each version has a key of its own
+// What was typed into a file stays in this browser, in versions that one can go back to. Each version has a key of its own
 // and is written by one page only, so that two tabs never write over each other.
-const keepDrafts = (form, editor, { restored }) => {
-  const { key, own } = form.dataset;
-  const textarea = form.elements.text;
-  const dialog = document.querySelector("dialog.versions");
-  const words = dialog.dataset;
-  const note = document.querySelector(".note-of-drafts");
+const draftTime = new Intl.DateTimeFormat(document.documentElement.lang, { month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", second: "2-digit", hourCycle: "h23" });
+
+// The drafts of one file. `own` is the hand-in that the page shows, where it shows one; `words` are those of the page, and
+// `tell` says something beside the file.
+const keepDrafts = (sheet, { own, words, tell }) => {
+  const { key, editor, textarea } = sheet;
   const PREFIX = `${key} version `;
   const MOST = 80; // versions that are kept
   const PAUSE = 60_000; // milliseconds without a change, or in all, after which typing begins a new version
@@ -80,83 +80,9 @@ const keepDrafts = (form, editor, { restored }) => {
     write();
   };
   editor.changed(() => keep());
+  const tellNewer = (version, wording) => tell(wording.replace("{}", draftTime.format(version.at)));
 
-  // ---- Seeing versions, and going back ----
-  const TIME = new Intl.DateTimeFormat(document.documentElement.lang, { month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", second: "2-digit", hourCycle: "h23" });
-  const time = (version) => TIME.format(version.at);
-  const tell = (text) => {
-    note.querySelector("span").textContent = text;
-    note.hidden = !text;
-  };
-  const tellNewer = (version, wording) => tell(wording.replace("{}", time(version)));
-
-  const list = dialog.querySelector("ol");
-  const preview = dialog.querySelector("pre");
-  const restore = dialog.querySelector("[data-do=restore]");
-  let chosen;
-
-  const choose = (version, button) => {
-    chosen = version;
-    list.querySelector("[aria-current]")?.removeAttribute("aria-current");
-    button.setAttribute("aria-current", "true");
-    restore.disabled = version.text === editor.text;
-    // Lines that the editor does not have are tinted.
-    const present = new Set(editor.text.split("\n"));
-    preview.replaceChildren(...version.text.split("\n").map((line) => {
-      const row = document.createElement(present.has(line) ? "span" : "mark");
-      row.textContent = `${line}\n`;
-      return row;
-    }));
-    const first = preview.querySelector("mark") ?? preview.firstChild;
-    preview.scrollTop = first.offsetTop - preview.offsetTop - preview.clientHeight / 2;
-  };
-
-  const row = (version) => {
-    const button = document.createElement("button");
-    const when = document.createElement("time");
-    const what = document.createElement("small");
-    button.type = "button";
-    when.dateTime = new Date(version.at).toISOString();
-    when.textContent = time(version);
-    const shown = version.text === editor.text ? ` · ${words.shown}` : "";
-    const of = version.of ? TIME.format(version.of) : version.name;
-    what.textContent = `${words[version.kind] ?? ""}${of ? ` ${of}` : ""}${shown}`;
-    button.append(when, what);
-    button.addEventListener("click", () => choose(version, button));
-    const item = document.createElement("li");
-    item.append(button);
-    return item;
-  };
-
-  const open = () => {
-    tell("");
-    const all = versions();
-    list.replaceChildren(...all.map(row));
-    dialog.querySelector(".none").hidden = all.length > 0;
-    dialog.querySelector(".panes").hidden = !all.length;
-    restore.disabled = true;
-    preview.replaceChildren();
-    dialog.showModal();
-    if (!all.length) return;
-    const other = Math.max(0, all.findIndex((version) => version.text !== editor.text));
-    choose(all[other], list.children[other].firstChild);
-    list.children[other].firstChild.focus();
-  };
-
-  note.querySelector("[data-do=dismiss]").addEventListener("click", () => tell(""));
-  dialog.querySelector("[data-do=close]").addEventListener("click", () => dialog.close());
-  restore.addEventListener("click", () => {
-    dialog.close();
-    editor.fill(chosen.text);
-    keep({ kind: "version", of: chosen.at });
-    restored();
-  });
-  for (const button of document.querySelectorAll("[data-do=versions]")) {
-    button.hidden = false;
-    button.addEventListener("click", open);
-  }
-
-  // Another tab wrote a version: this one goes on with its own text, and says so.
+  // Another tab of the browser wrote a version: this one goes on with its own text, and says so.
   addEventListener("storage", (event) => {
     if (!event.key?.startsWith(PREFIX) || !event.newValue) return;
     const version = stored(localStorage, event.key);
@@ -176,6 +102,7 @@ const keepDrafts = (form, editor, { restored }) => {
 
   return {
     keep,
+    versions,
     // Puts the text to go on with into the editor: this tab's own, else the newest. Whether it is another one than the
     // page came with.
     begin() {

@@ -1,7 +1,7 @@
 "use strict";
-// Grades the text of the page and shows what comes of it. It works on the page's elements, the text to send (`body`) and
-// the editor that marks lines.
-const gradeText = ({ form, result, state, body, editor }) => {
+// Grades the texts of the page and shows what comes of them. It works on the page's elements, the texts to send (`body`) and
+// the editors that mark lines.
+const gradeText = ({ form, result, state, body, sheets }) => {
   const PAUSE = 350; // milliseconds without a key after which the text is graded
   const words = form.dataset;
   const shown = result.querySelector("[data-shown]");
@@ -84,8 +84,8 @@ const gradeText = ({ form, result, state, body, editor }) => {
     if (isTyped && !runs && !shown.querySelector("article.report:not([data-drawn])")) interrupt(article);
     else replace(article);
     const marks = JSON.parse(article.dataset.marks ?? "[]");
-    editor.mark(marks);
-    if (!isTyped && marks.length) editor.show(marks[0].line);
+    sheets.mark(marks);
+    if (!isTyped) sheets.show(marks);
     say(`${article.dataset.summary} · ${said}`, article.dataset.mark);
   };
 
@@ -138,7 +138,7 @@ const gradeText = ({ form, result, state, body, editor }) => {
   const typed = () => {
     stop();
     isWaiting = isHeld;
-    if (!isWaiting) timer = setTimeout(() => (editor.isComposing ? typed() : grade(true)), PAUSE);
+    if (!isWaiting) timer = setTimeout(() => (sheets.isComposing ? typed() : grade(true)), PAUSE);
   };
 
   // Nothing is graded until it is released: then a text that was typed meanwhile is.
@@ -174,7 +174,7 @@ const gradeText = ({ form, result, state, body, editor }) => {
       stop();
       clear();
       player = undefined;
-      editor.mark([]);
+      sheets.mark([]);
       say("");
     },
   };

@@ -1,12 +1,11 @@
 "use strict";
-// Files that are chosen, dropped or pasted into the page. The service says what a file reads, with the decoder that
-// grades it: what is no text never enters the editor. What is handed in is the file itself, byte by byte, until its text
-// is changed in the editor.
-const pickFiles = (form, editor, taken) => {
+// Files that are chosen, dropped or pasted into the page. The service says which is for which slot and what it reads, with
+// the decoder that grades it: what is no text never enters an editor. What is handed in is the file itself, byte by byte,
+// until its text is changed in the editor.
+const pickFiles = (form, sheets, taken) => {
   const picker = form.elements.file;
   const note = form.querySelector(".note-of-file");
-  const { read, reading, unread, several, unreadable, empty, large, most, file: wanted } = form.dataset;
-  let file; // the file whose text the editor shows, as it was when it was chosen
+  const { read, reading, unread, others, unreadable, empty, large, most } = form.dataset;
   let asked = 0;
 
   const tell = (text) => {
@@ -15,51 +14,55 @@ const pickFiles = (form, editor, taken) => {
   };
   note.querySelector("button").addEventListener("click", () => tell(""));
 
-  // The field holds what is sent, also where the browser sends the form.
-  const hold = (chosen) => {
-    file = chosen;
-    const transfer = new DataTransfer();
-    if (file) transfer.items.add(file);
-    picker.files = transfer.files;
+  const isArchive = (file) => /\.zip$/i.test(file.name);
+
+  // A file as it is now; none of a folder, or of one that is gone.
+  const copied = async (file) => {
+    try {
+      return new File([await file.arrayBuffer()], file.name, { type: file.type });
+    } catch {
+      return undefined;
+    }
   };
 
   const take = async (files) => {
     const mine = (asked += 1);
-    const chosen = files.length > 1 ? files.find((one) => one.name === wanted) : files[0];
-    const refuse = (why) => {
-      if (mine !== asked) return;
-      hold(file);
-      tell(why);
-    };
-    if (!chosen) return refuse(several);
-    if (!chosen.size) return refuse(`${chosen.name}: ${empty}`);
-    if (chosen.size > Number(most)) return refuse(`${chosen.name}: ${large}`);
+    picker.value = "";
+    const refuse = (why) => { if (mine === asked) tell(why); };
+    const [first] = files;
+    // Of several, what can be no shader is left out.
+    const small = files.filter((file) => file.size <= Number(most) || isArchive(file));
+    if (!small.length) return refuse(`${first.name}: ${large}`);
+    if (files.length === 1 && !first.size) return refuse(`${first.name}: ${empty}`);
     tell(reading);
-    let copy;
-    try {
-      copy = new File([await chosen.arrayBuffer()], chosen.name, { type: chosen.type });
-    } catch {
-      return refuse(`${chosen.name}: ${unreadable}`); // a folder, or a file that is gone
-    }
+    const copies = (await Promise.all(small.map(copied))).filter(Boolean);
+    if (!copies.length) return refuse(`${first.name}: ${unreadable}`);
     let answer, said;
     try {
       const body = new FormData();
       body.set("csrf", form.elements.csrf.value);
-      body.set("file", copy, copy.name);
+      body.set("shown", sheets.current.index);
+      for (const copy of copies) body.append("file", copy);
       answer = await fetch(read, { method: "POST", body, headers: { accept: "application/json" } });
-      said = answer.ok ? await answer.text() : (await answer.json()).detail;
+      said = await answer.json();
     } catch {
-      return refuse(`${chosen.name}: ${unread}`);
+      return refuse(`${copies.map((copy) => copy.name).join(", ")}: ${unread}`);
     }
     if (mine !== asked) return;
-    if (!answer.ok) return refuse(`${chosen.name}: ${said}`);
-    tell("");
-    editor.fill(said);
-    hold(copy);
-    taken(copy);
+    if (!answer.ok) return refuse(said.detail);
+    const filled = said.map(({ slot, name, text, bytes }) => {
+      const sheet = sheets.all[slot];
+      sheet.editor.fill(text);
+      sheet.file = new File([Uint8Array.from(atob(bytes), (byte) => byte.charCodeAt(0))], name);
+      return sheet;
+    });
+    if (!filled.includes(sheets.current)) sheets.open(filled[0]);
+    const isPart = filled.length < sheets.all.length && (files.length > 1 || isArchive(first));
+    tell(isPart ? others.replace("{}", filled.map((sheet) => sheet.name).join(", ")) : "");
+    taken(filled);
   };
 
-  picker.addEventListener("change", () => { if (picker.files.length) take([...picker.files]); else hold(file); });
+  picker.addEventListener("change", () => { if (picker.files.length) take([...picker.files]); });
 
   const carries = (event) => [...(event.dataTransfer?.types ?? [])].includes("Files");
   form.addEventListener("paste", (event) => {
@@ -85,27 +88,27 @@ const pickFiles = (form, editor, taken) => {
     event.stopPropagation();
     depth = 1;
     over(false);
-    take([...event.dataTransfer.files]);
+    const dropped = [...event.dataTransfer.files];
+    if (dropped.length) take(dropped);
   }, { capture: true });
 
-  const forget = () => {
-    asked += 1; // a file that is still being read comes too late
-    tell("");
-    hold(undefined);
-  };
   // A browser may bring back the field of an earlier visit.
-  hold(undefined);
-  editor.changed(() => {
-    if (file) hold(undefined);
+  picker.value = "";
+  sheets.changed((sheet) => {
+    sheet.file = undefined;
     tell("");
   });
 
   return {
-    forget,
-    // Puts what is to be sent into a form: the file as it was chosen, else the text of the editor.
+    // What is sent of this file is the text of its editor.
+    forget(sheet) {
+      asked += 1; // a file that is still being read comes too late
+      tell("");
+      sheet.file = undefined;
+    },
+    // Puts what is to be sent into a form, in the order of the slots: the file as it was chosen, else the text of the editor.
     into(data) {
-      if (file) data.set("file", file, file.name);
-      else data.set("text", editor.text);
+      for (const sheet of sheets.all) data.append("text", sheet.file ?? sheet.editor.text);
     },
   };
 };
