@@ -80,7 +80,7 @@ impl Folder {
                     files.join(", ")
                 ),
             );
-            AssignmentError { file: name.to_owned(), line: None, entry: None, message }
+            AssignmentError::of_file(name, message)
         })
     }
 
@@ -131,7 +131,7 @@ impl fmt::Debug for Folder {
 }
 
 fn at(file: &str, message: Text) -> AssignmentError {
-    AssignmentError { file: file.to_owned(), line: None, entry: None, message }
+    AssignmentError::of_file(file, message)
 }
 
 fn cannot_read(file: &str, e: &io::Error) -> AssignmentError {

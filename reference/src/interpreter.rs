@@ -40,6 +40,7 @@ mod builtin;
 mod code;
 mod compile;
 mod nature;
+pub mod outline;
 mod parse;
 mod run;
 mod sheet;
@@ -126,6 +127,11 @@ pub fn expression(text: &str) -> Result<(), Refusal> {
     parse::parse_expression(&preprocessed.tokens, HashSet::new()).map(drop)
 }
 
+/// Whether GLSL has a function of this name.
+pub fn is_builtin(name: &str) -> bool {
+    !builtin::signatures(name).is_empty()
+}
+
 /// The version of an expression that stands by itself.
 const NEWEST: u32 = 460;
 
@@ -149,6 +155,13 @@ impl Program {
     /// The uniforms that can be set, each part of a structure, array or block by its path.
     pub fn uniforms(&self) -> &[Variable] {
         &self.code.uniforms
+    }
+
+    /// The value that a uniform has where the host sets none, if the program says it.
+    pub fn initial(&self, uniform: &Variable) -> Option<Vec<f64>> {
+        let slots = uniform.slot..uniform.slot + uniform.kind.slots()? as code::Slot;
+        let of = |slot| self.code.defaults.iter().find(|(known, _)| *known == slot).map(|(_, value)| *value);
+        slots.map(of).collect()
     }
 
     /// What each sample has for itself; built-in variables only where the program uses them.

@@ -140,7 +140,7 @@ fn a_definition_that_the_solution_lacks_is_named_with_those_that_it_has() {
 #[test]
 fn a_solution_that_does_not_compile_is_named_by_its_line() {
     let copy = Copy::new().replace("solution.vert", "normalize(l + v)", "normalize(l + vv)");
-    let expected = "there is no variable vv";
+    let expected = "there is no variable `vv`";
     copy.is_refused("solution.vert", Some(copy.line("solution.vert", "(l + vv)")), expected, expected);
 }
 

@@ -11,6 +11,8 @@ pub struct AssignmentError {
     pub file: String,
     /// The line in it, from 1, where it is known.
     pub line: Option<u32>,
+    /// The column in that line, from 1, where it is known.
+    pub column: Option<u32>,
     /// What in the file it is about, such as an entry of `assignment.toml`.
     pub entry: Option<String>,
     /// What is wrong there, and what to try.
@@ -20,11 +22,14 @@ pub struct AssignmentError {
 impl AssignmentError {
     /// The place and the message, in both languages.
     pub fn text(&self) -> Text {
-        let Self { file, line, entry, message } = self;
+        let Self { file, line, column, entry, message } = self;
         let entry = |separator: &str| entry.as_ref().map(|entry| format!("{separator}{entry}")).unwrap_or_default();
-        let (en, ja) = match line {
-            Some(line) => (format!("{file}, line {line}"), format!("{file} の {line} 行目")),
-            None => (file.clone(), file.clone()),
+        let (en, ja) = match (line, column) {
+            (Some(line), Some(column)) => {
+                (format!("{file}, line {line}, column {column}"), format!("{file} の {line} 行目 {column} 桁目"))
+            }
+            (Some(line), None) => (format!("{file}, line {line}"), format!("{file} の {line} 行目")),
+            (None, _) => (file.clone(), file.clone()),
         };
         Text { en: format!("{en}{}: {}", entry(", "), message.en), ja: format!("{ja}{}: {}", entry("、"), message.ja) }
     }
@@ -36,8 +41,39 @@ impl AssignmentError {
             let entry = self.entry.as_deref().filter(|_| !is_known)?;
             line_of(folder.text(MANIFEST).ok()?, entry)
         });
-        Self { line, ..self }
+        let located = Self { line, ..self };
+        match folder.text(&located.file) {
+            Ok(text) => located.in_column_of(text),
+            Err(_) => located,
+        }
     }
+
+    /// About a whole file.
+    pub(crate) fn of_file(file: impl Into<String>, message: impl Into<Text>) -> Self {
+        Self { file: file.into(), line: None, column: None, entry: None, message: message.into() }
+    }
+
+    /// The same with the column of the first word between backticks that stands in its line of the file's text.
+    pub(crate) fn in_column_of(self, text: &str) -> Self {
+        let line = self.line.and_then(|line| text.lines().nth((line as usize).checked_sub(1)?));
+        let Some(line) = line.filter(|_| self.column.is_none()) else { return self };
+        let entry = self.entry.iter().flat_map(|entry| entry.split('`').skip(1).step_by(2));
+        let words = self.message.en.split('`').skip(1).step_by(2).chain(entry);
+        let found = words.filter(|word| !word.is_empty()).find_map(|word| position_of_word(line, word));
+        let column = found.map(|at| line[..at].chars().count() as u32 + 1);
+        Self { column, ..self }
+    }
+}
+
+/// Where a text stands in a line, not as a part of a longer word.
+fn position_of_word(line: &str, word: &str) -> Option<usize> {
+    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    let is_own = |at: &usize| {
+        let own = |end: Option<char>, other: Option<char>| is_part(end) && is_part(other);
+        !own(word.chars().next(), line[..*at].chars().next_back())
+            && !own(word.chars().next_back(), line[at + word.len()..].chars().next())
+    };
+    line.match_indices(word).map(|(at, _)| at).find(is_own)
 }
 
 impl fmt::Display for AssignmentError {
@@ -74,7 +110,7 @@ pub(crate) fn error(place: impl Into<String>, message: impl Into<Text>) -> Assig
     let (first, rest) = place.split_once(", ").unwrap_or((&place, ""));
     let is_file = first.contains('.') && !first.contains([' ', '`']);
     if !is_file {
-        return AssignmentError { file: MANIFEST.into(), line: None, entry: Some(place), message };
+        return AssignmentError { entry: Some(place), ..AssignmentError::of_file(MANIFEST, message) };
     }
     let (line, rest) = match rest.strip_prefix("line ") {
         Some(numbered) => {
@@ -84,7 +120,7 @@ pub(crate) fn error(place: impl Into<String>, message: impl Into<Text>) -> Assig
         None => (None, rest),
     };
     let entry = (!rest.is_empty()).then(|| rest.to_owned());
-    AssignmentError { file: first.to_owned(), line, entry, message }
+    AssignmentError { line, entry, ..AssignmentError::of_file(first, message) }
 }
 
 /// The line of the manifest at which an entry begins: the one that names it (`id = "gamma"`), or the head of its table.
@@ -150,5 +186,17 @@ mod tests {
         assert_eq!(found("uniform `a.b`"), (MANIFEST.into(), None, Some("uniform `a.b`".into())));
         let text = error("a.vert, line 7", both("wrong", "誤り")).text();
         assert_eq!((text.en.as_str(), text.ja.as_str()), ("a.vert, line 7: wrong", "a.vert の 7 行目: 誤り"));
+    }
+
+    #[test]
+    fn a_column_is_that_of_the_first_word_that_is_named() {
+        let said =
+            |line: &str, message: &str| error("a.frag, line 2", message).in_column_of(&format!("one\n{line}\n")).column;
+        assert_eq!(said("  c = vec4(cc, c2);", "there is no variable `c2`"), Some(16));
+        assert_eq!(said("  colour = c;", "`c` has no value: write `c = …`"), Some(12));
+        assert_eq!(said("  “é” = x;", "there is no `x`"), Some(9));
+        assert_eq!(said("nothing of it", "`c` is missing"), None);
+        let whole = AssignmentError::of_file("a.frag", "`one` is missing").in_column_of("one");
+        assert_eq!((whole.line, whole.column), (None, None));
     }
 }

@@ -5,6 +5,7 @@ mod lexer;
 mod macros;
 mod preprocessor;
 
+pub use lexer::tokens;
 pub use preprocessor::preprocess;
 
 use std::rc::Rc;
@@ -33,6 +34,8 @@ pub struct Token {
     pub text: Rc<str>,
     /// The line in the file, from 1, `#line` directives aside; of a macro's tokens, where the macro is used.
     pub line: u32,
+    /// The byte of the text that was read at which it starts.
+    pub at: u32,
     /// Whether it follows the token before without white space.
     touches: bool,
     /// The macros that it came out of, and which are not expanded in it again.
@@ -57,7 +60,7 @@ impl Drop for Hidden {
 
 impl Token {
     fn new(kind: TokenKind, text: &str, line: u32) -> Self {
-        Self { kind, text: text.into(), line, touches: false, hidden: None }
+        Self { kind, text: text.into(), line, at: 0, touches: false, hidden: None }
     }
 
     /// Whether it is a name or keyword.

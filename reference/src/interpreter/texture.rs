@@ -7,11 +7,12 @@ pub use sample::Lookup;
 
 use super::code::Slot;
 use super::types::{Dimension, Sampler};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::LazyLock;
 
 /// How the texels around a place make its value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Filter {
     /// The nearest one.
@@ -22,7 +23,7 @@ pub enum Filter {
 }
 
 /// What lies beyond the texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Wrap {
     /// The texture again.

@@ -36,7 +36,7 @@ impl<'a> Meshes<'a> {
         }
         let place = || format!("{}, scene, `mesh`", solution::place(MANIFEST, (self.line_at)(at)));
         let mesh = shape.get_ref().mesh(self.folder).map_err(|MeshError { message, file, line }| match file {
-            Some(file) => AssignmentError { file, line, entry: None, message },
+            Some(file) => AssignmentError { line, ..AssignmentError::of_file(file, message) },
             None => error(place(), message),
         })?;
         let before: usize = self.known.borrow().values().map(|mesh| mesh.vertices.len()).sum();

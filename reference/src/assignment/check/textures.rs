@@ -79,7 +79,7 @@ impl TextureReader<'_> {
     }
 
     fn in_file(&self, file: &str, en: impl Into<String>, ja: impl Into<String>) -> AssignmentError {
-        AssignmentError { file: file.to_owned(), line: None, entry: Some(self.name()), message: both(en, ja) }
+        AssignmentError { entry: Some(self.name()), ..AssignmentError::of_file(file, both(en, ja)) }
     }
 
     fn name(&self) -> String {

@@ -40,7 +40,7 @@ impl Compiler {
         let own = self.by_name.get(name).cloned().unwrap_or_default();
         let built_in = builtin::signatures(name);
         if own.is_empty() && built_in.is_empty() {
-            return Err(self.limit(format!("there is no function {name}")));
+            return Err(self.limit(format!("there is no function `{name}`")));
         }
         let arguments = self.arguments(arguments, &own, built_in)?;
         self.builder.line = line;
@@ -51,7 +51,7 @@ impl Compiler {
         let chosen = resolve(&candidates, &kinds, version).or_else(|| resolve(&candidates, &kinds, 400));
         let Some(chosen) = chosen else {
             let kinds = kinds.iter().map(Type::to_string).collect::<Vec<_>>().join(", ");
-            return Err(self.limit(format!("there is no function {name}({kinds})")));
+            return Err(self.limit(format!("there is no function `{name}`({kinds})")));
         };
         let signature = candidates[chosen].clone();
         match own.get(chosen) {

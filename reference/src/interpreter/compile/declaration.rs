@@ -19,7 +19,7 @@ impl Compiler {
         let base = match &name.base {
             Base::Named(name) => match self.scopes.get(name) {
                 Some(Symbol::Structure(kind)) => kind.clone(),
-                _ => Type::named(name).ok_or_else(|| self.limit(format!("there is no type {name}")))?,
+                _ => Type::named(name).ok_or_else(|| self.limit(format!("there is no type `{name}`")))?,
             },
             Base::Struct(name, members) => self.structure(name, members)?,
         };

@@ -91,10 +91,10 @@ impl Compiler {
                     }
                 }
                 let Type::Vector(scalar, count) = value.kind else {
-                    return Err(self.invalid(format!("{} has no member {name}", value.kind)));
+                    return Err(self.invalid(format!("{} has no member `{name}`", value.kind)));
                 };
                 let chosen = components(name, count);
-                let chosen = chosen.ok_or_else(|| self.invalid(format!("there is no component {name}")))?;
+                let chosen = chosen.ok_or_else(|| self.invalid(format!("there is no component `{name}`")))?;
                 let slots: Vec<_> = chosen.iter().map(|&index| value.slots[index as usize]).collect();
                 Ok(Value { kind: Type::Vector(scalar, slots.len() as u8), slots })
             }

@@ -181,7 +181,7 @@ impl Compiler {
     /// A built-in variable that the program declares again, perhaps with a length.
     fn redeclare(&mut self, name: &Name, kind: Type) -> Result<(), Refusal> {
         let known = builtin::variable(name, self.stage);
-        let (storage, known) = known.ok_or_else(|| self.limit(format!("there is no {name} here")))?;
+        let (storage, known) = known.ok_or_else(|| self.limit(format!("there is no `{name}` here")))?;
         let kind = if kind.slots().is_some() { kind } else { known };
         self.built_in(name, storage, kind)
     }
@@ -195,7 +195,7 @@ impl Compiler {
             return Ok(());
         }
         let known = builtin::variable(name, self.stage);
-        let (storage, kind) = known.ok_or_else(|| self.limit(format!("there is no variable {name} here")))?;
+        let (storage, kind) = known.ok_or_else(|| self.limit(format!("there is no variable `{name}` here")))?;
         self.built_in(name, storage, kind)
     }
 

@@ -54,8 +54,8 @@ impl Compiler {
                 Ok(LValue { kind: kind.clone(), base: *slot, offset: None, components: None })
             }
             Some(Symbol::Unsupported(what)) => Err(self.limit(*what)),
-            Some(Symbol::Structure(_)) => Err(self.invalid(format!("{name} is a type"))),
-            None => Err(self.invalid(format!("there is no variable {name}"))),
+            Some(Symbol::Structure(_)) => Err(self.invalid(format!("`{name}` is a type"))),
+            None => Err(self.invalid(format!("there is no variable `{name}`"))),
         }
     }
 
@@ -92,11 +92,11 @@ impl Compiler {
                     }
                     base += kind.slots().unwrap_or(0) as Slot;
                 }
-                Err(self.invalid(format!("{} has no member {name}", structure.name)))
+                Err(self.invalid(format!("{} has no member `{name}`", structure.name)))
             }
             Type::Vector(scalar, count) => {
                 let chosen = components(name, *count);
-                let chosen = chosen.ok_or_else(|| self.invalid(format!("{} has no component {name}", place.kind)))?;
+                let chosen = chosen.ok_or_else(|| self.invalid(format!("{} has no component `{name}`", place.kind)))?;
                 let kind = Type::Vector(*scalar, chosen.len() as u8);
                 let chosen = match &place.components {
                     Some(before) => chosen.into_iter().map(|index| before[index as usize]).collect(),
@@ -104,7 +104,7 @@ impl Compiler {
                 };
                 Ok(LValue { kind, components: Some(chosen), ..place })
             }
-            other => Err(self.invalid(format!("{other} has no member {name}"))),
+            other => Err(self.invalid(format!("{other} has no member `{name}`"))),
         }
     }
 

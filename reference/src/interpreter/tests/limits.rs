@@ -32,7 +32,7 @@ fn what_is_wrong_is_named_with_its_line() {
     for (text, line, what) in [
         ("void main() {\n float x = 1.0\n}", 3, "`,` or `;` is expected"),
         ("void main() {\n vec3 v = vec2(1.0);\n}", 2, "vec2 is not vec3"),
-        ("void main() {\n y = 1.0;\n}", 2, "no variable y"),
+        ("void main() {\n y = 1.0;\n}", 2, "no variable `y`"),
         ("float f();\nvoid main() { f(); }", 0, "not defined"),
         ("const int n = 3;\nvoid main() {\n n = 4;\n}", 3, "constant"),
         ("#if 1\nvoid main() { }", 1, "#endif"),

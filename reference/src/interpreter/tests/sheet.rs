@@ -160,7 +160,7 @@ fn what_is_no_list_of_definitions_is_refused_with_its_line() {
         ("float x = 1.0;", "`x` is the name of something else"),
         ("float a = float(gl_VertexID);", "does not know `gl_VertexID`"),
         ("y = x;", "name the value first: `float a_name = …; y = a_name;`"),
-        ("float a = texture(s, vec2(0.0)).x;", "there is no variable s"),
+        ("float a = texture(s, vec2(0.0)).x;", "there is no variable `s`"),
     ] {
         let refusal = main(body);
         assert!(refusal.line == 4 && refusal.what().contains(what), "{body}: {refusal}");

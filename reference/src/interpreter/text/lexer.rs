@@ -15,31 +15,35 @@ pub fn tokens(text: &str) -> Vec<Token> {
     lexer.tokens
 }
 
-/// The characters with their lines. Every kind of line end is `\n`; those behind a `\` are gone.
-fn joined(text: &str) -> Vec<(char, u32)> {
-    let mut characters = Vec::with_capacity(text.len() + 1);
+/// A character, its line, and the byte of the file at which it stands.
+type Placed = (char, u32, u32);
+
+/// The characters with their places. Every kind of line end is `\n`; those behind a `\` are gone.
+fn joined(text: &str) -> Vec<Placed> {
+    let mut characters: Vec<Placed> = Vec::with_capacity(text.len() + 1);
     let mut line = 1;
-    let mut rest = text.chars().peekable();
-    while let Some(character) = rest.next() {
+    let mut rest = text.char_indices().peekable();
+    while let Some((at, character)) = rest.next() {
+        let at = at as u32;
         if !matches!(character, '\n' | '\r') {
-            characters.push((character, line));
+            characters.push((character, line, at));
             continue;
         }
         if character == '\r' {
-            rest.next_if_eq(&'\n');
+            rest.next_if(|(_, next)| *next == '\n');
         }
         match characters.last() {
-            Some(('\\', _)) => drop(characters.pop()),
-            _ => characters.push(('\n', line)),
+            Some(('\\', ..)) => drop(characters.pop()),
+            _ => characters.push(('\n', line, at)),
         }
         line += 1;
     }
-    characters.push(('\n', line));
+    characters.push(('\n', line, text.len() as u32));
     characters
 }
 
 struct Lexer {
-    characters: Vec<(char, u32)>,
+    characters: Vec<Placed>,
     at: usize,
     /// Where the last token ended.
     end: usize,
@@ -48,27 +52,28 @@ struct Lexer {
 
 impl Lexer {
     fn peek(&self, ahead: usize) -> char {
-        self.characters.get(self.at + ahead).map_or('\0', |&(character, _)| character)
+        self.characters.get(self.at + ahead).map_or('\0', |&(character, ..)| character)
     }
 
     /// Reads one token or stretch of white space; false at the end.
     fn token(&mut self) -> bool {
-        let Some(&(first, line)) = self.characters.get(self.at) else { return false };
+        let Some(&(first, line, at)) = self.characters.get(self.at) else { return false };
         match first {
             '\n' => self.push(TokenKind::LineEnd, 1),
             _ if first.is_whitespace() => self.at += 1,
             'a'..='z' | 'A'..='Z' | '_' => self.run(TokenKind::Name, |lexer, n| is_word(lexer.peek(n))),
             '0'..='9' => self.number(),
             '.' if self.peek(1).is_ascii_digit() => self.number(),
-            _ => self.symbol(first, line),
+            _ => self.symbol(first, line, at),
         }
         true
     }
 
     fn push(&mut self, kind: TokenKind, length: usize) {
         let part = &self.characters[self.at..self.at + length];
-        let text: String = part.iter().map(|&(character, _)| character).collect();
-        self.tokens.push(Token { touches: self.end == self.at, ..Token::new(kind, &text, part[0].1) });
+        let text: String = part.iter().map(|&(character, ..)| character).collect();
+        let (_, line, at) = part[0];
+        self.tokens.push(Token { touches: self.end == self.at, at, ..Token::new(kind, &text, line) });
         self.at += length;
         self.end = self.at;
     }
@@ -89,7 +94,7 @@ impl Lexer {
         });
     }
 
-    fn symbol(&mut self, first: char, line: u32) {
+    fn symbol(&mut self, first: char, line: u32, at: u32) {
         let starts = |symbol: &&&str| symbol.chars().enumerate().all(|(n, c)| self.peek(n) == c);
         match SYMBOLS.iter().find(starts).copied() {
             Some("//") => {
@@ -109,7 +114,7 @@ impl Lexer {
                 self.push(TokenKind::Symbol, 1);
             }
             None => {
-                self.tokens.push(Token::new(TokenKind::Stray, &first.to_string(), line));
+                self.tokens.push(Token { at, ..Token::new(TokenKind::Stray, &first.to_string(), line) });
                 self.at += 1;
             }
         }
