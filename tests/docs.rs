@@ -1,5 +1,6 @@
 //! Tables in the documentation are what the program says. `BLESS=1` writes them anew, and is red.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -124,4 +125,77 @@ fn a_room_knows_only_what_stands_before_it() {
             assert_eq!(known, None, "{room} knows {other}");
         }
     }
+}
+
+/// The tables of `docs/assignment-toml.md`, by the type of the schema that each is of: key, default, meaning.
+fn reference_tables() -> BTreeMap<String, Vec<[String; 3]>> {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/assignment-toml.md")).unwrap();
+    let mut tables = BTreeMap::new();
+    for part in text.split("<!-- schema: ").skip(1) {
+        let (name, part) = part.split_once(" -->").unwrap();
+        let rows = part.lines().filter(|line| line.starts_with("| `"));
+        let row = |line: &str| {
+            // A bar within backticks is no border of a cell.
+            let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+            let [key, _, default, meaning] = cells[..] else { panic!("{line}") };
+            [key.trim_matches('`').to_owned(), default.to_owned(), meaning.to_owned()]
+        };
+        assert!(tables.insert(name.to_owned(), rows.map(row).collect()).is_none(), "{name} stands twice");
+    }
+    tables
+}
+
+#[test]
+fn the_reference_of_the_manifest_has_each_key_and_no_other() {
+    let schema = reference::schema::schema().to_value();
+    let definitions = schema["definitions"].as_object().unwrap();
+    let mut types: BTreeMap<String, &serde_json::Value> = BTreeMap::from([("Manifest".to_owned(), &schema)]);
+    for (name, definition) in definitions {
+        let variants = definition["anyOf"].as_array().into_iter().flatten();
+        let with_keys = std::iter::once(definition).chain(variants).find(|one| one["properties"].is_object());
+        types.extend(with_keys.map(|found| (name.clone(), found)));
+    }
+    let tables = reference_tables();
+    let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<BTreeSet<_>>();
+    let mut known = names(&mut types.keys());
+    // It has no keys: there is nothing to list but that.
+    known.insert("Nothing".to_owned());
+    assert_eq!(names(&mut tables.keys()), known, "each type that has keys has a table, and no other");
+    for (name, definition) in types {
+        let keys = names(&mut definition["properties"].as_object().unwrap().keys());
+        let listed: BTreeSet<String> = tables[&name].iter().map(|[key, ..]| key.clone()).collect();
+        assert_eq!(listed, keys, "the keys of {name}");
+        for [key, default, meaning] in &tables[&name] {
+            assert!(!meaning.is_empty(), "{name}.{key} says nothing");
+            let is_required = definition["required"].as_array().into_iter().flatten().any(|one| one == key);
+            assert!(!is_required || default == "required", "{name}.{key} is required");
+            let own = &definition["properties"][key]["default"];
+            let is_empty = own.is_null() || *own == serde_json::json!("") || *own == serde_json::json!([]);
+            if !is_required && !is_empty && *own != serde_json::json!({}) {
+                let said = format!("`{}`", own.to_string().replace(',', ", "));
+                assert_eq!(*default, said, "the default of {name}.{key}");
+            }
+        }
+    }
+}
+
+/// Each folder of this project, and each that `ggrade assignment new` is tried with, is what the schema says.
+#[test]
+fn all_folders_are_what_the_schema_says() {
+    let schema = jsonschema::validator_for(&reference::schema::schema().to_value()).unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for folder in ["tests/homeworks", "reference/assignments"] {
+        for entry in std::fs::read_dir(root.join(folder)).unwrap() {
+            let path = entry.unwrap().path().join("assignment.toml");
+            let text = std::fs::read_to_string(&path).unwrap();
+            let value: serde_json::Value = toml::from_str(&text).unwrap();
+            let wrong: Vec<String> = schema.iter_errors(&value).map(|error| error.to_string()).collect();
+            assert!(wrong.is_empty(), "{}: {wrong:?}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count >= 10, "{count} folders");
+    let misspelt = serde_json::json!({ "id": "x", "title": { "en": "", "ja": "" }, "files": [] });
+    assert!(!schema.is_valid(&misspelt));
 }

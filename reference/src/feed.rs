@@ -10,6 +10,7 @@ use crate::Value;
 use crate::interpreter::{Scalar, Type};
 use crate::scene::{Matrices, Moment, Vertex};
 use glam::{DMat4, DVec4};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Where the value of a uniform comes from.
@@ -26,7 +27,7 @@ pub enum Feed {
 }
 
 /// What the camera and the model give.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// From object space to world space.
@@ -117,7 +118,7 @@ pub enum Stream {
 }
 
 /// What a vertex of a mesh has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attribute {
     /// Position in object space, w = 1.

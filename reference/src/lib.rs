@@ -38,6 +38,7 @@ pub mod pipeline;
 pub mod probes;
 pub mod rasteriser;
 pub mod scene;
+pub mod schema;
 mod shading;
 mod text;
 pub mod texture;

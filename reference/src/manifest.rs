@@ -13,12 +13,13 @@ pub use texture::{Format, Texture, Wraps};
 pub use variant::Variant;
 
 use crate::Text;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
 /// The whole file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
     /// Name of the assignment, as in `ggsample06`.
@@ -68,7 +69,7 @@ pub struct Manifest {
 }
 
 /// What there is to do, as a page for students has it.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
     /// A sentence; names between backticks are code.
@@ -78,12 +79,13 @@ pub struct Task {
 }
 
 /// A sum of terms, in LaTeX.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Equation {
     /// Where it stands.
     pub source: Text,
     /// The symbol of the sum.
+    #[schemars(with = "String")]
     pub total: Spanned<String>,
     /// The summands, in order.
     pub term: Vec<Term>,
@@ -93,31 +95,35 @@ pub struct Equation {
 }
 
 /// A summand.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
     /// The rubric line that judges it.
     pub line: String,
     /// Its symbol in the sum.
+    #[schemars(with = "String")]
     pub symbol: Spanned<String>,
     /// What the symbol stands for.
+    #[schemars(with = "String")]
     pub value: Spanned<String>,
 }
 
 /// What a symbol in the terms stands for.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SymbolMeaning {
     /// The symbol.
+    #[schemars(with = "String")]
     pub symbol: Spanned<String>,
     /// What it stands for.
+    #[schemars(with = "String")]
     pub value: Spanned<String>,
     /// Where that stands.
     pub source: Text,
 }
 
 /// Something to say of a right answer that would break elsewhere.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Advice {
     /// Its id in reports.
@@ -134,7 +140,7 @@ pub struct Advice {
 }
 
 /// What is different from a probe of the homework.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Circumstance {
     /// Vertex attribute → what its components are multiplied by.
@@ -148,7 +154,7 @@ pub struct Circumstance {
 }
 
 /// A file that is handed in.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct File {
     /// Its name.
@@ -168,7 +174,7 @@ pub struct File {
 }
 
 /// A stage that every submission is linked with.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
     /// Its stage.
@@ -178,7 +184,7 @@ pub struct Fixed {
 }
 
 /// A stage of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// The vertex shader.
@@ -197,7 +203,7 @@ impl From<Stage> for crate::interpreter::Stage {
 }
 
 /// A constant of the handed-out file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Constant {
     /// Its name in the shader.
@@ -209,7 +215,7 @@ pub struct Constant {
 }
 
 /// What the lecture says of a definition.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Definition {
     /// The slide of the lecture that defines it.
@@ -219,7 +225,7 @@ pub struct Definition {
 }
 
 /// How probes are chosen. Without designs they lie near the vertices of what the scene draws.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Probes {
     /// Number of cameras.
@@ -247,7 +253,7 @@ impl Default for Probes {
 pub type Range = [f64; 2];
 
 /// Where a vertex lies and how its normal stands.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Design {
     /// Angle at the eye between the axis and the direction from the vertex, in degrees.
@@ -264,12 +270,13 @@ pub struct Design {
 }
 
 /// What a right answer shows at a probe.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
     /// Its name in this file.
     pub id: String,
     /// Where that is: a GLSL expression of type `bool` with the solution's definitions.
+    #[schemars(with = "String")]
     pub when: Spanned<String>,
     /// What is said of a place there.
     pub seen: Text,
@@ -279,7 +286,7 @@ pub struct Region {
 }
 
 /// A line of the rubric.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RubricLine {
     /// Its id in reports.
@@ -293,6 +300,7 @@ pub struct RubricLine {
     pub judges: String,
     /// The solution without what it judges, where that is not said by the definition: where the two differ, and no other line's
     /// do, the line can be judged by itself.
+    #[schemars(with = "Option<Variant>")]
     pub without: Option<Spanned<Variant>>,
     /// What is said where it is right: `{frames}` and `{probes}` are how many there are.
     pub right: Option<Text>,

@@ -13,6 +13,7 @@ pub use vertex::Vertex;
 use crate::Value;
 use crate::feed::Expression;
 use glam::{DMat4, DVec3};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -86,7 +87,7 @@ pub enum Model {
 }
 
 /// A pixel is drawn where its depth is this to the depth that is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DepthTest {
     /// Nearer: OpenGL's own.
@@ -96,7 +97,7 @@ pub enum DepthTest {
 }
 
 /// Which triangles are left out; the front is where the vertices run against the clock.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cull {
     /// None.

@@ -1,9 +1,10 @@
 //! What is said to a person, in the two languages of the course.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// One message in English and in Japanese.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Text {
     /// The message in English.

@@ -1,14 +1,16 @@
 //! What a program is given, as `assignment.toml` has it.
 
 use crate::feed::{Attribute, Role};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
 /// A vertex attribute: it is what `carries` or `values` says.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
     /// Its name in the shader.
+    #[schemars(with = "String")]
     pub name: Spanned<String>,
     /// Its type, where the shader does not say it.
     #[serde(rename = "type")]
@@ -16,14 +18,16 @@ pub struct Input {
     /// What of the mesh it holds.
     pub carries: Option<Attribute>,
     /// Its values, one for each vertex.
+    #[schemars(with = "Option<Vec<crate::schema::AnyValue>>")]
     pub values: Option<Vec<Value>>,
 }
 
 /// A uniform, or all that lie in a structure, array or block: it is what `carries`, `value`, `is` or `texture` says.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Uniform {
     /// Its name in the shader, or a path: `lights[1].colour`, `Block.member`.
+    #[schemars(with = "String")]
     pub name: Spanned<String>,
     /// Its type, where no shader says it.
     #[serde(rename = "type")]
@@ -31,11 +35,15 @@ pub struct Uniform {
     /// What of camera and model it holds.
     pub carries: Option<Role>,
     /// Its value: a number, a list, or a table of members.
+    #[schemars(with = "Option<crate::schema::AnyValue>")]
     pub value: Option<Value>,
     /// Its value as an expression of `t`, `i`, `resolution`, `model`, `view`, `projection` and `eye`.
+    #[schemars(with = "Option<String>")]
     pub is: Option<Spanned<String>>,
     /// The name of the texture that a sampler reads; of an array of samplers a list, of a structure a table.
+    #[schemars(with = "Option<crate::schema::AnyTexture>")]
     pub texture: Option<Value>,
     /// What probes may draw at random: `{ within = [least, greatest] }`, or a table of members.
+    #[schemars(with = "Option<crate::schema::AnyBounds>")]
     pub probe: Option<Value>,
 }

@@ -2,12 +2,13 @@
 
 use super::Variant;
 use crate::Text;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
 /// A known mistake.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mistake {
     /// Its id in reports.
@@ -18,6 +19,7 @@ pub struct Mistake {
     pub keeps: BTreeMap<String, f64>,
     /// The ways in which it is written: definition → expression.
     #[serde(default)]
+    #[schemars(with = "Vec<BTreeMap<String, String>>")]
     pub forms: Vec<BTreeMap<String, Spanned<String>>>,
     /// The ways in which it is written, each as the solution, changed.
     #[serde(default)]
@@ -51,7 +53,7 @@ pub struct Mistake {
 }
 
 /// Texts in place of a mistake's own.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Alternative {
     /// When they are said: where all of it holds.
@@ -65,7 +67,7 @@ pub struct Alternative {
 }
 
 /// What must hold for an [`Alternative`].
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct When {
     /// The mistake is found in one of these of its forms, from 0.
@@ -79,7 +81,7 @@ pub struct When {
 }
 
 /// How a file has a term that does not show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TermState {
     /// It is computed, and it is 0.
@@ -89,7 +91,7 @@ pub enum TermState {
 }
 
 /// A free parameter.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fit {
     /// Its name.

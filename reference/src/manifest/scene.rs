@@ -1,11 +1,13 @@
 //! What is drawn, as `assignment.toml` has it; lengths in world units, angles in radians.
 
 use crate::scene::{Cull, DepthTest, Shape};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
 /// One scene or several.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema)]
+#[schemars(with = "crate::schema::OneOrMany<Scene>")]
 pub struct Scenes(pub Vec<Scene>);
 
 impl<'de> Deserialize<'de> for Scenes {
@@ -28,7 +30,7 @@ impl<'de> Deserialize<'de> for Scenes {
 }
 
 /// Geometry, camera, animation. What a further scene does not say is as in the first one.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Vertices of a triangle.
@@ -36,10 +38,12 @@ pub struct Scene {
     /// Their normals.
     pub normals: Option<[[f64; 3]; 3]>,
     /// What is drawn, where it is one thing.
+    #[schemars(with = "Option<Shape>")]
     pub mesh: Option<Spanned<Shape>>,
     /// Turn about y in one cycle.
     pub turn: Option<f64>,
     /// Where it stands in the world, as an expression of `t`, `i` and `resolution`.
+    #[schemars(with = "Option<String>")]
     pub model: Option<Spanned<String>>,
     /// How many times it is drawn.
     pub instances: Option<u32>,
@@ -72,14 +76,16 @@ pub struct Scene {
 }
 
 /// One of several things that are drawn. What it does not say is as in its scene.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Draw {
     /// Its vertices and triangles.
+    #[schemars(with = "Shape")]
     pub mesh: Spanned<Shape>,
     /// Turn about y in one cycle.
     pub turn: Option<f64>,
     /// Where it stands in the world, as an expression of `t`, `i` and `resolution`.
+    #[schemars(with = "Option<String>")]
     pub model: Option<Spanned<String>>,
     /// How many times it is drawn.
     pub instances: Option<u32>,
@@ -90,7 +96,7 @@ pub struct Draw {
 }
 
 /// Which pixels are drawn over others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Depth {
     /// Each.
@@ -113,7 +119,7 @@ impl Depth {
 }
 
 /// A place: three numbers, or an expression.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Point {
     /// It stays.
@@ -123,7 +129,7 @@ pub enum Point {
 }
 
 /// So many poses, evenly spaced from t = 0, or the values of t.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Poses {
     /// How many.

@@ -2,14 +2,16 @@
 
 use crate::interpreter::{Filter, Wrap};
 use crate::texture::{Colour, Generator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
 /// A texture: its picture is that of `file`, of `cube` or of `generate`.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Texture {
     /// What uniforms call it.
+    #[schemars(with = "String")]
     pub name: Spanned<String>,
     /// A PNG in the folder.
     pub file: Option<String>,
@@ -35,7 +37,7 @@ pub struct Texture {
 }
 
 /// How texels are kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
     /// Four bytes: 255ths, from 0 to 1.
@@ -46,7 +48,7 @@ pub enum Format {
 }
 
 /// Beyond the picture along both coordinates, or along each.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "write \"repeat\", \"mirrored-repeat\", \"clamp-to-edge\" or \"clamp-to-border\", or two of them"

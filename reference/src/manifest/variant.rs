@@ -1,9 +1,10 @@
 //! The solution, changed in one way: as a whole program, so that it does not matter how it is written.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// What is changed in the solution: one of these, or macros and texts together.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
     /// Macros that are defined behind `#version`, in every file.

@@ -8,6 +8,7 @@ use super::Vertex;
 use crate::assignment::both;
 use crate::{Folder, Text};
 use glam::{DVec2, DVec3};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt;
 
@@ -121,7 +122,7 @@ impl Mesh {
 }
 
 /// A mesh as a folder writes it: a built-in one with its parameters, `{ torus = { radius = 1, tube = 0.4 } }`, or a file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
     /// One triangle in the plane z = 0, upright.
@@ -145,12 +146,12 @@ pub enum Shape {
 }
 
 /// No parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Nothing {}
 
 /// Width and height.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sized2 {
     #[serde(default = "two")]
@@ -158,7 +159,7 @@ pub struct Sized2 {
 }
 
 /// The lengths of the edges.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sized3 {
     #[serde(default = "three")]
@@ -166,7 +167,7 @@ pub struct Sized3 {
 }
 
 /// Width, depth and the number of squares along them.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
     #[serde(default = "two")]
@@ -176,7 +177,7 @@ pub struct Grid {
 }
 
 /// Radius, and the number of segments around the axis and from pole to pole.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     #[serde(default = "one")]
@@ -186,7 +187,7 @@ pub struct Sphere {
 }
 
 /// The radius of the ring, that of its tube, and the number of segments along the ring and around the tube.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Torus {
     #[serde(default = "one")]
@@ -198,7 +199,7 @@ pub struct Torus {
 }
 
 /// A mesh number by number; what is not there is 0.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Listed {
     positions: Vec<[f64; 3]>,

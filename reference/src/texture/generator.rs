@@ -5,6 +5,7 @@ use super::noise::Noise;
 use super::sky::Sky;
 use crate::Text;
 use crate::assignment::both;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt::Display;
 
@@ -12,7 +13,7 @@ use std::fmt::Display;
 const MOST_ALONG: u32 = 4096;
 
 /// Three or four numbers; alpha is 1 where it is not said.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(try_from = "Vec<f64>")]
 pub struct Colour(pub [f64; 4]);
 
@@ -52,7 +53,7 @@ pub(super) fn within<N: PartialOrd + Display>(key: &str, number: N, least: N, gr
 }
 
 /// A picture with its parameters, as a folder writes it: `{ checker = { squares = [8, 8] } }`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Generator {
     /// Squares of two colours.
@@ -70,7 +71,7 @@ pub enum Generator {
 }
 
 /// Squares; the lower left one has the first colour.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Checker {
     squares: [u32; 2],
@@ -85,14 +86,14 @@ impl Default for Checker {
 
 /// Rows of colours, the lowest first. The middles of the outermost texels have the outermost colours; between the colours it
 /// is linear.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gradient {
     rows: Vec<Vec<Colour>>,
 }
 
 /// Round bumps in rows and columns, from one colour up to another.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Bumps {
     count: [u32; 2],
@@ -108,7 +109,7 @@ impl Default for Bumps {
 }
 
 /// Normals in tangent space, as colours: 2 c − 1 is the normal.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NormalMap {
     of: Box<Generator>,

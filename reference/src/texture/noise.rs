@@ -3,13 +3,14 @@
 use super::Picture;
 use super::generator::{Colour, painted, within};
 use crate::Text;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The finest lattice has at most so many points along a side.
 const FINEST: u32 = 4096;
 
 /// Clouds between two colours.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Noise {
     /// Another number makes another picture.

@@ -5,10 +5,11 @@ use super::generator::{Colour, painted, within};
 use crate::Text;
 use crate::assignment::both;
 use glam::DVec3;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// From straight down over the horizon to straight up, and a sun.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sky {
     zenith: Colour,
@@ -19,7 +20,7 @@ pub struct Sky {
 }
 
 /// A disc.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sun {
     /// Where it is seen, from the middle of the cube.
