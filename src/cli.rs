@@ -6,7 +6,7 @@ mod format;
 mod serve;
 mod watch;
 
-pub use assignment::{Action, Assignment, Check};
+pub use assignment::{Action, Assignment, Check, New, Show};
 pub use batch::Batch;
 pub use format::{Format, Reading};
 pub use serve::{LogFormat, Serve};
@@ -44,7 +44,7 @@ pub enum Command {
     Serve(Serve),
     /// Grade a folder of samples and hold each report against the expected one beside it
     Corpus(Corpus),
-    /// List assignments, or check the folder of one
+    /// List and show assignments, write the folder of one, or check it
     Assignment(Assignment),
     /// Check this machine and say what to install
     Doctor(Doctor),

@@ -1,5 +1,7 @@
 //! The command line by what a person sees of it: exit codes, output, files.
 
+#[path = "cli/authoring.rs"]
+mod authoring;
 #[path = "cli/folders.rs"]
 mod folders;
 

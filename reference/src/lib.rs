@@ -14,6 +14,7 @@
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
 //! - [`fit`]: which mistakes explain what a shader computed
+//! - [`proposal`]: a folder, written from a solution
 //!
 //! ```
 //! let assignment = reference::assignment("ggsample06").expect("built in");
@@ -36,6 +37,7 @@ pub mod manifest;
 pub mod mistake;
 pub mod pipeline;
 pub mod probes;
+pub mod proposal;
 pub mod rasteriser;
 pub mod scene;
 pub mod schema;

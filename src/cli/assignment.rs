@@ -4,6 +4,7 @@ use crate::language::Language;
 use crate::render::AdapterKind;
 use crate::sandbox::Policy;
 use clap::{Args, Subcommand};
+use std::path::PathBuf;
 
 /// Look at assignments.
 #[derive(Debug, Args)]
@@ -23,6 +24,31 @@ pub enum Action {
     List,
     /// Read an assignment, and grade its own files: the solution has to have full marks, what is handed out has not
     Check(Check),
+    /// Say what the folder of an assignment says: files, interface, scene, rubric, mistakes
+    Show(Show),
+    /// Write the folder of an assignment from a solution
+    New(New),
+    /// Print the JSON schema of assignment.toml, for editors
+    Schema,
+}
+
+/// Say what the folder of an assignment says.
+#[derive(Debug, Args)]
+pub struct Show {
+    /// The name of a built-in assignment, or the folder of one
+    #[arg(value_name = "NAME|FOLDER")]
+    pub assignment: String,
+}
+
+/// Write the folder of an assignment from a solution: interface, scene, rubric and texts are proposed.
+#[derive(Debug, Args)]
+pub struct New {
+    /// The folder to write: it does not exist yet, or is empty
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// The solution: a vertex shader, a fragment shader, both, or a `.shader_test` of piglit
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    pub from: Vec<PathBuf>,
 }
 
 /// Read an assignment and grade its own files.

@@ -1,6 +1,8 @@
 //! `ggrade assignment`: what assignments there are, and whether one is whole.
 
 mod check;
+mod new;
+mod show;
 
 use super::{ExitStatus, language};
 use crate::cli::{Action, Assignment as Arguments};
@@ -17,6 +19,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, Fault> {
             Ok(ExitStatus::FullMarks)
         }
         Action::Check(check) => check::run(check, language),
+        Action::Show(show) => Ok(show::run(show, language)),
+        Action::New(new) => new::run(new, language),
+        Action::Schema => {
+            anstream::print!("{}", reference::schema::text());
+            Ok(ExitStatus::FullMarks)
+        }
     }
 }
 

@@ -1,0 +1,196 @@
+//! What values things of such names usually have, and within which bounds they may vary.
+
+use super::names::Name;
+use crate::interpreter::{Scalar, Type};
+
+/// A value, and the least and the greatest that a probe may draw.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Guess {
+    /// As many numbers as the type has.
+    pub value: Vec<f64>,
+    /// One number for all, or as many as the type has; none where the value stays.
+    pub within: Option<(Vec<f64>, Vec<f64>)>,
+    /// What the name was taken for, in both languages.
+    pub what: (&'static str, &'static str),
+}
+
+/// Colours that are told apart, positions on all sides, directions that are.
+const COLOURS: [[f64; 3]; 5] = [[0.9, 0.6, 0.4], [1.0, 0.95, 0.8], [0.4, 0.6, 0.9], [0.5, 0.8, 0.5], [0.8, 0.4, 0.7]];
+const POSITIONS: [[f64; 3]; 5] =
+    [[1.5, 2.0, 2.0], [-2.0, 1.5, 1.5], [2.0, -0.5, 1.5], [-1.0, 2.5, -1.5], [0.0, 2.0, 2.5]];
+const DIRECTIONS: [[f64; 3]; 3] = [[0.5, 0.8, 0.6], [-0.6, 0.7, 0.4], [0.2, 0.9, -0.4]];
+
+/// Single numbers by name: the words, the value, the bounds, and what it is taken for.
+type Row = (&'static [&'static str], f64, (f64, f64), (&'static str, &'static str));
+
+const NUMBERS: &[Row] = &[
+    (
+        &["shininess", "exponent", "power", "shine", "kshi", "specpower", "glossiness"],
+        32.0,
+        (8.0, 64.0),
+        ("exponent", "指数"),
+    ),
+    (&["outercutoff", "outer", "outercone"], 0.8, (0.75, 0.85), ("cosine of an outer angle", "外側の角の余弦")),
+    (&["cutoff", "inner", "cone"], 0.95, (0.9, 0.97), ("cosine of an angle", "角の余弦")),
+    (&["constant"], 1.0, (0.8, 1.2), ("attenuation", "減衰係数")),
+    (&["linear"], 0.09, (0.05, 0.2), ("attenuation", "減衰係数")),
+    (&["quadratic"], 0.032, (0.02, 0.1), ("attenuation", "減衰係数")),
+    (&["density"], 0.2, (0.1, 0.4), ("density", "濃さ")),
+    (&["near", "start", "begin"], 2.0, (1.5, 2.4), ("near limit", "手前の限界")),
+    (&["far", "end"], 5.0, (4.0, 7.0), ("far limit", "奥の限界")),
+    (&["f0", "reflectance"], 0.1, (0.03, 0.3), ("reflectance", "反射率")),
+    (&["ior", "refractive"], 1.5, (1.2, 1.8), ("refractive index", "屈折率")),
+    (&["eta"], 0.66, (0.55, 0.85), ("ratio of refractive indices", "屈折率の比")),
+    (&["exposure"], 1.2, (0.5, 3.0), ("exposure", "露出")),
+    (&["gamma"], 2.2, (1.8, 2.6), ("gamma", "ガンマ値")),
+    (&["roughness", "rough"], 0.4, (0.2, 0.8), ("share", "割合")),
+    (&["metallic", "metalness", "metal"], 0.5, (0.1, 0.9), ("share", "割合")),
+    (
+        &[
+            "threshold",
+            "dissolve",
+            "amount",
+            "progress",
+            "mix",
+            "blend",
+            "ratio",
+            "fraction",
+            "alpha",
+            "opacity",
+            "cut",
+            "level",
+        ],
+        0.45,
+        (0.25, 0.7),
+        ("share", "割合"),
+    ),
+    (&["frequency", "freq", "repeat", "tiling", "tile"], 4.0, (2.0, 6.0), ("frequency", "周波数")),
+    (&["amplitude", "amp", "height", "displacement", "steepness"], 0.15, (0.05, 0.3), ("amplitude", "振幅")),
+    (&["wavelength", "length"], 1.2, (0.6, 2.0), ("wavelength", "波長")),
+    (&["speed", "velocity"], 1.0, (0.5, 2.0), ("speed", "速さ")),
+    (&["phase", "angle", "rotation", "theta"], 0.6, (0.2, 1.4), ("angle in radians", "角 (ラジアン)")),
+    (&["radius", "size"], 1.0, (0.6, 1.6), ("size", "大きさ")),
+    (&["width", "thickness", "softness", "edge", "outline", "border"], 0.2, (0.1, 0.35), ("width", "幅")),
+    (
+        &["intensity", "brightness", "strength", "scale", "factor", "weight", "gain"],
+        0.8,
+        (0.4, 1.2),
+        ("strength", "強さ"),
+    ),
+    (
+        &["bands", "levels", "tones", "steps", "shades", "layers", "octaves", "iterations", "samples"],
+        4.0,
+        (2.0, 6.0),
+        ("number of steps", "段数"),
+    ),
+];
+
+/// What a value of a type usually is. `nth`: how many of its kind were there before it; `is_downward`: it points away from
+/// where the light comes from.
+pub(super) fn guess(name: &Name, kind: &Type, nth: usize, is_downward: bool) -> Guess {
+    let count = kind.slots().unwrap_or(0);
+    match kind {
+        Type::Vector(Scalar::Bool, _) => {
+            Guess { value: vec![1.0; count], within: Some((vec![0.0], vec![1.0])), what: ("switch", "スイッチ") }
+        }
+        Type::Vector(Scalar::Int | Scalar::Uint, _) => whole(name, count),
+        Type::Vector(_, 1) => number(name),
+        Type::Vector(_, _) => vector(name, count, nth, is_downward),
+        Type::Matrix(_, columns, rows) => {
+            let one = |at: usize| if at / usize::from(*rows) == at % usize::from(*rows) { 1.0 } else { 0.0 };
+            let _ = columns;
+            Guess {
+                value: (0..count).map(one).collect(),
+                within: None,
+                what: ("matrix that changes nothing", "単位行列"),
+            }
+        }
+        _ => Guess { value: vec![0.0; count], within: None, what: ("nothing known", "不明") },
+    }
+}
+
+fn row(name: &Name) -> Option<&'static Row> {
+    NUMBERS.iter().find(|(words, ..)| name.has(words) || name.is(words))
+}
+
+fn whole(name: &Name, count: usize) -> Guess {
+    let what = ("whole number", "整数");
+    match row(name) {
+        Some((_, value, (least, greatest), what)) if *least >= 2.0 => {
+            Guess { value: vec![*value; count], within: Some((vec![*least], vec![*greatest])), what: *what }
+        }
+        _ => Guess { value: vec![1.0; count], within: None, what },
+    }
+}
+
+fn number(name: &Name) -> Guess {
+    if name.is_colour() {
+        return Guess { value: vec![0.5], within: Some((vec![0.2], vec![0.9])), what: ("share", "割合") };
+    }
+    let (value, (least, greatest), what) = match row(name) {
+        Some((_, value, bounds, what)) => (*value, *bounds, *what),
+        None => (0.5, (0.25, 1.0), ("number", "数")),
+    };
+    Guess { value: vec![value], within: Some((vec![least], vec![greatest])), what }
+}
+
+fn vector(name: &Name, count: usize, nth: usize, is_downward: bool) -> Guess {
+    let filled = |three: [f64; 3], fourth: f64| -> Vec<f64> { [&three[..], &[fourth]].concat()[..count].to_vec() };
+    if count == 2 {
+        let (value, least, greatest, what) = match () {
+            () if name.is_direction() => ([0.8, 0.6], [0.2, 0.2], [1.0, 1.0], ("direction", "方向")),
+            () if name.has(&["scale", "tiling", "repeat", "frequency"]) => {
+                ([3.0, 2.0], [1.0, 1.0], [5.0, 5.0], ("scale", "倍率"))
+            }
+            () => ([0.4, 0.3], [0.1, 0.1], [0.9, 0.9], ("pair of numbers", "数の組")),
+        };
+        return Guess { value: value.to_vec(), within: Some((least.to_vec(), greatest.to_vec())), what };
+    }
+    if name.is_direction() && !name.is_colour() {
+        let sign = if is_downward { -1.0 } else { 1.0 };
+        let value = DIRECTIONS[nth % DIRECTIONS.len()].map(|number| number * sign);
+        let (least, greatest) =
+            if is_downward { ([-1.0, -1.0, -1.0], [1.0, -0.3, 1.0]) } else { ([-1.0, 0.3, -1.0], [1.0; 3]) };
+        let within = Some((filled(least, 0.0), filled(greatest, 0.0)));
+        return Guess { value: filled(value, 0.0), within, what: ("direction", "方向") };
+    }
+    if name.is_position() && !name.is_colour() {
+        let within = Some((filled([-3.0, 0.5, -3.0], 1.0), filled([3.0, 3.0, 3.0], 1.0)));
+        return Guess { value: filled(POSITIONS[nth % POSITIONS.len()], 1.0), within, what: ("position", "位置") };
+    }
+    if let Some((_, value, (least, greatest), what)) = row(name).filter(|_| !name.is_colour()) {
+        return Guess { value: vec![*value; count], within: Some((vec![*least], vec![*greatest])), what: *what };
+    }
+    if name.has(&["ambient", "lamb", "kamb"]) {
+        let value = COLOURS[nth % COLOURS.len()].map(|share| (share * 25.0).round() / 100.0);
+        let within = Some((filled([0.05; 3], 1.0), filled([0.35; 3], 1.0)));
+        return Guess { value: filled(value, 1.0), within, what: ("ambient colour", "環境光の色") };
+    }
+    let what = if name.is_colour() { ("colour", "色") } else { ("three numbers from 0 to 1", "0 から 1 の数") };
+    let within = Some((filled([0.2; 3], 1.0), filled([1.0; 3], 1.0)));
+    Guess { value: filled(COLOURS[nth % COLOURS.len()], 1.0), within, what }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::feed::Bounds;
+
+    #[test]
+    fn a_guess_fits_its_type_and_its_bounds() {
+        let names = "shininess lightPos lightDir objectColor cutOff tones enabled foo steps kd offset";
+        for kind in ["float", "vec2", "vec3", "vec4", "int", "uint", "bool", "mat3", "mat4"] {
+            let kind = Type::named(kind).expect(kind);
+            for (name, nth) in names.split(' ').zip(0..) {
+                let Guess { value, within, .. } = guess(&Name::of(name), &kind, nth, nth % 2 == 0);
+                assert_eq!(Some(value.len()), kind.slots(), "{name} {kind}");
+                let Some((least, greatest)) = within else { continue };
+                assert!(Bounds::new(&kind, &least, &greatest).is_some(), "{name} {kind}");
+                let at = |ends: &[f64], index: usize| if ends.len() == 1 { ends[0] } else { ends[index] };
+                for (index, number) in value.iter().enumerate() {
+                    assert!((at(&least, index)..=at(&greatest, index)).contains(number), "{name} {kind}");
+                }
+            }
+        }
+    }
+}

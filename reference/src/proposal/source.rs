@@ -1,0 +1,244 @@
+//! A solution as a lecturer gives it.
+
+use super::Given;
+use crate::assignment::{AssignmentError, both};
+use crate::interpreter::{Program, Refusal, Stage, outline};
+
+/// A solution, compiled.
+pub(super) struct Source {
+    /// The name of the file as it was given.
+    given: String,
+    /// How many lines of the text were added before those of the file as it was given.
+    added: u32,
+    /// The name of the file that students hand in.
+    pub name: String,
+    pub stage: Stage,
+    pub text: String,
+    pub program: Program,
+    /// What stands behind `#version`, such as `330 core`; nothing where there is none.
+    pub version: String,
+    /// The function that students write: `main`, or `mainImage`.
+    pub entry: &'static str,
+    /// Whether `main` and what pages for sharing shaders declare were added.
+    pub is_wrapped: bool,
+}
+
+impl Source {
+    pub fn extension(&self) -> &'static str {
+        match self.stage {
+            Stage::Vertex => "vert",
+            Stage::Fragment => "frag",
+        }
+    }
+
+    /// Its name in the folder.
+    pub fn solution_name(&self) -> String {
+        format!("solution.{}", self.extension())
+    }
+
+    pub fn starter_name(&self) -> String {
+        format!("starter.{}", self.extension())
+    }
+
+    /// The number behind `#version`; that of GLSL 1.10 where there is none.
+    pub fn version_number(&self) -> u32 {
+        self.version.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(110)
+    }
+
+    /// An error at a line of the text, as a place in the file that was given; 0: about the whole file.
+    pub fn wrong(&self, line: u32, message: crate::Text) -> AssignmentError {
+        self.placed(wrong(&self.given, line, message))
+    }
+
+    /// An error about the solution in the folder, as a place in the file that was given.
+    pub fn placed(&self, error: AssignmentError) -> AssignmentError {
+        let found = error.in_column_of(&self.text);
+        let line = found.line.and_then(|line| line.checked_sub(self.added)).filter(|line| *line > 0);
+        AssignmentError { file: self.given.clone(), line, ..found }
+    }
+
+    /// All words of the file.
+    pub fn words(&self) -> Vec<outline::Word> {
+        outline::words(&self.text)
+    }
+}
+
+/// The solutions, the vertex stage first.
+pub(super) fn read_all(id: &str, given: &[Given]) -> Result<Vec<Source>, AssignmentError> {
+    let mut sources = given.iter().map(|given| read(id, given)).collect::<Result<Vec<_>, _>>()?;
+    sources.sort_by_key(|source| source.stage == Stage::Fragment);
+    match &sources[..] {
+        [] => Err(AssignmentError::of_file(
+            "--from",
+            both(
+                "no solution is given: name a vertex shader, a fragment shader, or both",
+                "解答がありません。頂点シェーダ、フラグメントシェーダ、またはその両方を指定してください",
+            ),
+        )),
+        [_] => Ok(sources),
+        [vertex, fragment] if vertex.stage != fragment.stage => Ok(sources),
+        [_, second, ..] => Err(AssignmentError::of_file(
+            &second.name,
+            both(
+                "is a second solution of its stage: give at most one vertex and one fragment shader",
+                "同じステージの 2 つ目の解答です。頂点シェーダとフラグメントシェーダを 1 つずつまで指定してください",
+            ),
+        )),
+    }
+}
+
+fn read(id: &str, given: &Given) -> Result<Source, AssignmentError> {
+    let Given { name, text } = given;
+    let functions = outline::functions(text);
+    let has = |wanted: &str| functions.iter().any(|function| function.name.text == wanted);
+    let is_wrapped = has("mainImage") && !has("main");
+    let stage = stage_of(name, text, is_wrapped)?;
+    let (text, added) = if is_wrapped { wrapped(text) } else { (text.clone(), 0) };
+    let version = version_of(&text);
+    let number: u32 = version.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(110);
+    if number < 130 || version.ends_with("es") {
+        return Err(too_old(name, &text, &version));
+    }
+    let program = Program::compile(&text, stage).map_err(|refusal| refused(name, &given.text, &refusal, added))?;
+    let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem);
+    let stem = if stem == "solution" || stem.is_empty() { id } else { stem };
+    let extension = if stage == Stage::Vertex { "vert" } else { "frag" };
+    let entry = if has("mainImage") { "mainImage" } else { "main" };
+    let given = name.clone();
+    Ok(Source { given, added, name: format!("{stem}.{extension}"), stage, text, program, version, entry, is_wrapped })
+}
+
+/// The stage by the name of the file, or else by what is in it.
+fn stage_of(name: &str, text: &str, is_image: bool) -> Result<Stage, AssignmentError> {
+    let lower = name.to_lowercase();
+    let ends = |known: &[&str]| known.iter().any(|end| lower.ends_with(end));
+    if ends(&[".vert", ".vs", ".vsh", ".vertex", ".vert.glsl", ".vs.glsl"]) {
+        return Ok(Stage::Vertex);
+    }
+    if ends(&[".frag", ".fs", ".fsh", ".fragment", ".frag.glsl", ".fs.glsl"]) || is_image {
+        return Ok(Stage::Fragment);
+    }
+    let words = outline::words(text);
+    if words.iter().any(|word| word.text == "gl_Position") {
+        return Ok(Stage::Vertex);
+    }
+    if ends(&[".glsl", ".txt"]) {
+        return Ok(Stage::Fragment);
+    }
+    Err(AssignmentError::of_file(
+        name,
+        both(
+            "which stage is it? Call it NAME.vert or NAME.frag; piglit's tests end in .shader_test",
+            "どのステージのファイルか分かりません。名前.vert または 名前.frag という名前にしてください。piglit のテストは .shader_test です",
+        ),
+    ))
+}
+
+/// What stands behind `#version`.
+fn version_of(text: &str) -> String {
+    let line = text.lines().find_map(|line| line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("version"));
+    let line = line.unwrap_or_default();
+    line.split("//").next().unwrap_or_default().trim().to_owned()
+}
+
+fn too_old(name: &str, text: &str, version: &str) -> AssignmentError {
+    let line = text.lines().position(|line| line.trim_start().starts_with("#version")).map_or(1, |at| at + 1);
+    let (en, ja) = match version {
+        "" => ("there is no #version".to_owned(), "#version がありません".to_owned()),
+        version => (
+            format!("#version {version} is not desktop GLSL from 1.30 on"),
+            format!("#version {version} は、デスクトップ版 GLSL 1.30 以降ではありません"),
+        ),
+    };
+    wrong(
+        name,
+        line as u32,
+        both(
+            format!(
+                "{en}: write `#version 330 core` in the first line, `in` and `out` for `attribute` and `varying`, an output for \
+                 `gl_FragColor`, and `texture(…)` for `texture2D(…)`"
+            ),
+            format!(
+                "{ja}。1 行目を `#version 330 core` とし、`attribute` と `varying` は `in` と `out` に、`gl_FragColor` は出力変数に、\
+                 `texture2D(…)` は `texture(…)` に書き換えてください"
+            ),
+        ),
+    )
+}
+
+/// What such pages give a shader: the name, and how it is declared.
+const GIVEN_BY_PAGES: [(&str, &str); 9] = [
+    ("iResolution", "uniform vec3 iResolution;"),
+    ("iTime", "uniform float iTime;"),
+    ("iTimeDelta", "uniform float iTimeDelta;"),
+    ("iFrame", "uniform int iFrame;"),
+    ("iMouse", "uniform vec4 iMouse;"),
+    ("iChannel0", "uniform sampler2D iChannel0;"),
+    ("iChannel1", "uniform sampler2D iChannel1;"),
+    ("iChannel2", "uniform sampler2D iChannel2;"),
+    ("iChannel3", "uniform sampler2D iChannel3;"),
+];
+
+/// A `mainImage` with what the page adds that it is shown on, and how many lines stand before it.
+fn wrapped(text: &str) -> (String, u32) {
+    let words = outline::words(text);
+    let uses = |name: &str| words.iter().any(|word| word.text == name);
+    // What the file declares by itself is not declared again.
+    let declares = |name: &str| {
+        let at = words.iter().position(|word| word.text == name);
+        at.and_then(|at| words.get(at.checked_sub(2)?)).is_some_and(|before| before.text == "uniform")
+    };
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let own_version = body.trim_start().starts_with("#version");
+    let mut head: Vec<&str> = Vec::new();
+    if !own_version {
+        head.push("#version 330 core");
+    }
+    head.extend(GIVEN_BY_PAGES.iter().filter(|(name, _)| uses(name) && !declares(name)).map(|(_, said)| *said));
+    let output = if uses("pixel") { "pixel_" } else { "pixel" };
+    let declared = format!("out vec4 {output};");
+    head.push(&declared);
+    let call = format!("void main() {{ mainImage({output}, gl_FragCoord.xy); }}");
+    let head_text = head.join("\n");
+    let (version, rest) = match own_version {
+        true => body.trim_start().split_once('\n').map_or((body, ""), |(version, rest)| (version, rest)),
+        false => ("", body),
+    };
+    let separator = if version.is_empty() { "" } else { "\n" };
+    let lines = head.len() as u32 + 1;
+    (format!("{version}{separator}{head_text}\n\n{}\n\n{call}\n", rest.trim_end()), lines)
+}
+
+/// What the interpreter says of a solution, with the place in the file as it was given.
+fn refused(name: &str, text: &str, refusal: &Refusal, added: u32) -> AssignmentError {
+    let line = refusal.line.saturating_sub(added);
+    let lacks = refusal.what().strip_prefix("there is no variable `").and_then(|rest| rest.split('`').next());
+    let mut message = both(refusal.what(), refusal.what());
+    let declared = lacks.and_then(|name| FREE_IN_THREE.iter().find(|(known, _)| *known == name));
+    if let Some((known, said)) = declared {
+        message.en += &format!(": three.js declares `{known}` by itself; write `{said}` behind #version");
+        message.ja += &format!("。three.js は `{known}` を自動で宣言します。#version の次に `{said}` と書いてください");
+    } else if !refusal.is_limit() {
+        message.en += "; mend the solution first";
+        message.ja += "。まず解答を直してください";
+    }
+    wrong(name, line, message).in_column_of(text)
+}
+
+/// What three.js declares in every shader.
+const FREE_IN_THREE: [(&str, &str); 9] = [
+    ("modelMatrix", "uniform mat4 modelMatrix;"),
+    ("modelViewMatrix", "uniform mat4 modelViewMatrix;"),
+    ("projectionMatrix", "uniform mat4 projectionMatrix;"),
+    ("viewMatrix", "uniform mat4 viewMatrix;"),
+    ("normalMatrix", "uniform mat3 normalMatrix;"),
+    ("cameraPosition", "uniform vec3 cameraPosition;"),
+    ("position", "in vec3 position;"),
+    ("normal", "in vec3 normal;"),
+    ("uv", "in vec2 uv;"),
+];
+
+/// An error at a line of a file that was given; 0: about the whole file.
+pub(super) fn wrong(name: &str, line: u32, message: crate::Text) -> AssignmentError {
+    AssignmentError { line: (line > 0).then_some(line), ..AssignmentError::of_file(name, message) }
+}

@@ -1,0 +1,309 @@
+//! The starter: the solution without what students write.
+//!
+//! What stands between `// ggrade: begin` and `// ggrade: end` is taken out; `// ggrade: instead TEXT` there puts TEXT in its
+//! place. Without marks the body of `main` is taken out, and the outputs get a plain value.
+
+use super::Plan;
+use super::names::{self, Name};
+use super::source::Source;
+use crate::assignment::{AssignmentError, both};
+use crate::interpreter::outline::{self, FunctionText};
+use crate::interpreter::{Program, Scalar, Stage, Type};
+use std::ops::RangeInclusive;
+
+/// What begins a mark.
+const MARK: &str = "// ggrade:";
+
+/// What a starter says where something is missing.
+const HINT: &str = "// Write your code here.";
+
+enum Mark {
+    Begin,
+    End,
+    Instead(String),
+}
+
+/// Cuts the starters of all solutions. Where one file has marks, a file without is handed out as it is.
+pub(super) fn cut(plan: &mut Plan) -> Result<(), AssignmentError> {
+    let marked: Vec<bool> = plan.sources.iter().map(|source| source.text.contains(MARK)).collect();
+    let any = marked.iter().any(|marked| *marked);
+    for (at, is_marked) in marked.into_iter().enumerate() {
+        let source = &plan.sources[at];
+        let (starter, remarks) = match (is_marked, any) {
+            (true, _) => between_marks(source)?,
+            (false, true) => (source.text.clone(), vec![Told::AsItIs]),
+            (false, false) => of_plain_values(source),
+        };
+        compiles(source, &starter)?;
+        for told in remarks {
+            tell(plan, at, told);
+        }
+        plan.starters.push(starter);
+    }
+    Ok(())
+}
+
+enum Told {
+    Marks(usize),
+    AsItIs,
+    Declared(String),
+    NoMarks,
+    Left(Vec<String>),
+}
+
+fn tell(plan: &mut Plan, at: usize, told: Told) {
+    let (starter, entry) = (plan.sources[at].starter_name(), plan.sources[at].entry);
+    match told {
+        Told::Marks(count) => plan.read(
+            format!("{starter}: the solution without the {count} part(s) between `// ggrade: begin` and `// ggrade: end`"),
+            format!("{starter}: 解答から `// ggrade: begin` と `// ggrade: end` の間 ({count} か所) を除いたもの"),
+        ),
+        Told::AsItIs => plan.attention(
+            format!("{starter}: has no marks, so that it is handed out as it is; the other file has marks"),
+            format!("{starter}: 印がないため、そのまま配布されます (もう一方のファイルには印があります)"),
+        ),
+        Told::Declared(what) => plan.guessed(
+            format!("{starter}: `{what}` stands for a variable that is used behind the part that was taken out"),
+            format!("{starter}: 取り除いた部分より後で使われる変数の代わりに `{what}` を置きました"),
+        ),
+        Told::NoMarks => plan.guessed(
+            format!(
+                "{starter}: there are no marks, so the body of `{entry}` is taken out, and the outputs get a plain value; to cut \
+                 elsewhere, write `// ggrade: begin` and `// ggrade: end` around what students write"
+            ),
+            format!(
+                "{starter}: 印がないので `{entry}` の中身を取り除き、出力には単純な値を入れました。別の場所で切るには、学生が書く部分を \
+                 `// ggrade: begin` と `// ggrade: end` で囲んでください"
+            ),
+        ),
+        Told::Left(names) => {
+            let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            plan.attention(
+                format!("{starter}: hands out the functions {names} of the solution; put marks around what students should write"),
+                format!("{starter}: 解答の関数 {names} も配布されます。学生に書かせる部分は印で囲んでください"),
+            );
+        }
+    }
+}
+
+/// The mark in a line, with the text behind it.
+fn mark(line: &str) -> Option<Result<Mark, &str>> {
+    let rest = line.trim_start().strip_prefix(MARK)?.trim();
+    Some(match rest.split_once(' ').unwrap_or((rest, "")) {
+        ("begin", _) => Ok(Mark::Begin),
+        ("end", _) => Ok(Mark::End),
+        ("instead", text) if !text.trim().is_empty() => Ok(Mark::Instead(text.trim().to_owned())),
+        _ => Err(rest),
+    })
+}
+
+fn between_marks(source: &Source) -> Result<(String, Vec<Told>), AssignmentError> {
+    let refused = |line: u32, en: String, ja: String| Err(source.wrong(line, both(en, ja)));
+    let mut starter = String::new();
+    let mut removed: Vec<RangeInclusive<u32>> = Vec::new();
+    let mut open: Option<(u32, String, Vec<String>)> = None;
+    let mut told = Vec::new();
+    for (number, line) in (1_u32..).zip(source.text.split_inclusive('\n')) {
+        match (mark(line), open.take()) {
+            (None, None) => starter += line,
+            (None, inside) => open = inside,
+            (Some(Ok(Mark::Begin)), None) => {
+                let indent = line[..line.len() - line.trim_start().len()].to_owned();
+                open = Some((number, indent, Vec::new()));
+            }
+            (Some(Ok(Mark::Instead(text))), Some((first, indent, mut instead))) => {
+                instead.push(text);
+                open = Some((first, indent, instead));
+            }
+            (Some(Ok(Mark::End)), Some((first, indent, instead))) => {
+                let declared = if instead.is_empty() { declared_in(source, first..=number) } else { Vec::new() };
+                let hint = if instead.is_empty() { Some(HINT.to_owned()) } else { None };
+                for text in hint.iter().chain(&declared).chain(&instead) {
+                    starter += &format!("{indent}{text}\n");
+                }
+                told.extend(declared.into_iter().map(Told::Declared));
+                removed.push(first..=number);
+            }
+            (Some(Ok(Mark::Begin)), Some((first, ..))) => {
+                return refused(
+                    number,
+                    format!("`begin` stands within the part that begins in line {first}: write `{MARK} end` before it"),
+                    format!(
+                        "{first} 行目で始まる部分の中に `begin` があります。その前に `{MARK} end` を書いてください"
+                    ),
+                );
+            }
+            (Some(Ok(_)), None) => {
+                return refused(
+                    number,
+                    format!("no part begins before this mark: write `{MARK} begin` above what students write"),
+                    format!("この印より前に始まりがありません。学生が書く部分の上に `{MARK} begin` を書いてください"),
+                );
+            }
+            (Some(Err(other)), _) => {
+                return refused(
+                    number,
+                    format!("`{other}` is no mark: write `{MARK} begin`, `{MARK} instead TEXT` or `{MARK} end`"),
+                    format!(
+                        "`{other}` という印はありません。`{MARK} begin`、`{MARK} instead 文`、`{MARK} end` のいずれかを書いてください"
+                    ),
+                );
+            }
+        }
+    }
+    if let Some((first, ..)) = open {
+        return refused(
+            first,
+            format!("the part that begins here does not end: write `{MARK} end` below what students write"),
+            format!("ここで始まる部分の終わりがありません。学生が書く部分の下に `{MARK} end` を書いてください"),
+        );
+    }
+    if removed.is_empty() {
+        return refused(0, format!("has no `{MARK} begin`"), format!("`{MARK} begin` がありません"));
+    }
+    told.insert(0, Told::Marks(removed.len()));
+    Ok((starter, told))
+}
+
+/// Declarations for what the text behind a part uses of it, and plain values of outputs that nothing else writes.
+fn declared_in(source: &Source, lines: RangeInclusive<u32>) -> Vec<String> {
+    let words = source.words();
+    let is_behind = |name: &str| words.iter().any(|word| word.line > *lines.end() && word.text == name);
+    let declaration = |kind: &Type, name: &str| plain(kind, false).map(|value| format!("{kind} {name} = {value};"));
+    let locals = source.program.locals().iter().filter(|local| lines.contains(&local.line) && is_behind(&local.name));
+    let mut declared: Vec<String> = locals.filter_map(|local| declaration(&local.kind, &local.name)).collect();
+    let functions = outline::functions(&source.text);
+    let around = functions.iter().rfind(|function| function.name.line < *lines.start());
+    if around.is_none_or(|function| function.name.text != "main") {
+        return declared;
+    }
+    let is_written = |name: &str, inside: bool| {
+        let mut words =
+            functions.iter().flat_map(|function| &function.statements).flat_map(|statement| &statement.words);
+        words.any(|word| word.text == name && lines.contains(&word.line) == inside)
+    };
+    for output in source.program.outputs() {
+        let name = path_in(source, &output.name);
+        let name = name.split('.').next().unwrap_or(&name);
+        if is_written(name, true) && !is_written(name, false) {
+            declared.extend(assigned(source, &output.name, &output.kind));
+        }
+    }
+    declared
+}
+
+/// `name = value;`
+fn assigned(source: &Source, name: &str, kind: &Type) -> Option<String> {
+    if name == "gl_Position" {
+        return Some(format!("gl_Position = {};", plain_position(source)));
+    }
+    let path = path_in(source, name);
+    plain(kind, true).filter(|_| !name.starts_with("gl_")).map(|value| format!("{path} = {value};"))
+}
+
+/// An output as the file calls it: `Frame.uv` is `vs_out.uv` where the block has that name there.
+fn path_in(source: &Source, name: &str) -> String {
+    let words = source.words();
+    let instance = |block: &str| {
+        let start = words.windows(2).position(|pair| pair[0].text == block && pair[1].text == "{")?;
+        let end = words[start..].iter().position(|word| word.text == "}")?;
+        words.get(start + end + 1).filter(|word| word.is_name).map(|word| word.text.clone())
+    };
+    let parts = name.split_once('.');
+    let own = parts.and_then(|(block, member)| Some(format!("{}.{member}", instance(block)?)));
+    own.unwrap_or_else(|| name.to_owned())
+}
+
+/// The position as the mesh has it.
+fn plain_position(source: &Source) -> String {
+    let own = source.program.inputs().iter();
+    let found = own.filter(|_| source.stage == Stage::Vertex).find(|input| {
+        let name = Name::of(&input.name);
+        names::attribute(&name, &input.kind) == Some("position")
+    });
+    match found.map(|input| (&input.name, &input.kind)) {
+        Some((name, Type::Vector(_, 4))) => name.clone(),
+        Some((name, Type::Vector(_, 3))) => format!("vec4({name}, 1.0)"),
+        Some((name, Type::Vector(_, 2))) => format!("vec4({name}, 0.0, 1.0)"),
+        _ => "vec4(0.0, 0.0, 0.0, 1.0)".to_owned(),
+    }
+}
+
+/// A value that says nothing: a grey colour where it is seen, else nothing.
+fn plain(kind: &Type, is_seen: bool) -> Option<String> {
+    let number = if is_seen { "0.5" } else { "0.0" };
+    Some(match kind {
+        Type::Vector(Scalar::Float, 1) => number.to_owned(),
+        Type::Vector(Scalar::Float, 4) if is_seen => "vec4(0.5, 0.5, 0.5, 1.0)".to_owned(),
+        Type::Vector(Scalar::Float, _) => format!("{kind}({number})"),
+        Type::Vector(Scalar::Bool, 1) => "false".to_owned(),
+        Type::Vector(..) | Type::Matrix(..) => format!("{kind}(0)"),
+        Type::Array(element, Some(length)) => {
+            let one = plain(element, is_seen)?;
+            format!("{kind}({})", vec![one; *length].join(", "))
+        }
+        _ => return None,
+    })
+}
+
+/// The solution with a body of its entry that gives every output a plain value.
+fn of_plain_values(source: &Source) -> (String, Vec<Told>) {
+    let functions = outline::functions(&source.text);
+    let Some(entry) = functions.iter().find(|function| function.name.text == source.entry) else {
+        return (source.text.clone(), vec![Told::AsItIs]);
+    };
+    let lines = match source.entry {
+        "main" => {
+            let outputs = source.program.outputs().iter();
+            outputs.filter_map(|output| assigned(source, &output.name, &output.kind)).collect()
+        }
+        _ => written_parameters(entry),
+    };
+    let body: String =
+        std::iter::once(HINT).chain(lines.iter().map(String::as_str)).map(|line| format!("    {line}\n")).collect();
+    let text = &source.text;
+    let starter = format!("{}\n{body}{}", &text[..entry.body.start], &text[entry.body.end..]);
+    let own = ["main", "mainImage"];
+    let left: Vec<String> = functions
+        .iter()
+        .map(|function| &function.name.text)
+        .filter(|name| !own.contains(&name.as_str()))
+        .cloned()
+        .collect();
+    let mut told = vec![Told::NoMarks];
+    told.extend((!left.is_empty()).then_some(Told::Left(left)));
+    (starter, told)
+}
+
+/// Plain values of the `out` parameters of a function.
+fn written_parameters(function: &FunctionText) -> Vec<String> {
+    let each = function.parameters.split(|word| word.text == ",");
+    let written = each.filter(|words| words.iter().any(|word| word.text == "out" || word.text == "inout"));
+    let value = |words: &[outline::Word]| {
+        let kind = words.iter().find_map(|word| Type::named(&word.text))?;
+        plain(&kind, true).map(|value| format!("{} = {value};", words.last().map_or("", |word| &word.text)))
+    };
+    written.filter_map(value).collect()
+}
+
+/// A starter has to be a whole shader.
+fn compiles(source: &Source, starter: &str) -> Result<(), AssignmentError> {
+    let Err(refusal) = Program::compile(starter, source.stage) else { return Ok(()) };
+    let line = starter.lines().nth((refusal.line as usize).saturating_sub(1)).unwrap_or_default().trim();
+    // The same line of the solution, where it is known to the lecturer.
+    let same = source.text.lines().position(|own| own.trim() == line && !line.is_empty()).map_or(0, |at| at as u32 + 1);
+    let what = refusal.what();
+    Err(source.wrong(
+        same,
+        both(
+            format!(
+                "without what stands between the marks this does not compile: {what}. Write `{MARK} instead …` between the marks, with \
+                 what the starter has in their place, such as `{MARK} instead vec3 name = vec3(0.0);`"
+            ),
+            format!(
+                "印の間を取り除くとコンパイルできません: {what}。配布ファイルに代わりに置く文を、印の間に `{MARK} instead …` と書いてください \
+                 (例: `{MARK} instead vec3 name = vec3(0.0);`)"
+            ),
+        ),
+    ))
+}
