@@ -6,6 +6,7 @@ mod error;
 use crate::accepted::AcceptedAnswer;
 use crate::advice::Advice;
 use crate::equation::{Equation, Variant};
+use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::{Texture, Type};
 pub use crate::manifest::{RubricLine, Stage, Task};
@@ -52,8 +53,8 @@ pub struct Assignment {
     pub equation: Equation,
     /// What it is worth.
     pub rubric: Vec<RubricLine>,
-    /// For each line of the rubric the solution without what the line judges, where the folder says it.
-    pub features: Vec<Option<AcceptedAnswer>>,
+    /// For each line of the rubric the solution without what the line judges, where that is known.
+    pub features: Vec<Option<Feature>>,
     /// What goes wrong.
     pub mistakes: Vec<Mistake>,
     /// What is said of right answers that would break elsewhere.
@@ -284,10 +285,7 @@ impl Assignment {
         let mut variant = self.equation.right();
         for found in mistakes {
             let form = self.mistake(&found.id)?.forms.get(found.form)?;
-            for replaced in &form.overrides {
-                *variant.formulas.get_mut(replaced.definition)? = &replaced.formula;
-                *variant.parameters.get_mut(replaced.definition)? = found.parameter.unwrap_or(f64::NAN);
-            }
+            variant = variant.with(form, found.parameter.unwrap_or(f64::NAN));
         }
         Some(variant)
     }

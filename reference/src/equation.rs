@@ -2,6 +2,7 @@
 
 use crate::Value;
 use crate::interpreter::{Formula, Registers, Sheet, Type};
+use crate::mistake::Form;
 use crate::probes::Region;
 use crate::value;
 use glam::{DVec3, DVec4};
@@ -174,6 +175,15 @@ impl Equation {
 }
 
 impl<'a> Variant<'a> {
+    /// The same with what a form replaces, and a number for what is free in it.
+    pub(crate) fn with(mut self, form: &'a Form, parameter: f64) -> Self {
+        for replaced in &form.overrides {
+            self.formulas[replaced.definition] = &replaced.formula;
+            self.parameters[replaced.definition] = parameter;
+        }
+        self
+    }
+
     /// Computes every definition for one sample. `uniforms` stand in the interface's order, `attributes` as [`Reads`] says.
     pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Evaluation<'a> {
         let Equation { sheet, .. } = self.equation;

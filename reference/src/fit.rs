@@ -6,12 +6,14 @@
 mod columns;
 mod digits;
 mod features;
+mod parts;
 mod search;
 mod solve;
 mod terms;
 mod views;
 
-pub use features::{FEWEST, Footprint, alike, footprints, judge_features, program_of};
+pub use features::{FEWEST, Footprints, alike, judge_features, program_of};
+pub use parts::{Part, Parts, explain_parts};
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;

@@ -28,6 +28,7 @@ pub mod accepted;
 pub mod advice;
 pub mod assignment;
 pub mod equation;
+pub mod feature;
 pub mod feed;
 pub mod fit;
 mod folder;

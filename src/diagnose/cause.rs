@@ -6,15 +6,20 @@ use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::render::Sample;
 use crate::report::{FrameResult, Hypothesis};
+use glam::DVec4;
 use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
-use reference::fit::{Fit, MOST_MISTAKES, TermJudgement, is_right, judge_features, judge_terms, program_of};
+use reference::fit::{
+    Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_parts, is_right, judge_features, judge_terms, program_of,
+};
 use reference::mistake::FoundMistake;
 
 const HARD_CODED: &str = "hard-coded";
 const UNEXPLAINED: &str = "unexplained";
 const NEARLY_RIGHT: &str = "nearly-right";
+pub(super) const PART_MISSING: &str = "part-missing";
+pub(super) const PART_SCALED: &str = "part-scaled";
 
 /// Colours that are off by no more than this everywhere are nearly right: each of three terms is off by one step of 8 bits.
 ///
@@ -29,6 +34,8 @@ pub(super) enum Cause {
         constants: Vec<ChangedConstant>,
         found: Vec<FoundMistake>,
     },
+    /// All is right but for some features, and a known mistake where there is one.
+    Parts(Parts),
     /// The colour does not come from the equation at all.
     HardCoded,
     /// Nothing known explains it, but it is never off by much.
@@ -89,8 +96,12 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     }
 }
 
-/// What nothing explains: each term as far as it stands alone, or shows by itself.
+/// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself.
 fn unexplained(evidence: &Evidence<'_>, samples: &[[f64; 3]], terms: Vec<TermJudgement>) -> Cause {
+    let is_there = is_there(evidence);
+    if let Some(parts) = explain_parts(evidence.assignment, evidence.probes, samples, &is_there, COLOUR_TOLERANCE) {
+        return Cause::Parts(parts);
+    }
     let mut terms = addends::credit(evidence, terms);
     for feature in judge_features(evidence.assignment, evidence.probes, samples, COLOUR_TOLERANCE) {
         terms.retain(|term| term.line != feature.line);
@@ -101,13 +112,17 @@ fn unexplained(evidence: &Evidence<'_>, samples: &[[f64; 3]], terms: Vec<TermJud
 
 /// The mistake whose program draws what the shader draws.
 fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Option<FoundMistake> {
+    let search = || program_of(evidence.assignment, evidence.probes, samples, &is_there(evidence), COLOUR_TOLERANCE);
+    (!is_right).then(search).flatten()
+}
+
+/// Whether a sample has a given position, but for the factor that all have in common.
+fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
     let scale = super::position_scale(evidence);
-    let is_there = |place: usize, position| {
+    move |place, position| {
         let sample = evidence.samples.get(place);
         sample.is_some_and(|sample| position_difference(position, sample, scale) <= POSITION_TOLERANCE)
-    };
-    let search = || program_of(evidence.assignment, evidence.probes, samples, &is_there, COLOUR_TOLERANCE);
-    (!is_right).then(search).flatten()
+    }
 }
 
 /// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So
@@ -162,7 +177,7 @@ impl Cause {
             }),
             Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
             Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
-            Self::HardCoded | Self::Unexplained(_) => false,
+            Self::HardCoded | Self::Parts(_) | Self::Unexplained(_) => false,
         };
         if is_refuted { Self::HardCoded } else { self }
     }
@@ -177,7 +192,7 @@ impl Cause {
                     .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
                     .collect(),
             ),
-            Self::HardCoded | Self::NearlyRight | Self::Unexplained(_) => None,
+            Self::HardCoded | Self::Parts(_) | Self::NearlyRight | Self::Unexplained(_) => None,
         }
     }
 
@@ -189,10 +204,25 @@ impl Cause {
                 let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
                 changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
             }
+            Self::Parts(Parts { found, parts }) => {
+                let mut ids: Vec<String> = found.iter().map(|found| found.id.clone()).collect();
+                let kinds = parts.iter().map(|(_, part)| part_id(*part).to_owned());
+                ids.extend(kinds);
+                ids.dedup();
+                ids
+            }
             Self::HardCoded => vec![HARD_CODED.into()],
             Self::NearlyRight => vec![NEARLY_RIGHT.into()],
             Self::Unexplained(_) => vec![UNEXPLAINED.into()],
         }
+    }
+}
+
+/// What is said of a feature.
+const fn part_id(part: Part) -> &'static str {
+    match part {
+        Part::Missing => PART_MISSING,
+        Part::Factor(_) => PART_SCALED,
     }
 }
 
@@ -211,10 +241,16 @@ pub(super) fn kept(
             .iter()
             .find(|term| term.line == line.id)
             .map_or(!assignment.judges_position(line), |term| !term.is_right()),
+        (Cause::Parts(Parts { parts, .. }), PART_MISSING | PART_SCALED) => {
+            parts.iter().any(|(at, part)| assignment.rubric[*at].id == line.id && part_id(*part) == id)
+        }
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
         (Cause::Known { found, .. }, _) if let Some(found) = found.iter().find(|found| found.id == id) => {
+            return assignment.keeps(found, line);
+        }
+        (Cause::Parts(Parts { found: Some(found), .. }), _) if found.id == id => {
             return assignment.keeps(found, line);
         }
         _ => true,

@@ -2,6 +2,7 @@
 //!
 //! A message is said only where it is true of the student's text: what it presupposes is looked up first ([`Facts`]).
 
+use super::cause::PART_SCALED;
 use super::constants::ChangedConstant;
 use super::locate::{Located, Points, Role, Words, is_handed_out};
 use super::{Cause, Evidence, Hints};
@@ -11,7 +12,7 @@ use crate::source::Source;
 use crate::translate::{Interpreter, NO_LINE};
 use reference::assignment::RubricLine;
 use reference::equation::DISCARDED;
-use reference::fit::Worst;
+use reference::fit::{Part, Parts, Worst};
 use reference::mistake::{Condition, FoundMistake, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
@@ -142,6 +143,18 @@ impl<'f> Blanks<'f> {
                 let worst = terms.iter().find(|term| term.line == line.id).and_then(|term| term.worst);
                 blanks.worst(worst);
             }
+            (Cause::Parts(Parts { parts, .. }), PART_SCALED) => {
+                let factor = parts.iter().find_map(|(at, part)| match part {
+                    Part::Factor(factor) if evidence.assignment.rubric[*at].id == line.id => Some(factor),
+                    _ => None,
+                });
+                let [red, others @ ..] = factor.copied().unwrap_or_default();
+                // Noise: the tolerance of a colour, relative to a feature that adds a tenth of all.
+                if others.iter().all(|other| (other - red).abs() <= 0.02 * red.abs()) {
+                    blanks.values.push(("found", number(red)));
+                }
+            }
+            (Cause::Parts(_), _) => {}
             (Cause::Known { found, .. }, id) => {
                 let met = evidence.undefined.filter(|line| mistake.undefined_power && *line != NO_LINE);
                 let met = met.map(Located::at);

@@ -2,6 +2,7 @@
 
 mod advice;
 mod answers;
+mod features;
 mod interface;
 mod meshes;
 mod mistakes;
@@ -47,12 +48,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
     }
     let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, line_at)).transpose()?;
     let variants = Variants { files: &files, stages: &stages, read: &read };
-    let features = m.rubric.iter().map(|line| {
-        let place = |at: usize| format!("{MANIFEST}, line {}, rubric line `{}`", line_at(at), line.id);
-        let without = line.without.as_ref();
-        without.map(|without| variants.program(without.get_ref(), &place(without.span().start))).transpose()
-    });
-    let features = features.collect::<Checked<Vec<_>>>()?;
+    let features = features::features(&m, &mut solution, &variants, line_at)?;
     let mistakes = std::mem::take(&mut m.mistake);
     let mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, line_at)?;
     let probing = probing::probing(&m.probes, &constants, &solution)?;

@@ -2,7 +2,7 @@
 
 use super::{TermJudgement, Worst, agrees};
 use crate::Assignment;
-use crate::accepted::AcceptedAnswer;
+use crate::accepted::Computed;
 use crate::mistake::FoundMistake;
 use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
@@ -30,37 +30,63 @@ pub fn program_of(
     })
 }
 
-/// Where a line's feature shows.
+/// Where the features of the rubric show: at which probes the solution without one differs from the solution.
 #[derive(Clone, Debug)]
-pub struct Footprint {
-    /// The line's place in the rubric.
-    pub line: usize,
-    /// At how many probes the solution without the feature differs from the solution.
-    pub shows: usize,
-    /// Those of them at which the solution without any other feature does not differ.
-    pub alone: Vec<usize>,
+pub struct Footprints {
+    /// For each line of the rubric and each probe; none for a line without a feature.
+    shows: Vec<Option<Vec<bool>>>,
 }
 
-/// The footprints of all lines that have a feature.
-pub fn footprints(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Vec<Footprint> {
-    let differs = |feature: &Option<AcceptedAnswer>| Some(differs(assignment, feature.as_ref()?, probes, tolerance));
-    let shows: Vec<Option<Vec<bool>>> = assignment.features.iter().map(differs).collect();
-    let footprint = |(line, own): (usize, &Option<Vec<bool>>)| {
-        let own = own.as_ref()?;
-        let is_alone = |place: &usize| {
-            let mut others = shows.iter().enumerate().filter(|(other, _)| *other != line);
-            own[*place] && !others.any(|(_, other)| other.as_ref().is_some_and(|other| other[*place]))
+impl Footprints {
+    /// Looks at all features of an assignment.
+    pub fn of(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Self {
+        let differs = |computed: Vec<Computed>| {
+            let pairs = computed.iter().zip(probes);
+            pairs.map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance)).collect()
         };
-        let shows = own.iter().filter(|differs| **differs).count();
-        Some(Footprint { line, shows, alone: (0..own.len()).filter(is_alone).collect() })
-    };
-    shows.iter().enumerate().filter_map(footprint).collect()
-}
+        let shows = |feature: &Option<_>| Some(differs(assignment.computed_without(feature.as_ref()?, probes)));
+        Self { shows: assignment.features.iter().map(shows).collect() }
+    }
 
-/// At which probes a program shows another colour than what is right.
-fn differs(assignment: &Assignment, program: &AcceptedAnswer, probes: &ProbeSet, tolerance: f64) -> Vec<bool> {
-    let computed = assignment.computed_by(program, probes);
-    computed.iter().zip(probes).map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance)).collect()
+    /// The lines that have a feature, in the rubric's order.
+    pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.shows.len()).filter(|line| self.shows[*line].is_some())
+    }
+
+    /// The probes at which a line's feature shows.
+    pub fn of_line(&self, line: usize) -> Vec<usize> {
+        self.beside(line, &|_| true)
+    }
+
+    /// The probes at which a line's feature shows beside no other than those that are known to be right.
+    pub fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<usize> {
+        let Some(Some(own)) = self.shows.get(line) else { return Vec::new() };
+        let others: Vec<&Vec<bool>> = self
+            .shows
+            .iter()
+            .enumerate()
+            .filter_map(|(other, shows)| shows.as_ref().filter(|_| other != line && !is_right(other)))
+            .collect();
+        (0..own.len()).filter(|place| own[*place] && !others.iter().any(|other| other[*place])).collect()
+    }
+
+    /// The lines that can be judged, in an order in which each shows by itself beside those before it, with the probes at
+    /// which it is judged. `agrees`: whether a probe shows what is right; what differs is beside no other line.
+    pub fn judged(&self, agrees: &dyn Fn(usize) -> bool) -> Vec<(usize, Vec<usize>)> {
+        let mut judged: Vec<(usize, Vec<usize>)> = Vec::new();
+        let mut right: Vec<usize> = Vec::new();
+        loop {
+            let open = self.lines().filter(|line| !judged.iter().any(|(known, _)| known == line));
+            let places = open.map(|line| (line, self.beside(line, &|other| right.contains(&other))));
+            let Some((line, places)) = places.into_iter().find(|(_, places)| places.len() >= FEWEST) else {
+                return judged;
+            };
+            if places.iter().all(|place| agrees(*place)) {
+                right.push(line);
+            }
+            judged.push((line, places));
+        }
+    }
 }
 
 /// The mistakes whose programs show what the solution shows, or what another mistake's do: what stands for each, and what it is like.
@@ -89,7 +115,7 @@ pub fn alike(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Vec<
 /// A feature that shows by itself at fewer probes than this is not judged by them.
 pub const FEWEST: usize = 8;
 
-/// The lines whose features show by themselves at some probes, see [`footprints`].
+/// The lines whose features show by themselves, or beside such as are right, see [`Footprints::judged`].
 pub fn judge_features(
     assignment: &Assignment,
     probes: &ProbeSet,
@@ -97,26 +123,24 @@ pub fn judge_features(
     tolerance: f64,
 ) -> Vec<TermJudgement> {
     let samples = super::padded(probes, samples);
-    let judgement = |Footprint { line, alone, .. }: Footprint| {
-        if alone.len() < FEWEST {
-            return None;
-        }
+    let is_right = |place: usize| agrees(probes.probes[place].colour, samples[place], tolerance);
+    let judgement = |(line, places): (usize, Vec<usize>)| {
         let apart = |place: &usize| {
             let apart = (samples[*place] - probes.probes[*place].colour).abs().max_element();
             if apart.is_finite() { apart } else { f64::INFINITY }
         };
-        let is_wrong = |place: &&usize| !agrees(probes.probes[**place].colour, samples[**place], tolerance);
-        let wrong: Vec<usize> = alone.iter().filter(is_wrong).copied().collect();
+        let wrong: Vec<usize> = places.iter().filter(|place| !is_right(**place)).copied().collect();
         let worst = wrong.iter().copied().max_by(|a, b| apart(a).total_cmp(&apart(b))).map(|probe| Worst {
             probe,
             region: probes.probes[probe].region,
             expected: probes.probes[probe].colour,
             found: samples[probe],
         });
-        let (judged, matched) = (alone.len(), alone.len() - wrong.len());
-        Some(TermJudgement { line: assignment.rubric[line].id.clone(), judged, matched, worst })
+        let (judged, matched) = (places.len(), places.len() - wrong.len());
+        TermJudgement { line: assignment.rubric[line].id.clone(), judged, matched, worst }
     };
-    footprints(assignment, probes, tolerance).into_iter().filter_map(judgement).collect()
+    let footprints = Footprints::of(assignment, probes, tolerance);
+    footprints.judged(&is_right).into_iter().map(judgement).collect()
 }
 
 /// What is shown with these mistakes in it, where one of them is a whole program.

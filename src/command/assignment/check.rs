@@ -54,16 +54,20 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
 fn say_features(assignment: &Assignment, language: Language) {
     let probes = assignment.judging_probes();
     let all = probes.probes.len();
-    for footprint in fit::footprints(assignment, &probes, fit::TOLERANCE) {
-        let (id, alone, shows) = (&assignment.rubric[footprint.line].id, footprint.alone.len(), footprint.shows);
-        let is_judged = alone >= fit::FEWEST;
+    let footprints = fit::Footprints::of(assignment, &probes, fit::TOLERANCE);
+    // Where all is right, each line is judged that can be judged at all.
+    let judged = footprints.judged(&|_| true);
+    for line in footprints.lines() {
+        let (id, shows) = (&assignment.rubric[line].id, footprints.of_line(line).len());
+        let alone = judged.iter().find(|(known, _)| *known == line).map_or(0, |(_, places)| places.len());
+        let is_judged = alone > 0;
         let [mut en, mut ja] = [
-            format!("rubric line `{id}`: shows at {shows} of {all} probes, at {alone} by itself"),
-            format!("採点の行 `{id}`: 検査点 {all} 点中 {shows} 点に現れ、{alone} 点では単独で現れる"),
+            format!("rubric line `{id}`: shows at {shows} of {all} probes, and is judged at {alone} of them"),
+            format!("採点の行 `{id}`: 検査点 {all} 点中 {shows} 点に現れ、そのうち {alone} 点で採点できる"),
         ];
         if !is_judged {
-            en.push_str("; so it keeps its points only where all is right, or where a mistake says so");
-            ja.push_str("。したがって、すべて正しいか、mistake がそう定める場合だけ点が残ります");
+            en.push_str("; an answer that nothing explains loses its points");
+            ja.push_str("。原因の分からない答えでは、この行の点は残りません");
         }
         let word = if is_judged { "ok  " } else { "note" };
         anstream::println!("{word} {}", Text::new(en, ja).get(language));

@@ -159,6 +159,11 @@ impl<'a> Solution<'a> {
         self.output(None)
     }
 
+    /// The type of a definition by its place.
+    pub(super) fn kind(&self, definition: usize) -> &Type {
+        &self.definitions()[definition].kind
+    }
+
     /// The name of a definition by its place.
     pub(super) fn name(&self, definition: usize) -> &str {
         &self.definitions()[definition].name
