@@ -20,7 +20,7 @@ const SAMPLES: [(&str, usize); 8] = [
     ("bumps", 7),
     ("fog", 8),
     ("ggsample06", 1465),
-    ("maps", 79),
+    ("maps", 81),
     ("per-pixel", 11),
     ("rings", 9),
     ("toon", 19),

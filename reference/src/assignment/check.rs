@@ -16,6 +16,7 @@ mod variants;
 
 use super::{Assignment, AssignmentError, FixedStage, HandedIn, MANIFEST, both, error};
 use crate::Folder;
+use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use solution::Solution;
 use std::collections::HashSet;
@@ -56,7 +57,8 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
     let advice = std::mem::take(&mut m.advice).into_iter();
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<Checked<Vec<_>>>()?;
-    let equation = solution.finish(&m, &interface, &pipeline, &constants)?;
+    let textures: Arc<[Texture]> = textures.into();
+    let equation = solution.finish(&m, &interface, &pipeline, &constants, Arc::clone(&textures))?;
     let assignment = Assignment {
         scene: scene::scene(&m.scene, folder, line_at)?,
         files,
@@ -67,7 +69,7 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         typeset,
         title: m.title,
         fixed,
-        textures: textures.into(),
+        textures,
         pipeline,
         interface,
         constants,

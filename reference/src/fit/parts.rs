@@ -92,7 +92,7 @@ impl Search<'_> {
             base.iter().enumerate().all(|(place, own)| {
                 let less = |sum: Computed, added: &Computed| (sum.0 - added.0, sum.1 - added.1);
                 let lacking = lacks(*set).fold(*own, |sum, (_, (_, added))| less(sum, &added[place]));
-                self.shows(place, lacking)
+                self.shows(place, own.0, lacking)
             })
         };
         let set = sets.into_iter().find(explains)?;
@@ -105,7 +105,7 @@ impl Search<'_> {
             let factor = self.factor(added);
             let explains = |place: usize| {
                 let (colour, position) = self.right[place];
-                self.shows(place, (colour + added[place].0 * (factor - 1.0), position))
+                self.shows(place, colour, (colour + added[place].0 * (factor - 1.0), position))
             };
             let is_other = factor.is_finite() && (factor - 1.0).abs().max_element() > self.tolerance;
             let explained = is_other && (0..self.right.len()).all(explains);
@@ -119,7 +119,7 @@ impl Search<'_> {
         for (place, (colour, _)) in added.iter().enumerate() {
             let apart = self.samples[place] - self.right[place].0;
             let is_known = |channel: &usize| {
-                !self.is_clamped || (self.is_whole(place, *channel) && self.samples[place][*channel] < FULL)
+                self.is_whole(self.right[place].0, *channel) && self.is_whole(self.samples[place], *channel)
             };
             for channel in (0..3).filter(is_known) {
                 up[channel] += apart[channel] * colour[channel];
@@ -132,17 +132,18 @@ impl Search<'_> {
         }))
     }
 
-    /// Whether nothing of a channel of what is right is cut off.
-    fn is_whole(&self, place: usize, channel: usize) -> bool {
-        !self.is_clamped || self.right[place].0[channel] < FULL
+    /// Whether nothing of a channel of a colour is cut off.
+    fn is_whole(&self, colour: DVec3, channel: usize) -> bool {
+        !self.is_clamped || colour[channel] < FULL
     }
 
-    /// Whether a sample shows this, as far as it is known.
-    fn shows(&self, place: usize, (colour, position): Computed) -> bool {
+    /// Whether a sample shows this, which is made of what is right and of `base`, as far as nothing of these is cut off.
+    fn shows(&self, place: usize, base: DVec3, (colour, position): Computed) -> bool {
         let sample = self.samples[place];
         let agrees = |channel: usize| {
+            let is_known = self.is_whole(self.right[place].0, channel) && self.is_whole(base, channel);
             let expected = if self.is_clamped { colour[channel].min(1.0) } else { colour[channel] };
-            !self.is_whole(place, channel) || channel_agrees(expected, sample[channel], self.tolerance)
+            !is_known || channel_agrees(expected, sample[channel], self.tolerance)
         };
         (0..3).all(agrees) && (self.is_there)(place, position)
     }

@@ -14,7 +14,7 @@
 //! let cell = |name: &str| draft.cells().iter().position(|cell| cell.name == name).unwrap();
 //! let (x, a, b) = (cell("x"), cell("a"), cell("b"));
 //! let other = draft.replacement(b, "a * a", None).unwrap();
-//! let sheet = draft.finish().unwrap();
+//! let sheet = draft.finish([].into()).unwrap();
 //! let mut registers = sheet.registers();
 //! sheet.set(x, &[2.0], &mut registers);
 //! sheet.compute(&sheet.formulas()[0], &mut registers);
@@ -28,6 +28,7 @@ mod straight;
 
 use super::code::{Node, Slot};
 use super::run::Single;
+use super::texture::Texture;
 use super::types::Type;
 use std::ops::Range;
 use std::sync::Arc;
@@ -57,7 +58,7 @@ impl Cell {
     }
 }
 
-/// `output = name;`
+/// An output and what it is given.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stored {
     /// The output.
@@ -90,6 +91,7 @@ pub struct Sheet {
     functions: Vec<Vec<Node>>,
     first: Vec<f64>,
     formulas: Vec<Formula>,
+    textures: Arc<[Texture]>,
 }
 
 /// The values of all cells, for one sample.
@@ -135,8 +137,14 @@ impl Formula {
 }
 
 impl Sheet {
-    pub(super) fn new(cells: Vec<Cell>, functions: Vec<Vec<Node>>, first: Vec<f64>, formulas: Vec<Formula>) -> Self {
-        Self { cells, functions, first, formulas }
+    pub(super) fn new(
+        cells: Vec<Cell>,
+        functions: Vec<Vec<Node>>,
+        first: Vec<f64>,
+        formulas: Vec<Formula>,
+        textures: Arc<[Texture]>,
+    ) -> Self {
+        Self { cells, functions, first, formulas, textures }
     }
 
     /// All cells: constants, uniforms and inputs, then the definitions in their order, then the number that is free.
@@ -169,7 +177,7 @@ impl Sheet {
         match &*formula.body {
             Body::Straight(steps) => steps.iter().for_each(|step| step.run(&mut registers.0)),
             Body::Nodes(nodes) => {
-                if Single::new(&self.functions, &mut registers.0).run(nodes).is_err() {
+                if Single::new(&self.functions, &self.textures, &mut registers.0).run(nodes).is_err() {
                     registers.0[self.cells[formula.cell].places()].fill(f64::NAN);
                 }
             }

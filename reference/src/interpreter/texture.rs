@@ -233,6 +233,23 @@ pub struct Query {
     pub line: u32,
 }
 
+impl Query {
+    /// All that it is asked with.
+    pub fn operands(&self) -> impl Iterator<Item = Slot> + '_ {
+        let of_mode: &[Slot] = match &self.mode {
+            Mode::Implicit(bias) => bias.as_slice(),
+            Mode::Level(slot) | Mode::Fetch(slot) | Mode::Gather(slot) | Mode::Size(slot) => std::slice::from_ref(slot),
+            Mode::Gradient(..) | Mode::Levels => &[],
+        };
+        let along = match &self.mode {
+            Mode::Gradient(x, y) => [x.as_slice(), y.as_slice()],
+            _ => [&[][..]; 2],
+        };
+        let given = self.coordinates.iter().chain([&self.texture]).chain(&self.reference).chain(&self.offset);
+        given.chain(of_mode).chain(along.into_iter().flatten()).copied()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

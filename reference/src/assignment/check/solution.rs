@@ -4,7 +4,7 @@ use super::{Checked, listed};
 use crate::Value;
 use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
-use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Type};
+use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Texture, Type};
 use crate::manifest::{self, Manifest};
 use crate::pipeline::Pipeline;
 use std::sync::Arc;
@@ -291,6 +291,7 @@ impl<'a> Solution<'a> {
         interface: &Interface,
         pipeline: &Pipeline,
         constants: &[Constant],
+        textures: Arc<[Texture]>,
     ) -> Checked<Equation> {
         for name in m.definition.keys() {
             self.definition(name, &|| format!("definition `{name}`"))?;
@@ -317,7 +318,7 @@ impl<'a> Solution<'a> {
             Reads::Outputs => [SHOWN_COLOUR, SHOWN_POSITION].into_iter().map(given).collect(),
         };
         let (name, reads) = (&self.file.solution.name, self.reads);
-        let sheet = self.draft.finish().map_err(|refusal| refused(name, &refusal))?;
+        let sheet = self.draft.finish(textures).map_err(|refusal| refused(name, &refusal))?;
         let sheet = Arc::new(sheet);
         let numbers = definitions.iter().filter_map(|definition| definition.kind.slots()).sum();
         Ok(Equation {

@@ -7,9 +7,11 @@ use crate::interpreter::sheet::{Cell, Formula, Sheet, Stored};
 use crate::interpreter::syntax::{
     Declaration, Expression, ExpressionKind, Function, Item, Name, Statement, StatementKind, Storage, Variable,
 };
+use crate::interpreter::texture::Texture;
 use crate::interpreter::types::Type;
 use crate::interpreter::{Refusal, Stage, builtin, parse, text};
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// A [`Sheet`] as long as formulas are added to it.
 pub struct Draft {
@@ -187,7 +189,7 @@ impl Draft {
         Ok(())
     }
 
-    /// `output = name;`
+    /// `output = name;`, or `output = expression;`: a definition that has the output's name.
     fn output(&mut self, to: &Expression, from: &Expression, line: u32) -> Result<(), Refusal> {
         let ExpressionKind::Name(output) = &to.kind else { return Err(Refusal::invalid(line, ONLY_DEFINITIONS)) };
         if self.defined(output).is_some() {
@@ -202,10 +204,17 @@ impl Draft {
             ExpressionKind::Name(name) => self.defined(name),
             _ => None,
         };
-        let Some(cell) = cell.filter(|&cell| self.cells[cell].kind == known.kind) else {
-            let kind = &known.kind;
-            let what = format!("name the value first: `{kind} a_name = …; {output} = a_name;`");
-            return Err(Refusal::invalid(line, what));
+        let cell = match cell.filter(|&cell| self.cells[cell].kind == known.kind) {
+            Some(cell) => cell,
+            None => {
+                let (kind, slot) = (known.kind.clone(), known.slot);
+                let (nodes, _) = self.compiled(from, &kind, Some(slot))?;
+                self.cells.push(Cell::new(output, kind, slot, line));
+                let cell = self.cells.len() - 1;
+                let formula = self.formula(cell, nodes, line)?;
+                self.formulas.push(formula);
+                cell
+            }
         };
         self.stored.push(Stored { output: output.to_string(), cell, line });
         Ok(())
@@ -302,11 +311,11 @@ impl Draft {
         self.compiler.check_calls(self.main, &mut depths, 0).map(drop)
     }
 
-    /// The sheet, to which no formula is added any more.
+    /// The sheet, to which no formula is added any more. `textures`: what samplers name by their number.
     ///
     /// # Errors
     /// Functions call one another in a circle.
-    pub fn finish(self) -> Result<Sheet, Refusal> {
+    pub fn finish(self, textures: Arc<[Texture]>) -> Result<Sheet, Refusal> {
         self.check_calls()?;
         let builder = self.compiler.builder;
         let mut first: Vec<f64> =
@@ -315,6 +324,6 @@ impl Draft {
             first[slot as usize] = value;
         }
         let functions = self.compiler.functions.into_iter().map(|declared| declared.body.unwrap_or_default());
-        Ok(Sheet::new(self.cells, functions.collect(), first, self.formulas))
+        Ok(Sheet::new(self.cells, functions.collect(), first, self.formulas, textures))
     }
 }

@@ -60,18 +60,8 @@ impl Machine<'_> {
         for (lane, found) in results.iter_mut().zip(&mut open).enumerate().filter(|(lane, _)| self.active.has(*lane)) {
             (*found.0, *found.1) = self.look_up_one(query, lane);
         }
-        let mut operands = query.coordinates.clone();
-        operands.push(query.texture);
-        operands.extend(query.reference);
-        operands.extend(&query.offset);
-        match &query.mode {
-            Mode::Implicit(bias) => operands.extend(bias),
-            Mode::Level(slot) | Mode::Fetch(slot) | Mode::Gather(slot) | Mode::Size(slot) => operands.push(*slot),
-            Mode::Gradient(x, y) => operands.extend(x.iter().chain(y)),
-            Mode::Levels => {}
-        }
         let inherited = |lane: usize| {
-            operands.iter().map(|slot| self.memory.cause(*slot, lane)).find(|&cause| cause != 0).unwrap_or(0)
+            query.operands().map(|slot| self.memory.cause(slot, lane)).find(|&cause| cause != 0).unwrap_or(0)
         };
         let causes: Vec<CauseNumber> = (0..self.lanes).map(inherited).collect();
         for (component, &to) in query.to.iter().enumerate() {
@@ -91,67 +81,78 @@ impl Machine<'_> {
 
     fn look_up_one(&self, query: &Query, lane: usize) -> ([f64; 4], Option<Undefined>) {
         let value = |slot: Slot| self.memory.column(slot)[lane];
-        let number = value(query.texture);
-        let bound = self.textures.get(number as usize).filter(|_| number >= 0.0);
-        let Some(texture) = bound.filter(|texture| texture.fits(query.sampler)) else {
-            // A texture that is there and does not fit, or is compared with though there is none, is left open.
-            let open = bound.is_some() || query.reference.is_some();
-            return (INCOMPLETE, open.then_some(Undefined::Texture));
-        };
-        let mut lookup = Lookup {
-            coordinates: query.coordinates.iter().map(|&slot| value(slot)).collect(),
-            reference: query.reference.map(value),
-            ..Lookup::default()
-        };
-        for (offset, &slot) in lookup.offset.iter_mut().zip(&query.offset) {
-            *offset = value(slot);
-        }
-        let is_number = lookup.coordinates.iter().chain(&lookup.reference).all(|coordinate| coordinate.is_finite());
-        let mut open = (!is_number).then_some(Undefined::Texture);
-        let result = match &query.mode {
-            Mode::Implicit(bias) => {
-                if texture.levels.len() > 1 && texture.mipmap.is_some() || texture.magnify != texture.minify {
-                    if !self.is_whole(lane) {
-                        open = open.or(Some(Undefined::Derivative));
-                    }
-                    lookup.gradient = Some([Direction::X, Direction::Y].map(|direction| {
-                        std::array::from_fn(|axis| {
-                            let slot = query.coordinates.get(axis);
-                            slot.map_or(0.0, |&slot| self.difference(slot, lane, direction, false))
-                        })
-                    }));
-                }
-                lookup.level = bias.map_or(0.0, value);
-                texture.sample(&lookup)
-            }
-            Mode::Level(level) => {
-                lookup.level = value(*level);
-                texture.sample(&lookup)
-            }
-            Mode::Gradient(x, y) => {
-                let along =
-                    |slots: &[Slot]| std::array::from_fn(|axis| slots.get(axis).map_or(0.0, |&slot| value(slot)));
-                lookup.gradient = Some([along(x), along(y)]);
-                texture.sample(&lookup)
-            }
-            Mode::Fetch(level) => {
-                lookup.level = value(*level);
-                texture.fetch(&lookup).unwrap_or_else(|| {
-                    open = Some(Undefined::Texture);
-                    [0.0; 4]
-                })
-            }
-            Mode::Gather(component) => texture.gather(&lookup, (value(*component).clamp(0.0, 3.0)) as usize),
-            Mode::Size(level) => size(texture, value(*level)).unwrap_or_else(|| {
-                open = Some(Undefined::Texture);
-                [0.0; 4]
-            }),
-            Mode::Levels => [texture.levels.len() as f64; 4],
-        };
-        (result, open)
+        let difference = |slot, direction| self.is_whole(lane).then(|| self.difference(slot, lane, direction, false));
+        look_up(self.textures, query, &value, &difference)
     }
 }
 
+/// What one sample reads, and why that is left open, where it is. `value`: what a slot holds; `difference`: how much it changes
+/// to the neighbour, where there is one.
+pub(super) fn look_up(
+    textures: &[Texture],
+    query: &Query,
+    value: &dyn Fn(Slot) -> f64,
+    difference: &dyn Fn(Slot, Direction) -> Option<f64>,
+) -> ([f64; 4], Option<Undefined>) {
+    let number = value(query.texture);
+    let bound = textures.get(number as usize).filter(|_| number >= 0.0);
+    let Some(texture) = bound.filter(|texture| texture.fits(query.sampler)) else {
+        // A texture that is there and does not fit, or is compared with though there is none, is left open.
+        let open = bound.is_some() || query.reference.is_some();
+        return (INCOMPLETE, open.then_some(Undefined::Texture));
+    };
+    let mut lookup = Lookup {
+        coordinates: query.coordinates.iter().map(|&slot| value(slot)).collect(),
+        reference: query.reference.map(value),
+        ..Lookup::default()
+    };
+    for (offset, &slot) in lookup.offset.iter_mut().zip(&query.offset) {
+        *offset = value(slot);
+    }
+    let is_number = lookup.coordinates.iter().chain(&lookup.reference).all(|coordinate| coordinate.is_finite());
+    let mut open = (!is_number).then_some(Undefined::Texture);
+    let result = match &query.mode {
+        Mode::Implicit(bias) => {
+            if texture.levels.len() > 1 && texture.mipmap.is_some() || texture.magnify != texture.minify {
+                let along = |direction| {
+                    let of = |axis: usize| {
+                        query.coordinates.get(axis).map_or(Some(0.0), |&slot| difference(slot, direction))
+                    };
+                    Some([of(0)?, of(1)?, of(2)?])
+                };
+                match (along(Direction::X), along(Direction::Y)) {
+                    (Some(x), Some(y)) => lookup.gradient = Some([x, y]),
+                    _ => open = open.or(Some(Undefined::Derivative)),
+                }
+            }
+            lookup.level = bias.map_or(0.0, value);
+            texture.sample(&lookup)
+        }
+        Mode::Level(level) => {
+            lookup.level = value(*level);
+            texture.sample(&lookup)
+        }
+        Mode::Gradient(x, y) => {
+            let along = |slots: &[Slot]| std::array::from_fn(|axis| slots.get(axis).map_or(0.0, |&slot| value(slot)));
+            lookup.gradient = Some([along(x), along(y)]);
+            texture.sample(&lookup)
+        }
+        Mode::Fetch(level) => {
+            lookup.level = value(*level);
+            texture.fetch(&lookup).unwrap_or_else(|| {
+                open = Some(Undefined::Texture);
+                [0.0; 4]
+            })
+        }
+        Mode::Gather(component) => texture.gather(&lookup, (value(*component).clamp(0.0, 3.0)) as usize),
+        Mode::Size(level) => size(texture, value(*level)).unwrap_or_else(|| {
+            open = Some(Undefined::Texture);
+            [0.0; 4]
+        }),
+        Mode::Levels => [texture.levels.len() as f64; 4],
+    };
+    (result, open)
+}
 /// The size of a level as `textureSize` gives it; layers of a cube are counted in cubes.
 fn size(texture: &Texture, level: f64) -> Option<[f64; 4]> {
     let size = texture.levels.get(level as usize).filter(|_| level >= 0.0)?.size;

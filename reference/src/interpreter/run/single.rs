@@ -1,7 +1,9 @@
 //! One sample at a time, without masks: what is undefined is not a number, and so is all that comes of it.
 
 use super::kernel;
+use super::lookup::look_up;
 use crate::interpreter::code::{Indexed, Instruction, Node, Slot};
+use crate::interpreter::texture::Texture;
 
 /// Nodes that a run may take: an endless loop ends here.
 const FUEL: u32 = 1_000_000;
@@ -9,6 +11,7 @@ const FUEL: u32 = 1_000_000;
 /// Registers, and what may be called.
 pub struct Single<'a> {
     functions: &'a [Vec<Node>],
+    textures: &'a [Texture],
     registers: &'a mut [f64],
     fuel: u32,
 }
@@ -28,8 +31,8 @@ pub struct Astray;
 
 impl<'a> Single<'a> {
     /// Ready to run.
-    pub fn new(functions: &'a [Vec<Node>], registers: &'a mut [f64]) -> Self {
-        Self { functions, registers, fuel: FUEL }
+    pub fn new(functions: &'a [Vec<Node>], textures: &'a [Texture], registers: &'a mut [f64]) -> Self {
+        Self { functions, textures, registers, fuel: FUEL }
     }
 
     fn of(&self, slot: Slot) -> f64 {
@@ -91,7 +94,15 @@ impl<'a> Single<'a> {
             Node::Break => return Ok(Next::Break),
             Node::Continue => return Ok(Next::Continue),
             Node::Return => return Ok(Next::Return),
-            Node::Discard | Node::Derivative { .. } | Node::Texture(_) => return Err(Astray),
+            Node::Texture(query) => {
+                // A sample by itself has no neighbours.
+                let (found, open) = look_up(self.textures, query, &|slot| self.of(slot), &|_, _| None);
+                let is_known = open.is_none() && query.operands().all(|slot| !self.of(slot).is_nan());
+                for (to, found) in query.to.iter().zip(found) {
+                    self.registers[*to as usize] = if is_known { found } else { f64::NAN };
+                }
+            }
+            Node::Discard | Node::Derivative { .. } => return Err(Astray),
         }
         Ok(Next::Node)
     }

@@ -61,7 +61,10 @@ impl Access {
             Node::Break | Node::Continue | Node::Return => {}
             Node::Discard => return Err(("a definition throws no sample away".into(), 0)),
             Node::Derivative { line, .. } => return Err(("a definition has no derivatives".into(), *line)),
-            Node::Texture(query) => return Err(("a definition reads no texture".into(), query.line)),
+            Node::Texture(query) => {
+                self.read.extend(query.operands());
+                self.written.extend(&query.to);
+            }
         }
         Ok(())
     }

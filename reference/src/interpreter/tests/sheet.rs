@@ -1,6 +1,6 @@
 //! Definitions, computed one by one: they are what the whole program computes.
 
-use crate::interpreter::{Draft, Program, Refusal, Sheet, Stage, Type, constant};
+use crate::interpreter::{Draft, Program, Refusal, Sheet, Stage, Texture, Type, constant};
 
 /// Every kind of statement and operation that a definition may come to.
 const TEXT: &str = "#version 410
@@ -83,7 +83,7 @@ fn computed(sheet: &Sheet, given: &[(&str, &[f64])]) -> Vec<(String, Vec<f64>)> 
 
 #[test]
 fn definitions_are_what_the_program_computes() {
-    let sheet = draft(TEXT).finish().expect("a sheet");
+    let sheet = draft(TEXT).finish([].into()).expect("a sheet");
     let program = Program::compile(TEXT, Stage::Vertex).expect("valid");
     for x in [-3.25, -1.0, -0.3, 0.0, 0.75, 1.5, 2.0, 7.9] {
         let found = computed(&sheet, &[("x", &[x]), ("u", &[0.5, -2.0])]);
@@ -100,7 +100,7 @@ fn definitions_are_what_the_program_computes() {
 
 #[test]
 fn what_is_undefined_is_not_a_number() {
-    let sheet = draft(UNDEFINED).finish().expect("a sheet");
+    let sheet = draft(UNDEFINED).finish([].into()).expect("a sheet");
     let program = Program::compile(UNDEFINED, Stage::Vertex).expect("valid");
     let undefined = |x: f64| -> Vec<String> {
         let all = computed(&sheet, &[("x", &[x])]).into_iter();
@@ -120,7 +120,7 @@ fn what_is_undefined_is_not_a_number() {
 fn what_is_too_large_for_a_float_stays_a_number() {
     let text =
         "in float x; out vec4 r; void main() { float a = pow(x, 80.0); float b = a * x; vec4 c = vec4(b); r = c; }";
-    let found = computed(&draft(text).finish().expect("a sheet"), &[("x", &[20.0])]);
+    let found = computed(&draft(text).finish([].into()).expect("a sheet"), &[("x", &[20.0])]);
     assert!((found[1].1[0] / 20f64.powi(81) - 1.0).abs() < 1e-12, "{found:?}");
 }
 
@@ -132,7 +132,7 @@ fn a_formula_says_what_it_uses_and_takes_other_values() {
     let other = draft.replacement(branched, "branches(wide.x) * twice * free", Some("free")).expect("valid");
     let free = draft.cells().len() - 1;
     assert_eq!(other.uses(), [twice, wide, free]);
-    let sheet = draft.finish().expect("a sheet");
+    let sheet = draft.finish([].into()).expect("a sheet");
     let known = sheet.formulas().iter().find(|formula| formula.cell() == branched).expect("a definition");
     assert_eq!(known.uses(), [twice, x]);
     let mut registers = sheet.registers();
@@ -159,7 +159,8 @@ fn what_is_no_list_of_definitions_is_refused_with_its_line() {
         ("float a = x, a = 1.0;", "`a` is the name of something else"),
         ("float x = 1.0;", "`x` is the name of something else"),
         ("float a = float(gl_VertexID);", "does not know `gl_VertexID`"),
-        ("y = x;", "name the value first: `float a_name = …; y = a_name;`"),
+        ("y = x; y = x;", "`y` has a value already"),
+        ("y = vec2(x);", "vec2"),
         ("float a = texture(s, vec2(0.0)).x;", "there is no variable `s`"),
     ] {
         let refusal = main(body);
@@ -168,6 +169,26 @@ fn what_is_no_list_of_definitions_is_refused_with_its_line() {
     assert_eq!(refusal("float a() { return 1.0; }").line, 0);
     let circle = "float a(); float b() { return a(); } float a() { return b(); } void main() { float c = a(); }";
     assert!(refusal(circle).what().contains("calls itself"));
+}
+
+#[test]
+fn an_output_that_is_given_an_expression_is_a_definition() {
+    let text = "in float x; out float y, z; void main() { y = 2.0 * x; float a = y + 1.0; z = a; }";
+    let sheet = Draft::read(text, Stage::Vertex, &[]).expect("definitions").finish([].into()).expect("a sheet");
+    let found = computed(&sheet, &[("x", &[3.0])]);
+    assert_eq!(found, [("y".into(), vec![6.0]), ("a".into(), vec![7.0])]);
+}
+
+#[test]
+fn a_definition_reads_textures() {
+    let text = "uniform sampler2D s; in vec2 at; out vec4 c; void main() { c = 2.0 * texture(s, at); }";
+    let texture = Texture::two_dimensional(2, 1, vec![[1.0, 2.0, 3.0, 4.0], [5.0; 4]]);
+    let sheet = Draft::read(text, Stage::Fragment, &[]).expect("definitions").finish([texture].into());
+    let sheet = sheet.expect("a sheet");
+    // The centre of the left texel is at 1/4; a number that is none reads none.
+    let found = |u: f64| computed(&sheet, &[("s", &[0.0]), ("at", &[u, 0.5])]).remove(0).1;
+    assert_eq!(found(0.25), [2.0, 4.0, 6.0, 8.0]);
+    assert!(found(f64::NAN).iter().all(|number| number.is_nan()));
 }
 
 #[test]
