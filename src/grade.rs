@@ -185,7 +185,7 @@ impl Grader {
         if rendering.undefined.is_some() && !self.shows_undefined(&source, shader, scene, &rendering)? {
             rendering.undefined = None;
         }
-        let interpreter = translation.interpreter(&source);
+        let interpreter = translation.steps.interpreter(&source);
         let judged = Judged { source: &source, fresh, rendering: &rendering, interpreter: interpreter.as_ref() };
         let report = self.report(judged, diagnostics, order.hints);
         let cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));

@@ -23,6 +23,7 @@ mod opaque;
 mod portability;
 mod program;
 mod spirv;
+mod steps;
 mod strict;
 #[cfg(test)]
 mod tests;
@@ -37,6 +38,7 @@ pub use interpreter::{Interpreter, Invocation, Site, Value, Written};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use program::{Linked, Program, ProgramRefusal};
 pub use spirv::{Interpolation, Lines, Qualifiers, TEXTURES};
+pub use steps::Steps;
 pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
@@ -71,9 +73,8 @@ pub struct Translation {
     pub shader: Shader,
     /// Warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
-    /// The text that the compiler accepts.
-    text: String,
-    renamed: Vec<Renamed>,
+    /// The text, to be run step by step.
+    pub steps: Steps,
 }
 
 /// Compiles, links and translates a vertex shader.
@@ -95,7 +96,7 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
         Built { stage: Stage::Vertex, outputs, is_fixed: false, poisons: false },
     )?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
-    Ok(Translation { shader, diagnostics, text: stage.text, renamed: stage.renamed })
+    Ok(Translation { shader, diagnostics, steps: Steps::of(stage) })
 }
 
 /// What is looked at before the compiler sees a text.
@@ -107,22 +108,6 @@ fn check_text(source: &Source) -> Result<(), Refusal> {
     match concessions::fatal(source) {
         Some(name) => Err(unsupported(&format!("`{name}`")).into()),
         None => Ok(()),
-    }
-}
-
-impl Translation {
-    /// The shader, to be run step by step. Its numeric constants are variables there, so that an expression of them is
-    /// computed on the line on which it is written, and not before the shader runs.
-    pub fn interpreter(&self, source: &Source) -> Option<Interpreter> {
-        let version = text::version(source.code());
-        // Lines are those of the file, whatever it says of them.
-        let plain = hints::without_line_directives(&self.text);
-        let text = plain.as_ref().unwrap_or(&self.text);
-        let text = macros::on_their_lines(text, version).unwrap_or_else(|| text.clone());
-        let variable = text::without_constants(&text);
-        let compiled = |text: &str| second_pass(Stage::Vertex, text, &self.renamed, version).ok();
-        let words = variable.as_deref().and_then(compiled).or_else(|| compiled(&text));
-        Interpreter::new(&words?)
     }
 }
 

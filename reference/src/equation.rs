@@ -110,7 +110,7 @@ impl Equation {
     }
 
     /// The numbers of the colour as they are seen: a fragment's go to a target of fixed point, a vertex's to the next stage.
-    pub(crate) fn seen(&self, numbers: &[f64]) -> DVec3 {
+    pub fn seen(&self, numbers: &[f64]) -> DVec3 {
         let colour = value::vec3(numbers);
         if self.reads == Reads::Varyings { colour.map(|channel| channel.clamp(0.0, 1.0)) } else { colour }
     }

@@ -57,7 +57,7 @@ pub use compile::Draft;
 pub use nature::{Copied, Nature};
 pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Run, Stopped, Undefined};
 pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
-pub use texture::{Compare, Filter, Level, Texels, Texture, Wrap};
+pub use texture::{Compare, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 
 use std::collections::HashSet;

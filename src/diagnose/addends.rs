@@ -61,6 +61,7 @@ fn points<'a>(evidence: &Evidence<'a>) -> Option<Vec<Point<'a>>> {
         let computed = computed(evidence, &given)?;
         // The driver shows anything for what overflows.
         let overflows = !computed.iter().take(3).all(|x| x.abs() < OVERFLOWING);
+        let given = Invocation { clamps: false, ..given };
         let output = run(evidence, interpreter, &given, &mut |_, _| None)?;
         (overflows || is_close(sample.colour_f64(), &computed)).then_some(Point { probe, given, output })
     };

@@ -102,12 +102,12 @@ fn unexplained(evidence: &Evidence<'_>, samples: &[[f64; 3]], terms: Vec<TermJud
     if let Some(parts) = explain_parts(evidence.assignment, evidence.probes, samples, &is_there, COLOUR_TOLERANCE) {
         return Cause::Parts(parts);
     }
-    let mut terms = addends::credit(evidence, terms);
+    let mut terms = terms;
     for feature in judge_features(evidence.assignment, evidence.probes, samples, COLOUR_TOLERANCE) {
         terms.retain(|term| term.line != feature.line);
         terms.push(feature);
     }
-    Cause::Unexplained(terms)
+    Cause::Unexplained(addends::credit(evidence, terms))
 }
 
 /// The mistake whose program draws what the shader draws.

@@ -10,7 +10,7 @@ use crate::report::{SourceInfo, Verdict};
 use crate::source::{self, Source};
 use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
-use reference::equation::DISCARDED;
+use reference::equation::{DISCARDED, Reads};
 
 /// The program of a homework, as far as it is not handed in.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ pub(super) struct Programs {
 impl Programs {
     /// None for homework of one vertex shader that is a list of definitions: that goes a shorter way.
     pub fn of(assignment: &Assignment) -> Result<Option<Self>, Fault> {
-        if assignment.equation.reads() == reference::equation::Reads::Attributes {
+        if assignment.equation.reads() == Reads::Attributes {
             return Ok(None);
         }
         let own = assignment.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
@@ -85,7 +85,11 @@ impl Grader {
         }
         let rendering = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
         let Some((_, source)) = sources.last() else { return Err(no_program()) };
-        let judged = Judged { source, fresh: &probing.fresh, rendering: &rendering, interpreter: None };
+        // Of definitions it is known where in the text they stand.
+        let steps = linked.steps.last().filter(|_| self.assignment.equation.reads() == Reads::Varyings);
+        let interpreter = steps.and_then(|steps| steps.interpreter(source));
+        let interpreter = interpreter.as_ref();
+        let judged = Judged { source, fresh: &probing.fresh, rendering: &rendering, interpreter };
         let mut report = self.report(judged, diagnostics, order.hints);
         report.cross_check = order.cross_check.then(|| {
             let samples = rendering.probe_samples.concat();

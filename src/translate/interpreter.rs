@@ -1,9 +1,10 @@
-//! Runs a vertex shader on the CPU, one vertex at a time, and lets one look at every value on its way and change it.
+//! Runs a shader on the CPU, one vertex or fragment at a time, and lets one look at every value on its way and change it.
 //!
 //! What is drawn and judged comes from the driver. This is for questions about the student's text: which statement
 //! computes what a message speaks of, and what the shader would do with other input. It knows what answers to shading
 //! homework are made of; for anything else there is no answer, and whoever asks says less.
 
+mod lookup;
 mod operations;
 mod parse;
 mod value;
@@ -13,9 +14,10 @@ pub use value::Value;
 use super::spirv::code::Instruction;
 use super::spirv::op;
 use parse::{Class, TypeShape};
+use reference::interpreter::Texture;
 use std::collections::HashMap;
 
-/// A vertex shader that can be run step by step.
+/// A shader that can be run step by step.
 #[derive(Debug)]
 pub struct Interpreter {
     instructions: Vec<Instruction>,
@@ -23,6 +25,8 @@ pub struct Interpreter {
     constants: Vec<Option<Value>>,
     shapes: HashMap<u32, TypeShape>,
     names: HashMap<u32, String>,
+    /// Names of members, by structure and number.
+    members: HashMap<(u32, u32), String>,
     variables: Vec<Variable>,
     /// From functions and labels to where they begin.
     starts: HashMap<u32, usize>,
@@ -36,6 +40,8 @@ pub struct Interpreter {
 #[derive(Debug)]
 struct Variable {
     id: u32,
+    /// What has its name: itself, or the type of a block.
+    named: u32,
     shape: u32,
     class: Class,
     initial: Option<u32>,
@@ -46,12 +52,16 @@ struct Variable {
 /// What a shader is run with.
 #[derive(Clone, Debug, Default)]
 pub struct Invocation<'a> {
-    /// Attributes and uniforms by name; the others are 0.
+    /// Inputs of the stage and uniforms, by name or path, `lamps[0].colour`; the others are 0. A sampler is the number of a texture.
     pub inputs: Vec<(&'a str, Value)>,
+    /// What samplers read.
+    pub textures: &'a [Texture],
     /// Global variables that keep this value whatever the shader assigns at its start.
     pub kept: Vec<(&'a str, Value)>,
     /// `gl_VertexID`.
     pub vertex: u32,
+    /// Whether the output is held in fixed point, from 0 to 1.
+    pub clamps: bool,
 }
 
 /// What a shader wrote.
@@ -90,6 +100,7 @@ impl Interpreter {
         let mut run = Run {
             of: self,
             watch,
+            textures: given.textures,
             values: vec![None; self.bound],
             turns: vec![0; self.instructions.len()],
             memory: Vec::new(),
@@ -100,7 +111,10 @@ impl Interpreter {
         run.start(given)?;
         run.call(self.main, Vec::new())?;
         let find = |name: &str| self.variables.iter().position(|v| v.class == Class::Output && self.name(v.id) == name);
-        let output = run.memory.get(find(output)?)?.floats()?;
+        let mut output = run.memory.get(find(output)?)?.floats()?;
+        if given.clamps {
+            output.iter_mut().for_each(|number| *number = number.clamp(0.0, 1.0));
+        }
         let block = self.position.and_then(|(shape, member)| {
             let at = self.variables.iter().position(|v| v.shape == shape)?;
             run.memory.get(at)?.at(&[member])
@@ -238,8 +252,34 @@ impl Interpreter {
             TypeShape::Structure(parts) => {
                 Value::Composite(parts.iter().map(|part| self.zero(*part)).collect::<Option<_>>()?)
             }
+            TypeShape::Sampler => Value::Float(-1.0),
             TypeShape::Pointer(_) => return None,
         })
+    }
+
+    /// A value of a type, of what is given by paths below `path`.
+    fn fed(&self, shape: u32, path: &str, inputs: &[(&str, Value)]) -> Option<Value> {
+        let zero = self.zero(shape)?;
+        if let Some((_, value)) = inputs.iter().find(|(name, _)| *name == path) {
+            return fitted(value.clone(), &zero);
+        }
+        match self.shapes.get(&shape)? {
+            TypeShape::Structure(parts) => {
+                let part = |(number, part): (u32, &u32)| {
+                    let name = self.members.get(&(shape, number)).map_or("", String::as_str);
+                    self.fed(*part, &format!("{path}.{name}"), inputs)
+                };
+                (0..).zip(parts).map(part).collect::<Option<_>>().map(Value::Composite)
+            }
+            // The parts of vectors and matrices are no variables.
+            TypeShape::Repeated(part, count)
+                if inputs.iter().any(|(name, _)| name.starts_with(&format!("{path}["))) =>
+            {
+                let part = |at| self.fed(*part, &format!("{path}[{at}]"), inputs);
+                (0..*count).map(part).collect::<Option<_>>().map(Value::Composite)
+            }
+            _ => Some(zero),
+        }
     }
 }
 
@@ -247,6 +287,7 @@ impl Interpreter {
 struct Run<'a, 'w> {
     of: &'a Interpreter,
     watch: &'a mut Watch<'w>,
+    textures: &'a [Texture],
     values: Vec<Option<Value>>,
     turns: Vec<u32>,
     memory: Vec<Value>,
@@ -267,23 +308,20 @@ impl Run<'_, '_> {
     /// Fills the global variables.
     fn start(&mut self, given: &Invocation<'_>) -> Option<()> {
         for (slot, variable) in self.of.variables.iter().enumerate() {
-            let name = self.of.name(variable.id);
+            let name = self.of.name(variable.named);
             let by_name = |named: &[(&str, Value)]| named.iter().find(|(n, _)| *n == name).map(|(_, v)| v.clone());
             let kept = by_name(&given.kept).filter(|_| variable.class == Class::Private && slot < 128);
             self.kept |= u128::from(kept.is_some()) << slot.min(127);
-            let input = by_name(&given.inputs).filter(|_| variable.class == Class::Input);
+            let is_given = |given: &str| match given.strip_prefix(name) {
+                Some(rest) => variable.class == Class::Input && (rest.is_empty() || rest.starts_with(['.', '['])),
+                None => false,
+            };
+            let is_fed = given.inputs.iter().any(|(name, _)| is_given(name));
+            let input = if is_fed { Some(self.of.fed(variable.shape, name, &given.inputs)?) } else { None };
             let initial = variable.initial.and_then(|id| self.of.constants.get(id as usize)?.clone());
             let zero = self.of.zero(variable.shape)?;
             let value = match kept.or(input).or(initial) {
-                // A shader may take fewer numbers than there are.
-                Some(Value::Composite(mut parts)) => match &zero {
-                    Value::Composite(wanted) => {
-                        parts.truncate(wanted.len());
-                        Value::Composite(parts)
-                    }
-                    _ => parts.into_iter().next()?,
-                },
-                Some(scalar) => scalar,
+                Some(value) => fitted(value, &zero)?,
                 None if variable.is_vertex_number => Value::Int(given.vertex),
                 None => zero,
             };
@@ -419,6 +457,20 @@ impl Run<'_, '_> {
                 let chosen = ids[2..].iter().map(|index| Some((*parts.get(*index as usize)?).clone()));
                 Value::Composite(chosen.collect::<Option<_>>()?)
             }
+            op::IMAGE => self.value(ids[0])?,
+            op::IMAGE_SAMPLE_FIRST..=op::IMAGE_FETCH => {
+                let coordinates = self.operand(ids[1], place_of(place, 2))?;
+                let extra = ids.get(2..).unwrap_or_default();
+                let operand = |number: usize| self.value(*extra.get(number)?);
+                lookup::read(
+                    self.textures,
+                    instruction.opcode,
+                    &self.value(ids[0])?,
+                    &coordinates,
+                    extra.first().copied(),
+                    &operand,
+                )?
+            }
             op::EXT_INST => {
                 let arguments: Option<Vec<Value>> =
                     ids[2..].iter().zip(1..).map(|(id, at)| self.operand(*id, place_of(place, at))).collect();
@@ -466,6 +518,18 @@ impl Run<'_, '_> {
         }
         Some((self.watch)(place, &value).unwrap_or(value))
     }
+}
+
+/// As many numbers as a shader takes, of those that there are.
+fn fitted(value: Value, wanted: &Value) -> Option<Value> {
+    Some(match (value, wanted) {
+        (Value::Composite(mut parts), Value::Composite(wanted)) => {
+            parts.truncate(wanted.len());
+            Value::Composite(parts)
+        }
+        (Value::Composite(parts), _) => parts.into_iter().next()?,
+        (scalar, _) => scalar,
+    })
 }
 
 fn place_of(place: Site, operand: u8) -> Site {

@@ -3,7 +3,8 @@
 use super::glslang::{Stage, StageText};
 use super::module::{self, Built, Shader};
 use super::{
-    Interface, Refusal, Submitted, Variable, boundary, check_text, first_pass, fixed, gate, interface, linked, text,
+    Interface, Refusal, Steps, Submitted, Variable, boundary, check_text, first_pass, fixed, gate, interface, linked,
+    text,
 };
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -34,6 +35,8 @@ pub struct Linked {
     pub fragment: Shader,
     /// Warnings and notes, each about one of the stages that are handed in.
     pub diagnostics: Vec<(Stage, Diagnostic)>,
+    /// The stages that are handed in, to be run step by step.
+    pub steps: Vec<Steps>,
 }
 
 /// Why there is no program: about which stage, and what.
@@ -99,7 +102,8 @@ impl Program {
             boundary::check(&vertex, &fragment, source, self.versions(sources)).map_err(about(Stage::Fragment))?;
         }
         linked(&verdict, &stages, &own).map_err(about(last))?;
-        Ok(Linked { vertex, fragment, diagnostics })
+        let steps = stages.into_iter().map(Steps::of).collect();
+        Ok(Linked { vertex, fragment, diagnostics, steps })
     }
 
     fn build(one: &Submitted<'_>, read: Option<Vec<String>>) -> Result<Shader, Refusal> {

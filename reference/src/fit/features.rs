@@ -115,7 +115,8 @@ pub fn alike(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Vec<
 /// A feature that shows by itself at fewer probes than this is not judged by them.
 pub const FEWEST: usize = 8;
 
-/// The lines whose features show by themselves, or beside such as are right, see [`Footprints::judged`].
+/// The lines with a feature, judged where it shows by itself, or beside such as are right, see [`Footprints::judged`]; a line that
+/// cannot be judged is right at none of no probes.
 pub fn judge_features(
     assignment: &Assignment,
     probes: &ProbeSet,
@@ -140,7 +141,10 @@ pub fn judge_features(
         TermJudgement { line: assignment.rubric[line].id.clone(), judged, matched, worst }
     };
     let footprints = Footprints::of(assignment, probes, tolerance);
-    footprints.judged(&is_right).into_iter().map(judgement).collect()
+    let judged = footprints.judged(&is_right);
+    let open = footprints.lines().filter(|line| !judged.iter().any(|(known, _)| known == line));
+    let open: Vec<_> = open.map(|line| (line, Vec::new())).collect();
+    judged.into_iter().chain(open).map(judgement).collect()
 }
 
 /// What is shown with these mistakes in it, where one of them is a whole program.

@@ -7,7 +7,7 @@ use crate::diagnose::advice::Beyond;
 use crate::source::Source;
 use crate::translate::{Interpreter, Invocation, Site, Value, Written};
 use reference::advice::Variation;
-use reference::equation::Variant;
+use reference::equation::{Reads, Variant};
 use reference::interpreter::Type;
 use reference::probes::Probe;
 use reference::{Assignment, Value as Reference};
@@ -177,9 +177,11 @@ pub(in crate::diagnose) fn given<'a>(
     attributes: &[Reference],
 ) -> Invocation<'a> {
     let uniforms = assignment.interface.uniforms.iter().map(|u| u.path.as_str()).zip(uniforms);
-    let attributes = assignment.interface.inputs.iter().map(|i| i.name.as_str()).zip(attributes);
+    let attributes = assignment.names_read().into_iter().zip(attributes);
     Invocation {
         inputs: uniforms.chain(attributes).map(|(name, value)| (name, of(value))).collect(),
+        textures: &assignment.textures,
+        clamps: assignment.equation.reads() != Reads::Attributes,
         ..Invocation::default()
     }
 }

@@ -50,8 +50,8 @@ impl Points<'_> {
 }
 
 fn colours(assignment: &Assignment, definitions: &[Vec<Vec<f64>>]) -> Option<Vec<[f64; 3]>> {
-    let colour = assignment.equation.colour();
-    definitions.iter().map(|d| d[colour].get(..3)?.try_into().ok()).collect()
+    let equation = &assignment.equation;
+    definitions.iter().map(|d| Some(equation.seen(d[equation.colour()].get(..3)?).to_array())).collect()
 }
 
 impl<'s, 'a> Search<'s, 'a> {
@@ -70,10 +70,10 @@ impl<'s, 'a> Search<'s, 'a> {
         let replaced = Self::replaced(points, mistake, found_one, &others, &colours(assignment, &wrong)?)?;
         let colour = assignment.equation.colour();
         let judged = assignment.rubric.iter().filter_map(|line| assignment.equation.index(&line.judges));
-        let last = judged.filter(|d| *d < colour).max()?;
+        let last = judged.filter(|d| *d < colour).max();
         let differs = |d: usize| right.iter().zip(&wrong).any(|(right, wrong)| !is_same(&right[d], &wrong[d]));
         // The sum and what is made of it would always do, and says nothing of a mistake in one term.
-        let following = (0..=last).filter(|d| !replaced.contains(d) && differs(*d)).collect();
+        let following = (0..last.map_or(0, |last| last + 1)).filter(|d| !replaced.contains(d) && differs(*d)).collect();
         let Mistake { handed_out, at_use, .. } = *mistake;
         Some(Self { points, replaced, following, right, wrong, wanted, handed_out, at_use })
     }

@@ -15,6 +15,8 @@ pub(super) enum TypeShape {
     Repeated(u32, usize),
     Structure(Vec<u32>),
     Pointer(u32),
+    /// The number of a texture; -1 for none.
+    Sampler,
 }
 
 /// Where a global variable gets its value from.
@@ -49,6 +51,7 @@ impl Interpreter {
             constants: Vec::new(),
             shapes,
             names: code.names(),
+            members: code.member_names(),
             variables: Vec::new(),
             starts: HashMap::new(),
             main: *code.heads.iter().find(|i| i.opcode == op::ENTRY_POINT)?.operands.get(1)?,
@@ -107,7 +110,8 @@ impl Interpreter {
                 };
                 let is_vertex_number = built_in(op::built_in::VERTEX_ID) || built_in(op::built_in::VERTEX_INDEX);
                 let initial = operands.get(3).copied();
-                self.variables.push(Variable { id, shape, class, initial, is_vertex_number });
+                let named = if operands[2] == op::storage::UNIFORM { shape } else { id };
+                self.variables.push(Variable { id, named, shape, class, initial, is_vertex_number });
                 return Some(());
             }
             op::CONSTANT_TRUE => Value::Bool(true),
@@ -153,6 +157,7 @@ fn shapes(code: &Code) -> Option<HashMap<u32, TypeShape>> {
                 TypeShape::Repeated(*operands.get(1)?, *length?.operands.get(2)? as usize)
             }
             op::TYPE_STRUCT => TypeShape::Structure(operands.get(1..)?.to_vec()),
+            op::TYPE_SAMPLED_IMAGE => TypeShape::Sampler,
             op::TYPE_POINTER => TypeShape::Pointer(*operands.get(2)?),
             _ => continue,
         };

@@ -1,7 +1,8 @@
 use super::{Interpreter, Invocation, Site, Value};
 use crate::source::{self, Source};
-use crate::translate;
+use crate::translate::{self, Program, Stage, Variable};
 use reference::Assignment;
+use reference::interpreter::Texture;
 
 fn read(text: &str) -> Source {
     source::read("a.vert", text.as_bytes()).expect("a vertex shader")
@@ -14,7 +15,7 @@ fn assignment() -> &'static Assignment {
 fn interpreter(source: &Source) -> Interpreter {
     let interface = crate::translate::Interface::of(assignment()).expect("its interface");
     let translation = translate::translate(source, &interface).expect("the shader compiles");
-    translation.interpreter(source).expect("the interpreter knows the shader")
+    translation.steps.interpreter(source).expect("the interpreter knows the shader")
 }
 
 /// The handed-out file with `lines` in place of the line that is to be replaced.
@@ -116,4 +117,59 @@ fn a_loop_without_an_end_gives_no_answer() {
         "#version 410 core\nin vec4 pv;\nout vec4 vc;\nvoid main() { vc = pv; while (vc.x < 1.0) vc.x -= 1.0; gl_Position = pv; }\n",
     );
     assert_eq!(interpreter(&source).run(&Invocation::default(), "vc", &mut |_, _| None), None);
+}
+
+/// A fragment shader as a homework has it: structures by path, a block, a texture, and what is handed over.
+const FRAGMENT: &str = "#version 420 core
+struct Lamp { vec3 colour; float strength; };
+uniform Lamp lamps[2];
+layout(std140) uniform Fog { vec3 haze; float share; };
+uniform sampler2D paint;
+in vec2 at;
+out vec4 seen;
+void main()
+{
+  vec3 base = texture(paint, at).rgb;
+  vec3 texel = texelFetch(paint, ivec2(1, 0), 0).rgb;
+  vec3 sum = base * lamps[1].colour * lamps[1].strength + texel;
+  seen = vec4(mix(sum, haze, share), 2.0);
+}
+";
+
+#[test]
+fn a_fragment_shader_runs_with_textures_and_paths() {
+    let source = source::read_stage(Stage::Fragment, "a.frag", FRAGMENT.as_bytes()).expect("a fragment shader");
+    let interface = translate::Interface {
+        uniforms: [
+            ("lamps[1].colour", "vec3"),
+            ("lamps[1].strength", "float"),
+            ("Fog.haze", "vec3"),
+            ("Fog.share", "float"),
+            ("paint", "sampler2D"),
+        ]
+        .map(|(name, ty)| Variable { name: name.into(), ty: ty.into() })
+        .into(),
+        ..translate::Interface::of(assignment()).expect("an interface")
+    };
+    let own = "#version 420 core\nout vec2 at;\nvoid main() { at = vec2(0.0); gl_Position = vec4(0.0); }\n";
+    let program = Program::new(interface, Some((Stage::Vertex, own))).expect("a program");
+    let linked = program.translate(&[(Stage::Fragment, &source)]).expect("it links");
+    let shader = linked.steps[0].interpreter(&source).expect("the interpreter knows the shader");
+    let texels = vec![[0.5, 0.25, 0.125, 1.0], [0.1, 0.2, 0.3, 1.0]];
+    let textures = [Texture::two_dimensional(2, 1, texels)];
+    let inputs = [
+        ("lamps[1].colour", vec![1.0, 2.0, 4.0]),
+        ("lamps[1].strength", vec![0.5]),
+        ("Fog.haze", vec![1.0; 3]),
+        ("Fog.share", vec![0.5]),
+        ("paint", vec![0.0]),
+        ("at", vec![0.25, 0.5]),
+    ];
+    let inputs = inputs.iter().map(|(name, numbers)| (*name, Value::of_floats(numbers))).collect();
+    let given = Invocation { inputs, textures: &textures, clamps: true, ..Invocation::default() };
+    let written = shader.run(&given, "seen", &mut |_, _| None).expect("it runs");
+    // The sum is (0.25, 0.25, 0.25) of the left texel and the right texel, and half of it fog; alpha is clamped.
+    for (found, expected) in written.output.iter().zip([0.675, 0.725, 0.775, 1.0]) {
+        assert!((found - expected).abs() < 1e-6, "{:?}", written.output);
+    }
 }
