@@ -4,8 +4,8 @@ use super::Plan;
 use super::names::Name;
 use super::source::Source;
 use super::writing::quoted;
-use crate::accepted::AcceptedAnswer;
 use crate::assignment::both;
+use crate::feature::Feature;
 use crate::fit;
 use crate::interpreter::outline::{self, StatementText, Word};
 use crate::interpreter::{Scalar, Stage, Type, is_builtin};
@@ -79,13 +79,13 @@ fn worst(plan: &mut Plan, before: &[Line], terms: &[Line]) -> Option<usize> {
         return Some(terms.iter().position(|term| !loads(term)).unwrap_or(terms.len() - 1));
     };
     let probes = assignment.judging_probes();
-    let footprints = fit::footprints(&assignment, &probes, fit::TOLERANCE);
-    if let Some(weak) = footprints.iter().find(|footprint| footprint.shows < fit::FEWEST) {
-        return weak.line.checked_sub(before.len());
+    let footprints = fit::Footprints::of(&assignment, &probes, fit::TOLERANCE);
+    if let Some(weak) = footprints.lines().find(|line| footprints.of_line(*line).len() < fit::FEWEST) {
+        return weak.checked_sub(before.len());
     }
     // What moves vertices is judged by the line of the shape.
-    let moves = |feature: &Option<AcceptedAnswer>| {
-        let shown = feature.as_ref().map(|feature| assignment.computed_by(feature, &probes)).unwrap_or_default();
+    let moves = |feature: &Option<Feature>| {
+        let shown = feature.as_ref().map(|feature| assignment.computed_without(feature, &probes)).unwrap_or_default();
         let mut shown = shown.iter().zip(&probes.probes);
         shown.any(|((_, position), probe)| (*position - probe.position).abs().max_element() > fit::TOLERANCE)
     };
