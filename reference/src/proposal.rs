@@ -22,9 +22,9 @@ mod writing;
 use crate::assignment::{AssignmentError, MANIFEST, both};
 use crate::interpreter::Stage;
 use crate::{Assignment, Folder, Text};
-use rubric::Line;
-use source::Source;
-use uniforms::{Attribute, Uniform};
+use rubric::ProposedLine;
+use source::SolutionFile;
+use uniforms::{AttributeEntry, UniformEntry};
 
 /// The name of the schema in a folder. A hidden file is no part of the homework.
 pub const SCHEMA: &str = ".assignment.schema.json";
@@ -72,13 +72,13 @@ pub enum RemarkKind {
 /// All of a homework before it is written.
 struct Plan {
     id: String,
-    sources: Vec<Source>,
+    sources: Vec<SolutionFile>,
     starters: Vec<String>,
-    fixed: Option<stages::FixedStage>,
-    attributes: Vec<Attribute>,
-    uniforms: Vec<Uniform>,
+    fixed: Option<stages::FixedFile>,
+    attributes: Vec<AttributeEntry>,
+    uniforms: Vec<UniformEntry>,
     scene: scene::Proposed,
-    rubric: Vec<Line>,
+    rubric: Vec<ProposedLine>,
     remarks: Vec<Remark>,
 }
 
@@ -144,7 +144,7 @@ fn propose_with(
         remarks: Vec::new(),
     };
     let wrapped: Vec<String> =
-        plan.sources.iter().filter(|source| source.is_wrapped).map(Source::solution_name).collect();
+        plan.sources.iter().filter(|source| source.is_wrapped).map(SolutionFile::solution_name).collect();
     for name in wrapped {
         plan.read(
             format!("{name}: has `mainImage` and no `main`, so `main` and the uniforms that such pages give are added"),

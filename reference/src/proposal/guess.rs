@@ -1,6 +1,6 @@
 //! What values things of such names usually have, and within which bounds they may vary.
 
-use super::names::Name;
+use super::names::NameWords;
 use crate::interpreter::{Scalar, Type};
 
 /// A value, and the least and the greatest that a probe may draw.
@@ -87,7 +87,7 @@ const NUMBERS: &[Row] = &[
 
 /// What a value of a type usually is. `nth`: how many of its kind were there before it; `is_downward`: it points away from
 /// where the light comes from.
-pub(super) fn guess(name: &Name, kind: &Type, nth: usize, is_downward: bool) -> Guess {
+pub(super) fn guess(name: &NameWords, kind: &Type, nth: usize, is_downward: bool) -> Guess {
     let count = kind.slots().unwrap_or(0);
     match kind {
         Type::Vector(Scalar::Bool, _) => {
@@ -109,11 +109,11 @@ pub(super) fn guess(name: &Name, kind: &Type, nth: usize, is_downward: bool) -> 
     }
 }
 
-fn row(name: &Name) -> Option<&'static Row> {
+fn row(name: &NameWords) -> Option<&'static Row> {
     NUMBERS.iter().find(|(words, ..)| name.has(words) || name.is(words))
 }
 
-fn whole(name: &Name, count: usize) -> Guess {
+fn whole(name: &NameWords, count: usize) -> Guess {
     let what = ("whole number", "整数");
     match row(name) {
         Some((_, value, (least, greatest), what)) if *least >= 2.0 => {
@@ -123,7 +123,7 @@ fn whole(name: &Name, count: usize) -> Guess {
     }
 }
 
-fn number(name: &Name) -> Guess {
+fn number(name: &NameWords) -> Guess {
     if name.is_colour() {
         return Guess { value: vec![0.5], within: Some((vec![0.2], vec![0.9])), what: ("share", "割合") };
     }
@@ -134,7 +134,7 @@ fn number(name: &Name) -> Guess {
     Guess { value: vec![value], within: Some((vec![least], vec![greatest])), what }
 }
 
-fn vector(name: &Name, count: usize, nth: usize, is_downward: bool) -> Guess {
+fn vector(name: &NameWords, count: usize, nth: usize, is_downward: bool) -> Guess {
     let filled = |three: [f64; 3], fourth: f64| -> Vec<f64> { [&three[..], &[fourth]].concat()[..count].to_vec() };
     if count == 2 {
         let (value, least, greatest, what) = match () {
@@ -182,7 +182,7 @@ mod tests {
         for kind in ["float", "vec2", "vec3", "vec4", "int", "uint", "bool", "mat3", "mat4"] {
             let kind = Type::named(kind).expect(kind);
             for (name, nth) in names.split(' ').zip(0..) {
-                let Guess { value, within, .. } = guess(&Name::of(name), &kind, nth, nth % 2 == 0);
+                let Guess { value, within, .. } = guess(&NameWords::of(name), &kind, nth, nth % 2 == 0);
                 assert_eq!(Some(value.len()), kind.slots(), "{name} {kind}");
                 let Some((least, greatest)) = within else { continue };
                 assert!(Bounds::new(&kind, &least, &greatest).is_some(), "{name} {kind}");

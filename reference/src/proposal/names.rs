@@ -4,7 +4,7 @@ use crate::interpreter::{Scalar, Type};
 
 /// A name, taken apart: `u_lightPos[2]` is `light`, `pos`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Name {
+pub(super) struct NameWords {
     pub words: Vec<String>,
 }
 
@@ -17,7 +17,7 @@ const SHORT_ENDS: [&str; 3] = ["pos", "dir", "col"];
 /// Words that say that something is a matrix.
 const MATRIX_WORDS: [&str; 6] = ["matrix", "mat", "mtx", "transform", "xform", "to"];
 
-impl Name {
+impl NameWords {
     /// Of the last part of a path.
     pub fn of(path: &str) -> Self {
         let last = path.rsplit('.').next().unwrap_or(path);
@@ -147,7 +147,7 @@ pub(super) enum Space {
 }
 
 /// The space that a name speaks of, or else the usual one of its solution.
-pub(super) fn space_of(name: &Name, usual: Space) -> Space {
+pub(super) fn space_of(name: &NameWords, usual: Space) -> Space {
     match () {
         () if name.has(&["world"]) => Space::World,
         () if name.is_of_eye() => Space::Eye,
@@ -156,7 +156,7 @@ pub(super) fn space_of(name: &Name, usual: Space) -> Space {
 }
 
 /// What `assignment.toml` says of a matrix with such a name: the key, and its value.
-pub(super) fn matrix(name: &Name, kind: &Type, usual: Space) -> Option<(&'static str, &'static str)> {
+pub(super) fn matrix(name: &NameWords, kind: &Type, usual: Space) -> Option<(&'static str, &'static str)> {
     if !matches!(kind, Type::Matrix(Scalar::Float, 4, 4) | Type::Matrix(Scalar::Float, 3, 3)) {
         return None;
     }
@@ -209,7 +209,7 @@ pub(super) fn matrix(name: &Name, kind: &Type, usual: Space) -> Option<(&'static
 }
 
 /// Of an attribute: what `carries` says.
-pub(super) fn attribute(name: &Name, kind: &Type) -> Option<&'static str> {
+pub(super) fn attribute(name: &NameWords, kind: &Type) -> Option<&'static str> {
     let Type::Vector(scalar, count) = kind else { return None };
     if *count == 1 && (name.has(&["number", "id", "index"]) || scalar.is_integer()) {
         return Some("number");
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn names_are_taken_apart() {
-        let words = |name: &str| Name::of(name).words.join(" ");
+        let words = |name: &str| NameWords::of(name).words.join(" ");
         assert_eq!(words("u_lightPos"), "light pos");
         assert_eq!(words("pointLights[2].ambientStrength"), "ambient strength");
         assert_eq!(words("uMVPMatrix"), "mvp matrix");
@@ -245,7 +245,7 @@ mod tests {
 
     #[test]
     fn matrices_are_known_by_the_names_of_many_courses() {
-        let said = |name: &str| matrix(&Name::of(name), &Type::MAT4, Space::Eye).map_or("none", |(_, said)| said);
+        let said = |name: &str| matrix(&NameWords::of(name), &Type::MAT4, Space::Eye).map_or("none", |(_, said)| said);
         for (names, role) in [
             ("model modelMatrix u_model M uModelMatrix world objectToWorld", "model"),
             ("view viewMatrix V worldToView uView", "view"),
@@ -265,7 +265,7 @@ mod tests {
     #[test]
     fn attributes_are_known_by_name() {
         let said =
-            |name: &str, kind: &str| attribute(&Name::of(name), &Type::named(kind).expect(kind)).unwrap_or("none");
+            |name: &str, kind: &str| attribute(&NameWords::of(name), &Type::named(kind).expect(kind)).unwrap_or("none");
         for (name, kind, carries) in [
             ("pv", "vec4", "position"),
             ("aPos", "vec3", "position"),

@@ -1,8 +1,8 @@
 //! Lines of the rubric: parts of the solution that show by themselves when they are taken out. Each is tried.
 
 use super::Plan;
-use super::names::Name;
-use super::source::Source;
+use super::names::NameWords;
+use super::source::SolutionFile;
 use super::writing::quoted;
 use crate::assignment::both;
 use crate::feature::Feature;
@@ -17,7 +17,7 @@ const MOST_TERMS: usize = 6;
 
 /// A line of the rubric.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
+pub(super) struct ProposedLine {
     pub id: String,
     pub label: Text,
     pub judges: Option<String>,
@@ -48,17 +48,17 @@ pub(super) fn plain(plan: &mut Plan) {
     plan.rubric = lines;
 }
 
-fn line(id: &str, judges: Option<&str>) -> Line {
-    Line { id: id.to_owned(), label: label(id), judges: judges.map(str::to_owned), without: None }
+fn line(id: &str, judges: Option<&str>) -> ProposedLine {
+    ProposedLine { id: id.to_owned(), label: label(id), judges: judges.map(str::to_owned), without: None }
 }
 
 /// Puts lines for parts in the place of the line of the colour, or beside it where there is only one.
 pub(super) fn refine(plan: &mut Plan) {
     let base = plan.rubric.clone();
-    let shape: Vec<Line> = base.iter().filter(|line| line.id == "shape").cloned().collect();
+    let shape: Vec<ProposedLine> = base.iter().filter(|line| line.id == "shape").cloned().collect();
     let mut terms = terms(plan);
     while !terms.is_empty() {
-        let before: &[Line] = if terms.len() == 1 { &base } else { &shape };
+        let before: &[ProposedLine] = if terms.len() == 1 { &base } else { &shape };
         plan.rubric = before.iter().chain(&terms).cloned().collect();
         match worst(plan, before, &terms) {
             None => return,
@@ -69,10 +69,10 @@ pub(super) fn refine(plan: &mut Plan) {
 }
 
 /// One of these that cannot be a line: what is without it is no program, or shows nothing, or shows what another shows.
-fn worst(plan: &mut Plan, before: &[Line], terms: &[Line]) -> Option<usize> {
+fn worst(plan: &mut Plan, before: &[ProposedLine], terms: &[ProposedLine]) -> Option<usize> {
     let Ok(assignment) = Assignment::load(plan.folder()) else {
         // Each is tried alone.
-        let mut loads = |term: &Line| {
+        let mut loads = |term: &ProposedLine| {
             plan.rubric = before.iter().chain([term]).cloned().collect();
             Assignment::load(plan.folder()).is_ok()
         };
@@ -118,7 +118,7 @@ pub(super) fn tell(plan: &mut Plan) {
 }
 
 /// Parts of the solution that may be lines, in its order.
-fn terms(plan: &Plan) -> Vec<Line> {
+fn terms(plan: &Plan) -> Vec<ProposedLine> {
     let all: String = plan.sources.iter().map(|source| source.text.as_str()).collect();
     let mut terms: Vec<(String, Change, HashSet<String>)> = Vec::new();
     for source in &plan.sources {
@@ -136,9 +136,9 @@ fn terms(plan: &Plan) -> Vec<Line> {
     terms.truncate(MOST_TERMS);
     let line = |(name, change, _): (String, Change, HashSet<String>)| {
         let id = super::id_of(&name.replace('_', "-"));
-        Line { label: label(&name), id, judges: None, without: Some(change) }
+        ProposedLine { label: label(&name), id, judges: None, without: Some(change) }
     };
-    let mut lines: Vec<Line> = terms.into_iter().map(line).collect();
+    let mut lines: Vec<ProposedLine> = terms.into_iter().map(line).collect();
     let mut ids = HashSet::from(["shape".to_owned()]);
     lines.retain(|line| ids.insert(line.id.clone()));
     lines
@@ -146,7 +146,7 @@ fn terms(plan: &Plan) -> Vec<Line> {
 
 /// The parts of a file: locals that are summed up, and statements that change what there is already. Each with its name, the
 /// change that takes it out, and the words that it is computed from.
-fn terms_of(source: &Source) -> Vec<(String, Change, HashSet<String>)> {
+fn terms_of(source: &SolutionFile) -> Vec<(String, Change, HashSet<String>)> {
     let functions = outline::functions(&source.text);
     let Some(main) = functions.iter().find(|function| function.name.text == source.entry) else { return Vec::new() };
     let own: Vec<&str> = functions.iter().map(|function| function.name.text.as_str()).collect();
@@ -263,7 +263,7 @@ fn start_of_factor(words: &[Word], end: usize) -> usize {
 }
 
 /// `mix(a, b, t)` without one of the two: without what is not computed in the file.
-fn mixed(source: &Source, words: &[Word], uses: &HashSet<String>) -> Option<(String, Change, HashSet<String>)> {
+fn mixed(source: &SolutionFile, words: &[Word], uses: &HashSet<String>) -> Option<(String, Change, HashSet<String>)> {
     let at = words.iter().position(|word| word.text == "mix")?;
     let mut depth = 0_i32;
     let mut borders = vec![at + 1];
@@ -311,7 +311,7 @@ fn named_after(right: &[Word], target: &str, own: &[&str]) -> Option<String> {
 
 /// What a part is called in both languages.
 fn label(name: &str) -> Text {
-    let mut words = Name::of(name).words;
+    let mut words = NameWords::of(name).words;
     if words.len() > 1 && ["calc", "calculate", "compute", "get", "eval"].contains(&words[0].as_str()) {
         words.remove(0);
     }

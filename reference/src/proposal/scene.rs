@@ -1,7 +1,7 @@
 //! What is drawn, by what the solution needs to be seen.
 
 use super::Plan;
-use super::names::Name;
+use super::names::NameWords;
 use super::shader_test::ShaderTest;
 use crate::interpreter::{Dimension, Stage, Type};
 
@@ -15,38 +15,38 @@ pub(super) struct Proposed {
 }
 
 /// A mesh: what is written, and what is seen.
-struct Shape {
+struct SceneKind {
     mesh: &'static str,
     more: &'static [&'static str],
     eye: &'static str,
     seen: (&'static str, &'static str),
 }
 
-const TORUS: Shape = Shape {
+const TORUS: SceneKind = SceneKind {
     mesh: "{ torus = { radius = 1, tube = 0.45, segments = [48, 24] } }",
     more: &["turn = 6.2831853 # about y in a cycle", "cull = \"back\""],
     eye: "[0, 1.8, 3.2]",
     seen: ("A ring that turns", "回転する輪"),
 };
-const SPHERE: Shape = Shape {
+const SPHERE: SceneKind = SceneKind {
     mesh: "{ sphere = { radius = 1.2, segments = [48, 24] } }",
     more: &["turn = 6.2831853 # about y in a cycle", "cull = \"back\""],
     eye: "[0, 1.0, 3.2]",
     seen: ("A ball that turns", "回転する球"),
 };
-const CUBE: Shape = Shape {
+const CUBE: SceneKind = SceneKind {
     mesh: "{ cube = { size = [1.6, 1.6, 1.6] } }",
     more: &["turn = 6.2831853 # about y in a cycle", "cull = \"back\""],
     eye: "[0, 1.6, 3.0]",
     seen: ("A box that turns", "回転する箱"),
 };
-const GRID: Shape = Shape {
+const GRID: SceneKind = SceneKind {
     mesh: "{ grid = { size = [3, 3], segments = [48, 48] } }",
     more: &["turn = 0.8 # about y in a cycle"],
     eye: "[0, 1.6, 3.2]",
     seen: ("A sheet of many squares", "細かい格子の面"),
 };
-const ROW: Shape = Shape {
+const ROW: SceneKind = SceneKind {
     mesh: "{ cube = { size = [0.8, 0.8, 0.8] } }",
     more: &[
         "model = \"translate(vec3(1.2 * float(i) - 2.0, 0.0, -1.6 * float(i))) * rotate_y(turn)\"",
@@ -56,13 +56,13 @@ const ROW: Shape = Shape {
     eye: "[0, 1.2, 3.5]",
     seen: ("A row of boxes that leads into the distance", "奥へ並ぶ箱"),
 };
-const WINDOW: Shape = Shape {
+const WINDOW: SceneKind = SceneKind {
     mesh: "{ fullscreen = {} }",
     more: &[],
     eye: "[0, 0, 1]",
     seen: ("A picture that fills the window", "ウィンドウ全体の画像"),
 };
-const FLAT: Shape = Shape {
+const FLAT: SceneKind = SceneKind {
     mesh: "{ quad = { size = [1.4, 1.4] } }",
     more: &["depth_test = \"off\""],
     eye: "[0, 0, 1]",
@@ -100,7 +100,7 @@ fn moves(plan: &Plan) -> bool {
     lines.any(|line| line.starts_with("is =") && (line.contains("* t") || line.contains("turn")))
 }
 
-fn shape(plan: &Plan) -> &'static Shape {
+fn shape(plan: &Plan) -> &'static SceneKind {
     let carries = |role: &str| plan.attributes.iter().any(|attribute| attribute.said == format!("carries = {role:?}"));
     let has_camera = plan.uniforms.iter().any(|uniform| {
         uniform
@@ -109,7 +109,7 @@ fn shape(plan: &Plan) -> &'static Shape {
             .any(|line| line.contains("\"model") || line.contains("view") || line.contains("projection"))
     });
     let uniforms = || plan.sources.iter().flat_map(|source| source.program.uniforms());
-    let named = |words: &[&str]| uniforms().any(|uniform| Name::of(&uniform.name).has(words));
+    let named = |words: &[&str]| uniforms().any(|uniform| NameWords::of(&uniform.name).has(words));
     let has_cube = uniforms()
         .any(|uniform| matches!(uniform.kind, Type::Sampler(sampler) if sampler.dimension == Dimension::Cube));
     let has_picture =

@@ -5,10 +5,10 @@ mod drawing;
 
 use super::Given;
 use super::source::wrong;
-use super::uniforms::{Attribute, numbers};
+use super::uniforms::{AttributeEntry, numbers};
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::{Type, outline};
-use drawing::{Draw, VertexData};
+use drawing::{TestDraw, VertexData};
 use std::collections::BTreeMap;
 
 /// A test, read.
@@ -17,7 +17,7 @@ pub(super) struct ShaderTest {
     pub stages: Vec<Given>,
     has_passthrough: bool,
     data: VertexData,
-    draws: Vec<Draw>,
+    draws: Vec<TestDraw>,
     /// By name: the number of draws before it was set, and the values as they are written.
     uniforms: BTreeMap<String, Vec<(usize, Vec<f64>)>>,
     background: [f64; 4],
@@ -27,7 +27,7 @@ pub(super) struct ShaderTest {
 /// What the passthrough stage and `draw rect` call a position.
 const VERTEX: &str = "piglit_vertex";
 
-struct Reader<'a> {
+struct TestReader<'a> {
     file: &'a str,
     text: &'a str,
     test: ShaderTest,
@@ -52,7 +52,7 @@ pub(super) fn read(given: &Given) -> Result<ShaderTest, AssignmentError> {
         background: [0.0, 0.0, 0.0, 0.0],
         size: [250, 250],
     };
-    let mut reader = Reader {
+    let mut reader = TestReader {
         file: &given.name,
         text: &given.text,
         test,
@@ -73,7 +73,7 @@ pub(super) fn read(given: &Given) -> Result<ShaderTest, AssignmentError> {
     reader.finish()
 }
 
-impl Reader<'_> {
+impl TestReader<'_> {
     fn refused<T>(&self, line: u32, what: &str) -> Result<T, AssignmentError> {
         let message = both(
             format!("`{what}` is not taken from a .shader_test: take it out, or write the homework's folder by hand"),
@@ -170,16 +170,16 @@ impl Reader<'_> {
             },
             ["draw", "rect", ref rest @ ..] => match floats(rest).as_deref() {
                 Some(&[x, y, width, height]) => {
-                    self.test.draws.push(Draw::Rectangle([x, y, width, height]));
+                    self.test.draws.push(TestDraw::Rectangle([x, y, width, height]));
                     Ok(())
                 }
                 _ => self.refused(number, line),
             },
             ["draw", "arrays", mode, first, count] => {
                 let (first, count) = (first.parse::<u32>(), count.parse::<u32>());
-                match (drawing::mode(mode), first, count) {
+                match (drawing::primitive(mode), first, count) {
                     (Some(mode), Ok(first), Ok(count)) => {
-                        self.test.draws.push(Draw::Arrays { mode, first, count });
+                        self.test.draws.push(TestDraw::Arrays { mode, first, count });
                         Ok(())
                     }
                     _ => self.refused(number, line),
@@ -248,15 +248,15 @@ impl ShaderTest {
     }
 
     /// The attribute of such a stage.
-    pub fn passthrough(&self) -> Vec<Attribute> {
+    pub fn passthrough(&self) -> Vec<AttributeEntry> {
         let listed = self.attributes().get(VERTEX).map(|values| format!("values = {values}"));
         let said = listed.unwrap_or_else(|| "carries = \"position\"".to_owned());
-        vec![Attribute { name: VERTEX.to_owned(), said }]
+        vec![AttributeEntry { name: VERTEX.to_owned(), said }]
     }
 
     /// The values of the attributes that the test lists, as TOML.
     pub fn attributes(&self) -> BTreeMap<String, String> {
-        let is_used = self.draws.iter().any(|draw| matches!(draw, Draw::Arrays { .. }));
+        let is_used = self.draws.iter().any(|draw| matches!(draw, TestDraw::Arrays { .. }));
         if is_used { self.data.attributes() } else { BTreeMap::new() }
     }
 

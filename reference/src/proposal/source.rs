@@ -5,7 +5,7 @@ use crate::assignment::{AssignmentError, both};
 use crate::interpreter::{Program, Refusal, Stage, outline};
 
 /// A solution, compiled.
-pub(super) struct Source {
+pub(super) struct SolutionFile {
     /// The name of the file as it was given.
     given: String,
     /// How many lines of the text were added before those of the file as it was given.
@@ -23,7 +23,7 @@ pub(super) struct Source {
     pub is_wrapped: bool,
 }
 
-impl Source {
+impl SolutionFile {
     pub fn extension(&self) -> &'static str {
         match self.stage {
             Stage::Vertex => "vert",
@@ -64,7 +64,7 @@ impl Source {
 }
 
 /// The solutions, the vertex stage first.
-pub(super) fn read_all(id: &str, given: &[Given]) -> Result<Vec<Source>, AssignmentError> {
+pub(super) fn read_all(id: &str, given: &[Given]) -> Result<Vec<SolutionFile>, AssignmentError> {
     let mut sources = given.iter().map(|given| read(id, given)).collect::<Result<Vec<_>, _>>()?;
     sources.sort_by_key(|source| source.stage == Stage::Fragment);
     match &sources[..] {
@@ -87,7 +87,7 @@ pub(super) fn read_all(id: &str, given: &[Given]) -> Result<Vec<Source>, Assignm
     }
 }
 
-fn read(id: &str, given: &Given) -> Result<Source, AssignmentError> {
+fn read(id: &str, given: &Given) -> Result<SolutionFile, AssignmentError> {
     let Given { name, text } = given;
     let functions = outline::functions(text);
     let has = |wanted: &str| functions.iter().any(|function| function.name.text == wanted);
@@ -105,7 +105,17 @@ fn read(id: &str, given: &Given) -> Result<Source, AssignmentError> {
     let extension = if stage == Stage::Vertex { "vert" } else { "frag" };
     let entry = if has("mainImage") { "mainImage" } else { "main" };
     let given = name.clone();
-    Ok(Source { given, added, name: format!("{stem}.{extension}"), stage, text, program, version, entry, is_wrapped })
+    Ok(SolutionFile {
+        given,
+        added,
+        name: format!("{stem}.{extension}"),
+        stage,
+        text,
+        program,
+        version,
+        entry,
+        is_wrapped,
+    })
 }
 
 /// The stage by the name of the file, or else by what is in it.

@@ -2,20 +2,20 @@
 //! a vertex solution writes.
 
 use super::Plan;
-use super::names::{self, Name, Space};
+use super::names::{self, NameWords, Space};
 use super::shader_test::ShaderTest;
-use super::source::Source;
-use super::uniforms::{Attribute, Uniform, usual_space};
+use super::source::SolutionFile;
+use super::uniforms::{AttributeEntry, UniformEntry, usual_space};
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::{Interpolation, Scalar, Stage, Type, Variable};
 
 /// A stage that is not handed in.
-pub(super) struct FixedStage {
+pub(super) struct FixedFile {
     pub stage: Stage,
     pub text: String,
 }
 
-impl FixedStage {
+impl FixedFile {
     /// Its name in the folder.
     pub fn name(&self) -> String {
         match self.stage {
@@ -31,7 +31,7 @@ pub(super) fn fix(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Assi
         [source] if source.stage == Stage::Fragment => vertex_of(plan, test),
         [source] => {
             let text = fragment_of(source);
-            plan.fixed = Some(FixedStage { stage: Stage::Fragment, text });
+            plan.fixed = Some(FixedFile { stage: Stage::Fragment, text });
             plan.guessed(
                 "fixed.frag: written, shows the outputs of the vertex shader as a colour",
                 "fixed.frag: 頂点シェーダの出力を色として表示するように書きました",
@@ -52,6 +52,8 @@ enum Meaning {
     Frame(Space),
     ToEye(Space),
     ToLight,
+    /// A place, in the frame of tangent, bitangent and normal where that is so.
+    KnownPoint(KnownPoint, bool),
     Clip,
     Coordinates,
     Colour,
@@ -60,14 +62,42 @@ enum Meaning {
     Nothing,
 }
 
+/// A place that a vertex stage hands over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum KnownPoint {
+    Fragment,
+    Eye,
+    Light,
+}
+
+/// What a name says of a place that is no plain position of the fragment.
+fn place(name: &NameWords) -> Option<Meaning> {
+    let is_framed = name.is_tangent();
+    let place = match () {
+        () if !name.is_position() => return None,
+        () if name.has(&["light", "lamp"]) => KnownPoint::Light,
+        () if name.is_eye() || (is_framed && name.has(&["view", "eye", "camera"])) => KnownPoint::Eye,
+        () if is_framed => KnownPoint::Fragment,
+        () => return None,
+    };
+    // What is seen from the eye is in its space.
+    (is_framed
+        || place == KnownPoint::Light
+        || name.is(&["viewpos", "eyepos", "camerapos", "campos", "cameraposition"]))
+    .then_some(Meaning::KnownPoint(place, is_framed))
+}
+
 fn meaning(input: &Variable, usual: Space) -> Meaning {
-    let name = Name::of(&input.name);
+    let name = NameWords::of(&input.name);
     let space = names::space_of(&name, usual);
     let floats = match input.kind {
         Type::Vector(Scalar::Float, count) => count,
         Type::Matrix(Scalar::Float, 3, 3) => return Meaning::Frame(space),
         _ => return Meaning::Nothing,
     };
+    if let Some(meaning) = place(&name).filter(|_| floats >= 3) {
+        return meaning;
+    }
     match floats {
         1 if name.has(&["depth", "distance", "dist", "fog", "range"]) || name.is(&["z", "viewz"]) => Meaning::Depth,
         1 if name.has(&["height", "elevation", "altitude"]) => Meaning::Height,
@@ -90,8 +120,8 @@ fn meaning(input: &Variable, usual: Space) -> Meaning {
 
 /// The names of what the vertex stage reads, none of which the solution uses for something else.
 struct Feeds<'a> {
-    source: &'a Source,
-    known: &'a [Uniform],
+    source: &'a SolutionFile,
+    known: &'a [UniformEntry],
     uniforms: Vec<(&'static str, &'static str, String)>,
     attributes: Vec<(&'static str, &'static str)>,
 }
@@ -106,6 +136,7 @@ impl Feeds<'_> {
         let declared = self.source.program.uniforms();
         let own = self.known.iter().filter(|uniform| uniform.lines.first() == Some(&said));
         let is_kind = |name: &str| declared.iter().any(|one| one.name == name && one.kind.to_string() == kind);
+        let is_kind = |name: &str| is_kind(name) && !is_member(self.source, name);
         let own = own.map(|uniform| uniform.name.clone()).find(|name| !name.contains(['.', '[']) && is_kind(name));
         let is_taken = |name: &str| self.source.words().iter().any(|word| word.text == name);
         let name = own.unwrap_or_else(|| if is_taken(name) { format!("mesh_{name}") } else { name.to_owned() });
@@ -189,6 +220,15 @@ impl Feeds<'_> {
             }
             Meaning::ToEye(Space::Eye) => of_three(format!("-{}.xyz", self.in_space(Space::Eye)), "0.0"),
             Meaning::ToLight => of_three(format!("vec3(1.5, 2.0, 2.0) - {}.xyz", self.in_space(Space::World)), "0.0"),
+            Meaning::KnownPoint(place, is_framed) => {
+                let at = match place {
+                    KnownPoint::Fragment => format!("{}.xyz", self.in_space(Space::World)),
+                    KnownPoint::Eye => format!("inverse({})[3].xyz", self.matrix("view", "mat4", "view")),
+                    KnownPoint::Light => "vec3(1.5, 2.0, 2.0)".to_owned(),
+                };
+                let frame = self.value(Meaning::Frame(Space::World), kind);
+                of_three(if is_framed { format!("transpose({frame}) * ({at})") } else { at }, "1.0")
+            }
             Meaning::Clip => {
                 let (view, projection) = (self.in_space(Space::Eye), self.matrix("projection", "mat4", "projection"));
                 let own = format!("{projection} * {view}");
@@ -213,8 +253,16 @@ impl Feeds<'_> {
     }
 }
 
+/// Whether a uniform is a member of a block without an instance name: no other stage may declare it alone.
+fn is_member(source: &SolutionFile, name: &str) -> bool {
+    let words = source.words();
+    let declared = words.iter().position(|word| word.text == name).unwrap_or(0);
+    let border = words[..declared].iter().rposition(|word| matches!(word.text.as_str(), "{" | "}"));
+    border.is_some_and(|border| words[border].text == "{")
+}
+
 /// Whether nothing of a fragment solution speaks of a scene: no inputs but texture coordinates, no camera, no sky.
-fn is_of_window(plan: &Plan, source: &Source) -> bool {
+fn is_of_window(plan: &Plan, source: &SolutionFile) -> bool {
     let inputs = source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_"));
     let is_flat = |input: &Variable| matches!(input.kind, Type::Vector(Scalar::Float, 2));
     let carries = plan.uniforms.iter().any(|uniform| uniform.lines.iter().any(|line| line.starts_with("carries")));
@@ -229,7 +277,7 @@ fn vertex_of(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Assignmen
             "#version {}\nin vec4 piglit_vertex;\nvoid main() {{ gl_Position = piglit_vertex; }}\n",
             source.version
         );
-        plan.fixed = Some(FixedStage { stage: Stage::Vertex, text });
+        plan.fixed = Some(FixedFile { stage: Stage::Vertex, text });
         plan.attributes = test.passthrough();
         return Ok(());
     }
@@ -270,14 +318,14 @@ fn vertex_of(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Assignmen
     head.extend(feeds.uniforms.iter().map(|(_, kind, name)| format!("uniform {kind} {name};")));
     head.extend(declared(&inputs, "out", source.version_number()));
     let text = format!("{}\n\nvoid main()\n{{\n{}\n}}\n", head.join("\n"), lines.join("\n"));
-    let attributes = feeds.attributes.iter().map(|(carries, _)| Attribute {
+    let attributes = feeds.attributes.iter().map(|(carries, _)| AttributeEntry {
         name: attribute_name(carries).to_owned(),
         said: format!("carries = {carries:?}"),
     });
     let attributes: Vec<_> = attributes.collect();
     let new = feeds.uniforms.iter().filter(|(_, _, name)| !plan.uniforms.iter().any(|known| known.name == *name));
-    let new: Vec<Uniform> = new
-        .map(|(role, _, name)| Uniform {
+    let new: Vec<UniformEntry> = new
+        .map(|(role, _, name)| UniformEntry {
             name: name.clone(),
             lines: vec![format!("carries = {role:?}")],
             note: None,
@@ -286,7 +334,7 @@ fn vertex_of(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Assignmen
         .collect();
     plan.attributes = attributes;
     plan.uniforms.splice(0..0, new);
-    plan.fixed = Some(FixedStage { stage: Stage::Vertex, text });
+    plan.fixed = Some(FixedFile { stage: Stage::Vertex, text });
     for (name, (en, ja)) in told {
         plan.guessed(
             format!("fixed.vert feeds `{name}` with {en}"),
@@ -308,6 +356,15 @@ fn said(meaning: Meaning) -> (&'static str, &'static str) {
         Meaning::Frame(_) => ("the frame of tangent, bitangent and normal", "接ベクトル・従接ベクトル・法線の行列"),
         Meaning::ToEye(_) => ("the vector to the eye", "視点へのベクトル"),
         Meaning::ToLight => ("the vector to a light", "光源へのベクトル"),
+        Meaning::KnownPoint(KnownPoint::Fragment, _) => ("the position in the frame of the tangent", "接空間の位置"),
+        Meaning::KnownPoint(KnownPoint::Eye, false) => ("the place of the eye", "視点の位置"),
+        Meaning::KnownPoint(KnownPoint::Eye, true) => {
+            ("the place of the eye in the frame of the tangent", "接空間の視点の位置")
+        }
+        Meaning::KnownPoint(KnownPoint::Light, false) => ("the place of a light", "光源の位置"),
+        Meaning::KnownPoint(KnownPoint::Light, true) => {
+            ("the place of a light in the frame of the tangent", "接空間の光源の位置")
+        }
         Meaning::Clip => ("the position in clip space", "クリップ座標の位置"),
         Meaning::Coordinates => ("the texture coordinates", "テクスチャ座標"),
         Meaning::Colour => ("a colour from the position", "位置から作った色"),
@@ -368,7 +425,7 @@ fn declared(variables: &[&Variable], storage: &str, version: u32) -> Vec<String>
 }
 
 /// A fragment stage that shows all that a vertex solution writes.
-fn fragment_of(source: &Source) -> String {
+fn fragment_of(source: &SolutionFile) -> String {
     let own = source.program.outputs().iter().filter(|output| !output.name.starts_with("gl_"));
     let own: Vec<&Variable> = own.collect();
     let name = |output: &Variable| path_of_output(&output.name);
@@ -393,7 +450,7 @@ fn fragment_of(source: &Source) -> String {
 
 /// An output as a `vec3` of colours.
 fn shown(path: &str, output: &Variable) -> Option<String> {
-    let name = Name::of(&output.name);
+    let name = NameWords::of(&output.name);
     let kind = &output.kind;
     let three = match kind {
         Type::Vector(Scalar::Float, 1) => format!("vec3({path})"),

@@ -4,8 +4,8 @@
 //! place. Without marks the body of `main` is taken out, and the outputs get a plain value.
 
 use super::Plan;
-use super::names::{self, Name};
-use super::source::Source;
+use super::names::{self, NameWords};
+use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::outline::{self, FunctionText};
 use crate::interpreter::{Program, Scalar, Stage, Type};
@@ -97,7 +97,7 @@ fn mark(line: &str) -> Option<Result<Mark, &str>> {
     })
 }
 
-fn between_marks(source: &Source) -> Result<(String, Vec<Told>), AssignmentError> {
+fn between_marks(source: &SolutionFile) -> Result<(String, Vec<Told>), AssignmentError> {
     let refused = |line: u32, en: String, ja: String| Err(source.wrong(line, both(en, ja)));
     let mut starter = String::new();
     let mut removed: Vec<RangeInclusive<u32>> = Vec::new();
@@ -166,7 +166,7 @@ fn between_marks(source: &Source) -> Result<(String, Vec<Told>), AssignmentError
 }
 
 /// Declarations for what the text behind a part uses of it, and plain values of outputs that nothing else writes.
-fn declared_in(source: &Source, lines: RangeInclusive<u32>) -> Vec<String> {
+fn declared_in(source: &SolutionFile, lines: RangeInclusive<u32>) -> Vec<String> {
     let words = source.words();
     let is_behind = |name: &str| words.iter().any(|word| word.line > *lines.end() && word.text == name);
     let declaration = |kind: &Type, name: &str| plain(kind, false).map(|value| format!("{kind} {name} = {value};"));
@@ -193,7 +193,7 @@ fn declared_in(source: &Source, lines: RangeInclusive<u32>) -> Vec<String> {
 }
 
 /// `name = value;`
-fn assigned(source: &Source, name: &str, kind: &Type) -> Option<String> {
+fn assigned(source: &SolutionFile, name: &str, kind: &Type) -> Option<String> {
     if name == "gl_Position" {
         return Some(format!("gl_Position = {};", plain_position(source)));
     }
@@ -202,7 +202,7 @@ fn assigned(source: &Source, name: &str, kind: &Type) -> Option<String> {
 }
 
 /// An output as the file calls it: `Frame.uv` is `vs_out.uv` where the block has that name there.
-fn path_in(source: &Source, name: &str) -> String {
+fn path_in(source: &SolutionFile, name: &str) -> String {
     let words = source.words();
     let instance = |block: &str| {
         let start = words.windows(2).position(|pair| pair[0].text == block && pair[1].text == "{")?;
@@ -215,10 +215,10 @@ fn path_in(source: &Source, name: &str) -> String {
 }
 
 /// The position as the mesh has it.
-fn plain_position(source: &Source) -> String {
+fn plain_position(source: &SolutionFile) -> String {
     let own = source.program.inputs().iter();
     let found = own.filter(|_| source.stage == Stage::Vertex).find(|input| {
-        let name = Name::of(&input.name);
+        let name = NameWords::of(&input.name);
         names::attribute(&name, &input.kind) == Some("position")
     });
     match found.map(|input| (&input.name, &input.kind)) {
@@ -247,7 +247,7 @@ fn plain(kind: &Type, is_seen: bool) -> Option<String> {
 }
 
 /// The solution with a body of its entry that gives every output a plain value.
-fn of_plain_values(source: &Source) -> (String, Vec<Told>) {
+fn of_plain_values(source: &SolutionFile) -> (String, Vec<Told>) {
     let functions = outline::functions(&source.text);
     let Some(entry) = functions.iter().find(|function| function.name.text == source.entry) else {
         return (source.text.clone(), vec![Told::AsItIs]);
@@ -287,7 +287,7 @@ fn written_parameters(function: &FunctionText) -> Vec<String> {
 }
 
 /// A starter has to be a whole shader.
-fn compiles(source: &Source, starter: &str) -> Result<(), AssignmentError> {
+fn compiles(source: &SolutionFile, starter: &str) -> Result<(), AssignmentError> {
     let Err(refusal) = Program::compile(starter, source.stage) else { return Ok(()) };
     let line = starter.lines().nth((refusal.line as usize).saturating_sub(1)).unwrap_or_default().trim();
     // The same line of the solution, where it is known to the lecturer.

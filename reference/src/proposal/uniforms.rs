@@ -4,17 +4,17 @@ mod textures;
 
 use super::Plan;
 use super::guess::{Guess, guess};
-use super::names::{self, Name, Space};
+use super::names::{self, NameWords, Space};
 use super::shader_test::ShaderTest;
-use super::source::Source;
+use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::{Dimension, Scalar, Stage, Type, Variable};
 use std::collections::{BTreeMap, HashMap};
-pub(super) use textures::Texture;
+pub(super) use textures::TextureEntry;
 
 /// A vertex attribute of a stage.
 #[derive(Clone, Debug)]
-pub(super) struct Attribute {
+pub(super) struct AttributeEntry {
     pub name: String,
     /// `carries = "position"`, or `values = …`.
     pub said: String,
@@ -22,13 +22,13 @@ pub(super) struct Attribute {
 
 /// An entry `[[uniform]]`.
 #[derive(Clone, Debug)]
-pub(super) struct Uniform {
+pub(super) struct UniformEntry {
     pub name: String,
     /// `key = value`, one line each.
     pub lines: Vec<String>,
     /// What the name was taken for, where it was a guess.
     pub note: Option<(String, String)>,
-    pub texture: Option<Texture>,
+    pub texture: Option<TextureEntry>,
 }
 
 /// Where the value of one scalar, vector, matrix or sampler comes from.
@@ -36,7 +36,7 @@ pub(super) struct Uniform {
 enum Said {
     Line(String),
     Value { value: String, probe: Option<String>, what: (&'static str, &'static str) },
-    Texture(Texture),
+    Texture(TextureEntry),
 }
 
 /// The parts of a uniform.
@@ -48,18 +48,20 @@ enum Tree {
 }
 
 /// The space in which the solutions compute.
-pub(super) fn usual_space(sources: &[Source]) -> Space {
+pub(super) fn usual_space(sources: &[SolutionFile]) -> Space {
     let uniforms = || sources.iter().flat_map(|source| source.program.uniforms());
-    if uniforms().any(|uniform| Name::of(&uniform.name).is_eye() && matches!(uniform.kind, Type::Vector(_, 3 | 4))) {
+    if uniforms().any(|uniform| NameWords::of(&uniform.name).is_eye() && matches!(uniform.kind, Type::Vector(_, 3 | 4)))
+    {
         return Space::World;
     }
     let matrices = |role: &str| {
         uniforms().any(|uniform| {
-            names::matrix(&Name::of(&uniform.name), &uniform.kind, Space::Eye).is_some_and(|(_, said)| said == role)
+            names::matrix(&NameWords::of(&uniform.name), &uniform.kind, Space::Eye)
+                .is_some_and(|(_, said)| said == role)
         })
     };
-    let is_negated = |source: &Source| {
-        let inputs = source.program.inputs().iter().filter(|input| Name::of(&input.name).is_position());
+    let is_negated = |source: &SolutionFile| {
+        let inputs = source.program.inputs().iter().filter(|input| NameWords::of(&input.name).is_position());
         inputs.filter(|_| source.stage == Stage::Fragment).any(|input| negated(source, &input.name))
     };
     let is_of_eye = matrices("model-view") || sources.iter().any(is_negated);
@@ -68,7 +70,7 @@ pub(super) fn usual_space(sources: &[Source]) -> Space {
 }
 
 /// Whether a file takes the negative of a variable or member.
-fn negated(source: &Source, path: &str) -> bool {
+fn negated(source: &SolutionFile, path: &str) -> bool {
     let last = path.rsplit('.').next().unwrap_or(path);
     let words = source.words();
     let is_value = |word: &str| word.ends_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, ')' | ']' | '_'));
@@ -151,13 +153,13 @@ fn tell(plan: &mut Plan) {
 }
 
 fn leaf(
-    source: &Source,
+    source: &SolutionFile,
     uniform: &Variable,
     space: Space,
     seen: &mut HashMap<&'static str, usize>,
     textures: &mut textures::Textures,
 ) -> Result<Said, AssignmentError> {
-    let (name, kind) = (Name::of(&uniform.name), &uniform.kind);
+    let (name, kind) = (NameWords::of(&uniform.name), &uniform.kind);
     if let Type::Sampler(sampler) = kind {
         let is_known = matches!(sampler.dimension, Dimension::Two | Dimension::Cube)
             && !sampler.array
@@ -311,8 +313,8 @@ fn has(tree: &Tree, path: &str) -> bool {
 }
 
 /// The entries of a uniform: one where all its parts have values, or one for each part.
-fn write(name: &str, tree: &Tree, entries: &mut Vec<Uniform>) {
-    let entry = |lines: Vec<String>, note, texture| Uniform { name: name.to_owned(), lines, note, texture };
+fn write(name: &str, tree: &Tree, entries: &mut Vec<UniformEntry>) {
+    let entry = |lines: Vec<String>, note, texture| UniformEntry { name: name.to_owned(), lines, note, texture };
     let note = |what: (&str, &str)| Some((what.0.to_owned(), what.1.to_owned()));
     match tree {
         Tree::Leaf(Said::Line(line)) => entries.push(entry(line.lines().map(str::to_owned).collect(), None, None)),
@@ -380,24 +382,24 @@ fn probe_of(tree: &Tree) -> Option<String> {
 }
 
 /// The attributes of a vertex solution.
-fn attributes(plan: &mut Plan, at: usize, test: Option<&ShaderTest>) -> Result<Vec<Attribute>, AssignmentError> {
+fn attributes(plan: &mut Plan, at: usize, test: Option<&ShaderTest>) -> Result<Vec<AttributeEntry>, AssignmentError> {
     let source = &plan.sources[at];
     let own = source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_"));
     let own: Vec<(String, Type)> = own.map(|input| (input.name.clone(), input.kind.clone())).collect();
     let listed = test.map(ShaderTest::attributes).unwrap_or_default();
     let mut carried: BTreeMap<&str, &str> = BTreeMap::new();
     for (name, kind) in &own {
-        if let Some(said) = names::attribute(&Name::of(name), kind).filter(|_| !listed.contains_key(name)) {
+        if let Some(said) = names::attribute(&NameWords::of(name), kind).filter(|_| !listed.contains_key(name)) {
             carried.entry(said).or_insert(name);
         }
     }
     let mut attributes = Vec::new();
     for (name, kind) in &own {
         if let Some(values) = listed.get(name) {
-            attributes.push(Attribute { name: name.clone(), said: format!("values = {values}") });
+            attributes.push(AttributeEntry { name: name.clone(), said: format!("values = {values}") });
             continue;
         }
-        let known = names::attribute(&Name::of(name), kind);
+        let known = names::attribute(&NameWords::of(name), kind);
         let said = known.map(str::to_owned).or_else(|| fallback(kind, &carried).map(str::to_owned));
         if known.is_none()
             && let Some(said) = &said
@@ -421,11 +423,11 @@ fn attributes(plan: &mut Plan, at: usize, test: Option<&ShaderTest>) -> Result<V
                     format!("input `{name}`: one of three values for each vertex in turn"),
                     format!("input `{name}`: 頂点ごとに 3 つの値を順に渡します"),
                 );
-                let values = (0..3).map(|nth| numbers(&guess(&Name::of("color"), kind, nth, false).value, kind));
+                let values = (0..3).map(|nth| numbers(&guess(&NameWords::of("color"), kind, nth, false).value, kind));
                 format!("values = [{}]", values.collect::<Vec<_>>().join(", "))
             }
         };
-        attributes.push(Attribute { name: name.clone(), said });
+        attributes.push(AttributeEntry { name: name.clone(), said });
     }
     Ok(attributes)
 }

@@ -37,8 +37,10 @@ pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
     for pose in &poses {
         let undefined = |name: &str| {
             let message = both(
-                "the colour or the position is undefined, or no number: look at divisions, roots, powers and branches",
-                "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐を確かめてください",
+                "the colour or the position is undefined, or no number: look at divisions, roots, powers, branches, `normalize` of \
+                 nothing, and `smoothstep` whose first edge is not the smaller one",
+                "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐、長さ 0 の `normalize`、1 つ目の端が小さくない `smoothstep` \
+                 を確かめてください",
             );
             Err(error(format!("{name}, at t = {}", pose.t), message))
         };

@@ -4,28 +4,28 @@ use crate::interpreter::{Scalar, Type};
 use std::collections::BTreeMap;
 
 /// What is drawn at once.
-pub(super) enum Draw {
+pub(super) enum TestDraw {
     /// x, y, width and height in clip space.
     Rectangle([f64; 4]),
     /// Rows of the vertex data.
-    Arrays { mode: Mode, first: u32, count: u32 },
+    Arrays { mode: Primitive, first: u32, count: u32 },
 }
 
 /// How rows become triangles.
 #[derive(Clone, Copy)]
-pub(super) enum Mode {
+pub(super) enum Primitive {
     Triangles,
     Strip,
     Fan,
     Quads,
 }
 
-pub(super) fn mode(name: &str) -> Option<Mode> {
+pub(super) fn primitive(name: &str) -> Option<Primitive> {
     Some(match name {
-        "GL_TRIANGLES" => Mode::Triangles,
-        "GL_TRIANGLE_STRIP" => Mode::Strip,
-        "GL_TRIANGLE_FAN" => Mode::Fan,
-        "GL_QUADS" => Mode::Quads,
+        "GL_TRIANGLES" => Primitive::Triangles,
+        "GL_TRIANGLE_STRIP" => Primitive::Strip,
+        "GL_TRIANGLE_FAN" => Primitive::Fan,
+        "GL_QUADS" => Primitive::Quads,
         _ => return None,
     })
 }
@@ -118,7 +118,7 @@ fn list(numbers: &[f64]) -> String {
     if each.len() == 1 { each[0].clone() } else { format!("[{}]", each.join(", ")) }
 }
 
-impl Draw {
+impl TestDraw {
     /// The mesh as TOML.
     pub fn mesh(&self, data: &VertexData) -> String {
         let (positions, triangles) = match self {
@@ -134,14 +134,14 @@ impl Draw {
     }
 }
 
-fn triangles(mode: Mode, first: u32, count: u32) -> Vec<[u32; 3]> {
+fn triangles(mode: Primitive, first: u32, count: u32) -> Vec<[u32; 3]> {
     let all = match mode {
-        Mode::Triangles => (0..count / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect(),
-        Mode::Strip => {
+        Primitive::Triangles => (0..count / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect(),
+        Primitive::Strip => {
             (2..count).map(|at| if at % 2 == 0 { [at - 2, at - 1, at] } else { [at - 1, at - 2, at] }).collect()
         }
-        Mode::Fan => (2..count).map(|at| [0, at - 1, at]).collect(),
-        Mode::Quads => (0..count / 4)
+        Primitive::Fan => (2..count).map(|at| [0, at - 1, at]).collect(),
+        Primitive::Quads => (0..count / 4)
             .flat_map(|at| [[4 * at, 4 * at + 1, 4 * at + 2], [4 * at, 4 * at + 2, 4 * at + 3]])
             .collect::<Vec<_>>(),
     };

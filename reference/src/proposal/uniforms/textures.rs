@@ -1,10 +1,10 @@
 //! Pictures for samplers.
 
-use crate::proposal::names::Name;
+use crate::proposal::names::NameWords;
 
 /// An entry `[[texture]]`.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::proposal) struct Texture {
+pub(in crate::proposal) struct TextureEntry {
     pub name: String,
     /// `key = value`, one line each.
     pub lines: Vec<String>,
@@ -83,16 +83,16 @@ const COLOURFUL: [&[&str]; 3] = [
 
 impl Textures {
     /// A texture for the sampler at a path.
-    pub fn of(&mut self, path: &str, is_cube: bool) -> Texture {
+    pub fn of(&mut self, path: &str, is_cube: bool) -> TextureEntry {
         let name = self.name(path);
         let own = |lines: &[&str], what| {
             let lines = lines.iter().map(|line| (*line).to_owned()).collect();
-            Texture { name: name.clone(), lines, what }
+            TextureEntry { name: name.clone(), lines, what }
         };
         if is_cube {
             return own(&["generate = { sky = {} }", "size = [64, 64]"], ("a sky around the scene", "周囲の空"));
         }
-        let words = Name::of(path);
+        let words = NameWords::of(path);
         if let Some((_, lines, what)) = GREY.iter().find(|(known, ..)| words.has(known) || words.is(known)) {
             return own(lines, *what);
         }
