@@ -2,6 +2,7 @@
 
 mod check;
 mod error;
+mod toml_error;
 
 use crate::accepted::AcceptedAnswer;
 use crate::advice::Advice;
@@ -217,9 +218,13 @@ impl Assignment {
         let text = folder.text(MANIFEST)?;
         let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
         let manifest: manifest::Manifest = toml::from_str(text).map_err(|e| {
-            let place =
-                e.span().map_or(MANIFEST.to_owned(), |span| format!("{MANIFEST}, line {}", line_at(span.start)));
-            error(place, e.message().to_owned())
+            let at = e.span().map(|span| span.start);
+            let before = at.and_then(|at| text.get(..at)).map(|before| before.rsplit('\n').next().unwrap_or_default());
+            AssignmentError {
+                line: at.map(line_at),
+                column: before.map(|before| before.chars().count() as u32 + 1),
+                ..AssignmentError::of_file(MANIFEST, toml_error::explained(e.message()))
+            }
         })?;
         check::assignment(manifest, &line_at, folder)
     }

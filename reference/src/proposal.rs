@@ -20,7 +20,7 @@ mod uniforms;
 mod writing;
 
 use crate::assignment::{AssignmentError, MANIFEST, both};
-use crate::interpreter::Stage;
+use crate::interpreter::{Stage, Type};
 use crate::{Assignment, Folder, Text};
 use rubric::ProposedLine;
 use source::SolutionFile;
@@ -168,6 +168,11 @@ fn propose_with(
     };
     rubric::tell(&mut plan);
     Ok(Proposal { folder: plan.folder(), remarks: plan.remarks, trouble })
+}
+
+/// What an entry of `assignment.toml` may say of an attribute or a uniform with such a name.
+pub(crate) fn entry_for(path: &str, kind: &Type, is_attribute: bool) -> String {
+    uniforms::entry_for(path, kind, is_attribute)
 }
 
 /// A name as an id: what cannot stand in an address becomes `-`.

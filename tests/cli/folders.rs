@@ -122,8 +122,10 @@ fn a_description_that_is_not_toml_is_named_by_its_line() {
 #[test]
 fn an_unknown_key_is_named_with_those_that_there_are() {
     let copy = Copy::new().replace(MANIFEST, "background =", "backgrund =");
-    let expected = "unknown field `backgrund`, expected";
-    copy.is_refused(MANIFEST, Some(copy.line(MANIFEST, "backgrund")), expected, expected);
+    let line = Some(copy.line(MANIFEST, "backgrund"));
+    let (en, ja) =
+        ("there is no key `backgrund`: write `background`", "`backgrund` というキーはありません。`background` と");
+    copy.is_refused(MANIFEST, line, en, ja);
 }
 
 #[test]

@@ -168,6 +168,16 @@ impl TestReader<'_> {
                 }
                 _ => self.refused(number, line),
             },
+            ["draw", "rect", "ortho", ref rest @ ..] => match floats(rest).as_deref() {
+                Some(&[x, y, width, height]) => {
+                    // In pixels.
+                    let [across, up] = self.test.size.map(|side| 2.0 / f64::from(side));
+                    let rectangle = [x * across - 1.0, y * up - 1.0, width * across, height * up];
+                    self.test.draws.push(TestDraw::Rectangle(rectangle));
+                    Ok(())
+                }
+                _ => self.refused(number, line),
+            },
             ["draw", "rect", ref rest @ ..] => match floats(rest).as_deref() {
                 Some(&[x, y, width, height]) => {
                     self.test.draws.push(TestDraw::Rectangle([x, y, width, height]));
@@ -249,15 +259,15 @@ impl ShaderTest {
 
     /// The attribute of such a stage.
     pub fn passthrough(&self) -> Vec<AttributeEntry> {
-        let listed = self.attributes().get(VERTEX).map(|values| format!("values = {values}"));
+        let listed = self.attribute(VERTEX, &Type::VEC4).map(|values| format!("values = {values}"));
         let said = listed.unwrap_or_else(|| "carries = \"position\"".to_owned());
         vec![AttributeEntry { name: VERTEX.to_owned(), said }]
     }
 
-    /// The values of the attributes that the test lists, as TOML.
-    pub fn attributes(&self) -> BTreeMap<String, String> {
+    /// The values of an attribute that the test lists, as TOML.
+    pub fn attribute(&self, name: &str, kind: &Type) -> Option<String> {
         let is_used = self.draws.iter().any(|draw| matches!(draw, TestDraw::Arrays { .. }));
-        if is_used { self.data.attributes() } else { BTreeMap::new() }
+        self.data.attribute(name, kind.slots()?).filter(|_| is_used)
     }
 
     /// The value of a uniform as TOML, where the test sets one and the same for all that it draws.

@@ -183,24 +183,8 @@ fn leaf(
             false => Err(refused()),
         };
     }
-    let own_space = names::space_of(&name, space);
-    if let Some((key, said)) = names::matrix(&name, kind, own_space) {
-        return Ok(Said::Line(format!("{key} = {said:?}")));
-    }
-    let is_vector = |counts: &[u8]| matches!(kind, Type::Vector(Scalar::Float, count) if counts.contains(count));
-    let is_float = *kind == Type::FLOAT;
-    if name.is_eye() && is_vector(&[3, 4]) {
-        return Ok(Said::Line("carries = \"eye\"".to_owned()));
-    }
-    if let Some(expression) = of_the_page(&uniform.name, kind) {
-        return Ok(Said::Line(format!("is = {expression:?}")));
-    }
-    if name.is_resolution() && is_vector(&[2, 3]) {
-        let expression = if is_vector(&[2]) { "resolution" } else { "vec3(resolution, 1.0)" };
-        return Ok(Said::Line(format!("is = {expression:?}")));
-    }
-    if name.is_time() && is_float {
-        return Ok(Said::Line("is = \"5.0 * t\"\nprobe = { within = [0, 5] }".to_owned()));
+    if let Some(line) = by_role(&uniform.name, &name, kind, names::space_of(&name, space)) {
+        return Ok(Said::Line(line));
     }
     let is_downward = negated(source, &uniform.name);
     let Guess { value, within, what } = {
@@ -223,6 +207,38 @@ fn leaf(
     let probe = within
         .map(|(least, greatest)| format!("{{ within = [{}, {}] }}", numbers(&least, kind), numbers(&greatest, kind)));
     Ok(Said::Value { value: numbers(&value, kind), probe, what })
+}
+
+/// What camera, time and window give, where the name says it.
+fn by_role(path: &str, name: &NameWords, kind: &Type, space: Space) -> Option<String> {
+    if let Some((key, said)) = names::matrix(name, kind, space) {
+        return Some(format!("{key} = {said:?}"));
+    }
+    let is_vector = |counts: &[u8]| matches!(kind, Type::Vector(Scalar::Float, count) if counts.contains(count));
+    if name.is_eye() && is_vector(&[3, 4]) {
+        return Some("carries = \"eye\"".to_owned());
+    }
+    if let Some(expression) = of_the_page(path, kind) {
+        return Some(format!("is = {expression:?}"));
+    }
+    if name.is_resolution() && is_vector(&[2, 3]) {
+        let expression = if is_vector(&[2]) { "resolution" } else { "vec3(resolution, 1.0)" };
+        return Some(format!("is = {expression:?}"));
+    }
+    let is_time = name.is_time() && *kind == Type::FLOAT;
+    is_time.then(|| "is = \"5.0 * t\"\nprobe = { within = [0, 5] }".to_owned())
+}
+
+/// The key and the value that stand in the entry of a name, without a text around it.
+pub(super) fn entry_for(path: &str, kind: &Type, is_attribute: bool) -> String {
+    let name = NameWords::of(path);
+    if is_attribute {
+        return format!("carries = {:?}", names::attribute(&name, kind).unwrap_or("position"));
+    }
+    match by_role(path, &name, kind, Space::World) {
+        Some(line) => line,
+        None => format!("value = {}", numbers(&guess(&name, kind, 0, false).value, kind)),
+    }
 }
 
 fn rounded(number: f64) -> f64 {
@@ -386,16 +402,16 @@ fn attributes(plan: &mut Plan, at: usize, test: Option<&ShaderTest>) -> Result<V
     let source = &plan.sources[at];
     let own = source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_"));
     let own: Vec<(String, Type)> = own.map(|input| (input.name.clone(), input.kind.clone())).collect();
-    let listed = test.map(ShaderTest::attributes).unwrap_or_default();
+    let listed = |name: &str, kind: &Type| test.and_then(|test| test.attribute(name, kind));
     let mut carried: BTreeMap<&str, &str> = BTreeMap::new();
     for (name, kind) in &own {
-        if let Some(said) = names::attribute(&NameWords::of(name), kind).filter(|_| !listed.contains_key(name)) {
+        if let Some(said) = names::attribute(&NameWords::of(name), kind).filter(|_| listed(name, kind).is_none()) {
             carried.entry(said).or_insert(name);
         }
     }
     let mut attributes = Vec::new();
     for (name, kind) in &own {
-        if let Some(values) = listed.get(name) {
+        if let Some(values) = listed(name, kind) {
             attributes.push(AttributeEntry { name: name.clone(), said: format!("values = {values}") });
             continue;
         }

@@ -12,6 +12,10 @@ use crate::sandbox::{Pool, Settings, Submission};
 use reference::Assignment;
 use reference::fit;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// How long a lecturer waits on a busy machine before the solution is called too slow.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Grades the folder's own files, and says what its rubric and its variants show.
 pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, Fault> {
@@ -24,6 +28,7 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
         policy: arguments.sandbox,
         spares: 0,
         warm_up: false,
+        deadline: PATIENCE,
         ..Settings::new(Arc::clone(&assignment))
     };
     let pool = Pool::start(settings, 1)?;
@@ -34,13 +39,16 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
         answer.map(|answer| answer.report)
     };
     let solution = assignment.files.iter().map(|file| HandedInFile::new(&file.name, file.solution.text.as_bytes()));
+    let begin = Instant::now();
     let solution = grade(&HandIn { files: solution.collect() })?;
+    let took = begin.elapsed();
     let starter = grade(&grade::handed_out(&assignment))?;
     let is_right = solution.verdict == Verdict::Correct;
     say(is_right, &scored("the solution", "解答", &solution), language);
     for diagnostic in solution.diagnostics.iter().filter(|_| !is_right) {
         anstream::println!("     {}", diagnostic.message.get(language));
     }
+    say_time(took, Settings::new(Arc::clone(&assignment)).deadline, language);
     let is_unfinished = starter.verdict == Verdict::Wrong;
     say(is_unfinished, &scored("what is handed out", "配布ファイル", &starter), language);
     say_features(&assignment, language);
@@ -48,6 +56,25 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
     let digest = Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest));
     say(true, &digest, language);
     Ok(if is_right && is_unfinished && are_seen { ExitStatus::FullMarks } else { ExitStatus::Usage })
+}
+
+/// Says that the solution takes most of the time that a hand-in has.
+fn say_time(took: Duration, deadline: Duration, language: Language) {
+    if took <= deadline.mul_f64(0.8) {
+        return;
+    }
+    let (took, deadline) = (took.as_secs_f64(), deadline.as_secs_f64());
+    let text = Text::new(
+        format!(
+            "the solution took {took:.1} s on this machine, and a hand-in has {deadline} s: draw fewer poses or a smaller window, or grade \
+             with a longer --deadline"
+        ),
+        format!(
+            "このマシンで解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすかウィンドウを小さくする、\
+             または --deadline を延ばしてください"
+        ),
+    );
+    anstream::println!("note {}", text.get(language));
 }
 
 /// Says where each line's feature shows, and which cannot be judged by itself, as a term of a sum that always has another.

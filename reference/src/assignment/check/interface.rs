@@ -58,12 +58,18 @@ pub(super) fn interface(
         };
         if let Some(variable) = own.chain(program.uniforms()).find(|variable| !known(&variable.name)) {
             let variable_name = &variable.name;
+            let table =
+                if *stage == Stage::Vertex && program.inputs().contains(variable) { "input" } else { "uniform" };
+            let said = crate::proposal::entry_for(variable_name, &variable.kind, table == "input");
+            let entry = format!("[[{table}]]\nname = \"{variable_name}\"\n{said}");
             let message = both(
                 format!(
-                    "`{variable_name}` is neither [[input]] nor [[uniform]] in {MANIFEST}: add it, or remove it here"
+                    "`{variable_name}` is neither [[input]] nor [[uniform]] in {MANIFEST}: remove it here, or write there, with a value \
+                     of yours:\n{entry}"
                 ),
                 format!(
-                    "`{variable_name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。追加するか、ここから取り除いてください"
+                    "`{variable_name}` は {MANIFEST} の [[input]] にも [[uniform]] にもありません。ここから取り除くか、次のように書いて値を\
+                     決めてください:\n{entry}"
                 ),
             );
             return Err(error(solution::place(name, variable.line), message));

@@ -83,7 +83,7 @@ fn a_built_in_mesh_is_named_by_its_line() {
     let many: String = (0..5).map(|_| format!("\n[[scene.draw]]\nmesh = {grid}")).collect();
     let text = said(&format!("{grid}{many}\n"));
     assert!(text.en.contains("all meshes up to this one have 453005 vertices: use at most 400000"), "{}", text.en);
-    assert!(said("{ torus = { radios = 1 } }").en.contains("unknown field `radios`"));
+    assert!(said("{ torus = { radios = 1 } }").en.contains("there is no key `radios`: write `radius`;"));
 }
 
 #[test]

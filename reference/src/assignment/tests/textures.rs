@@ -130,10 +130,10 @@ fn an_entry_that_makes_no_texture_is_named_with_what_to_try() {
     assert!(many.en.contains("there are 26: use at most 16"), "{}", many.en);
     // What the reader of TOML says has the line as well.
     for (from, to, en) in [
-        ("filter = \"nearest\"", "filter = \"cubic\"", "unknown variant `cubic`, expected `nearest` or `linear`"),
+        ("filter = \"nearest\"", "filter = \"cubic\"", "`cubic` is not known here: possible are `nearest`, `linear`"),
         ("wrap = \"clamp-to-border\"", "wrap = \"clamp\"", "write \"repeat\", \"mirrored-repeat\", \"clamp-to-edge\""),
         ("border = [0.2, 0.4, 0.6, 1.0]", "border = [0.2, 0.4]", "a colour is three or four numbers"),
-        ("generate = { noise = {", "generate = { clouds = {", "unknown variant `clouds`, expected one of `checker`"),
+        ("generate = { noise = {", "generate = { clouds = {", "`clouds` is not known here: possible are `checker`"),
         ("file = \"weave.png\"", "cube = [\"weave.png\"]", "invalid length 1, expected an array of length 6"),
     ] {
         let text = refused(changed(MANIFEST, from, to));

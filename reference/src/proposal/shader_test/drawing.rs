@@ -1,7 +1,6 @@
 //! What a test draws, as meshes.
 
 use crate::interpreter::{Scalar, Type};
-use std::collections::BTreeMap;
 
 /// What is drawn at once.
 pub(super) enum TestDraw {
@@ -81,13 +80,13 @@ impl VertexData {
         self.rows.iter().map(move |row| &row[first..first + count])
     }
 
-    /// All attributes as lists.
-    pub fn attributes(&self) -> BTreeMap<String, String> {
-        let of = |(at, (name, _)): (usize, &(String, usize))| {
-            let rows: Vec<String> = self.column(at).map(list).collect();
-            (name.clone(), format!("[{}]", rows.join(", ")))
-        };
-        self.columns.iter().enumerate().map(of).collect()
+    /// An attribute as a list, each value of as many numbers as the shader's type has; what is not written is as OpenGL has it.
+    pub fn attribute(&self, name: &str, count: usize) -> Option<String> {
+        let at = self.columns.iter().position(|(known, _)| known == name)?;
+        let number = |row: &[f64], at: usize| row.get(at).copied().unwrap_or(if at == 3 { 1.0 } else { 0.0 });
+        let whole = |row: &[f64]| -> Vec<f64> { (0..count).map(|at| number(row, at)).collect() };
+        let rows: Vec<String> = self.column(at).map(|row| list(&whole(row))).collect();
+        Some(format!("[{}]", rows.join(", ")))
     }
 
     /// The positions: the first attribute that can be one.
