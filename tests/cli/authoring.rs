@@ -166,6 +166,13 @@ fn a_shader_in_the_space_of_the_eye_becomes_a_homework() {
 }
 
 #[test]
+fn a_shader_with_the_names_of_old_becomes_a_homework() {
+    let written = Written::from(&["old.vert", "old.frag"]);
+    written.tells("8.0 * place.y", "8.0 * place.x");
+    assert!(written.text("starter.frag").contains("gl_FragColor = vec4(0.5, 0.5, 0.5, 1.0);"));
+}
+
+#[test]
 fn what_stands_between_marks_is_not_handed_out() {
     let written = Written::from(&["marked.frag"]);
     written.grades();

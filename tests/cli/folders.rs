@@ -259,7 +259,7 @@ fn a_variant_that_cannot_be_made_is_named_with_its_line() {
     refused(outline, "\"float\", \"int\"", "`float` stands 3 times in `solution.frag`", "3 回あります");
     refused(outline, "\"sparkle\", \"\"", "`sparkle` stands 0 times", "0 回あります");
     refused("replace = [[\"< 0.3)\", \"< -2.0)\"]]", "", "changes nothing: write `define`", "変わるものがありません");
-    refused(outline, "\"< 0.3)\", \"< none)\"", "there is no variable none", "there is no variable none");
+    refused(outline, "\"< 0.3)\", \"< none)\"", "there is no variable `none`", "there is no variable `none`");
     // A name of a definition where the solution's are not told apart says why they are not.
     let copy = toon().replace(MANIFEST, "id = \"outline\"\n", "id = \"outline\"\njudges = \"lit\"\n");
     let line = copy.line("solution.frag", "lit = floor");

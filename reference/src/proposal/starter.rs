@@ -198,7 +198,9 @@ fn assigned(source: &SolutionFile, name: &str, kind: &Type) -> Option<String> {
         return Some(format!("gl_Position = {};", plain_position(source)));
     }
     let path = path_in(source, name);
-    plain(kind, true).filter(|_| !name.starts_with("gl_")).map(|value| format!("{path} = {value};"))
+    plain(kind, true)
+        .filter(|_| !name.starts_with("gl_") || name == "gl_FragColor")
+        .map(|value| format!("{path} = {value};"))
 }
 
 /// An output as the file calls it: `Frame.uv` is `vs_out.uv` where the block has that name there.

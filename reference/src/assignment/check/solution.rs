@@ -111,7 +111,9 @@ impl<'a> Solution<'a> {
             true => &pipeline.fragment,
             false => &pipeline.vertex,
         };
-        let own = written.outputs().iter().filter(|output| !output.name.starts_with("gl_"));
+        // `gl_FragColor` is an output like those that are declared; `gl_Position` and the like are not colours.
+        let is_own = |name: &str| !name.starts_with("gl_") || name == "gl_FragColor";
+        let own = written.outputs().iter().filter(|output| is_own(&output.name));
         let outputs = own.map(|output| Output { name: output.name.clone(), kind: output.kind.clone() }).collect();
         Ok(Self { file, reads: Reads::Outputs, draft, first, why_whole: Some(why), outputs })
     }
