@@ -4,6 +4,8 @@
 mod authoring;
 #[path = "cli/folders.rs"]
 mod folders;
+#[path = "cli/refusals.rs"]
+mod refusals;
 
 use assert_cmd::Command;
 use predicates::prelude::*;

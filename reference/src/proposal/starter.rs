@@ -3,12 +3,14 @@
 //! What stands between `// ggrade: begin` and `// ggrade: end` is taken out; `// ggrade: instead TEXT` there puts TEXT in its
 //! place. Without marks the body of `main` is taken out, and the outputs get a plain value.
 
+mod plain;
+
 use super::Plan;
-use super::names::{self, NameWords};
 use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
-use crate::interpreter::outline::{self, FunctionText};
-use crate::interpreter::{Program, Scalar, Stage, Type};
+use crate::interpreter::outline;
+use crate::interpreter::{Program, Type};
+use plain::{assigned, path_in, plain, written_parameters};
 use std::ops::RangeInclusive;
 
 /// What begins a mark.
@@ -192,62 +194,6 @@ fn declared_in(source: &SolutionFile, lines: RangeInclusive<u32>) -> Vec<String>
     declared
 }
 
-/// `name = value;`
-fn assigned(source: &SolutionFile, name: &str, kind: &Type) -> Option<String> {
-    if name == "gl_Position" {
-        return Some(format!("gl_Position = {};", plain_position(source)));
-    }
-    let path = path_in(source, name);
-    plain(kind, true)
-        .filter(|_| !name.starts_with("gl_") || name == "gl_FragColor")
-        .map(|value| format!("{path} = {value};"))
-}
-
-/// An output as the file calls it: `Frame.uv` is `vs_out.uv` where the block has that name there.
-fn path_in(source: &SolutionFile, name: &str) -> String {
-    let words = source.words();
-    let instance = |block: &str| {
-        let start = words.windows(2).position(|pair| pair[0].text == block && pair[1].text == "{")?;
-        let end = words[start..].iter().position(|word| word.text == "}")?;
-        words.get(start + end + 1).filter(|word| word.is_name).map(|word| word.text.clone())
-    };
-    let parts = name.split_once('.');
-    let own = parts.and_then(|(block, member)| Some(format!("{}.{member}", instance(block)?)));
-    own.unwrap_or_else(|| name.to_owned())
-}
-
-/// The position as the mesh has it.
-fn plain_position(source: &SolutionFile) -> String {
-    let own = source.program.inputs().iter();
-    let found = own.filter(|_| source.stage == Stage::Vertex).find(|input| {
-        let name = NameWords::of(&input.name);
-        names::attribute(&name, &input.kind) == Some("position")
-    });
-    match found.map(|input| (&input.name, &input.kind)) {
-        Some((name, Type::Vector(_, 4))) => name.clone(),
-        Some((name, Type::Vector(_, 3))) => format!("vec4({name}, 1.0)"),
-        Some((name, Type::Vector(_, 2))) => format!("vec4({name}, 0.0, 1.0)"),
-        _ => "vec4(0.0, 0.0, 0.0, 1.0)".to_owned(),
-    }
-}
-
-/// A value that says nothing: a grey colour where it is seen, else nothing.
-fn plain(kind: &Type, is_seen: bool) -> Option<String> {
-    let number = if is_seen { "0.5" } else { "0.0" };
-    Some(match kind {
-        Type::Vector(Scalar::Float, 1) => number.to_owned(),
-        Type::Vector(Scalar::Float, 4) if is_seen => "vec4(0.5, 0.5, 0.5, 1.0)".to_owned(),
-        Type::Vector(Scalar::Float, _) => format!("{kind}({number})"),
-        Type::Vector(Scalar::Bool, 1) => "false".to_owned(),
-        Type::Vector(..) | Type::Matrix(..) => format!("{kind}(0)"),
-        Type::Array(element, Some(length)) => {
-            let one = plain(element, is_seen)?;
-            format!("{kind}({})", vec![one; *length].join(", "))
-        }
-        _ => return None,
-    })
-}
-
 /// The solution with a body of its entry that gives every output a plain value.
 fn of_plain_values(source: &SolutionFile) -> (String, Vec<Told>) {
     let functions = outline::functions(&source.text);
@@ -275,17 +221,6 @@ fn of_plain_values(source: &SolutionFile) -> (String, Vec<Told>) {
     let mut told = vec![Told::NoMarks];
     told.extend((!left.is_empty()).then_some(Told::Left(left)));
     (starter, told)
-}
-
-/// Plain values of the `out` parameters of a function.
-fn written_parameters(function: &FunctionText) -> Vec<String> {
-    let each = function.parameters.split(|word| word.text == ",");
-    let written = each.filter(|words| words.iter().any(|word| word.text == "out" || word.text == "inout"));
-    let value = |words: &[outline::Word]| {
-        let kind = words.iter().find_map(|word| Type::named(&word.text))?;
-        plain(&kind, true).map(|value| format!("{} = {value};", words.last().map_or("", |word| &word.text)))
-    };
-    written.filter_map(value).collect()
 }
 
 /// A starter has to be a whole shader.

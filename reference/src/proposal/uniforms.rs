@@ -1,6 +1,9 @@
 //! What feeds a solution: each uniform and each vertex attribute gets a source, by its name and type.
 
+mod attributes;
+mod space;
 mod textures;
+mod tree;
 
 use super::Plan;
 use super::guess::{Guess, guess};
@@ -9,8 +12,11 @@ use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::{Dimension, Scalar, Stage, Type, Variable};
-use std::collections::{BTreeMap, HashMap};
+use space::negated;
+pub(super) use space::usual_space;
+use std::collections::HashMap;
 pub(super) use textures::TextureEntry;
+use tree::{Said, Tree, empty, has, insert, split, write};
 
 /// A vertex attribute of a stage.
 #[derive(Clone, Debug)]
@@ -31,71 +37,11 @@ pub(super) struct UniformEntry {
     pub texture: Option<TextureEntry>,
 }
 
-/// Where the value of one scalar, vector, matrix or sampler comes from.
-#[derive(Clone, Debug)]
-enum Said {
-    Line(String),
-    Value { value: String, probe: Option<String>, what: (&'static str, &'static str) },
-    Texture(TextureEntry),
-}
-
-/// The parts of a uniform.
-#[derive(Clone, Debug)]
-enum Tree {
-    Leaf(Said),
-    Members(Vec<(String, Tree)>),
-    Elements(Vec<Tree>),
-}
-
-/// The space in which the solutions compute.
-pub(super) fn usual_space(sources: &[SolutionFile]) -> Space {
-    let uniforms = || sources.iter().flat_map(|source| source.program.uniforms());
-    if uniforms().any(|uniform| NameWords::of(&uniform.name).is_eye() && matches!(uniform.kind, Type::Vector(_, 3 | 4)))
-    {
-        return Space::World;
-    }
-    let matrices = |role: &str| {
-        uniforms().any(|uniform| {
-            names::matrix(&NameWords::of(&uniform.name), &uniform.kind, Space::Eye)
-                .is_some_and(|(_, said)| said == role)
-        })
-    };
-    let is_negated = |source: &SolutionFile| {
-        let inputs = source.program.inputs().iter().filter(|input| NameWords::of(&input.name).is_position());
-        inputs.filter(|_| source.stage == Stage::Fragment).any(|input| negated(source, &input.name))
-    };
-    let is_of_eye = matrices("model-view") || sources.iter().any(is_negated);
-    // Where model and view come apart and no eye is given, light is usually computed in the world.
-    if is_of_eye || (matrices("normal-matrix") && !matrices("model")) { Space::Eye } else { Space::World }
-}
-
-/// Whether a file takes the negative of a variable or member.
-fn negated(source: &SolutionFile, path: &str) -> bool {
-    let last = path.rsplit('.').next().unwrap_or(path);
-    let words = source.words();
-    let is_value = |word: &str| word.ends_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, ')' | ']' | '_'));
-    (2..words.len()).any(|at| {
-        // Back over `lights[i].` to what stands before the whole of it.
-        let mut first = at;
-        while first >= 2 && words[first - 1].text == "." {
-            first -= 2;
-            if words[first].text == "]" {
-                first =
-                    words[..first].iter().rposition(|word| word.text == "[").map_or(0, |open| open.saturating_sub(1));
-            }
-        }
-        words[at].text == last
-            && first >= 2
-            && words[first - 1].text == "-"
-            && (!is_value(&words[first - 2].text) || words[first - 2].text == "return")
-    })
-}
-
 /// Feeds all uniforms and attributes of the solutions.
 pub(super) fn feed(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
     let space = usual_space(&plan.sources);
     if let Some(at) = plan.sources.iter().position(|source| source.stage == Stage::Vertex) {
-        plan.attributes = attributes(plan, at, test)?;
+        plan.attributes = attributes::attributes(plan, at, test)?;
     }
     let mut seen: HashMap<&'static str, usize> = HashMap::new();
     let mut all: Vec<(String, Tree)> = Vec::new();
@@ -186,6 +132,10 @@ fn leaf(
     if let Some(line) = by_role(&uniform.name, &name, kind, names::space_of(&name, space)) {
         return Ok(Said::Line(line));
     }
+    if let Some(count) = longest_array(source).filter(|_| *kind == Type::INT && name.has(&["num", "count", "number"])) {
+        let probe = Some(format!("{{ within = [1, {count}] }}"));
+        return Ok(Said::Value { value: count.to_string(), probe, what: ("number of elements", "要素の数") });
+    }
     let is_downward = negated(source, &uniform.name);
     let Guess { value, within, what } = {
         let first = guess(&name, kind, 0, is_downward);
@@ -207,6 +157,12 @@ fn leaf(
     let probe = within
         .map(|(least, greatest)| format!("{{ within = [{}, {}] }}", numbers(&least, kind), numbers(&greatest, kind)));
     Ok(Said::Value { value: numbers(&value, kind), probe, what })
+}
+
+/// How many elements the longest array of uniforms has.
+fn longest_array(source: &SolutionFile) -> Option<usize> {
+    let index = |path: &str| path.split_once('[')?.1.split(']').next()?.parse::<usize>().ok();
+    source.program.uniforms().iter().filter_map(|uniform| index(&uniform.name)).max().map(|last| last + 1)
 }
 
 /// What camera, time and window give, where the name says it.
@@ -267,194 +223,5 @@ pub(super) fn numbers(numbers: &[f64], kind: &Type) -> String {
     match numbers {
         [one] => number(one),
         more => format!("[{}]", more.iter().map(number).collect::<Vec<_>>().join(", ")),
-    }
-}
-
-/// The name of a whole uniform, and the path in it.
-fn split(path: &str) -> (&str, &str) {
-    path.split_at(path.find(['.', '[']).unwrap_or(path.len()))
-}
-
-/// The first step of a path and the rest of it: an index or a member.
-fn step(path: &str) -> Option<(Result<usize, &str>, &str)> {
-    if let Some(rest) = path.strip_prefix('[') {
-        let (index, rest) = rest.split_once(']')?;
-        return Some((Ok(index.parse().ok()?), rest));
-    }
-    let rest = path.strip_prefix('.')?;
-    let end = rest.find(['.', '[']).unwrap_or(rest.len());
-    Some((Err(&rest[..end]), &rest[end..]))
-}
-
-fn empty(path: &str) -> Tree {
-    match step(path) {
-        Some((Ok(_), _)) => Tree::Elements(Vec::new()),
-        _ => Tree::Members(Vec::new()),
-    }
-}
-
-fn insert(tree: &mut Tree, path: &str, said: Said) {
-    let Some((first, rest)) = step(path) else {
-        *tree = Tree::Leaf(said);
-        return;
-    };
-    match (first, tree) {
-        // Elements come in their order.
-        (Ok(index), Tree::Elements(elements)) => {
-            while elements.len() <= index {
-                elements.push(empty(rest));
-            }
-            insert(&mut elements[index], rest, said);
-        }
-        (Err(name), Tree::Members(members)) => {
-            let at = members.iter().position(|(known, _)| known == name).unwrap_or_else(|| {
-                members.push((name.to_owned(), empty(rest)));
-                members.len() - 1
-            });
-            insert(&mut members[at].1, rest, said);
-        }
-        _ => {}
-    }
-}
-
-fn has(tree: &Tree, path: &str) -> bool {
-    match (step(path), tree) {
-        (None, Tree::Leaf(_)) => true,
-        (Some((Ok(index), rest)), Tree::Elements(elements)) => elements.get(index).is_some_and(|one| has(one, rest)),
-        (Some((Err(name), rest)), Tree::Members(members)) => {
-            members.iter().any(|(known, one)| known == name && has(one, rest))
-        }
-        _ => false,
-    }
-}
-
-/// The entries of a uniform: one where all its parts have values, or one for each part.
-fn write(name: &str, tree: &Tree, entries: &mut Vec<UniformEntry>) {
-    let entry = |lines: Vec<String>, note, texture| UniformEntry { name: name.to_owned(), lines, note, texture };
-    let note = |what: (&str, &str)| Some((what.0.to_owned(), what.1.to_owned()));
-    match tree {
-        Tree::Leaf(Said::Line(line)) => entries.push(entry(line.lines().map(str::to_owned).collect(), None, None)),
-        Tree::Leaf(Said::Texture(texture)) => {
-            let (en, ja) = texture.what;
-            entries.push(entry(vec![format!("texture = \"{}\"", texture.name)], note((en, ja)), Some(texture.clone())));
-        }
-        Tree::Leaf(Said::Value { value, probe, what }) => {
-            let mut lines = vec![format!("value = {value}")];
-            lines.extend(probe.iter().map(|probe| format!("probe = {probe}")));
-            entries.push(entry(lines, note(*what), None));
-        }
-        parts => match (value_of(parts, 0), probe_of(parts)) {
-            (Some(value), probe) => {
-                let mut lines = vec![format!("value = {value}")];
-                lines.extend(probe.iter().map(|probe| format!("probe = {probe}")));
-                entries.push(entry(lines, note(("a whole of values by their names", "名前から決めた値の組")), None));
-            }
-            (None, _) => match parts {
-                Tree::Members(members) => {
-                    members.iter().for_each(|(member, tree)| write(&format!("{name}.{member}"), tree, entries));
-                }
-                Tree::Elements(elements) => {
-                    (0..)
-                        .zip(elements)
-                        .for_each(|(at, tree): (usize, _)| write(&format!("{name}[{at}]"), tree, entries));
-                }
-                Tree::Leaf(_) => {}
-            },
-        },
-    }
-}
-
-/// The values of all parts, where they have values.
-fn value_of(tree: &Tree, depth: usize) -> Option<String> {
-    match tree {
-        Tree::Leaf(Said::Value { value, .. }) => Some(value.clone()),
-        Tree::Leaf(_) => None,
-        Tree::Members(members) => {
-            let each = members.iter().map(|(name, tree)| Some(format!("{name} = {}", value_of(tree, depth + 1)?)));
-            Some(format!("{{ {} }}", each.collect::<Option<Vec<_>>>()?.join(", ")))
-        }
-        Tree::Elements(elements) => {
-            let each = elements.iter().map(|tree| value_of(tree, depth + 1)).collect::<Option<Vec<_>>>()?;
-            Some(match depth {
-                0 => format!("[\n{}]", each.iter().map(|one| format!("    {one},\n")).collect::<String>()),
-                _ => format!("[{}]", each.join(", ")),
-            })
-        }
-    }
-}
-
-/// What probes may draw for the parts; of an array it is said once.
-fn probe_of(tree: &Tree) -> Option<String> {
-    match tree {
-        Tree::Leaf(Said::Value { probe, .. }) => probe.clone(),
-        Tree::Leaf(_) => None,
-        Tree::Elements(elements) => elements.first().and_then(probe_of),
-        Tree::Members(members) => {
-            let each: Vec<_> =
-                members.iter().filter_map(|(name, tree)| Some(format!("{name} = {}", probe_of(tree)?))).collect();
-            (!each.is_empty()).then(|| format!("{{ {} }}", each.join(", ")))
-        }
-    }
-}
-
-/// The attributes of a vertex solution.
-fn attributes(plan: &mut Plan, at: usize, test: Option<&ShaderTest>) -> Result<Vec<AttributeEntry>, AssignmentError> {
-    let source = &plan.sources[at];
-    let own = source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_"));
-    let own: Vec<(String, Type)> = own.map(|input| (input.name.clone(), input.kind.clone())).collect();
-    let listed = |name: &str, kind: &Type| test.and_then(|test| test.attribute(name, kind));
-    let mut carried: BTreeMap<&str, &str> = BTreeMap::new();
-    for (name, kind) in &own {
-        if let Some(said) = names::attribute(&NameWords::of(name), kind).filter(|_| listed(name, kind).is_none()) {
-            carried.entry(said).or_insert(name);
-        }
-    }
-    let mut attributes = Vec::new();
-    for (name, kind) in &own {
-        if let Some(values) = listed(name, kind) {
-            attributes.push(AttributeEntry { name: name.clone(), said: format!("values = {values}") });
-            continue;
-        }
-        let known = names::attribute(&NameWords::of(name), kind);
-        let said = known.map(str::to_owned).or_else(|| fallback(kind, &carried).map(str::to_owned));
-        if known.is_none()
-            && let Some(said) = &said
-        {
-            plan.guessed(
-                format!("input `{name}`: its name says nothing, so it carries \"{said}\""),
-                format!("input `{name}`: 名前から分からないので、\"{said}\" を渡します"),
-            );
-        } else if let Some(said) = &said {
-            plan.read(format!("input `{name}`: carries \"{said}\""), format!("input `{name}`: \"{said}\" を渡します"));
-        }
-        let said = match said {
-            Some(said) => {
-                let name: &str = name;
-                let key = ["position", "normal", "texture-coordinates", "tangent", "number"];
-                key.iter().find(|key| **key == said).map(|key| carried.entry(key).or_insert(name));
-                format!("carries = {said:?}")
-            }
-            None => {
-                plan.guessed(
-                    format!("input `{name}`: one of three values for each vertex in turn"),
-                    format!("input `{name}`: 頂点ごとに 3 つの値を順に渡します"),
-                );
-                let values = (0..3).map(|nth| numbers(&guess(&NameWords::of("color"), kind, nth, false).value, kind));
-                format!("values = [{}]", values.collect::<Vec<_>>().join(", "))
-            }
-        };
-        attributes.push(AttributeEntry { name: name.clone(), said });
-    }
-    Ok(attributes)
-}
-
-/// What an attribute carries whose name is not known: what is still missing, by its type.
-fn fallback(kind: &Type, carried: &BTreeMap<&str, &str>) -> Option<&'static str> {
-    let is_free = |said: &&str| !carried.contains_key(*said);
-    let Type::Vector(Scalar::Float, count) = kind else { return None };
-    match count {
-        2 if carried.contains_key("position") => Some("texture-coordinates").filter(is_free),
-        2..=4 => Some("position").filter(is_free),
-        _ => None,
     }
 }
