@@ -96,7 +96,13 @@ fn several_lamps_in_an_array_of_structures_become_a_homework() {
 
 #[test]
 fn fog_becomes_a_homework() {
-    Written::from(&["mist.frag"]).tells("pow(fogDensity * d, 2.0)", "fogDensity * d");
+    let written = Written::from(&["mist.frag"]);
+    written.tells("pow(fogDensity * d, 2.0)", "fogDensity * d");
+    let manifest = written.text("assignment.toml");
+    for line in ["id = \"fog\"", "en = \"Fog\", ja = \"霧\"", "en = \"Diffuse reflection\", ja = \"拡散反射光\""]
+    {
+        assert!(manifest.contains(line), "{line} in {manifest}");
+    }
 }
 
 #[test]

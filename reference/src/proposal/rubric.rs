@@ -170,9 +170,9 @@ fn is_telling(name: &str) -> bool {
 /// Words in names, and what such a part is called.
 const LABELS: &[(&str, &str, &str)] = &[
     ("shape", "Shape", "形"),
+    ("lambert", "Diffuse reflection", "拡散反射光"),
     ("amb", "Ambient light", "環境光"),
     ("diff", "Diffuse reflection", "拡散反射光"),
-    ("lambert", "Diffuse reflection", "拡散反射光"),
     ("spec", "Specular reflection", "鏡面反射光"),
     ("highlight", "Highlight", "ハイライト"),
     ("rim", "Rim light", "リムライト"),

@@ -155,6 +155,10 @@ fn mixed(source: &SolutionFile, words: &[Word], uses: &HashSet<String>) -> Optio
         |words: &[Word]| words.iter().any(|word| source.program.locals().iter().any(|own| own.name == word.text));
     let (kept, dropped) = if is_local(one) && !is_local(other) { (one, other) } else { (other, one) };
     let name = named_after(dropped, "", &[])?;
+    // What `fogColor` is mixed in for is fog.
+    let ends = ["Color", "Colour", "_color", "_colour"];
+    let name =
+        ends.iter().find_map(|end| name.strip_suffix(end)).filter(|rest| !rest.is_empty()).unwrap_or(&name).to_owned();
     let text = |words: &[Word]| Some(source.text[words.first()?.range.start..words.last()?.range.end].to_owned());
     Some((name, Change { from: text(&words[at..=close])?, to: text(kept)? }, uses.clone()))
 }
