@@ -66,17 +66,25 @@ fn named(asked: &str) -> Result<Arc<Assignment>, Text> {
     if let Some(built_in) = reference::assignment(asked) {
         return Ok(Arc::clone(built_in));
     }
-    let folder = Path::new(asked);
-    if !folder.is_dir() {
+    let path = Path::new(asked);
+    if !path.is_dir() {
         let list = list();
         return Err(Text::new(
             format!("--assignment {asked}: there is no built-in assignment and no folder of this name. {}", list.en),
             format!("--assignment {asked}: この名前の課題は組み込まれておらず、フォルダもありません。{}", list.ja),
         ));
     }
-    let loaded = Folder::read(folder).and_then(Assignment::load);
+    folder(path)
+}
+
+/// The assignment in a folder.
+///
+/// # Errors
+/// What to tell its teacher: what is wrong in which file, and what to try.
+pub fn folder(path: &Path) -> Result<Arc<Assignment>, Text> {
+    let loaded = Folder::read(path).and_then(Assignment::load);
     loaded.map(Arc::new).map_err(|error| {
-        let (shown, why) = (folder.display(), error.text());
+        let (shown, why) = (path.display(), error.text());
         Text::new(
             format!("the folder {shown} is not an assignment: {}", why.en),
             format!("フォルダ {shown} は課題として使えません: {}", why.ja),

@@ -6,7 +6,7 @@ mod format;
 mod serve;
 mod watch;
 
-pub use assignment::{Action, Assignment, Check, New, Show};
+pub use assignment::{Action, Assignment, Check, New, Preview, Show};
 pub use batch::Batch;
 pub use format::{Format, Reading};
 pub use serve::{LogFormat, Serve};

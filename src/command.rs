@@ -8,6 +8,7 @@ mod exchange;
 mod files;
 pub mod grade;
 pub mod interrupt;
+mod saves;
 pub mod serve;
 mod view;
 pub mod watch;

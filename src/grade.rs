@@ -3,7 +3,7 @@
 mod programs;
 mod unfinished;
 
-pub use unfinished::{handed_out, sources, unfinished};
+pub use unfinished::{handed_out, solution, sources, unfinished};
 
 use programs::Programs;
 

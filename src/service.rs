@@ -16,7 +16,8 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`store`] keeps everything,
-//! [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`].
+//! [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
+//! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
 
 pub mod api;
@@ -35,6 +36,7 @@ pub mod language;
 pub mod limits;
 pub(crate) mod metrics;
 pub mod pages;
+pub mod preview;
 pub mod regrade;
 mod requests;
 pub mod roster;

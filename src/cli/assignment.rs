@@ -4,6 +4,7 @@ use crate::language::Language;
 use crate::render::AdapterKind;
 use crate::sandbox::Policy;
 use clap::{Args, Subcommand};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// Look at assignments.
@@ -30,6 +31,8 @@ pub enum Action {
     New(New),
     /// Print the JSON schema of assignment.toml, for editors
     Schema,
+    /// Open the page that students will see, and keep it as the folder is while you write
+    Preview(Preview),
 }
 
 /// Say what the folder of an assignment says.
@@ -60,6 +63,26 @@ pub struct Check {
     /// What renders: Mesa's software driver, or a real graphics card
     #[arg(long, value_enum, default_value_t)]
     pub adapter: AdapterKind,
+    /// What to do where this machine cannot close the sandbox around a grading: refuse, or grade and say what is open
+    #[arg(long, value_enum, default_value_t, env = "GGRADE_SANDBOX")]
+    pub sandbox: Policy,
+}
+
+/// Open the page that students will see.
+#[derive(Debug, Args)]
+pub struct Preview {
+    /// The folder of an assignment; it may still be broken
+    #[arg(value_name = "FOLDER")]
+    pub folder: PathBuf,
+    /// Say the address, and open no browser
+    #[arg(long)]
+    pub no_open: bool,
+    /// Address and port to listen on; port 0 is a free one
+    #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:0")]
+    pub listen: SocketAddr,
+    /// Seconds that a grading may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    pub deadline: f64,
     /// What to do where this machine cannot close the sandbox around a grading: refuse, or grade and say what is open
     #[arg(long, value_enum, default_value_t, env = "GGRADE_SANDBOX")]
     pub sandbox: Policy,

@@ -2,6 +2,7 @@
 
 mod check;
 mod new;
+mod preview;
 mod show;
 
 use super::{ExitStatus, language};
@@ -25,6 +26,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, Fault> {
             anstream::print!("{}", reference::schema::text());
             Ok(ExitStatus::FullMarks)
         }
+        Action::Preview(preview) => preview::run(preview, language),
     }
 }
 

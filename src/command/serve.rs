@@ -118,7 +118,7 @@ fn set_password(config: &Config, runtime: &tokio::runtime::Runtime) -> Result<Ex
 }
 
 /// Writes the log to standard error: never a byte of what a student wrote.
-fn log(config: &Config) -> Result<(), Fault> {
+pub(super) fn log(config: &Config) -> Result<(), Fault> {
     let filter = EnvFilter::try_new(&config.log).map_err(|error| {
         Fault::new(Text::new(
             format!("--log {}: {error}", config.log),

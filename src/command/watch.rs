@@ -1,12 +1,13 @@
 //! `ggrade watch FILE…`: a report for every save, for a student at their desk.
 //!
-//! [`saves`] tells when a file was saved, [`change`] what a save changed, [`screen`] shows it. One pool with one warm
+//! [`super::saves`] tells when a file was saved, [`change`] what a save changed, [`screen`] shows it. One pool with one warm
 //! worker grades all of them, with the same seed, so that a changed score comes from the files.
 
 mod change;
-mod saves;
 mod screen;
 
+use super::interrupt::EndSignals;
+use super::saves::{self, Save, Saves};
 use super::view::{ReportView, has_colour};
 use super::{ExitStatus, deadline, files, language, warn};
 use crate::batch::intake::{self, Content, Options};
@@ -17,10 +18,8 @@ use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::report::{Report, Verdict};
 use crate::sandbox::{Pool, Settings, Submission};
-use saves::{Save, Saves};
 use screen::Screen;
 use std::sync::Arc;
-use tokio::signal::unix::{Signal, SignalKind, signal};
 
 /// Grades the hand-in whenever a file of it is saved, until it is interrupted; then the last report says how it ends.
 pub fn run(arguments: &Watch) -> Result<ExitStatus, Fault> {
@@ -32,7 +31,7 @@ pub fn run(arguments: &Watch) -> Result<ExitStatus, Fault> {
 }
 
 async fn watch(arguments: &Watch) -> Result<ExitStatus, Fault> {
-    let mut ends = Ends::listen().map_err(|error| broken(&error))?;
+    let mut ends = EndSignals::listen().map_err(|error| broken(&error))?;
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
     for path in &arguments.files {
@@ -69,31 +68,6 @@ async fn watch(arguments: &Watch) -> Result<ExitStatus, Fault> {
     }
     session.screen.end();
     Ok(session.outcome)
-}
-
-/// The signals that end the watching.
-struct Ends {
-    interrupt: Signal,
-    terminate: Signal,
-    hang_up: Signal,
-}
-
-impl Ends {
-    fn listen() -> std::io::Result<Self> {
-        Ok(Self {
-            interrupt: signal(SignalKind::interrupt())?,
-            terminate: signal(SignalKind::terminate())?,
-            hang_up: signal(SignalKind::hangup())?,
-        })
-    }
-
-    async fn any(&mut self) {
-        tokio::select! {
-            _ = self.interrupt.recv() => {}
-            _ = self.terminate.recv() => {}
-            _ = self.hang_up.recv() => {}
-        }
-    }
 }
 
 /// What goes on between the saves.

@@ -88,3 +88,9 @@ pub fn handed_out(assignment: &Assignment) -> HandIn {
     let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.starter.as_bytes());
     HandIn { files: assignment.files.iter().map(file).collect() }
 }
+
+/// The assignment's solution, as if somebody handed it in.
+pub fn solution(assignment: &Assignment) -> HandIn {
+    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.solution.text.as_bytes());
+    HandIn { files: assignment.files.iter().map(file).collect() }
+}

@@ -11,6 +11,7 @@ mod frame;
 mod hand_in;
 mod homeworks;
 mod join;
+mod preview;
 mod problem;
 mod receipt;
 mod report_fragment;
@@ -22,6 +23,7 @@ mod terms;
 
 pub use assets::warm;
 pub use frame::Frame;
+pub use preview::broken_folder;
 pub use problem::problem;
 
 use super::Service;

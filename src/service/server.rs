@@ -46,8 +46,7 @@ pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Res
     if one_time_token.is_some() {
         config.teacher_token.clone_from(&one_time_token);
     }
-    let listener = TcpListener::bind(config.listen).await.map_err(|error| cannot_listen(config.listen, &error))?;
-    let address = listener.local_addr().map_err(|error| cannot_listen(config.listen, &error))?;
+    let (listener, address) = listen(config.listen).await?;
     let pool = pool(&config, &assignments).await?;
     let service = Service::serving(assignments, config, store, Arc::new(pool), Clock::system()).await?;
     let graders = Graders::start(&service).await.map_err(|error| database(&error))?;
@@ -76,6 +75,13 @@ impl Started {
     }
 }
 
+/// Listens, and says where: port 0 is a free one.
+pub(super) async fn listen(asked: SocketAddr) -> Result<(TcpListener, SocketAddr), Fault> {
+    let listener = TcpListener::bind(asked).await.map_err(|error| cannot_listen(asked, &error))?;
+    let address = listener.local_addr().map_err(|error| cannot_listen(asked, &error))?;
+    Ok((listener, address))
+}
+
 /// Opens the database of a configuration.
 pub async fn open(config: &Config) -> Result<Store, Fault> {
     Store::open(&config.location()?).await.map_err(|error| {
@@ -96,7 +102,7 @@ async fn has_teacher(config: &Config, store: &Store) -> Result<bool, Fault> {
 }
 
 /// One worker more than files are graded at once draws pictures for who looks at reports.
-async fn pool(config: &Config, assignments: &[Arc<Assignment>]) -> Result<Pool, Fault> {
+pub(super) async fn pool(config: &Config, assignments: &[Arc<Assignment>]) -> Result<Pool, Fault> {
     let Some((first, further)) = assignments.split_first() else {
         return Err(Fault::new(Text::verbatim("there is no assignment to serve")));
     };
@@ -137,7 +143,7 @@ fn cannot_listen(address: SocketAddr, error: &std::io::Error) -> Fault {
     .remedy(Text::new("Choose another port with --listen.", "--listen で別のポートを指定してください。"))
 }
 
-fn database(error: &StoreError) -> Fault {
+pub(super) fn database(error: &StoreError) -> Fault {
     Fault::new(Text::new(format!("the database: {error}"), format!("データベースの障害: {error}")))
 }
 

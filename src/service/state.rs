@@ -8,11 +8,12 @@ use super::gallery::{Gallery, RightPictures};
 use super::grading::{CrossChecks, Judge, Queue};
 use super::identity::{new_id, new_token};
 use super::limits::{Limits, Proxies};
+use super::preview::FolderVersion;
 use super::store::{Store, Stored, Submission};
 use crate::fault::Fault;
 use crate::language::Text;
 use reference::Assignment;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use tokio::sync::{Semaphore, watch};
 
 /// What every request shares, whatever homework it is about; cheap to clone.
@@ -70,6 +71,8 @@ pub struct Shared {
     homeworks: Vec<(Arc<Assignment>, Arc<RightPictures>)>,
     /// The teacher's token, where there is one.
     pub teacher_token: Option<String>,
+    /// What a preview of a folder says beside the student's page; nothing in a service for students.
+    pub preview: OnceLock<FolderVersion>,
     pub(super) proxies: Proxies,
     /// The key of the tokens in forms.
     pub(super) key: Vec<u8>,
@@ -101,6 +104,7 @@ impl Service {
         };
         Ok(Self(Arc::new(Shared {
             limits: Limits::new(&config, &clock),
+            preview: OnceLock::new(),
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),
             cross_checks: CrossChecks::default(),

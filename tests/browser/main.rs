@@ -8,6 +8,7 @@ mod chromium;
 mod drafts;
 mod editor;
 mod offline;
+mod preview;
 mod several;
 mod staying;
 mod teacher;

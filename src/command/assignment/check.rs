@@ -121,7 +121,7 @@ fn say_variants(assignment: &Assignment, language: Language) -> bool {
 }
 
 /// What one of the folder's own files has.
-fn scored(en: &str, ja: &str, report: &Report) -> Text {
+pub(super) fn scored(en: &str, ja: &str, report: &Report) -> Text {
     let Report { verdict, score, max_score, .. } = report;
     Text::new(
         format!("{en}: {verdict:?}, {score} of {max_score} points"),

@@ -60,6 +60,7 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("permalink.js", include_str!("assets/permalink.js")),
         Asset::text("receipt.js", include_str!("assets/receipt.js")),
         Asset::text("student.js", include_str!("assets/student.js")),
+        Asset::text("preview.js", include_str!("assets/preview.js")),
         Asset::text("live.js", include_str!("assets/live.js")),
         Asset::text("icon.svg", include_str!("assets/icon.svg")),
     ]

@@ -4,7 +4,7 @@ use super::form::Form;
 use super::frame::Frame;
 use super::standing::StudentStanding;
 use super::student::{Desk, LISTED};
-use super::{result, shown};
+use super::{preview, result, shown};
 use crate::grade::handed_out;
 use crate::service::State;
 use crate::service::download;
@@ -80,6 +80,7 @@ pub(super) async fn desk(
         )
     });
     let desk = Desk {
+        preview: preview::panel(&state, &frame),
         frame,
         homework: std::sync::Arc::clone(&state.assignment),
         standing: StudentStanding {

@@ -3,6 +3,7 @@
 use super::assets;
 use super::datetime::Moment;
 use super::frame::Frame;
+use super::preview::PreviewPanel;
 use super::report_fragment;
 use super::standing::{Fact, StudentStanding};
 use crate::language::Language;
@@ -38,6 +39,8 @@ pub(super) struct Desk<'a> {
     pub own: Option<(String, Vec<String>)>,
     /// What is to be said first.
     pub notice: Option<String>,
+    /// What a preview says to the teacher who writes the homework.
+    pub preview: Option<PreviewPanel>,
 }
 
 #[derive(Template)]
@@ -79,6 +82,7 @@ struct StudentPage<'a> {
     picture: &'a str,
     equation: Option<&'a Typeset>,
     attempts: Vec<Attempt>,
+    preview: Option<PreviewPanel>,
 }
 
 /// The editor of one file.
@@ -133,6 +137,7 @@ impl Desk<'_> {
             grades_drafts: standing.grades_drafts(),
             attempts: self.attempts(),
             notice: self.notice,
+            preview: self.preview,
             who: self.who,
             action: format!("/a/{id}"),
             draft: format!("/a/{id}/draft"),

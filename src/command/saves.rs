@@ -1,4 +1,4 @@
-//! When a file of a hand-in is saved: once all lie still, whichever way the editor writes it.
+//! When a file of a hand-in, or of an assignment's folder, is saved: once all lie still, whichever way the editor writes it.
 //!
 //! An editor may write into the file, empty it first, or put another in its place; so what is watched is its folder,
 //! and what counts is the file that then stands under the name. Folders that tell nothing, on network drives say, are
@@ -33,10 +33,12 @@ pub(super) enum Save {
     Unreadable(Text),
 }
 
-/// The saves of the files of one hand-in.
+/// The saves of the files of one hand-in, or of one assignment.
 pub(super) struct Saves {
     /// Files, and folders of files.
     paths: Vec<PathBuf>,
+    /// Whether the folders in folders count as well.
+    depth: RecursiveMode,
     name: String,
     seen: Option<Seen>,
     changed: Arc<Notify>,
@@ -74,11 +76,20 @@ impl Stamp {
 }
 
 impl Saves {
-    /// Watches the files from now on; the first save is what they are now.
+    /// Watches the files, and those in the folders, from now on; the first save is what they are now.
     pub fn of(paths: &[PathBuf]) -> Self {
+        Self::at(paths, RecursiveMode::NonRecursive)
+    }
+
+    /// The same with everything below a folder.
+    pub fn below(folder: &Path) -> Self {
+        Self::at(&[folder.to_owned()], RecursiveMode::Recursive)
+    }
+
+    fn at(paths: &[PathBuf], depth: RecursiveMode) -> Self {
         let changed = Arc::new(Notify::new());
-        let watcher = watcher(paths, &changed);
-        Self { paths: paths.into(), name: files::names(paths), seen: None, _watcher: watcher, changed }
+        let watcher = watcher(paths, depth, &changed);
+        Self { paths: paths.into(), depth, name: files::names(paths), seen: None, _watcher: watcher, changed }
     }
 
     /// The names of the files.
@@ -117,18 +128,8 @@ impl Saves {
 
     /// The files as they are now: those that are named, and those in the folders that are.
     fn stamps(&self) -> Stamps {
-        let in_folder = |path: &Path| -> Option<Vec<PathBuf>> {
-            let entries = std::fs::read_dir(path).ok()?.flatten().map(|entry| entry.path());
-            // Editors keep files of their own beside those that they write.
-            let is_own = |path: &PathBuf| {
-                let name = path.file_name().unwrap_or_default().to_string_lossy();
-                path.is_file() && !name.starts_with('.') && !name.ends_with('~')
-            };
-            let mut files: Vec<PathBuf> = entries.filter(is_own).collect();
-            files.sort();
-            Some(files)
-        };
-        let files = self.paths.iter().flat_map(|path| in_folder(path).unwrap_or_else(|| vec![path.clone()]));
+        let files =
+            self.paths.iter().flat_map(|path| in_folder(path, self.depth).unwrap_or_else(|| vec![path.clone()]));
         files.map(|path| (path.clone(), Stamp::of(&path))).collect()
     }
 
@@ -152,6 +153,26 @@ impl Saves {
     }
 }
 
+/// The files in a folder, in a stable order; none of what is no folder.
+fn in_folder(folder: &Path, depth: RecursiveMode) -> Option<Vec<PathBuf>> {
+    // Editors keep files of their own beside those that they write.
+    let is_own = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        !name.starts_with('.') && !name.ends_with('~')
+    };
+    let entries = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path());
+    let mut files = Vec::new();
+    for path in entries.filter(is_own) {
+        if path.is_file() {
+            files.push(path);
+        } else if depth == RecursiveMode::Recursive && !path.is_symlink() {
+            files.extend(in_folder(&path, depth).unwrap_or_default());
+        }
+    }
+    files.sort();
+    Some(files)
+}
+
 /// Whether every file is there, and not just emptied by an editor that goes on to fill it.
 fn is_whole(stamps: &Stamps) -> bool {
     stamps.iter().all(|(_, stamp)| stamp.is_some_and(|stamp| stamp.size > 0))
@@ -171,7 +192,7 @@ fn given(stamps: &Stamps, contents: &[Vec<u8>]) -> Vec<HandInPart> {
 }
 
 /// Watches the folder of each file, and where the file is a link, that of what it points to.
-fn watcher(paths: &[PathBuf], changed: &Arc<Notify>) -> Option<notify::RecommendedWatcher> {
+fn watcher(paths: &[PathBuf], depth: RecursiveMode, changed: &Arc<Notify>) -> Option<notify::RecommendedWatcher> {
     let (folders, files): (Vec<_>, Vec<_>) = paths.iter().partition(|path| path.is_dir());
     let places = |path: &PathBuf| [std::path::absolute(path).ok(), std::fs::canonicalize(path).ok()];
     let files: Vec<PathBuf> = files.into_iter().flat_map(places).flatten().collect();
@@ -194,7 +215,7 @@ fn watcher(paths: &[PathBuf], changed: &Arc<Notify>) -> Option<notify::Recommend
         let _ = file.parent().map(|folder| watcher.watch(folder, RecursiveMode::NonRecursive));
     }
     for folder in folders {
-        let _ = watcher.watch(folder, RecursiveMode::NonRecursive);
+        let _ = watcher.watch(folder, depth);
     }
     Some(watcher)
 }
