@@ -136,7 +136,7 @@ async fn a_file_that_differs_is_shown_and_kept(database: Database) {
     assert!(page.contains("Driver and interpreter disagree.") && page.contains("vertex 7: vc[1] differs"), "{page}");
     assert!(!String::from_utf8_lossy(&bench.get(&format!("/r/{id}")).await.body).contains("vertex 7"));
     let class = text("/teacher").await;
-    assert!(class.contains("Driver and interpreter disagree on 1 file</a>"), "{class}");
+    assert!(class.contains("Driver and interpreter disagree on 1 hand-in</a>"), "{class}");
     assert_eq!(class.matches("<em class=\"disputed\">").count(), 1, "{class}");
     let chosen = text("/teacher?disputed=on").await;
     assert!(chosen.contains("<small id=\"live-count\" data-live>1 shown"), "{chosen}");

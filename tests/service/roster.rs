@@ -127,7 +127,7 @@ async fn the_class_is_the_roster(database: Database) {
     assert_eq!(hand_in(&bench, "?student=s1", sample(WRONG)).await.status, StatusCode::CREATED);
     let page = get(&bench, "/teacher").await;
     assert_eq!(page.all(".overview .lead"), ["1 of 1 have handed in"]);
-    assert!(page.all(".aside")[0].starts_with("3 files of nobody in the class"));
+    assert!(page.all(".aside")[0].starts_with("3 hand-ins of nobody in the class"));
     assert_eq!(page.all(".overview .score"), ["Mean of the best scores 80 mean"]);
 
     // The archive comes before the roster, with names in another order, width and case.
@@ -142,7 +142,7 @@ async fn the_class_is_the_roster(database: Database) {
         .await;
     let page = get(&bench, "/teacher").await;
     assert_eq!(page.all(".overview .lead"), ["2 of 5 have handed in"]);
-    assert!(page.all(".aside")[0].starts_with("4 files of nobody in the class"), "{:?}", page.all(".aside"));
+    assert!(page.all(".aside")[0].starts_with("4 hand-ins of nobody in the class"), "{:?}", page.all(".aside"));
     assert_eq!(page.all(".overview .score"), ["Mean of the best scores 100 mean"]);
     // What could not be graded stands first, then everyone by number.
     let students = page.all(".people tbody th");
