@@ -26,11 +26,11 @@ fn once<T>(drawn: &Drawn<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc
 /// The reference's frames as pictures, drawn once a process.
 pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
     static DRAWN: Drawn<Picture> = Mutex::new(Vec::new());
-    once(&DRAWN, assignment, || expected::of_solution(assignment).map(picture).collect())
+    once(&DRAWN, assignment, || expected::of_solution(assignment).map(|frame| picture(&frame)).collect())
 }
 
 /// A right picture; its alpha says where it may be drawn otherwise.
-fn picture(frame: Frame) -> Picture {
+pub fn picture(frame: &Frame) -> Picture {
     let pixels = frame.pixels.iter().zip(&frame.coverage);
     let rgba = pixels.flat_map(|([r, g, b, _], coverage)| {
         [*r, *g, *b, if *coverage == Coverage::Silhouette { SILHOUETTE } else { u8::MAX }]

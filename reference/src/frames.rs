@@ -1,7 +1,9 @@
 //! Pictures of the animation, as a right answer or a known mistake draws them.
 
 use crate::equation::{Reads, Variant};
+use crate::feature::Feature;
 use crate::interpreter::Program;
+use crate::mistake::FoundMistake;
 use crate::pipeline::{Pipeline, Vertices, positions, scalars};
 use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
 use crate::scene::{Instance, Pose};
@@ -46,7 +48,31 @@ impl Assignment {
 
     /// The right pictures of all poses.
     pub fn frames(&self) -> Vec<Frame> {
-        self.scene.all_poses().iter().map(|pose| self.right_frame(pose)).collect()
+        self.at_all_poses(|pose| self.right_frame(pose))
+    }
+
+    /// The pictures of all poses by the solution without a feature. A term of a fragment stage is known at probes only.
+    pub fn frames_without(&self, feature: &Feature) -> Option<Vec<Frame>> {
+        match feature {
+            Feature::Program(program) => Some(self.at_all_poses(|pose| self.frame_of(program, pose))),
+            Feature::Term(form) => self.frames_of(&self.equation.right().with(form, f64::NAN)),
+        }
+    }
+
+    /// The pictures of all poses with a mistake. What is another definition of a fragment stage is known at probes only.
+    pub fn frames_with(&self, found: &FoundMistake) -> Option<Vec<Frame>> {
+        match self.mistake(&found.id)?.program(found.form) {
+            Some(program) => Some(self.at_all_poses(|pose| self.frame_of(program, pose))),
+            None => self.frames_of(&self.variant(std::slice::from_ref(found))?),
+        }
+    }
+
+    fn frames_of(&self, variant: &Variant<'_>) -> Option<Vec<Frame>> {
+        (self.equation.reads == Reads::Attributes).then(|| self.at_all_poses(|pose| self.frame(pose, variant)))
+    }
+
+    fn at_all_poses(&self, draw: impl Fn(&Pose) -> Frame) -> Vec<Frame> {
+        self.scene.all_poses().iter().map(draw).collect()
     }
 
     /// The triangles of that picture, with the term in place of the colour.

@@ -137,6 +137,11 @@ impl Mistake {
         }
     }
 
+    /// In how many ways it is written.
+    pub fn ways(&self) -> usize {
+        self.forms.len() + self.variants.len()
+    }
+
     /// The program of a form with this number, if it is one.
     pub(crate) fn program(&self, form: usize) -> Option<&AcceptedAnswer> {
         self.variants.get(form.checked_sub(self.forms.len())?)

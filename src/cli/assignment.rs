@@ -60,6 +60,10 @@ pub struct Check {
     /// The folder of an assignment, or the name of a built-in one
     #[arg(value_name = "FOLDER")]
     pub assignment: String,
+    /// Folder for pictures: what is drawn, what should be and where they differ, for each of the homework's own files, for the
+    /// solution without each feature, and with each mistake
+    #[arg(long, value_name = "DIR")]
+    pub pictures: Option<PathBuf>,
     /// What renders: Mesa's software driver, or a real graphics card
     #[arg(long, value_enum, default_value_t)]
     pub adapter: AdapterKind,

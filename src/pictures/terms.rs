@@ -88,7 +88,7 @@ impl<'a> Terms<'a> {
     /// A term as a right answer computes it.
     pub fn expected(&self, scene: &TermScene<'_>) -> Option<Picture> {
         let TermScene { line, pose, .. } = scene;
-        self.assignment.term_frame(pose, &self.assignment.equation.right(), &line.judges).map(picture)
+        self.assignment.term_frame(pose, &self.assignment.equation.right(), &line.judges).map(|frame| picture(&frame))
     }
 
     /// A term as the submission computes it; none where that is not known.
@@ -98,7 +98,7 @@ impl<'a> Terms<'a> {
             return self.expected(scene);
         }
         let theirs = self.theirs.as_ref()?;
-        theirs.term_frame(pose, &theirs.variant(&self.found)?, &line.judges).map(picture)
+        theirs.term_frame(pose, &theirs.variant(&self.found)?, &line.judges).map(|frame| picture(&frame))
     }
 
     /// All of them, drawn. Those of right answers are drawn once a process.

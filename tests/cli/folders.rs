@@ -7,6 +7,10 @@ use tempfile::TempDir;
 
 const MANIFEST: &str = "assignment.toml";
 
+/// What the lines of `toon` lack.
+const TONES: &str = "without = { replace = [[\"floor(lit * float(tones)) / float(tones)\", \"lit\"]] }";
+const OUTLINE: &str = "without = { replace = [[\"< 0.3)\", \"< -2.0)\"]] }";
+
 /// A copy of a homework's folder, the built-in one's where nothing is said, in a folder called `toon`.
 struct Copy {
     /// What the copy stands in, beside what is not part of it.
@@ -229,12 +233,17 @@ fn a_check_says_what_each_line_is_judged_by() {
     for line in ["tones", "outline"] {
         assert!(said.contains(&format!("ok   rubric line `{line}`: shows at ")), "{said}");
     }
-    // What is never seen by itself cannot be judged by itself.
-    let hidden = "without = { replace = [[\"tint = vec4(colour, 1.0)\", \"tint = vec4(0.0)\"]] }";
-    let outline = "without = { replace = [[\"< 0.3)\", \"< -2.0)\"]] }";
-    let (code, said) = check(&Copy::of("tests/homeworks/toon").replace(MANIFEST, outline, hidden));
+    assert!(said.contains("ok   mistake `tones-rounded`: shows at "), "{said}");
+    // Of two lines that show at the same places neither can be judged.
+    let everywhere =
+        |grey: &str| format!("without = {{ replace = [[\"tint = vec4(colour, 1.0)\", \"tint = vec4({grey})\"]] }}");
+    let copy = Copy::of("tests/homeworks/toon").replace(MANIFEST, OUTLINE, &everywhere("-1.0"));
+    let (code, said) = check(&copy.replace(MANIFEST, TONES, &everywhere("2.0")));
     assert_eq!(code, Some(0), "{said}");
-    assert!(said.contains("note rubric line `tones`: shows at ") && said.contains(", at 0 by itself;"), "{said}");
+    assert!(
+        said.contains("note rubric line `tones`: shows at ") && said.contains("; judged at 0 of the probes"),
+        "{said}"
+    );
     // A mistake that shows nothing, and two that show the same.
     let ceil = "\"ceil(lit * float(tones))\"";
     let (code, said) =
@@ -246,6 +255,23 @@ fn a_check_says_what_each_line_is_judged_by() {
     assert_eq!(code, Some(2), "{said}");
     let same = "FAIL mistake `tones-rounded`, variant 1: shows the same as mistake `tones-rounded`, variant 0";
     assert!(said.contains(same), "{said}");
+}
+
+#[test]
+fn a_check_draws_what_lacks_something_and_names_what_is_not_translated() {
+    let copy = Copy::of("tests/homeworks/toon").replace(MANIFEST, "ja = \"輪郭線\"", "ja = \"Outline\"");
+    let pictures = copy.around.path().join("pictures");
+    let mut command = ggrade();
+    let output =
+        command.args(["assignment", "check"]).arg(copy.folder()).arg("--pictures").arg(&pictures).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("note rubric line `outline`, label: the same in both languages"), "{said}");
+    let picture = |name: &str| fs::read(pictures.join(format!("{name}.png"))).unwrap();
+    let all = ["solution", "handed-out", "without-tones", "without-outline", "tones-rounded-0"].map(picture);
+    for (place, own) in all.iter().enumerate() {
+        assert!(own.starts_with(b"\x89PNG") && all[..place].iter().all(|other| other != own), "picture {place}");
+    }
 }
 
 #[test]

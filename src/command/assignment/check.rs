@@ -1,23 +1,27 @@
 //! `ggrade assignment check`: whether a folder is a homework that grades.
 
+mod shows;
+mod texts;
+
 use super::list;
 use crate::cli::Check;
-use crate::command::{ExitStatus, assignment, warn};
+use crate::command::{ExitStatus, assignment, file_fault, warn, writing};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::{Language, Text};
-use crate::report::{Report, Verdict};
-use crate::sandbox::{Pool, Settings, Submission};
+use crate::pictures::expected_pictures;
+use crate::report::{Picture, Pictures, Report, Verdict, pictures};
+use crate::sandbox::{GradedSubmission, Pool, Settings, Submission};
 use reference::Assignment;
-use reference::fit;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How long a lecturer waits on a busy machine before the solution is called too slow.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Grades the folder's own files, and says what its rubric and its variants show.
+/// Grades the folder's own files, and says what its rubric and its mistakes show.
 pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, Fault> {
     let Some(assignment) = assignment(Some(&arguments.assignment), &[], language) else {
         return Ok(ExitStatus::Usage);
@@ -33,38 +37,58 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
     };
     let pool = Pool::start(settings, 1)?;
     warn(&pool, language);
-    let grade = |hand_in: &HandIn| {
+    let album = Album::new(arguments.pictures.clone(), &assignment)?;
+    let said = Said { language };
+    let grade = |hand_in: &HandIn, name: &str| -> Result<Report, Fault> {
         let assignment = pool.assignment();
-        let answer = pool.grade(Submission { assignment, hand_in, order: Order::default(), wants_frames: false });
-        answer.map(|answer| answer.report)
+        let wants_frames = album.is_wanted();
+        let GradedSubmission { report, frames } =
+            pool.grade(Submission { assignment, hand_in, order: Order::default(), wants_frames })?;
+        album.put(name, frames)?;
+        Ok(report)
     };
-    let solution = assignment.files.iter().map(|file| HandedInFile::new(&file.name, file.solution.text.as_bytes()));
+    let own = assignment.files.iter().map(|file| HandedInFile::new(&file.name, file.solution.text.as_bytes()));
+    let own: Vec<HandedInFile> = own.collect();
     let begin = Instant::now();
-    let solution = grade(&HandIn { files: solution.collect() })?;
+    let solution = grade(&HandIn { files: own }, "solution")?;
     let took = begin.elapsed();
-    let starter = grade(&grade::handed_out(&assignment))?;
-    let is_right = solution.verdict == Verdict::Correct;
-    say(is_right, &scored("the solution", "解答", &solution), language);
-    for diagnostic in solution.diagnostics.iter().filter(|_| !is_right) {
-        anstream::println!("     {}", diagnostic.message.get(language));
-    }
-    say_time(took, Settings::new(Arc::clone(&assignment)).deadline, language);
-    let is_unfinished = starter.verdict == Verdict::Wrong;
-    say(is_unfinished, &scored("what is handed out", "配布ファイル", &starter), language);
-    say_features(&assignment, language);
-    let are_seen = say_variants(&assignment, language);
-    let digest = Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest));
-    say(true, &digest, language);
-    Ok(if is_right && is_unfinished && are_seen { ExitStatus::FullMarks } else { ExitStatus::Usage })
+    let mut is_whole = say_solution(said, &solution);
+    say_time(said, took, Settings::new(Arc::clone(&assignment)).deadline);
+    is_whole &= say_starter(said, &grade(&grade::handed_out(&assignment), "handed-out")?);
+    is_whole &= shows::say(said, &assignment, &album)?;
+    texts::say(said, &assignment);
+    said.ok(&Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest)));
+    Ok(if is_whole { ExitStatus::FullMarks } else { ExitStatus::Usage })
+}
+
+/// Whether driver and interpreter agree on the solution.
+fn say_solution(said: Said, report: &Report) -> bool {
+    let is_right = report.verdict == Verdict::Correct;
+    let scored = scored("the solution", "解答", report);
+    let Some(apart) = report.probes.max_difference.filter(|_| is_right) else {
+        said.line(is_right, &scored);
+        report.diagnostics.iter().for_each(|one| anstream::println!("     {}", one.message.get(said.language)));
+        return is_right;
+    };
+    let (probes, frames) = (report.probes.samples, report.frames.len());
+    let steps = report.frames.iter().map(|frame| frame.max_difference).fold(0.0, f64::max);
+    said.ok(&Text::new(
+        format!(
+            "{}; interpreter and driver differ by at most {apart:.1e} at {probes} probes, and by {steps}/255 in {frames} frames",
+            scored.en
+        ),
+        format!("{}。インタープリターとドライバーの差は、検査点 {probes} 点で最大 {apart:.1e}、画像 {frames} 枚で最大 {steps}/255", scored.ja),
+    ));
+    true
 }
 
 /// Says that the solution takes most of the time that a hand-in has.
-fn say_time(took: Duration, deadline: Duration, language: Language) {
+fn say_time(said: Said, took: Duration, deadline: Duration) {
     if took <= deadline.mul_f64(0.8) {
         return;
     }
     let (took, deadline) = (took.as_secs_f64(), deadline.as_secs_f64());
-    let text = Text::new(
+    said.note(&Text::new(
         format!(
             "the solution took {took:.1} s on this machine, and a hand-in has {deadline} s: draw fewer poses or a smaller window, or grade \
              with a longer --deadline"
@@ -73,51 +97,22 @@ fn say_time(took: Duration, deadline: Duration, language: Language) {
             "このマシンで解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすかウィンドウを小さくする、\
              または --deadline を延ばしてください"
         ),
-    );
-    anstream::println!("note {}", text.get(language));
+    ));
 }
 
-/// Says where each line's feature shows, and which cannot be judged by itself, as a term of a sum that always has another.
-fn say_features(assignment: &Assignment, language: Language) {
-    let probes = assignment.judging_probes();
-    let all = probes.probes.len();
-    let footprints = fit::Footprints::of(assignment, &probes, fit::TOLERANCE);
-    // Where all is right, each line is judged that can be judged at all.
-    let judged = footprints.judged(&|_| true);
-    for line in footprints.lines() {
-        let (id, shows) = (&assignment.rubric[line].id, footprints.of_line(line).len());
-        let alone = judged.iter().find(|(known, _)| *known == line).map_or(0, |(_, places)| places.len());
-        let is_judged = alone > 0;
-        let [mut en, mut ja] = [
-            format!("rubric line `{id}`: shows at {shows} of {all} probes, and is judged at {alone} of them"),
-            format!("採点の行 `{id}`: 検査点 {all} 点中 {shows} 点に現れ、そのうち {alone} 点で採点できる"),
-        ];
-        if !is_judged {
-            en.push_str("; an answer that nothing explains loses its points");
-            ja.push_str("。原因の分からない答えでは、この行の点は残りません");
-        }
-        let word = if is_judged { "ok  " } else { "note" };
-        anstream::println!("{word} {}", Text::new(en, ja).get(language));
+/// Whether what is handed out leaves something to do.
+fn say_starter(said: Said, report: &Report) -> bool {
+    let is_unfinished = report.verdict == Verdict::Wrong;
+    let scored = scored("what is handed out", "配布ファイル", report);
+    if is_unfinished && report.score > 0.0 {
+        said.note(&Text::new(
+            format!("{}: whoever hands it in as it is has them too", scored.en),
+            format!("{} (そのまま提出しても、この点になります)", scored.ja),
+        ));
+    } else {
+        said.line(is_unfinished, &scored);
     }
-}
-
-/// Names the variants of mistakes that show nothing of their own.
-fn say_variants(assignment: &Assignment, language: Language) -> bool {
-    let alike = fit::alike(assignment, &assignment.judging_probes(), fit::TOLERANCE);
-    for (variant, other) in &alike {
-        let text = match other {
-            None => Text::new(
-                format!("{variant}: shows at no probe; change it, or remove it"),
-                format!("{variant}: どの検査点でも解答と同じになります。変えるか、取り除いてください"),
-            ),
-            Some(other) => Text::new(
-                format!("{variant}: shows the same as {other}, which is what will be found; remove one"),
-                format!("{variant}: {other} と同じ結果になり、見つかるのはそちらです。一方を取り除いてください"),
-            ),
-        };
-        say(false, &text, language);
-    }
-    alike.is_empty()
+    is_unfinished
 }
 
 /// What one of the folder's own files has.
@@ -129,6 +124,50 @@ pub(super) fn scored(en: &str, ja: &str, report: &Report) -> Text {
     )
 }
 
-fn say(good: bool, text: &Text, language: Language) {
-    anstream::println!("{} {}", if good { "ok  " } else { "FAIL" }, text.get(language));
+/// How lines are said.
+#[derive(Clone, Copy)]
+struct Said {
+    language: Language,
+}
+
+impl Said {
+    fn ok(self, text: &Text) {
+        self.line(true, text);
+    }
+
+    fn line(self, good: bool, text: &Text) {
+        anstream::println!("{} {}", if good { "ok  " } else { "FAIL" }, text.get(self.language));
+    }
+
+    fn note(self, text: &Text) {
+        anstream::println!("note {}", text.get(self.language));
+    }
+}
+
+/// Where pictures go, if anywhere.
+struct Album<'a> {
+    folder: Option<PathBuf>,
+    assignment: &'a Assignment,
+}
+
+impl<'a> Album<'a> {
+    fn new(folder: Option<PathBuf>, assignment: &'a Assignment) -> Result<Self, Fault> {
+        if let Some(folder) = &folder {
+            std::fs::create_dir_all(folder).map_err(|error| file_fault(&writing(), folder, &error))?;
+        }
+        Ok(Self { folder, assignment })
+    }
+
+    fn is_wanted(&self) -> bool {
+        self.folder.is_some()
+    }
+
+    /// Writes one moving picture: these frames, the right ones, and where they differ.
+    fn put(&self, name: &str, yours: Vec<Picture>) -> Result<(), Fault> {
+        let Some(folder) = self.folder.as_ref().filter(|_| !yours.is_empty()) else { return Ok(()) };
+        let expected = expected_pictures(self.assignment);
+        let pictures = Pictures { yours, expected, terms: Arc::default(), cycle: self.assignment.scene.cycle };
+        let path = folder.join(format!("{name}.png"));
+        std::fs::write(&path, pictures::animation(&pictures)?).map_err(|error| file_fault(&writing(), &path, &error))
+    }
 }

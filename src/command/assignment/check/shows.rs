@@ -1,0 +1,133 @@
+//! Where the features of the rubric and the mistakes of a folder show.
+
+use super::{Album, Said};
+use crate::compare::PIXEL_TOLERANCE;
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::pictures::picture;
+use reference::Assignment;
+use reference::fit;
+use reference::mistake::{FoundMistake, Mistake};
+use reference::probes::ProbeSet;
+use reference::rasteriser::{Coverage, Frame};
+
+/// Says it all; whether every mistake shows something of its own.
+pub(super) fn say(said: Said, assignment: &Assignment, album: &Album<'_>) -> Result<bool, Fault> {
+    let probes = assignment.judging_probes();
+    let right = assignment.frames();
+    say_features(said, assignment, &probes, &right, album)?;
+    for mistake in assignment.mistakes.iter().filter(|mistake| mistake.ways() > 0) {
+        say_mistake(said, assignment, mistake, &probes, &right, album)?;
+    }
+    Ok(say_alike(said, assignment, &probes))
+}
+
+/// Says where each line's feature shows, and which cannot be judged, as a term of a sum that always has another.
+fn say_features(
+    said: Said,
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    right: &[Frame],
+    album: &Album<'_>,
+) -> Result<(), Fault> {
+    let footprints = fit::Footprints::of(assignment, probes, fit::TOLERANCE);
+    // Where all is right, each line is judged that can be judged at all.
+    let judged = footprints.judged(&|_| true);
+    for line in footprints.lines() {
+        let (id, shows) = (&assignment.rubric[line].id, footprints.of_line(line).len());
+        let frames = assignment.features[line].as_ref().and_then(|feature| assignment.frames_without(feature));
+        let place = place(probes, shows, frames.as_deref(), right);
+        let at = judged.iter().find(|(known, _)| *known == line).map_or(0, |(_, places)| places.len());
+        let text = Text::new(
+            format!("rubric line `{id}`: shows {}; judged at {at} of the probes", place.en),
+            format!("採点の行 `{id}`: {}。そのうち {at} 点で採点できる", place.ja),
+        );
+        match at {
+            0 => said.note(&Text::new(
+                format!("{}: an answer that nothing explains loses its points", text.en),
+                format!("{}。原因の分からない答えでは、この行の点は残りません", text.ja),
+            )),
+            _ => said.ok(&text),
+        }
+        album.put(&format!("without-{id}"), frames.iter().flatten().map(picture).collect())?;
+    }
+    Ok(())
+}
+
+/// Says where a mistake shows in the first way in which it is written, and draws each.
+fn say_mistake(
+    said: Said,
+    assignment: &Assignment,
+    mistake: &Mistake,
+    probes: &ProbeSet,
+    right: &[Frame],
+    album: &Album<'_>,
+) -> Result<(), Fault> {
+    let ways = if album.is_wanted() { mistake.ways() } else { 1 };
+    for form in 0..ways {
+        let is_free = mistake.forms.get(form).is_some_and(|form| form.free);
+        let parameter = mistake.fit.as_ref().filter(|_| is_free).map(|fit| fit.example);
+        let found = FoundMistake { id: mistake.id.clone(), form, parameter };
+        let frames = assignment.frames_with(&found);
+        album.put(&format!("{}-{form}", mistake.id), frames.iter().flatten().map(picture).collect())?;
+        if form > 0 {
+            continue;
+        }
+        let samples: Vec<[f64; 3]> = probes.iter().map(|probe| probe.colour.to_array()).collect();
+        let differs = fit::contradicted(assignment, &[found], probes, &samples, fit::TOLERANCE);
+        let place = place(probes, differs.iter().filter(|differs| **differs).count(), frames.as_deref(), right);
+        let id = &mistake.id;
+        let text = Text::new(format!("mistake `{id}`: shows {}", place.en), format!("間違い `{id}`: {}", place.ja));
+        let is_seen = frames.is_none_or(|frames| frames.iter().zip(right).any(|(own, right)| is_seen(own, right)));
+        match is_seen {
+            true => said.ok(&text),
+            false => said.note(&Text::new(
+                format!("{}: its pictures look right, and only probes find it", text.en),
+                format!("{}。画像は正しく見え、検査点だけで見つかります", text.ja),
+            )),
+        }
+    }
+    Ok(())
+}
+
+/// At how many probes and in how many frames something shows.
+fn place(probes: &ProbeSet, shows: usize, frames: Option<&[Frame]>, right: &[Frame]) -> Text {
+    let all = probes.probes.len();
+    let Some(frames) = frames else {
+        return Text::new(format!("at {shows} of {all} probes"), format!("検査点 {all} 点中 {shows} 点に現れる"));
+    };
+    let seen = frames.iter().zip(right).filter(|(own, right)| is_seen(own, right)).count();
+    let count = right.len();
+    Text::new(
+        format!("at {shows} of {all} probes, and in {seen} of {count} frames"),
+        format!("検査点 {all} 点中 {shows} 点、画像 {count} 枚中 {seen} 枚に現れる"),
+    )
+}
+
+/// Whether a picture differs from the right one, edges aside.
+fn is_seen(own: &Frame, right: &Frame) -> bool {
+    let lies = own.coverage.iter().zip(&right.coverage);
+    own.pixels.iter().zip(&right.pixels).zip(lies).any(|((own, right), lies)| {
+        let is_edge = *lies.0 == Coverage::Silhouette || *lies.1 == Coverage::Silhouette;
+        !is_edge && own.iter().zip(right).any(|(a, b)| a.abs_diff(*b) > PIXEL_TOLERANCE)
+    })
+}
+
+/// Names the mistakes that show nothing of their own.
+fn say_alike(said: Said, assignment: &Assignment, probes: &ProbeSet) -> bool {
+    let alike = fit::alike(assignment, probes, fit::TOLERANCE);
+    for (variant, other) in &alike {
+        let text = match other {
+            None => Text::new(
+                format!("{variant}: shows at no probe; change it, or remove it"),
+                format!("{variant}: どの検査点でも解答と同じになります。変えるか、取り除いてください"),
+            ),
+            Some(other) => Text::new(
+                format!("{variant}: shows the same as {other}, which is what will be found; remove one"),
+                format!("{variant}: {other} と同じ結果になり、見つかるのはそちらです。一方を取り除いてください"),
+            ),
+        };
+        said.line(false, &text);
+    }
+    alike.is_empty()
+}
