@@ -4,14 +4,16 @@
 //! between them is like what the homework's own fragments are given. Where a colour hangs on the last bits of what it is
 //! computed from, at the edge of a step, no fragment is probed: there a right answer may have another one.
 
+mod shown;
+
 use super::{Group, Probe, ProbeSet, Random};
-use crate::equation::{DISCARDED, Evaluation, Reads};
-use crate::interpreter::{Interpolation, Program, Scalar};
-use crate::pipeline::{Pipeline, positions, scalars, slices};
+use crate::equation::{Evaluation, Reads};
 use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
 use glam::{DMat3, DQuat, DVec2, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
+pub use shown::Shown;
+use shown::{Handed, mixed};
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.
 const ASIDE: f64 = 0.05;
@@ -19,14 +21,6 @@ const ASIDE: f64 = 0.05;
 /// By how much the normals of a triangle's corners are turned apart, in radians: what is interpolated between them is shorter
 /// than 1, also on a flat face.
 const APART: f64 = 0.25;
-
-/// What a program reads is moved by so much, relative to it where it is more than 1. Noise: 1e-6, some operations in f32 in the
-/// stage before.
-const MOVED: f64 = 1e-5;
-
-/// A colour that changes by more than this when what it is computed from is moved is not probed: a tenth of the tolerance
-/// with which probes are judged is 2e-4, and a power of 200 of a cosine changes by 2e-3.
-const SUDDEN: f64 = 2e-3;
 
 /// So often fragments are drawn for a camera, and so many cameras are tried, before a camera stays with fewer of them.
 const ROUNDS: usize = 4;
@@ -45,51 +39,6 @@ pub struct Spot {
     pub is_front: bool,
     /// What the right vertex stage hands over there, exact in f32: for each of its outputs.
     pub varyings: Vec<(String, Value)>,
-}
-
-/// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
-type Handed = Vec<Vec<Vec<f64>>>;
-
-/// A run of the fragment stage at a spot.
-#[derive(Clone, Copy)]
-struct Lane {
-    spot: usize,
-    /// Which way what it reads is moved; 0 is not at all.
-    way: usize,
-    /// By how many pixels it lies beside, within 2 × 2 pixels.
-    beside: [f64; 2],
-}
-
-impl Lane {
-    /// The scalar with this number, moved.
-    fn moved(self, value: f64, number: usize) -> f64 {
-        let bit = |bit: usize| if number >> bit & 1 == 0 { 1.0 } else { -1.0 };
-        let direction = match self.way {
-            0 => return value,
-            1 => bit(0),
-            2 => -bit(0),
-            3 => bit(1),
-            _ => -bit(1),
-        };
-        value + direction * MOVED * value.abs().max(1.0)
-    }
-}
-
-/// The ways in which what is read is moved.
-const WAYS: usize = 5;
-
-/// 2 × 2 pixels, as the interpreter takes them.
-const QUAD: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-
-/// What a program shows at a probe.
-#[derive(Clone, Copy, Debug)]
-pub struct Shown {
-    /// The colour, clamped; [`DISCARDED`] where the fragment is thrown away, no number where it is undefined.
-    pub colour: DVec3,
-    /// The position of the first corner in clip space; the origin's where no vertex stage is handed in.
-    pub position: DVec4,
-    /// Whether the colour stays when what it is computed from is moved a little.
-    pub is_steady: bool,
 }
 
 impl Assignment {
@@ -248,13 +197,6 @@ impl Assignment {
         }
     }
 
-    /// Positions and outputs of a vertex stage.
-    fn handed_by(&self, program: &Program, uniforms: &[Value], vertices: &[Vertex]) -> Option<(Vec<DVec4>, Handed)> {
-        let outputs = self.run_vertices(program, uniforms, vertices)?;
-        let written = (0..program.outputs().len()).map(|place| scalars(&outputs, place)).collect();
-        Some((positions(&outputs, vertices.len()), written))
-    }
-
     /// Where a fragment lies: the shares moved so that it is in the middle of a pixel, `gl_FragCoord`, and whether it is of the
     /// front. None where a corner is not before the eye, or where it is cut off by the near or far plane.
     fn seen_at(&self, ends: [DVec4; 3], weights: [f64; 3]) -> Option<([f64; 3], [f64; 4], bool)> {
@@ -280,130 +222,4 @@ impl Assignment {
         }
         Some((weights, [place.x, place.y, depth, p.w.recip()], is_front))
     }
-
-    /// The colours of fragments, and whether each is a number that stays when what it is computed from is moved a little.
-    fn colours(
-        &self,
-        pipeline: &Pipeline,
-        uniforms: &[Value],
-        spots: &[Spot],
-        handed: &Handed,
-    ) -> Option<Vec<(DVec3, bool)>> {
-        let lane = |spot, way, beside| Lane { spot, way, beside };
-        let of_spot = |spot: usize| -> Vec<Lane> {
-            let ways = 0..WAYS;
-            match pipeline.nature.derivatives || pipeline.nature.implicit_levels {
-                false => ways.map(|way| lane(spot, way, [0.0, 0.0])).collect(),
-                // A pixel is one of four: what it takes from its neighbours may not depend on which.
-                true => ways
-                    .flat_map(|way| QUAD.map(|beside| lane(spot, way, beside)))
-                    .chain(QUAD.map(|[x, y]| lane(spot, 0, [x - 1.0, y - 1.0])))
-                    .collect(),
-            }
-        };
-        let lanes: Vec<Lane> = (0..spots.len()).flat_map(of_spot).collect();
-        let colours = self.run_lanes(pipeline, uniforms, spots, handed, &lanes)?;
-        let each = (lanes.len() / spots.len().max(1)).max(1);
-        let of_lanes = |(own, lanes): (&[DVec3], &[Lane])| {
-            let at_spot = lanes.iter().zip(own).filter(|(lane, _)| lane.beside == [0.0, 0.0]);
-            let first = own[0];
-            let stays = |(_, colour): (&Lane, &DVec3)| (*colour - first).abs().max_element() <= SUDDEN;
-            (first, first.is_finite() && at_spot.into_iter().all(stays))
-        };
-        Some(colours.chunks(each).zip(lanes.chunks(each)).map(of_lanes).collect())
-    }
-
-    /// Runs the fragment stage. What is thrown away has the colour [`DISCARDED`], what is undefined is no number.
-    fn run_lanes(
-        &self,
-        pipeline: &Pipeline,
-        uniforms: &[Value],
-        spots: &[Spot],
-        handed: &Handed,
-        lanes: &[Lane],
-    ) -> Option<Vec<DVec3>> {
-        let program = &pipeline.fragment;
-        let column = |of: &dyn Fn(&Lane) -> f64| lanes.iter().map(of).collect::<Vec<f64>>();
-        let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
-        for (place, input) in program.inputs().iter().enumerate() {
-            let columns = match input.name.as_str() {
-                "gl_FragCoord" => (0..4)
-                    .map(|axis| {
-                        column(&|lane| {
-                            let at = spots[lane.spot].place[axis];
-                            at + lane.beside.get(axis).copied().unwrap_or_else(|| lane.moved(at, axis) - at)
-                        })
-                    })
-                    .collect(),
-                "gl_FrontFacing" => vec![column(&|lane| f64::from(u8::from(spots[lane.spot].is_front)))],
-                _ => {
-                    let Some(varying) = pipeline.varyings.iter().find(|varying| varying.input == place) else {
-                        continue;
-                    };
-                    let is_real = matches!(input.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None);
-                    let columns = handed[varying.output].iter().zip(varying.scalars.clone());
-                    columns
-                        .map(|(values, number)| {
-                            column(&|lane| match is_real {
-                                true => lane.moved(values[lane.spot], number),
-                                false => values[lane.spot],
-                            })
-                        })
-                        .collect()
-                }
-            };
-            given.push((&input.name, columns));
-        }
-        let given: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
-        let mut run = self.fed(program, lanes.len(), uniforms)?;
-        for (name, columns) in &given {
-            run = run.input(name, columns).ok()?;
-        }
-        let outputs = run.outputs().ok()?;
-        let columns = scalars(&outputs, pipeline.colour);
-        let colour = |at: usize| match outputs.discarded[at] {
-            true => DISCARDED,
-            false => {
-                let channel = |channel: usize| columns.get(channel).map_or(0.0, |column| column[at].clamp(0.0, 1.0));
-                DVec3::new(channel(0), channel(1), channel(2))
-            }
-        };
-        Some((0..lanes.len()).map(colour).collect())
-    }
-
-    /// What another program shows at each probe; none where it cannot be run.
-    pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
-        let of_group =
-            |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group));
-        let groups = probes.groups.iter().enumerate().map(of_group).collect::<Option<Vec<_>>>()?;
-        Some(groups.into_iter().flatten().collect())
-    }
-
-    fn shown_in(&self, pipeline: &Pipeline, uniforms: &[Value], probes: &[Probe]) -> Option<Vec<Shown>> {
-        let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
-        let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
-        let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
-        let shares: Vec<_> = spots.iter().map(|spot| spot.weights).enumerate().collect();
-        let handed = mixed(&pipeline.vertex, &written, &shares);
-        let colours = self.colours(pipeline, uniforms, &spots, &handed)?;
-        let shown = |(spot, (colour, is_steady))| {
-            let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
-            Shown { colour, position, is_steady }
-        };
-        Some(colours.into_iter().enumerate().map(shown).collect())
-    }
-}
-
-/// What is interpolated at fragments: the number of each triangle, and the shares of its corners.
-fn mixed(program: &Program, written: &Handed, shares: &[(usize, [f64; 3])]) -> Handed {
-    let output = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {
-        let is_flat = output.interpolation == Interpolation::Flat
-            || !matches!(output.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None);
-        let at = |column: &Vec<f64>, (triangle, weights): &(usize, [f64; 3])| match is_flat {
-            true => column[3 * triangle + 2],
-            false => (0..3).map(|corner| weights[corner] * column[3 * triangle + corner]).sum(),
-        };
-        columns.iter().map(|column| shares.iter().map(|share| at(column, share)).collect()).collect()
-    };
-    program.outputs().iter().zip(written).map(output).collect()
 }

@@ -1,0 +1,203 @@
+//! What a program shows at fragments, and whether it stays when what it reads is moved a little.
+
+use super::Spot;
+use crate::equation::DISCARDED;
+use crate::interpreter::{Interpolation, Program, Scalar};
+use crate::pipeline::{Pipeline, positions, scalars, slices};
+use crate::probes::{Group, Probe, ProbeSet};
+use crate::scene::Vertex;
+use crate::{Assignment, Value};
+use glam::{DVec3, DVec4};
+
+/// What a program reads is moved by so much, relative to it where it is more than 1. Noise: 1e-6, some operations in f32 in the
+/// stage before.
+const MOVED: f64 = 1e-5;
+
+/// A colour that changes by more than this when what it is computed from is moved is not probed: a tenth of the tolerance
+/// with which probes are judged is 2e-4, and a power of 200 of a cosine changes by 2e-3.
+const SUDDEN: f64 = 2e-3;
+
+/// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
+pub(super) type Handed = Vec<Vec<Vec<f64>>>;
+
+/// A run of the fragment stage at a spot.
+#[derive(Clone, Copy)]
+struct Lane {
+    spot: usize,
+    /// Which way what it reads is moved; 0 is not at all.
+    way: usize,
+    /// By how many pixels it lies beside, within 2 × 2 pixels.
+    beside: [f64; 2],
+}
+
+impl Lane {
+    /// The scalar with this number, moved.
+    fn moved(self, value: f64, number: usize) -> f64 {
+        let bit = |bit: usize| if number >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let direction = match self.way {
+            0 => return value,
+            1 => bit(0),
+            2 => -bit(0),
+            3 => bit(1),
+            _ => -bit(1),
+        };
+        value + direction * MOVED * value.abs().max(1.0)
+    }
+}
+
+/// The ways in which what is read is moved.
+const WAYS: usize = 5;
+
+/// 2 × 2 pixels, as the interpreter takes them.
+const QUAD: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+
+/// What a program shows at a probe.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// The colour, clamped; [`DISCARDED`] where the fragment is thrown away, no number where it is undefined.
+    pub colour: DVec3,
+    /// The position of the first corner in clip space; the origin's where no vertex stage is handed in.
+    pub position: DVec4,
+    /// Whether the colour stays when what it is computed from is moved a little.
+    pub is_steady: bool,
+}
+
+impl Assignment {
+    /// Positions and outputs of a vertex stage.
+    pub(super) fn handed_by(
+        &self,
+        program: &Program,
+        uniforms: &[Value],
+        vertices: &[Vertex],
+    ) -> Option<(Vec<DVec4>, Handed)> {
+        let outputs = self.run_vertices(program, uniforms, vertices)?;
+        let written = (0..program.outputs().len()).map(|place| scalars(&outputs, place)).collect();
+        Some((positions(&outputs, vertices.len()), written))
+    }
+
+    /// The colours of fragments, and whether each is a number that stays when what it is computed from is moved a little.
+    pub(super) fn colours(
+        &self,
+        pipeline: &Pipeline,
+        uniforms: &[Value],
+        spots: &[Spot],
+        handed: &Handed,
+    ) -> Option<Vec<(DVec3, bool)>> {
+        let lane = |spot, way, beside| Lane { spot, way, beside };
+        let of_spot = |spot: usize| -> Vec<Lane> {
+            let ways = 0..WAYS;
+            match pipeline.nature.derivatives || pipeline.nature.implicit_levels {
+                false => ways.map(|way| lane(spot, way, [0.0, 0.0])).collect(),
+                // A pixel is one of four: what it takes from its neighbours may not depend on which.
+                true => ways
+                    .flat_map(|way| QUAD.map(|beside| lane(spot, way, beside)))
+                    .chain(QUAD.map(|[x, y]| lane(spot, 0, [x - 1.0, y - 1.0])))
+                    .collect(),
+            }
+        };
+        let lanes: Vec<Lane> = (0..spots.len()).flat_map(of_spot).collect();
+        let colours = self.run_lanes(pipeline, uniforms, spots, handed, &lanes)?;
+        let each = (lanes.len() / spots.len().max(1)).max(1);
+        let of_lanes = |(own, lanes): (&[DVec3], &[Lane])| {
+            let at_spot = lanes.iter().zip(own).filter(|(lane, _)| lane.beside == [0.0, 0.0]);
+            let first = own[0];
+            let stays = |(_, colour): (&Lane, &DVec3)| (*colour - first).abs().max_element() <= SUDDEN;
+            (first, first.is_finite() && at_spot.into_iter().all(stays))
+        };
+        Some(colours.chunks(each).zip(lanes.chunks(each)).map(of_lanes).collect())
+    }
+
+    /// Runs the fragment stage. What is thrown away has the colour [`DISCARDED`], what is undefined is no number.
+    fn run_lanes(
+        &self,
+        pipeline: &Pipeline,
+        uniforms: &[Value],
+        spots: &[Spot],
+        handed: &Handed,
+        lanes: &[Lane],
+    ) -> Option<Vec<DVec3>> {
+        let program = &pipeline.fragment;
+        let column = |of: &dyn Fn(&Lane) -> f64| lanes.iter().map(of).collect::<Vec<f64>>();
+        let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
+        for (place, input) in program.inputs().iter().enumerate() {
+            let columns = match input.name.as_str() {
+                "gl_FragCoord" => (0..4)
+                    .map(|axis| {
+                        column(&|lane| {
+                            let at = spots[lane.spot].place[axis];
+                            at + lane.beside.get(axis).copied().unwrap_or_else(|| lane.moved(at, axis) - at)
+                        })
+                    })
+                    .collect(),
+                "gl_FrontFacing" => vec![column(&|lane| f64::from(u8::from(spots[lane.spot].is_front)))],
+                _ => {
+                    let Some(varying) = pipeline.varyings.iter().find(|varying| varying.input == place) else {
+                        continue;
+                    };
+                    let is_real = matches!(input.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None);
+                    let columns = handed[varying.output].iter().zip(varying.scalars.clone());
+                    columns
+                        .map(|(values, number)| {
+                            column(&|lane| match is_real {
+                                true => lane.moved(values[lane.spot], number),
+                                false => values[lane.spot],
+                            })
+                        })
+                        .collect()
+                }
+            };
+            given.push((&input.name, columns));
+        }
+        let given: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
+        let mut run = self.fed(program, lanes.len(), uniforms)?;
+        for (name, columns) in &given {
+            run = run.input(name, columns).ok()?;
+        }
+        let outputs = run.outputs().ok()?;
+        let columns = scalars(&outputs, pipeline.colour);
+        let colour = |at: usize| match outputs.discarded[at] {
+            true => DISCARDED,
+            false => {
+                let channel = |channel: usize| columns.get(channel).map_or(0.0, |column| column[at].clamp(0.0, 1.0));
+                DVec3::new(channel(0), channel(1), channel(2))
+            }
+        };
+        Some((0..lanes.len()).map(colour).collect())
+    }
+
+    /// What another program shows at each probe; none where it cannot be run.
+    pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
+        let of_group =
+            |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group));
+        let groups = probes.groups.iter().enumerate().map(of_group).collect::<Option<Vec<_>>>()?;
+        Some(groups.into_iter().flatten().collect())
+    }
+
+    fn shown_in(&self, pipeline: &Pipeline, uniforms: &[Value], probes: &[Probe]) -> Option<Vec<Shown>> {
+        let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
+        let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
+        let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
+        let shares: Vec<_> = spots.iter().map(|spot| spot.weights).enumerate().collect();
+        let handed = mixed(&pipeline.vertex, &written, &shares);
+        let colours = self.colours(pipeline, uniforms, &spots, &handed)?;
+        let shown = |(spot, (colour, is_steady))| {
+            let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
+            Shown { colour, position, is_steady }
+        };
+        Some(colours.into_iter().enumerate().map(shown).collect())
+    }
+}
+
+/// What is interpolated at fragments: the number of each triangle, and the shares of its corners.
+pub(super) fn mixed(program: &Program, written: &Handed, shares: &[(usize, [f64; 3])]) -> Handed {
+    let output = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {
+        let is_flat = output.interpolation == Interpolation::Flat
+            || !matches!(output.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None);
+        let at = |column: &Vec<f64>, (triangle, weights): &(usize, [f64; 3])| match is_flat {
+            true => column[3 * triangle + 2],
+            false => (0..3).map(|corner| weights[corner] * column[3 * triangle + corner]).sum(),
+        };
+        columns.iter().map(|column| shares.iter().map(|share| at(column, share)).collect()).collect()
+    };
+    program.outputs().iter().zip(written).map(output).collect()
+}
