@@ -105,10 +105,7 @@ fn check_text(source: &Source) -> Result<(), Refusal> {
     if let Some(error) = strict::hidden_version(source) {
         return Err(Refusal::Rejected(vec![error]));
     }
-    match concessions::fatal(source) {
-        Some(name) => Err(unsupported(&format!("`{name}`")).into()),
-        None => Ok(()),
-    }
+    concessions::refuse_old_lookups(source)
 }
 
 /// How often a text is changed for what the compiler minds and drivers take; each refusal can hide the next.
@@ -127,8 +124,8 @@ struct Submitted<'a> {
 
 impl<'a> Submitted<'a> {
     fn new(stage: Stage, source: &'a Source, interface: &'a Interface) -> Self {
-        let text = text::prepared(source);
-        Self { stage, source, interface, text, renamed: Vec::new(), warnings: Vec::new() }
+        let (text, warning) = concessions::with_lookups_of_today(text::prepared(source), source);
+        Self { stage, source, interface, text, renamed: Vec::new(), warnings: warning.into_iter().collect() }
     }
 
     /// Changes the text for what the compiler minds and drivers take; whether there was anything of the kind.
@@ -289,8 +286,14 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<Shader, Fault>
 pub fn warm_up() {
     let output = Variable { name: "colour".into(), ty: "vec4".into() };
     let fragment = c"#version 410 core\nin vec4 colour; out vec4 fragment; void main() { fragment = colour; }";
-    let interface =
-        Interface { inputs: vec![], uniforms: vec![], output, constants: vec![], fragment: fragment.to_owned() };
+    let interface = Interface {
+        inputs: vec![],
+        uniforms: vec![],
+        output,
+        constants: vec![],
+        version: String::new(),
+        fragment: fragment.to_owned(),
+    };
     warm(&interface, "#version 410 core\nout vec4 colour; void main() { gl_Position = colour = vec4(0.0); }");
 }
 

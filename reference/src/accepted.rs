@@ -44,7 +44,7 @@ impl Assignment {
                 let given = probes.iter().map(|probe| (probes.uniforms(probe), probe.attributes.as_slice()));
                 self.run(answer, &given.collect::<Vec<_>>())
             }
-            Reads::Varyings | Reads::Outputs => match self.shown_at(&answer.pipeline, probes) {
+            Reads::Varyings | Reads::Outputs => match self.shown_once(&answer.pipeline, probes) {
                 Some(shown) => shown.iter().map(|shown| (shown.colour, shown.position)).collect(),
                 None => vec![(DVec3::NAN, DVec4::NAN); probes.probes.len()],
             },

@@ -1,6 +1,6 @@
 //! A vertex and a fragment stage, linked: what is handed from one to the other, and what is seen of it.
 
-use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, Run, Variable};
+use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, Run, Texture, Variable};
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
 use glam::DVec4;
@@ -84,6 +84,14 @@ impl Pipeline {
         });
         let (vertex, nature) = (Arc::clone(vertex), fragment.nature());
         Ok(Self { vertex, fragment: Arc::clone(fragment), varyings, colour, nature, copied })
+    }
+
+    /// Whether a fragment depends on its neighbours: by derivatives, or by lookups that choose a level or a filter.
+    pub(crate) fn needs_quads(&self, textures: &[Texture]) -> bool {
+        let by_neighbours = |texture: &Texture| {
+            texture.mipmap.is_some() && texture.levels.len() > 1 || texture.magnify != texture.minify
+        };
+        self.nature.derivatives || self.nature.implicit_levels && textures.iter().any(by_neighbours)
     }
 
     /// How many scalars are handed from stage to stage.

@@ -127,7 +127,7 @@ impl Scenery<'_> {
 
     /// What the fragments of these pixels come to, with their places moved by so many pixels.
     fn pixels(&self, visible: &Visible, pixels: &[u32], moved: [f64; 2]) -> Vec<Shaded> {
-        let fragments = fragments(visible, pixels, self.needs_quads());
+        let fragments = fragments(visible, pixels, self.pipeline.needs_quads(&self.assignment.textures));
         let mut all = vec![Shaded::Discarded; pixels.len()];
         let surface = |fragment: &Fragment| visible.setups()[fragment.number as usize].surface;
         // Triangles are numbered surface by surface.
@@ -140,14 +140,6 @@ impl Scenery<'_> {
             }
         }
         all
-    }
-
-    fn needs_quads(&self) -> bool {
-        let nature = self.pipeline.nature;
-        let by_neighbours = |texture: &crate::interpreter::Texture| {
-            texture.mipmap.is_some() && texture.levels.len() > 1 || texture.magnify != texture.minify
-        };
-        nature.derivatives || nature.implicit_levels && self.assignment.textures.iter().any(by_neighbours)
     }
 
     /// Runs the fragment stage.

@@ -26,6 +26,11 @@ pub(super) const PART_SCALED: &str = "part-scaled";
 /// Noise: [`COLOUR_TOLERANCE`]. Defect to catch: the faintest known mistake differs by more than 2e-2 at some probe.
 const NEARLY: f64 = 3.0 / 255.0;
 
+/// Whether a picture is off by no more than what is nearly right.
+fn is_hardly_off(frame: &FrameResult) -> bool {
+    frame.max_difference <= NEARLY * 255.0
+}
+
 /// Why the colours are as they are.
 pub(super) enum Cause {
     Right,
@@ -91,7 +96,9 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
         Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
         Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
-        Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) => Cause::NearlyRight,
+        Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off) => {
+            Cause::NearlyRight
+        }
         Fit::Unexplained(terms) => unexplained(evidence, &samples, terms),
     }
 }
@@ -116,12 +123,13 @@ fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Opt
     (!is_right).then(search).flatten()
 }
 
-/// Whether a sample has a given position, but for the factor that all have in common.
+/// Whether a sample has a given position, but for the factor that all have in common where they are right.
 fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
     let scale = super::position_scale(evidence);
     move |place, position| {
         let sample = evidence.samples.get(place);
-        sample.is_some_and(|sample| position_difference(position, sample, scale) <= POSITION_TOLERANCE)
+        let is_at = |scale| sample.is_some_and(|s| position_difference(position, s, scale) <= POSITION_TOLERANCE);
+        is_at(1.0) || is_at(scale)
     }
 }
 
@@ -247,10 +255,9 @@ pub(super) fn kept(
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
-        (Cause::Known { found, .. }, _) if let Some(found) = found.iter().find(|found| found.id == id) => {
-            return assignment.keeps(found, line);
-        }
-        (Cause::Parts(Parts { found: Some(found), .. }), _) if found.id == id => {
+        (Cause::Known { found, .. } | Cause::Parts(Parts { found, .. }), _)
+            if let Some(found) = found.iter().find(|found| found.id == id) =>
+        {
             return assignment.keeps(found, line);
         }
         _ => true,

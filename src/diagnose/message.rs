@@ -141,7 +141,8 @@ impl<'f> Blanks<'f> {
             }
             (Cause::Unexplained(terms), _) => {
                 let worst = terms.iter().find(|term| term.line == line.id).and_then(|term| term.worst);
-                blanks.worst(worst);
+                let throws_away = evidence.source.words().any(|(_, word)| word == "discard");
+                blanks.worst(worst, throws_away);
             }
             (Cause::Parts(Parts { parts, .. }), PART_SCALED) => {
                 let factor = parts.iter().find_map(|(at, part)| match part {
@@ -222,14 +223,17 @@ impl<'f> Blanks<'f> {
         self.values.extend(of.map(|constant| ("expected", number(constant.value.float()))));
     }
 
-    fn worst(&mut self, worst: Option<Worst>) {
+    fn worst(&mut self, worst: Option<Worst>, throws_away: bool) {
         let Some(worst) = worst else { return };
         let colour = |colour: glam::DVec3| match colour == DISCARDED {
             true => "`discard`".to_owned(),
             false => numbers(&colour.to_array()),
         };
-        self.values.push(("expected", colour(worst.expected)));
-        self.values.push(("found", colour(worst.found)));
+        // Where nothing is ever written there is no value to speak of.
+        if worst.found != DISCARDED || throws_away {
+            self.values.push(("expected", colour(worst.expected)));
+            self.values.push(("found", colour(worst.found)));
+        }
         self.worst = Some(worst);
     }
 }

@@ -5,12 +5,16 @@ use crate::cross_check;
 use crate::diagnostic::{Diagnostic, Stage as Speaker};
 use crate::fault::Fault;
 use crate::hand_in::HandedInFile;
+use crate::language::Text;
 use crate::render::{Captured, Pixel, Rendering, Sample, Scene};
 use crate::report::{SourceInfo, Verdict};
 use crate::source::{self, Source};
 use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
+
+/// What nothing explains, see the texts of any homework.
+const UNEXPLAINED: &str = "unexplained";
 
 /// The program of a homework, as far as it is not handed in.
 #[derive(Debug)]
@@ -91,6 +95,9 @@ impl Grader {
         let interpreter = interpreter.as_ref();
         let judged = Judged { source, fresh: &probing.fresh, rendering: &rendering, interpreter };
         let mut report = self.report(judged, diagnostics, order.hints);
+        if report.mistakes.iter().any(|id| id == UNEXPLAINED) {
+            report.diagnostics.extend(overlooked(&self.assignment, &given, &linked));
+        }
         report.cross_check = order.cross_check.then(|| {
             let samples = rendering.probe_samples.concat();
             cross_check::check_program(&self.assignment, &given, &self.probes, &samples)
@@ -113,8 +120,44 @@ impl Grader {
     }
 }
 
+/// What a wrong answer that nothing explains leaves alone: outputs without a value, and uniforms that a right answer reads.
+fn overlooked(assignment: &Assignment, sources: &[(Stage, &Source)], linked: &Linked) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    let is_named = |name: &str| sources.iter().any(|(_, source)| source.words().any(|(_, word)| word == name));
+    if linked.fragment.outputs.is_empty() && !linked.fragment.is_fixed && !is_named("discard") {
+        let message = Text::new(
+            "No output is given a value, so that there is no colour.",
+            "出力変数に値が代入されていないため、色が決まりません。",
+        );
+        found.push(Diagnostic::warning(Speaker::Run, message));
+    }
+    let of_stage = |stage: &Stage| match stage {
+        Stage::Vertex => assignment.pipeline.vertex.uniforms(),
+        Stage::Fragment => assignment.pipeline.fragment.uniforms(),
+    };
+    let read = sources.iter().flat_map(|(stage, _)| of_stage(stage));
+    let roots = read.map(|uniform| uniform.name.split(['.', '[']).next().unwrap_or_default());
+    let mut unread: Vec<&str> = roots.filter(|root| !is_named(root)).collect();
+    unread.dedup();
+    if !unread.is_empty() {
+        let names = unread.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>();
+        let message = Text::new(
+            format!(
+                "The file does not read {}, which the program sets. The result has to follow when that changes.",
+                names.join(", ")
+            ),
+            format!(
+                "プログラムが値を渡す {} を使っていません。その値が変われば、結果も変わる必要があります。",
+                names.join("、")
+            ),
+        );
+        found.push(Diagnostic::warning(Speaker::Run, message));
+    }
+    found
+}
+
 fn no_program() -> Fault {
-    Fault::new(crate::language::Text::verbatim("the homework has no program"))
+    Fault::new(Text::verbatim("the homework has no program"))
 }
 
 /// Diagnostics about places in a file.

@@ -54,17 +54,21 @@ impl Channel {
         Ok(Self { stdin, stdout, stderr: Some(stderr), tail: VecDeque::new() })
     }
 
-    /// Sends `message` and waits for one that fits into `longest`.
+    /// Sends `message` and waits for one that fits into `longest`. At the deadline `later` says until when to wait on, if at all.
     pub fn exchange<T: DeserializeOwned>(
         &mut self,
         message: &[u8],
         longest: Longest,
-        deadline: Instant,
+        mut deadline: Instant,
+        later: &dyn Fn() -> Option<Instant>,
     ) -> Result<(T, Body), Lost> {
         let mut unsent = message;
         let mut received = Vec::new();
         loop {
-            self.wait(!unsent.is_empty(), deadline)?;
+            match self.wait(!unsent.is_empty(), deadline) {
+                Err(Lost::Timeout) => deadline = later().ok_or(Lost::Timeout)?,
+                waited => waited?,
+            }
             self.listen();
             unsent = self.push(unsent);
             let open = self.pull(&mut received, longest)?;

@@ -109,7 +109,7 @@ impl Worker {
 
     /// Waits until the device is warm and the sandbox closed.
     pub fn greet(&mut self, settings: &Settings) -> Result<(), NotStarted> {
-        let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE);
+        let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE, &|| None);
         let hello = hello.map_err(|lost| {
             let how = match lost {
                 Lost::Timeout => format!("not ready after {} s", START_DEADLINE.as_secs()),
@@ -155,7 +155,7 @@ impl Worker {
         let message = protocol::encode(&Demand::Load(load), &body);
         let message = message.map_err(|error| failed(cannot_read(assignment, &error.to_string()), false))?;
         let longest = Longest { head: REPORT_BYTES, body: PICTURES_BYTES };
-        let answered = self.channel.exchange::<Reply>(&message, longest, Instant::now() + LOAD_DEADLINE);
+        let answered = self.channel.exchange::<Reply>(&message, longest, Instant::now() + LOAD_DEADLINE, &|| None);
         let (reply, body) = answered.map_err(|lost| {
             let how = match lost {
                 Lost::Timeout => format!("not read after {} s", LOAD_DEADLINE.as_secs()),
@@ -194,7 +194,9 @@ impl Worker {
             .map_err(|error| Ending::Garbled(error.to_string()))?;
         let before = schedule::cpu_time(self.id());
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
-        match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline) {
+        let (id, begin) = (self.id(), Instant::now());
+        let later = || schedule::later(id, before, begin, deadline);
+        match self.channel.exchange::<Reply>(&message, longest, begin + deadline, &later) {
             Ok((reply, body)) if reply.id == request.id => Ok((reply, body)),
             Ok(_) => Err(Ending::Garbled("the answer to another question".into())),
             Err(Lost::Garbled(detail)) => Err(Ending::Garbled(detail)),

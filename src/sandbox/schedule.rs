@@ -2,7 +2,7 @@
 
 use super::ending::Ending;
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Length of a tick of the kernel's accounting; the same on every Linux that user space sees.
 const TICK: Duration = Duration::from_millis(10);
@@ -18,6 +18,25 @@ pub(super) fn cpu_time(process: u32) -> Option<Duration> {
     let user: u32 = fields.nth(11)?.parse().ok()?;
     let system: u32 = fields.next()?.parse().ok()?;
     Some(TICK * (user + system))
+}
+
+/// The time that a worker on a busy machine is waited for, in deadlines.
+const PATIENCE: u32 = 5;
+
+/// At least so long a worker is waited for once more.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Until when to wait for a worker that has not answered within `deadline` from `begin` on: until it has had as much of a
+/// processor. That others keep the machine busy is not the file's doing. None where it has had that, or does not want it.
+pub(super) fn later(process: u32, before: Option<Duration>, begin: Instant, deadline: Duration) -> Option<Instant> {
+    let states = thread_states(process);
+    let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));
+    if !wants_processor || begin.elapsed() >= deadline * PATIENCE {
+        return None;
+    }
+    let used = cpu_time(process)?.saturating_sub(before?);
+    let left = deadline.checked_sub(used).filter(|left| !left.is_zero())?;
+    Some(Instant::now() + left.max(PAUSE))
 }
 
 /// What a worker that has not answered within `deadline` has been doing; `before` is its CPU time at the request.
@@ -54,7 +73,6 @@ fn after_name(stat: &str) -> Option<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Instant;
 
     #[test]
     fn cpu_time_grows_with_work() {
@@ -78,6 +96,17 @@ mod tests {
         sleeper.kill().unwrap();
         sleeper.wait().unwrap();
         assert_eq!(late, Ending::Deadline);
+    }
+
+    #[test]
+    fn a_worker_is_waited_for_until_it_has_had_the_time() {
+        // This process is at work: its own thread runs.
+        let (id, now, second) = (std::process::id(), Instant::now(), Duration::from_secs(1));
+        let used = cpu_time(id).unwrap();
+        assert!(later(id, Some(used), now, second * 1000).is_some(), "it has had none of it");
+        assert_eq!(later(id, Some(Duration::ZERO), now, used.min(TICK / 2)), None, "it has had all of it");
+        let long_ago = now.checked_sub(second * 10).unwrap();
+        assert_eq!(later(id, Some(used), long_ago, second), None, "nobody waits for ever");
     }
 
     #[test]

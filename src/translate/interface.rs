@@ -32,6 +32,8 @@ pub struct Interface {
     pub constants: Vec<String>,
     /// The fixed fragment shader.
     pub fragment: CString,
+    /// The line with `#version` of what is handed out.
+    pub version: String,
 }
 
 impl Interface {
@@ -53,6 +55,14 @@ impl Interface {
                 .collect(),
             output: variable(&output.name, &output.kind),
             constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
+            version: assignment
+                .files
+                .iter()
+                .flat_map(|file| file.starter.lines())
+                .find(|line| line.trim_start().starts_with("#version"))
+                .unwrap_or("#version 410 core")
+                .trim()
+                .to_owned(),
             fragment: CString::new(fixed).map_err(|_| broken("a NUL in the fixed stage"))?,
         })
     }

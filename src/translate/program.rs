@@ -86,7 +86,10 @@ impl Program {
                 linked(&verdict, &stages, &own)?;
                 Err(refusal)
             });
-            let shader = shader.map_err(about(one.stage))?;
+            let mut shader = shader.map_err(about(one.stage))?;
+            if one.stage == Stage::Fragment {
+                by_location(&mut shader, &self.placed(sources));
+            }
             let notes = interface::check(&shader, one.source, &self.interface).map_err(about(one.stage))?;
             diagnostics.extend(notes.into_iter().map(|note| (one.stage, note)));
             built.push(shader);
@@ -113,6 +116,21 @@ impl Program {
         module::build(spirv, one.source, one.interface, how)
     }
 
+    /// Names of the fragment stage that stand for others of the vertex stage, by a location that both give.
+    fn placed(&self, sources: &[(Stage, &Source)]) -> Vec<(String, String)> {
+        let text = |stage: Stage| {
+            let handed_in = sources.iter().find(|(own, _)| *own == stage).map(|(_, source)| source.text.as_str());
+            let own = self.fixed.iter().find(|fixed| fixed.stage == stage).and_then(|fixed| fixed.text.to_str().ok());
+            handed_in.or(own)
+        };
+        let read = |stage| reference::interpreter::Program::compile(text(stage)?, stage).ok();
+        let (Some(vertex), Some(fragment)) = (read(Stage::Vertex), read(Stage::Fragment)) else { return Vec::new() };
+        let written = |location| vertex.outputs().iter().find(|output| output.location == location);
+        let inputs = fragment.inputs().iter().filter(|input| input.location.is_some());
+        let pairs = inputs.filter_map(|input| Some((input.name.clone(), written(input.location)?.name.clone())));
+        pairs.filter(|(own, other)| own != other).collect()
+    }
+
     /// The GLSL versions of the stages, the lowest of them.
     fn versions(&self, sources: &[(Stage, &Source)]) -> i32 {
         let own = self.fixed.iter().map(|fixed| text::version(fixed.text.to_str().unwrap_or_default()));
@@ -128,5 +146,18 @@ impl Program {
                 written.map(|output| Variable { name: output.name.clone(), ty: output.ty.clone() }).collect();
         }
         interface
+    }
+}
+
+/// Calls inputs by the names that the vertex stage has for them.
+fn by_location(fragment: &mut Shader, placed: &[(String, String)]) {
+    for input in &mut fragment.inputs {
+        let rest = |own: &String| {
+            let rest = input.name.strip_prefix(own.as_str())?;
+            (rest.is_empty() || rest.starts_with(['.', '['])).then(|| rest.to_owned())
+        };
+        if let Some((other, rest)) = placed.iter().find_map(|(own, other)| Some((other, rest(own)?))) {
+            input.name = format!("{other}{rest}");
+        }
     }
 }

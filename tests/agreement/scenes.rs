@@ -63,6 +63,7 @@ impl Homework {
             uniforms: first.uniforms.iter().map(variable).chain(self.textures.iter().map(sampler)).collect(),
             output: Variable { name: "colour".into(), ty: "vec4".into() },
             constants: Vec::new(),
+            version: "#version 410 core".to_owned(),
             fragment: c"".to_owned(),
         }
     }

@@ -3,6 +3,7 @@
 use super::{TermJudgement, Worst, agrees};
 use crate::Assignment;
 use crate::accepted::Computed;
+use crate::equation::DISCARDED;
 use crate::mistake::FoundMistake;
 use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
@@ -131,13 +132,19 @@ pub fn judge_features(
             if apart.is_finite() { apart } else { f64::INFINITY }
         };
         let wrong: Vec<usize> = places.iter().filter(|place| !is_right(**place)).copied().collect();
-        let worst = wrong.iter().copied().max_by(|a, b| apart(a).total_cmp(&apart(b))).map(|probe| Worst {
+        let shown = |probe: usize| Worst {
             probe,
             region: probes.probes[probe].region,
             expected: probes.probes[probe].colour,
             found: samples[probe],
-        });
-        let (judged, matched) = (places.len(), places.len() - wrong.len());
+        };
+        let worst = wrong.iter().copied().max_by(|a, b| apart(a).total_cmp(&apart(b))).map(&shown);
+        // What throws away has thrown away too much where nothing should be.
+        let throws_away = places.iter().any(|place| probes.probes[*place].colour == DISCARDED);
+        let too_much = || (0..samples.len()).find(|at| samples[*at] == DISCARDED && !is_right(*at));
+        let worst = worst.or_else(|| throws_away.then(too_much).flatten().map(&shown));
+        let matched = (places.len() - wrong.len()).saturating_sub(usize::from(wrong.is_empty() && worst.is_some()));
+        let judged = places.len();
         TermJudgement { line: assignment.rubric[line].id.clone(), judged, matched, worst }
     };
     let footprints = Footprints::of(assignment, probes, tolerance);

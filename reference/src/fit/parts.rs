@@ -1,7 +1,7 @@
 //! Which features a shader lacks, or has in another strength.
 //!
 //! Most colours are sums: what a feature adds is the difference between the solution and the solution without it. An answer
-//! that is the solution, or one with a known mistake, less what some features add, lacks these features, and has all others.
+//! that is the solution, or one with known mistakes, less what some features add, lacks these features, and has all others.
 
 use super::channel_agrees;
 use crate::Assignment;
@@ -26,11 +26,11 @@ pub enum Part {
     Factor([f64; 3]),
 }
 
-/// An explanation by features, and by a known mistake beside them.
+/// An explanation by features, and by known mistakes beside them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
     /// What is known to be wrong.
-    pub found: Option<FoundMistake>,
+    pub found: Vec<FoundMistake>,
     /// Lines of the rubric, and what is wrong with what they judge.
     pub parts: Vec<(usize, Part)>,
 }
@@ -59,13 +59,32 @@ pub fn explain_parts(
         .collect();
     let is_clamped = assignment.equation.reads() != Reads::Attributes;
     let search = Search { samples, right, added, is_clamped, is_there, tolerance };
-    let of = |found: Option<FoundMistake>, base: &[Computed]| Some(Parts { parts: search.missing(base)?, found });
-    of(None, &search.right).or_else(|| search.scaled().map(|parts| Parts { found: None, parts })).or_else(|| {
-        assignment.mistakes.iter().find_map(|mistake| {
-            mistake.variants.iter().enumerate().find_map(|(number, program)| {
-                let found =
-                    FoundMistake { id: mistake.id.clone(), form: mistake.forms.len() + number, parameter: None };
-                of(Some(found), &assignment.computed_by(program, probes))
+    let of = |found: Vec<FoundMistake>, base: &[Computed], least: u32| {
+        Some(Parts { parts: search.missing(base, least)?, found })
+    };
+    let alone = of(Vec::new(), &search.right, 1).or_else(|| {
+        let parts = search.scaled()?;
+        Some(Parts { found: Vec::new(), parts })
+    });
+    alone.or_else(|| {
+        let known = assignment.mistakes.iter().flat_map(|mistake| {
+            let ways = mistake.variants.iter().zip(mistake.forms.len()..);
+            ways.map(|(program, form)| (FoundMistake { id: mistake.id.clone(), form, parameter: None }, program))
+        });
+        let known: Vec<(FoundMistake, Vec<Computed>)> =
+            known.map(|(found, program)| (found, assignment.computed_by(program, probes))).collect();
+        let with_one = known.iter().find_map(|(found, base)| of(vec![found.clone()], base, 1));
+        with_one.or_else(|| {
+            // What two mistakes change is added up where they are of different lines.
+            let is_apart = |a: &FoundMistake, b: &FoundMistake| {
+                let costs = |found: &FoundMistake, line| assignment.keeps(found, line) < 1.0;
+                !assignment.rubric.iter().any(|line| costs(a, line) && costs(b, line))
+            };
+            let pairs = known.iter().enumerate().flat_map(|(at, a)| known[at + 1..].iter().map(move |b| (a, b)));
+            pairs.filter(|((a, _), (b, _))| is_apart(a, b)).find_map(|((a, ours), (b, theirs))| {
+                let both = ours.iter().zip(theirs).zip(&search.right);
+                let both = both.map(|((a, b), right)| (a.0 + b.0 - right.0, a.1 + b.1 - right.1));
+                of(vec![a.clone(), b.clone()], &both.collect::<Vec<_>>(), 0)
             })
         })
     })
@@ -83,9 +102,9 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The fewest features without which `base` is what the samples show.
-    fn missing(&self, base: &[Computed]) -> Option<Vec<(usize, Part)>> {
-        let mut sets: Vec<u32> = (1..1 << self.added.len()).collect();
+    /// The fewest features, `least` of them or more, without which `base` is what the samples show.
+    fn missing(&self, base: &[Computed], least: u32) -> Option<Vec<(usize, Part)>> {
+        let mut sets: Vec<u32> = (0..1 << self.added.len()).filter(|set: &u32| set.count_ones() >= least).collect();
         sets.sort_by_key(|set| set.count_ones());
         let lacks = |set: u32| self.added.iter().enumerate().filter(move |(number, _)| set & (1 << number) != 0);
         let explains = |set: &u32| {

@@ -13,7 +13,7 @@ use crate::{Assignment, Value};
 use glam::{DMat3, DQuat, DVec2, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 pub use shown::Shown;
-use shown::{Handed, mixed};
+use shown::{Handed, WAYS, mixed};
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.
 const ASIDE: f64 = 0.05;
@@ -156,7 +156,7 @@ impl Assignment {
             spot.varyings = pipeline.vertex.outputs().iter().zip(&handed).filter_map(value).collect();
         }
         let (spots, positions): (Vec<Spot>, Vec<DVec4>) = spots.into_iter().unzip();
-        let colours = self.colours(pipeline, &drawn.uniforms, &spots, &handed)?;
+        let colours = self.colours(pipeline, &drawn.uniforms, &spots, &handed, WAYS)?;
         let right = self.equation.right();
         let probe = |(((at, spot), position), colour): (((usize, Spot), DVec4), (DVec3, bool))| {
             let (shown, is_steady) = colour;

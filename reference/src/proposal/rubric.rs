@@ -22,6 +22,8 @@ pub(super) struct ProposedLine {
     pub id: String,
     pub label: Text,
     pub judges: Option<String>,
+    /// What the part is called in the solution.
+    local: Option<String>,
     pub without: Option<Change>,
 }
 
@@ -50,7 +52,7 @@ pub(super) fn plain(plan: &mut Plan) {
 }
 
 fn line(id: &str, judges: Option<&str>) -> ProposedLine {
-    ProposedLine { id: id.to_owned(), label: label(id), judges: judges.map(str::to_owned), without: None }
+    ProposedLine { id: id.to_owned(), label: label(id), judges: judges.map(str::to_owned), local: None, without: None }
 }
 
 /// Puts lines for parts in the place of the line of the colour, or beside it where there is only one.
@@ -62,11 +64,21 @@ pub(super) fn refine(plan: &mut Plan) {
         let before: &[ProposedLine] = if terms.len() == 1 { &base } else { &shape };
         plan.rubric = before.iter().chain(&terms).cloned().collect();
         match worst(plan, before, &terms) {
-            None => return,
+            None => return by_definitions(plan),
             Some(at) => drop(terms.remove(at)),
         }
     }
     plan.rubric = base;
+}
+
+/// Names the definition that a line judges, where the solution has one of its name: a hand-in's own value is looked up then.
+fn by_definitions(plan: &mut Plan) {
+    let Ok(assignment) = Assignment::load(plan.folder()) else { return };
+    let equation = &assignment.equation;
+    let is_term = |name: &&String| equation.index(name).is_some_and(|definition| definition != equation.colour());
+    for line in plan.rubric.iter_mut().filter(|line| line.judges.is_none()) {
+        line.judges = line.local.as_ref().filter(is_term).cloned();
+    }
 }
 
 /// One of these that cannot be a line: what is without it is no program, or shows nothing, or shows what another shows.
@@ -137,7 +149,7 @@ fn terms(plan: &Plan) -> Vec<ProposedLine> {
     terms.truncate(MOST_TERMS);
     let line = |(name, change, _): (String, Change, HashSet<String>)| {
         let id = super::id_of(&name.replace('_', "-"));
-        ProposedLine { label: label(&name), id, judges: None, without: Some(change) }
+        ProposedLine { label: label(&name), id, judges: None, local: Some(name), without: Some(change) }
     };
     let mut lines: Vec<ProposedLine> = terms.into_iter().map(line).collect();
     let mut ids = HashSet::from(["shape".to_owned()]);

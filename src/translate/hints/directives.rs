@@ -235,11 +235,9 @@ fn version_in_comment(file: &File<'_>) -> Option<usize> {
     })
 }
 
-/// The `#version` of the assignment, which its fragment shader has.
+/// The `#version` of what is handed out.
 pub fn version_hint(file: &File<'_>) -> Text {
-    let fragment = file.interface.fragment.to_str().unwrap_or_default();
-    let line = tokens(fragment).into_iter().find(|token| directive_name(token.text) == "version");
-    let version = line.map_or("#version 410 core", |line| line.text);
+    let version = &file.interface.version;
     Text::new(
         format!("The file of this assignment begins with `{version}`."),
         format!("この課題のファイルは `{version}` で始めます。"),

@@ -51,6 +51,7 @@ pub fn interface() -> Interface {
         uniforms: vec![variable("mv", "mat4"), variable("mvp", "mat4")],
         output: variable("colour", "vec4"),
         constants: ["lightPosition", "lightAmbient", "shine"].map(str::to_owned).to_vec(),
+        version: "#version 410 core".to_owned(),
         fragment: c"#version 410 core\nin vec4 colour;\nout vec4 c;\nvoid main() { c = colour; }\n".to_owned(),
     }
 }

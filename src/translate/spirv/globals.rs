@@ -83,7 +83,7 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
             places.insert(id, (Destination::Member(members.len() as u32), pointee));
             declare(code, samplers, pointee, name.clone(), false, &mut uniforms.declared);
             members.push((name, pointee));
-        } else if is_block && is_set_block(code, set, pointee, &name, names.get(&id)) {
+        } else if is_block && is_set_block(code, set, pointee, &name) {
             declare(code, samplers, pointee, name, true, &mut uniforms.declared);
         } else if name == DEPTH_RANGE {
             places.insert(id, (Destination::Private, pointee));
@@ -105,14 +105,12 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
     (uniforms, io.into_iter().map(|(_, io)| io).collect())
 }
 
-/// Whether the program sets a block, by its name or, where it has no instance name, by a member's.
-fn is_set_block(code: &Code, set: &[&str], ty: u32, name: &str, instance: Option<&String>) -> bool {
+/// Whether the program sets a block, by its name or a member's. Whether it has an instance name is the shader's own affair.
+fn is_set_block(code: &Code, set: &[&str], ty: u32, name: &str) -> bool {
     if code.global(ty).is_none_or(|declared| declared.opcode != op::TYPE_STRUCT) {
         return false;
     }
-    let is_bare = instance.is_none_or(String::is_empty);
-    set.contains(&name)
-        || is_bare && io::member_names(code, ty).iter().any(|(_, member)| set.contains(&member.as_str()))
+    set.contains(&name) || io::member_names(code, ty).iter().any(|(_, member)| set.contains(&member.as_str()))
 }
 
 /// Lists the parts of a type that are scalars, vectors and matrices.

@@ -23,7 +23,7 @@ pub(super) fn all(
 ) -> Checked<Vec<Mistake>> {
     let lines: HashSet<String> = rubric.iter().map(|line| line.id.clone()).collect();
     let mut ids = HashSet::new();
-    let mut titles = HashSet::new();
+    let mut titles = [HashSet::new(), HashSet::new()];
     for entry in &entries {
         let place = || format!("mistake `{}`", entry.id);
         if !ids.insert(entry.id.clone()) {
@@ -33,7 +33,8 @@ pub(super) fn all(
             ));
         }
         // Lists name a mistake by its title alone.
-        if ![&entry.title.en, &entry.title.ja].into_iter().all(|title| titles.insert(title.clone())) {
+        let own = [&entry.title.en, &entry.title.ja];
+        if !titles.iter_mut().zip(own).all(|(titles, title)| titles.insert(title.clone())) {
             return Err(error(
                 place(),
                 both(

@@ -46,7 +46,7 @@ impl Lane {
 }
 
 /// The ways in which what is read is moved.
-const WAYS: usize = 5;
+pub(super) const WAYS: usize = 5;
 
 /// 2 × 2 pixels, as the interpreter takes them.
 const QUAD: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
@@ -75,23 +75,27 @@ impl Assignment {
         Some((positions(&outputs, vertices.len()), written))
     }
 
-    /// The colours of fragments, and whether each is a number that stays when what it is computed from is moved a little.
+    /// The colours of fragments, and whether each is a number that stays when what it is computed from is moved a little, in so
+    /// many ways.
     pub(super) fn colours(
         &self,
         pipeline: &Pipeline,
         uniforms: &[Value],
         spots: &[Spot],
         handed: &Handed,
+        ways: usize,
     ) -> Option<Vec<(DVec3, bool)>> {
         let lane = |spot, way, beside| Lane { spot, way, beside };
+        let is_moved = ways > 1;
+        let in_quads = pipeline.needs_quads(&self.textures);
         let of_spot = |spot: usize| -> Vec<Lane> {
-            let ways = 0..WAYS;
-            match pipeline.nature.derivatives || pipeline.nature.implicit_levels {
+            let ways = 0..ways;
+            match in_quads {
                 false => ways.map(|way| lane(spot, way, [0.0, 0.0])).collect(),
                 // A pixel is one of four: what it takes from its neighbours may not depend on which.
                 true => ways
                     .flat_map(|way| QUAD.map(|beside| lane(spot, way, beside)))
-                    .chain(QUAD.map(|[x, y]| lane(spot, 0, [x - 1.0, y - 1.0])))
+                    .chain(QUAD.map(|[x, y]| lane(spot, 0, [x - 1.0, y - 1.0])).into_iter().filter(|_| is_moved))
                     .collect(),
             }
         };
@@ -165,21 +169,30 @@ impl Assignment {
         Some((0..lanes.len()).map(colour).collect())
     }
 
-    /// What another program shows at each probe; none where it cannot be run.
+    /// What another program shows at each probe, and whether that is steady; none where it cannot be run.
     pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
+        self.shown(pipeline, probes, WAYS)
+    }
+
+    /// The same where nobody asks whether it is steady.
+    pub(crate) fn shown_once(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
+        self.shown(pipeline, probes, 1)
+    }
+
+    fn shown(&self, pipeline: &Pipeline, probes: &ProbeSet, ways: usize) -> Option<Vec<Shown>> {
         let of_group =
-            |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group));
+            |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group), ways);
         let groups = probes.groups.iter().enumerate().map(of_group).collect::<Option<Vec<_>>>()?;
         Some(groups.into_iter().flatten().collect())
     }
 
-    fn shown_in(&self, pipeline: &Pipeline, uniforms: &[Value], probes: &[Probe]) -> Option<Vec<Shown>> {
+    fn shown_in(&self, pipeline: &Pipeline, uniforms: &[Value], probes: &[Probe], ways: usize) -> Option<Vec<Shown>> {
         let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
         let shares: Vec<_> = spots.iter().map(|spot| spot.weights).enumerate().collect();
         let handed = mixed(&pipeline.vertex, &written, &shares);
-        let colours = self.colours(pipeline, uniforms, &spots, &handed)?;
+        let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
             let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
             Shown { colour, position, is_steady }
