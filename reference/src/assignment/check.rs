@@ -23,6 +23,9 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use variants::Variants;
 
+/// What is said of features.
+const OF_FEATURES: [&str; 2] = ["part-missing", "part-scaled"];
+
 /// Rubric lines are held as the bits of a u64.
 const MAX_LINES: usize = 64;
 
@@ -51,7 +54,10 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
     let variants = Variants { files: &files, stages: &stages, read: &read };
     let features = features::features(&m, &mut solution, &variants, line_at)?;
     let mistakes = std::mem::take(&mut m.mistake);
-    let mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, line_at)?;
+    let mut mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, line_at)?;
+    if features.iter().all(Option::is_none) {
+        mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()));
+    }
     let probing = probing::probing(&m.probes, &constants, &solution)?;
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, line_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
