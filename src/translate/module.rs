@@ -263,11 +263,10 @@ fn block(types: &naga::UniqueArena<Type>, variable: &naga::GlobalVariable, bindi
     for member in members {
         leaves(types, member.ty, member.name.clone().unwrap_or_default(), member.offset, &mut found);
     }
-    let is_bare = variable.name.as_deref().unwrap_or_default().is_empty();
     for uniform in found.iter_mut().filter(|_| !is_default) {
         let path = format!("{name}.{}", uniform.path);
         let alias = std::mem::replace(&mut uniform.path, path);
-        uniform.alias = is_bare.then_some(alias);
+        uniform.alias = Some(alias);
     }
     UniformBlock { binding, size: *span, is_default, members: found }
 }

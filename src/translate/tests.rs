@@ -76,9 +76,17 @@ fn what_the_compiler_lacks_is_our_fault() {
     let subroutine =
         "subroutine float F(float a);\nsubroutine(F) float f(float a) { return a; }\nsubroutine uniform F g;";
     assert!(matches!(run("410", subroutine, "vc *= g(1.0);"), Err(Refusal::Fault(_))));
-    assert!(matches!(run("410", "uniform sampler2D t;", "vc *= texture2D(t, pv.xy);"), Err(Refusal::Fault(_))));
+    let shadow = "uniform sampler2DShadow t;";
+    assert!(matches!(run("410", shadow, "vc *= shadow2D(t, pv.xyz);"), Err(Refusal::Fault(_))));
     // The student's own function of that name is none of the compiler's.
     assert_eq!(warnings("410", "vec4 texture2D(vec2 a) { return a.xyxy; }", "vc *= texture2D(pv.xy);"), []);
+}
+
+#[test]
+fn a_lookup_of_old_glsl_is_taken_as_drivers_take_it() {
+    let lookup = "vc *= texture2D(t, pv.xy);";
+    assert!(warnings("410", "uniform sampler2D t;", lookup).contains(&(Some(8), Some(7))));
+    assert_eq!(errors("420", "uniform sampler2D t;", lookup), [(Some(8), Some(7))]);
 }
 
 #[test]

@@ -174,11 +174,14 @@ fn by_role(path: &str, name: &NameWords, kind: &Type, space: Space) -> Option<St
     if name.is_eye() && is_vector(&[3, 4]) {
         return Some("carries = \"eye\"".to_owned());
     }
-    if let Some(expression) = of_the_page(path, kind) {
-        return Some(format!("is = {expression:?}"));
-    }
     if name.is_resolution() && is_vector(&[2, 3]) {
-        let expression = if is_vector(&[2]) { "resolution" } else { "vec3(resolution, 1.0)" };
+        let (expression, within) = match is_vector(&[2]) {
+            true => ("resolution", "[[200, 100], [600, 400]]"),
+            false => ("vec3(resolution, 1.0)", "[[200, 100, 1], [600, 400, 1]]"),
+        };
+        return Some(format!("is = {expression:?}\nprobe = {{ within = {within} }}"));
+    }
+    if let Some(expression) = of_the_page(path, kind) {
         return Some(format!("is = {expression:?}"));
     }
     let is_time = name.is_time() && *kind == Type::FLOAT;

@@ -8,7 +8,7 @@ use crate::cli::Check;
 use crate::command::{ExitStatus, assignment, file_fault, warn, writing};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
-use crate::hand_in::{HandIn, HandedInFile};
+use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::pictures::expected_pictures;
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
@@ -47,10 +47,8 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
         album.put(name, frames)?;
         Ok(report)
     };
-    let own = assignment.files.iter().map(|file| HandedInFile::new(&file.name, file.solution.text.as_bytes()));
-    let own: Vec<HandedInFile> = own.collect();
     let begin = Instant::now();
-    let solution = grade(&HandIn { files: own }, "solution")?;
+    let solution = grade(&grade::solution(&assignment), "solution")?;
     let took = begin.elapsed();
     let mut is_whole = say_solution(said, &solution);
     say_time(said, took, Settings::new(Arc::clone(&assignment)).deadline);

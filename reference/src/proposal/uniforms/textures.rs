@@ -40,10 +40,10 @@ const GREY: &[Row] = &[
     (
         &["specular", "gloss", "roughness", "metallic", "metalness", "mask", "occlusion", "ao", "alpha", "opacity"],
         &[
-            "generate = { checker = { squares = [5, 5], colours = [[0.25, 0.25, 0.25], [0.9, 0.9, 0.9]] } }",
+            "generate = { noise = { seed = 5, cells = [6, 4], colours = [[0.1, 0.1, 0.1], [1, 1, 1]] } }",
             "size = [60, 60]",
         ],
-        ("a mask of two greys", "2 階調の灰色"),
+        ("a mask of greys", "灰色の濃淡"),
     ),
     (
         &["hdr", "scene", "screen", "framebuffer", "buffer", "radiance", "irradiance"],
@@ -66,9 +66,10 @@ const GREY: &[Row] = &[
     ),
 ];
 
+/// Pictures that are others when they are turned over or round, so that swapped coordinates show.
 const COLOURFUL: [&[&str]; 3] = [
     &[
-        "generate = { checker = { squares = [6, 6], colours = [[0.8, 0.35, 0.2], [0.95, 0.85, 0.6]] } }",
+        "generate = { noise = { seed = 1, cells = [7, 5], colours = [[0.8, 0.25, 0.1], [0.95, 0.85, 0.6]] } }",
         "size = [96, 96]",
     ],
     &[
