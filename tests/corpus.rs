@@ -20,7 +20,7 @@ const SAMPLES: [(&str, usize); 9] = [
     ("bumps", 7),
     ("fog", 8),
     ("ggsample06", 1465),
-    ("lamp", 16),
+    ("lamp", 17),
     ("maps", 81),
     ("per-pixel", 11),
     ("rings", 9),

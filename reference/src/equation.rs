@@ -186,6 +186,16 @@ impl<'a> Variant<'a> {
 
     /// Computes every definition for one sample. `uniforms` stand in the interface's order, `attributes` as [`Reads`] says.
     pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Evaluation<'a> {
+        self.computed(uniforms, attributes, None)
+    }
+
+    /// By how much the colour moves, before it is clamped, when so much is added to a definition.
+    pub fn moves(&self, uniforms: &[Value], attributes: &[Value], definition: usize, by: [f64; 3]) -> DVec3 {
+        let colour = |by| self.computed(uniforms, attributes, Some((definition, by))).vec3(self.equation.colour);
+        colour(by) - colour([0.0; 3])
+    }
+
+    fn computed(&self, uniforms: &[Value], attributes: &[Value], moved: Option<(usize, [f64; 3])>) -> Evaluation<'a> {
         let Equation { sheet, .. } = self.equation;
         let mut registers = self.registers.borrow_mut();
         let given = self.equation.uniforms.iter().zip(uniforms);
@@ -193,11 +203,16 @@ impl<'a> Variant<'a> {
             cell.iter().for_each(|cell| sheet.set(*cell, value.numbers(), &mut registers));
         }
         let mut numbers = Vec::with_capacity(self.equation.numbers);
-        for (formula, parameter) in self.formulas.iter().zip(&self.parameters) {
+        for (definition, (formula, parameter)) in self.formulas.iter().zip(&self.parameters).enumerate() {
             if !parameter.is_nan() {
                 sheet.set(self.equation.parameter_cell(), &[*parameter], &mut registers);
             }
             sheet.compute(formula, &mut registers);
+            if let Some((_, by)) = moved.filter(|(moved, _)| *moved == definition) {
+                let mut own = sheet.get(formula.cell(), &registers).to_vec();
+                own.iter_mut().zip(by).for_each(|(number, by)| *number += by);
+                sheet.set(formula.cell(), &own, &mut registers);
+            }
             numbers.extend_from_slice(sheet.get(formula.cell(), &registers));
         }
         Evaluation { equation: self.equation, numbers }

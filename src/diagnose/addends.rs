@@ -1,8 +1,8 @@
 //! Terms that the student's text computes right and adds as they are.
 //!
 //! What a driver shows is the sum. A wrong term that is 0 nowhere hides a right one from every sample. In the text the right
-//! one still stands by itself: a value that is the right term at every probe, and that moves the colour by exactly what is
-//! added to it.
+//! one still stands by itself: a value that is the right term at every probe, and that moves the colour by exactly what it
+//! moves a right answer's when something is added to it.
 
 use super::Evidence;
 use super::locate::{given, is_close, is_same};
@@ -25,6 +25,9 @@ const OVERFLOWING: f64 = 1e4;
 
 /// So exactly the colour has to move by what is added. Noise: 1e-12 (f64). Defect to catch: a factor of 0.999.
 const EXACT: f64 = 1e-5;
+
+/// A move of less than this tells nothing.
+const LEAST: f64 = 1e-3;
 
 /// So many values that look like a term at one probe are tried.
 const MOST_CANDIDATES: usize = 24;
@@ -120,7 +123,12 @@ fn is_added(evidence: &Evidence<'_>, points: &[Point<'_>], line: &RubricLine) ->
     // Where the term is 0, many a value looks like it.
     let brightest = (0..points.len()).max_by(|a, b| size(&terms[*a]).total_cmp(&size(&terms[*b])));
     let Some(brightest) = brightest else { return false };
-    let search = Search { evidence, interpreter, points };
+    let Some(definition) = evidence.assignment.equation.index(&line.judges) else { return false };
+    let wanted = |point: &Point<'_>| {
+        let uniforms = evidence.probes.uniforms(point.probe);
+        right.moves(uniforms, &point.probe.attributes, definition, ADDED).to_array()
+    };
+    let search = Search { evidence, interpreter, points, wanted: points.iter().map(wanted).collect() };
     let is_it = |value: &Value| is_colour(value, &terms[brightest]);
     let found = search.candidates(brightest, &is_it).into_iter().find(|place| search.moves(*place, &terms));
     found.is_some_and(|place| !search.has_a_constant_beside(place, &terms))
@@ -130,6 +138,8 @@ struct Search<'s, 'a> {
     evidence: &'s Evidence<'a>,
     interpreter: &'s Interpreter,
     points: &'s [Point<'a>],
+    /// By how much a right answer's colour moves at each point by what is added to the term.
+    wanted: Vec<[f64; 3]>,
 }
 
 impl Search<'_, '_> {
@@ -146,10 +156,10 @@ impl Search<'_, '_> {
         if ran { candidates } else { Vec::new() }
     }
 
-    /// Whether a place has these values, and the colour moves by exactly what is added to them.
+    /// Whether a place has these values, and the colour moves as a right answer's does when something is added to them.
     fn moves(&self, candidate: Site, values: &[Vec<f64>]) -> bool {
         let mut seen = 0;
-        for (point, wanted) in self.points.iter().zip(values) {
+        for ((point, wanted), moves) in self.points.iter().zip(values).zip(&self.wanted) {
             let mut is_wanted = false;
             let change = &mut |place: Site, value: &Value| {
                 if place != candidate {
@@ -159,7 +169,7 @@ impl Search<'_, '_> {
                 added_to(value)
             };
             let moved = run(self.evidence, self.interpreter, &point.given, change);
-            match moved.filter(|_| is_wanted).map(|moved| passes(&point.output, &moved)) {
+            match moved.filter(|_| is_wanted).map(|moved| passes(&point.output, &moved, *moves)) {
                 Some(Some(true)) => seen += 1,
                 Some(None) => {}
                 Some(Some(false)) | None => return false,
@@ -179,7 +189,7 @@ impl Search<'_, '_> {
         self.candidates(0, &is_other).into_iter().filter(|place| *place > term).any(|place| {
             let [before, after] = [false, true].map(|is_moved| self.value(place, term, is_moved));
             let (Some(before), Some(after)) = (before, after) else { return false };
-            passes(&before, &after) == Some(true) && self.moves(place, &vec![before; self.points.len()])
+            passes(&before, &after, ADDED) == Some(true) && self.moves(place, &vec![before; self.points.len()])
         })
     }
 
@@ -209,13 +219,13 @@ fn added_to(value: &Value) -> Option<Value> {
     Some(Value::of_floats(&floats))
 }
 
-/// Whether the colour moves by what was added; `None` where that cannot be seen.
-fn passes(before: &[f64], after: &[f64]) -> Option<bool> {
-    let channels = before.iter().zip(after).zip(ADDED);
+/// Whether the colour moves by so much; `None` where that cannot be seen.
+fn passes(before: &[f64], after: &[f64], wanted: [f64; 3]) -> Option<bool> {
+    let channels = before.iter().zip(after).zip(wanted);
     let mut seen = None;
     for ((before, after), added) in channels {
         let is_at_an_end = before == after && (*before == 0.0 || *before == 1.0);
-        if is_at_an_end || *after == 1.0 && before + added > 1.0 {
+        if added.abs() < LEAST || is_at_an_end || *after == 1.0 && before + added > 1.0 {
             continue;
         }
         let moves = (after - before - added).abs() <= EXACT;

@@ -1,5 +1,5 @@
 #version 330 core
-uniform vec3 eye, lamp;
+uniform vec3 eye, lamp, paint;
 in vec3 at, facing;
 out vec4 colour;
 void main()
@@ -11,5 +11,5 @@ void main()
   vec3 sum = vec3(0.05, 0.04, 0.06);
   sum += vec3(0.6, 0.2, 0.2) * max(dot(n, l), 0.0);
   sum += vec3(0.3) * pow(max(dot(r, v), 0.0), 16.0);
-  colour = vec4(sum, 1.0);
+  colour = vec4(sum * paint, 1.0);
 }

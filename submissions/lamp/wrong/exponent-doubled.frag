@@ -1,5 +1,5 @@
 #version 330 core
-uniform vec3 eye, lamp;
+uniform vec3 eye, lamp, paint;
 in vec3 at, facing;
 out vec4 colour;
 void main()
@@ -11,5 +11,5 @@ void main()
   vec3 ambient = vec3(0.05, 0.04, 0.06);
   vec3 diffuse = vec3(0.6, 0.2, 0.2) * max(dot(n, l), 0.0);
   vec3 specular = vec3(0.3) * pow(max(dot(r, v), 0.0), 32.0);
-  colour = vec4(ambient + diffuse + specular, 1.0);
+  colour = vec4((ambient + diffuse + specular) * paint, 1.0);
 }

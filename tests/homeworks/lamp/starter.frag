@@ -1,5 +1,5 @@
 #version 330 core
-uniform vec3 eye, lamp;
+uniform vec3 eye, lamp, paint;
 in vec3 at, facing;
 out vec4 colour;
 void main()
