@@ -68,10 +68,13 @@ pub(super) fn unimplemented(log: &str) -> Option<String> {
 /// From this version on, drivers have no `texture2D` and its like.
 const NO_OLD_LOOKUPS: i32 = 420;
 
+/// What the names of old lookups go on with behind `texture` or `shadow`.
+const KINDS_OF_TEXTURE: [&str; 4] = ["1D", "2D", "3D", "Cube"];
+
 /// The lookup of today that one of old GLSL is; none where there is none of the same kind, as for shadows.
 fn lookup_of_today(word: &str) -> Option<&'static str> {
     let kind = word.strip_prefix("texture")?;
-    let rest = ["1D", "2D", "3D", "Cube"].iter().find_map(|start| kind.strip_prefix(start))?;
+    let rest = KINDS_OF_TEXTURE.iter().find_map(|start| kind.strip_prefix(start))?;
     Some(match rest {
         "" => "texture",
         "Lod" => "textureLod",
@@ -85,7 +88,7 @@ fn lookup_of_today(word: &str) -> Option<&'static str> {
 fn old_lookups(code: &str) -> Vec<(usize, &str)> {
     let is_old = |word: &str| {
         let kind = word.strip_prefix("texture").or_else(|| word.strip_prefix("shadow"));
-        kind.is_some_and(|kind| ["1D", "2D", "3D", "Cube"].iter().any(|start| kind.starts_with(start)))
+        kind.is_some_and(|kind| KINDS_OF_TEXTURE.iter().any(|start| kind.starts_with(start)))
     };
     let is_called = |at: usize, word: &str| code[at + word.len()..].trim_start().starts_with('(');
     // Behind a type stands a declaration.
@@ -121,8 +124,8 @@ pub(super) fn refuse_old_lookups(source: &Source) -> Result<(), Refusal> {
 pub(super) fn with_lookups_of_today(text: String, source: &Source) -> (String, Option<Diagnostic>) {
     let old = old_lookups(source.code());
     let Some((at, word)) = old.first() else { return (text, None) };
-    let mut renewed = text;
-    for (at, word) in old_lookups(&renewed.clone()) {
+    let mut renewed = text.clone();
+    for (at, word) in old_lookups(&text) {
         if let Some(today) = lookup_of_today(word) {
             renewed.replace_range(at..at + word.len(), &format!("{today:width$}", width = word.len()));
         }

@@ -123,6 +123,9 @@ impl Program {
             let own = self.fixed.iter().find(|fixed| fixed.stage == stage).and_then(|fixed| fixed.text.to_str().ok());
             handed_in.or(own)
         };
+        if !sources.iter().any(|(_, source)| source.text.contains("location")) {
+            return Vec::new();
+        }
         let read = |stage| reference::interpreter::Program::compile(text(stage)?, stage).ok();
         let (Some(vertex), Some(fragment)) = (read(Stage::Vertex), read(Stage::Fragment)) else { return Vec::new() };
         let written = |location| vertex.outputs().iter().find(|output| output.location == location);
