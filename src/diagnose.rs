@@ -18,6 +18,7 @@ use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
 use crate::translate::Interpreter;
 use advice::Beyond;
+pub use cause::UNEXPLAINED;
 use cause::{Cause, belongs, cause, kept};
 pub use fresh::Fresh;
 use message::Facts;

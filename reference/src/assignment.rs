@@ -247,6 +247,11 @@ impl Assignment {
         if reaches { mistake.keeps(&line.id) } else { 1.0 }
     }
 
+    /// Whether two mistakes cost points of the same line.
+    pub fn share_a_line(&self, a: &FoundMistake, b: &FoundMistake) -> bool {
+        self.rubric.iter().any(|line| self.keeps(a, line) < 1.0 && self.keeps(b, line) < 1.0)
+    }
+
     /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
     /// term of the colour is the mistake's own affair.
     pub(crate) fn reaches(&self, form: &Form, line: &RubricLine) -> bool {

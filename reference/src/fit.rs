@@ -3,6 +3,7 @@
 //! The combination with the fewest mistakes that reproduces every sample wins; of equals the one with the fewest free parameters,
 //! then the one that touches the fewest lines of the rubric, then the first in the assignment's table. What nothing explains is judged term by term, where a term stands alone.
 
+mod alternatives;
 mod columns;
 mod digits;
 mod features;
@@ -12,6 +13,7 @@ mod solve;
 mod terms;
 mod views;
 
+pub use alternatives::Alternatives;
 pub use features::{FEWEST, Footprints, alike, judge_features, program_of};
 pub use parts::{Part, Parts, explain_parts};
 pub use terms::{TermJudgement, Worst};

@@ -11,12 +11,14 @@ use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::{
-    Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_parts, is_right, judge_features, judge_terms, program_of,
+    Alternatives, Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_parts, is_right, judge_features, judge_terms,
+    program_of,
 };
 use reference::mistake::FoundMistake;
 
 const HARD_CODED: &str = "hard-coded";
-const UNEXPLAINED: &str = "unexplained";
+/// Nothing that is known explains a wrong answer.
+pub const UNEXPLAINED: &str = "unexplained";
 const NEARLY_RIGHT: &str = "nearly-right";
 pub(super) const PART_MISSING: &str = "part-missing";
 pub(super) const PART_SCALED: &str = "part-scaled";
@@ -59,7 +61,9 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         let found = vec![FoundMistake { id: mistake.id.clone(), form: 0, parameter: None }];
         return Cause::Known { constants: Vec::new(), found };
     }
-    if let Some(found) = program(evidence, &samples, all_right && shape) {
+    let alternatives = Alternatives::new(assignment, probes);
+    let program = || program_of(&alternatives, &samples, &is_there(evidence), COLOUR_TOLERANCE);
+    if let Some(found) = (!(all_right && shape)).then(program).flatten() {
         return Cause::Known { constants: Vec::new(), found: vec![found] };
     }
     if all_right {
@@ -78,7 +82,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let is_lookup = hard_coded::is_lookup(evidence.source, probes, evidence.samples);
     let by_term = || {
         let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-        unexplained(evidence, &samples, terms)
+        unexplained(evidence, &alternatives, &samples, terms)
     };
     if is_lookup && addends::is_finite_nowhere(evidence) {
         return by_term();
@@ -99,28 +103,25 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off) => {
             Cause::NearlyRight
         }
-        Fit::Unexplained(terms) => unexplained(evidence, &samples, terms),
+        Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms),
     }
 }
 
 /// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself.
-fn unexplained(evidence: &Evidence<'_>, samples: &[[f64; 3]], terms: Vec<TermJudgement>) -> Cause {
-    let is_there = is_there(evidence);
-    if let Some(parts) = explain_parts(evidence.assignment, evidence.probes, samples, &is_there, COLOUR_TOLERANCE) {
+fn unexplained(
+    evidence: &Evidence<'_>,
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+    mut terms: Vec<TermJudgement>,
+) -> Cause {
+    if let Some(parts) = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
         return Cause::Parts(parts);
     }
-    let mut terms = terms;
-    for feature in judge_features(evidence.assignment, evidence.probes, samples, COLOUR_TOLERANCE) {
+    for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
         terms.retain(|term| term.line != feature.line);
         terms.push(feature);
     }
     Cause::Unexplained(addends::credit(evidence, terms))
-}
-
-/// The mistake whose program draws what the shader draws.
-fn program(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_right: bool) -> Option<FoundMistake> {
-    let search = || program_of(evidence.assignment, evidence.probes, samples, &is_there(evidence), COLOUR_TOLERANCE);
-    (!is_right).then(search).flatten()
 }
 
 /// Whether a sample has a given position, but for the factor that all have in common where they are right.
@@ -139,10 +140,7 @@ fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     let assignment = evidence.assignment;
     let Some(points) = Points::new(evidence, assignment) else { return true };
     let places: Vec<_> = (0..found.len()).map(|index| points.locate(found, index).map(|place| place.line)).collect();
-    let touches = |a: &FoundMistake, line: &RubricLine| assignment.keeps(a, line) < 1.0;
-    let share =
-        |a: &FoundMistake, b: &FoundMistake| assignment.rubric.iter().any(|line| touches(a, line) && touches(b, line));
-    let clash = |a: usize, b: usize| share(&found[a], &found[b]) && places[a] == places[b];
+    let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
     places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
 }
 
@@ -235,13 +233,7 @@ const fn part_id(part: Part) -> &'static str {
 }
 
 /// Fraction of the line's points that the mistake leaves in this answer.
-pub(super) fn kept(
-    assignment: &Assignment,
-    line: &reference::assignment::RubricLine,
-    shape: bool,
-    cause: &Cause,
-    id: &str,
-) -> f64 {
+pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cause, id: &str) -> f64 {
     let is_touched = match (cause, id) {
         (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
         // What cannot be judged by itself is not known to be right.
@@ -266,6 +258,6 @@ pub(super) fn kept(
 }
 
 /// Whether the constant is one of the line's.
-pub(super) fn belongs(assignment: &Assignment, constant: &str, line: &reference::assignment::RubricLine) -> bool {
+pub(super) fn belongs(assignment: &Assignment, constant: &str, line: &RubricLine) -> bool {
     assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
 }

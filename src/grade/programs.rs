@@ -2,6 +2,7 @@
 
 use super::{Graded, Grader, Judged, Order};
 use crate::cross_check;
+use crate::diagnose::UNEXPLAINED;
 use crate::diagnostic::{Diagnostic, Stage as Speaker};
 use crate::fault::Fault;
 use crate::hand_in::HandedInFile;
@@ -12,9 +13,6 @@ use crate::source::{self, Source};
 use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
-
-/// What nothing explains, see the texts of any homework.
-const UNEXPLAINED: &str = "unexplained";
 
 /// The program of a homework, as far as it is not handed in.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Whole programs in place of forms: what a mistake's program shows, and what shows of a feature by itself.
 
-use super::{TermJudgement, Worst, agrees};
+use super::{Alternatives, TermJudgement, Worst, agrees};
 use crate::Assignment;
 use crate::accepted::Computed;
 use crate::equation::DISCARDED;
@@ -12,23 +12,19 @@ use glam::{DVec3, DVec4};
 ///
 /// `is_there`: whether a sample's position is a given one.
 pub fn program_of(
-    assignment: &Assignment,
-    probes: &ProbeSet,
+    alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
     is_there: &dyn Fn(usize, DVec4) -> bool,
     tolerance: f64,
 ) -> Option<FoundMistake> {
-    let samples = super::padded(probes, samples);
-    assignment.mistakes.iter().find_map(|mistake| {
-        let shows = |number: &usize| {
-            let computed = assignment.computed_by(&mistake.variants[*number], probes);
-            computed.iter().zip(&samples).enumerate().all(|(place, ((colour, position), sample))| {
-                agrees(*colour, *sample, tolerance) && is_there(place, *position)
-            })
-        };
-        let found = (0..mistake.variants.len()).find(shows)?;
-        Some(FoundMistake { id: mistake.id.clone(), form: mistake.forms.len() + found, parameter: None })
-    })
+    let samples = super::padded(alternatives.probes, samples);
+    let shows = |computed: &[Computed]| {
+        computed.iter().zip(&samples).enumerate().all(|(place, ((colour, position), sample))| {
+            agrees(*colour, *sample, tolerance) && is_there(place, *position)
+        })
+    };
+    let mut programs = alternatives.programs();
+    programs.find(|(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone())
 }
 
 /// Where the features of the rubric show: at which probes the solution without one differs from the solution.
@@ -40,13 +36,13 @@ pub struct Footprints {
 
 impl Footprints {
     /// Looks at all features of an assignment.
-    pub fn of(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Self {
-        let differs = |computed: Vec<Computed>| {
-            let pairs = computed.iter().zip(probes);
+    pub fn of(alternatives: &Alternatives<'_>, tolerance: f64) -> Self {
+        let differs = |computed: &[Computed]| {
+            let pairs = computed.iter().zip(alternatives.probes);
             pairs.map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance)).collect()
         };
-        let shows = |feature: &Option<_>| Some(differs(assignment.computed_without(feature.as_ref()?, probes)));
-        Self { shows: assignment.features.iter().map(shows).collect() }
+        let lines = 0..alternatives.assignment.features.len();
+        Self { shows: lines.map(|line| alternatives.without(line).map(differs)).collect() }
     }
 
     /// The lines that have a feature, in the rubric's order.
@@ -60,7 +56,7 @@ impl Footprints {
     }
 
     /// The probes at which a line's feature shows beside no other than those that are known to be right.
-    pub fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<usize> {
+    fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<usize> {
         let Some(Some(own)) = self.shows.get(line) else { return Vec::new() };
         let others: Vec<&Vec<bool>> = self
             .shows
@@ -91,21 +87,19 @@ impl Footprints {
 }
 
 /// The mistakes whose programs show what the solution shows, or what another mistake's do: what stands for each, and what it is like.
-pub fn alike(assignment: &Assignment, probes: &ProbeSet, tolerance: f64) -> Vec<(String, Option<String>)> {
-    type Shown = Vec<(DVec3, DVec4)>;
-    let same = |a: &Shown, b: &Shown| {
+pub fn alike(alternatives: &Alternatives<'_>, tolerance: f64) -> Vec<(String, Option<String>)> {
+    let same = |a: &[Computed], b: &[Computed]| {
         let is_there =
             |a: &DVec4, b: &DVec4| (*a - *b).abs().max_element() <= tolerance * a.abs().max_element().max(1.0);
         a.iter().zip(b).all(|(a, b)| agrees(a.0, b.0, tolerance) && is_there(&a.1, &b.1))
     };
-    let right: Shown = probes.iter().map(|probe| (probe.colour, probe.position)).collect();
-    let mut known: Vec<(&str, Shown)> = Vec::new();
+    let right = alternatives.right();
+    let mut known: Vec<(&str, &[Computed])> = Vec::new();
     let mut alike = Vec::new();
-    for program in assignment.mistakes.iter().flat_map(|mistake| &mistake.variants) {
-        let shown = assignment.computed_by(program, probes);
-        if same(&right, &shown) {
+    for (_, program, shown) in alternatives.programs() {
+        if same(&right, shown) {
             alike.push((program.name.clone(), None));
-        } else if let Some((other, _)) = known.iter().find(|(_, other)| same(other, &shown)) {
+        } else if let Some((other, _)) = known.iter().find(|(_, other)| same(other, shown)) {
             alike.push((program.name.clone(), Some((*other).to_owned())));
         }
         known.push((&program.name, shown));
@@ -118,12 +112,8 @@ pub const FEWEST: usize = 8;
 
 /// The lines with a feature, judged where it shows by itself, or beside such as are right, see [`Footprints::judged`]; a line that
 /// cannot be judged is right at none of no probes.
-pub fn judge_features(
-    assignment: &Assignment,
-    probes: &ProbeSet,
-    samples: &[[f64; 3]],
-    tolerance: f64,
-) -> Vec<TermJudgement> {
+pub fn judge_features(alternatives: &Alternatives<'_>, samples: &[[f64; 3]], tolerance: f64) -> Vec<TermJudgement> {
+    let Alternatives { assignment, probes, .. } = *alternatives;
     let samples = super::padded(probes, samples);
     let is_right = |place: usize| agrees(probes.probes[place].colour, samples[place], tolerance);
     let judgement = |(line, places): (usize, Vec<usize>)| {
@@ -147,7 +137,7 @@ pub fn judge_features(
         let judged = places.len();
         TermJudgement { line: assignment.rubric[line].id.clone(), judged, matched, worst }
     };
-    let footprints = Footprints::of(assignment, probes, tolerance);
+    let footprints = Footprints::of(alternatives, tolerance);
     let judged = footprints.judged(&is_right);
     let open = footprints.lines().filter(|line| !judged.iter().any(|(known, _)| known == line));
     let open: Vec<_> = open.map(|line| (line, Vec::new())).collect();

@@ -3,12 +3,10 @@
 //! Most colours are sums: what a feature adds is the difference between the solution and the solution without it. An answer
 //! that is the solution, or one with known mistakes, less what some features add, lacks these features, and has all others.
 
-use super::channel_agrees;
-use crate::Assignment;
+use super::{Alternatives, channel_agrees};
 use crate::accepted::Computed;
 use crate::equation::Reads;
 use crate::mistake::FoundMistake;
-use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
 
 /// More features than this are not looked for in all combinations.
@@ -39,54 +37,43 @@ pub struct Parts {
 ///
 /// `is_there`: whether a sample's position is a given one.
 pub fn explain_parts(
-    assignment: &Assignment,
-    probes: &ProbeSet,
+    alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
     is_there: &dyn Fn(usize, DVec4) -> bool,
     tolerance: f64,
 ) -> Option<Parts> {
-    let samples = super::padded(probes, samples);
-    let right: Vec<Computed> = probes.iter().map(|probe| (probe.colour, probe.position)).collect();
-    let features = assignment.features.iter().enumerate();
-    let features = features.filter_map(|(line, feature)| Some((line, feature.as_ref()?)));
-    let added: Vec<(usize, Vec<Computed>)> = features
-        .take(MOST_FEATURES)
-        .map(|(line, feature)| {
-            let without = assignment.computed_without(feature, probes);
-            let add = |(own, without): (&Computed, Computed)| (own.0 - without.0, own.1 - without.1);
-            (line, right.iter().zip(without).map(add).collect())
-        })
-        .collect();
-    let is_clamped = assignment.equation.reads() != Reads::Attributes;
-    let search = Search { samples, right, added, is_clamped, is_there, tolerance };
-    let of = |found: Vec<FoundMistake>, base: &[Computed], least: u32| {
-        Some(Parts { parts: search.missing(base, least)?, found })
-    };
-    let alone = of(Vec::new(), &search.right, 1).or_else(|| {
-        let parts = search.scaled()?;
-        Some(Parts { found: Vec::new(), parts })
+    let assignment = alternatives.assignment;
+    let right = alternatives.right();
+    let lines = 0..assignment.features.len();
+    let without = lines.filter_map(|line| Some((line, alternatives.without(line)?)));
+    let added = without.take(MOST_FEATURES).map(|(line, without)| {
+        let add = |(own, without): (&Computed, &Computed)| (own.0 - without.0, own.1 - without.1);
+        (line, right.iter().zip(without).map(add).collect())
     });
-    alone.or_else(|| {
-        let known = assignment.mistakes.iter().flat_map(|mistake| {
-            let ways = mistake.variants.iter().zip(mistake.forms.len()..);
-            ways.map(|(program, form)| (FoundMistake { id: mistake.id.clone(), form, parameter: None }, program))
-        });
-        let known: Vec<(FoundMistake, Vec<Computed>)> =
-            known.map(|(found, program)| (found, assignment.computed_by(program, probes))).collect();
-        let with_one = known.iter().find_map(|(found, base)| of(vec![found.clone()], base, 1));
-        with_one.or_else(|| {
-            // What two mistakes change is added up where they are of different lines.
-            let is_apart = |a: &FoundMistake, b: &FoundMistake| {
-                let costs = |found: &FoundMistake, line| assignment.keeps(found, line) < 1.0;
-                !assignment.rubric.iter().any(|line| costs(a, line) && costs(b, line))
-            };
-            let pairs = known.iter().enumerate().flat_map(|(at, a)| known[at + 1..].iter().map(move |b| (a, b)));
-            pairs.filter(|((a, _), (b, _))| is_apart(a, b)).find_map(|((a, ours), (b, theirs))| {
-                let both = ours.iter().zip(theirs).zip(&search.right);
-                let both = both.map(|((a, b), right)| (a.0 + b.0 - right.0, a.1 + b.1 - right.1));
-                of(vec![a.clone(), b.clone()], &both.collect::<Vec<_>>(), 0)
-            })
-        })
+    let search = Search {
+        samples: super::padded(alternatives.probes, samples),
+        added: added.collect(),
+        right: right.clone(),
+        is_clamped: assignment.equation.reads() != Reads::Attributes,
+        is_there,
+        tolerance,
+    };
+    if let Some(parts) = search.missing(&search.right, 1).or_else(|| search.scaled()) {
+        return Some(Parts { found: Vec::new(), parts });
+    }
+    let with_one = |(found, _, shown): (&FoundMistake, _, &[Computed])| {
+        Some(Parts { parts: search.missing(shown, 1)?, found: vec![found.clone()] })
+    };
+    if let Some(parts) = alternatives.programs().find_map(with_one) {
+        return Some(parts);
+    }
+    // What two mistakes change is added up where they are of different lines.
+    let firsts = alternatives.programs().enumerate();
+    let pairs = firsts.flat_map(|(at, first)| alternatives.programs().skip(at + 1).map(move |other| (first, other)));
+    pairs.filter(|((a, ..), (b, ..))| !assignment.share_a_line(a, b)).find_map(|((a, _, ours), (b, _, theirs))| {
+        let both = ours.iter().zip(theirs).zip(&search.right);
+        let both: Vec<Computed> = both.map(|((a, b), right)| (a.0 + b.0 - right.0, a.1 + b.1 - right.1)).collect();
+        Some(Parts { parts: search.missing(&both, 0)?, found: vec![a.clone(), b.clone()] })
     })
 }
 

@@ -6,7 +6,6 @@ use super::Plan;
 use super::names::NameWords;
 use super::writing::quoted;
 use crate::assignment::both;
-use crate::feature::Feature;
 use crate::fit;
 use crate::interpreter::Stage;
 use crate::{Assignment, Text};
@@ -92,22 +91,22 @@ fn worst(plan: &mut Plan, before: &[ProposedLine], terms: &[ProposedLine]) -> Op
         return Some(terms.iter().position(|term| !loads(term)).unwrap_or(terms.len() - 1));
     };
     let probes = assignment.judging_probes();
-    let footprints = fit::Footprints::of(&assignment, &probes, fit::TOLERANCE);
+    let alternatives = fit::Alternatives::new(&assignment, &probes);
+    let footprints = fit::Footprints::of(&alternatives, fit::TOLERANCE);
     if let Some(weak) = footprints.lines().find(|line| footprints.of_line(*line).len() < fit::FEWEST) {
         return weak.checked_sub(before.len());
     }
     // What moves vertices is judged by the line of the shape.
-    let moves = |feature: &Option<Feature>| {
-        let shown = feature.as_ref().map(|feature| assignment.computed_without(feature, &probes)).unwrap_or_default();
-        let mut shown = shown.iter().zip(&probes.probes);
+    let moves = |line: &usize| {
+        let mut shown = alternatives.without(*line).unwrap_or_default().iter().zip(&probes.probes);
         shown.any(|((_, position), probe)| (*position - probe.position).abs().max_element() > fit::TOLERANCE)
     };
     if plan.hands_in(Stage::Vertex)
-        && let Some(moving) = assignment.features.iter().position(moves)
+        && let Some(moving) = (0..assignment.features.len()).find(moves)
     {
         return moving.checked_sub(before.len());
     }
-    let alike = fit::alike(&assignment, &probes, fit::TOLERANCE);
+    let alike = fit::alike(&alternatives, fit::TOLERANCE);
     let (name, _) = alike.first()?;
     let found = terms.iter().position(|term| name.contains(&format!("`no-{}`", term.id)));
     Some(found.unwrap_or(terms.len() - 1))

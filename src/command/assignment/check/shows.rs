@@ -14,23 +14,25 @@ use reference::rasteriser::{Coverage, Frame};
 /// Says it all; whether every mistake shows something of its own.
 pub(super) fn say(said: Said, assignment: &Assignment, album: &Album<'_>) -> Result<bool, Fault> {
     let probes = assignment.judging_probes();
+    let alternatives = fit::Alternatives::new(assignment, &probes);
     let right = assignment.frames();
-    say_features(said, assignment, &probes, &right, album)?;
+    say_features(said, assignment, &alternatives, &probes, &right, album)?;
     for mistake in assignment.mistakes.iter().filter(|mistake| mistake.ways() > 0) {
         say_mistake(said, assignment, mistake, &probes, &right, album)?;
     }
-    Ok(say_alike(said, assignment, &probes))
+    Ok(say_alike(said, &alternatives))
 }
 
 /// Says where each line's feature shows, and which cannot be judged, as a term of a sum that always has another.
 fn say_features(
     said: Said,
     assignment: &Assignment,
+    alternatives: &fit::Alternatives<'_>,
     probes: &ProbeSet,
     right: &[Frame],
     album: &Album<'_>,
 ) -> Result<(), Fault> {
-    let footprints = fit::Footprints::of(assignment, probes, fit::TOLERANCE);
+    let footprints = fit::Footprints::of(alternatives, fit::TOLERANCE);
     // Where all is right, each line is judged that can be judged at all.
     let judged = footprints.judged(&|_| true);
     for line in footprints.lines() {
@@ -114,8 +116,8 @@ fn is_seen(own: &Frame, right: &Frame) -> bool {
 }
 
 /// Names the mistakes that show nothing of their own.
-fn say_alike(said: Said, assignment: &Assignment, probes: &ProbeSet) -> bool {
-    let alike = fit::alike(assignment, probes, fit::TOLERANCE);
+fn say_alike(said: Said, alternatives: &fit::Alternatives<'_>) -> bool {
+    let alike = fit::alike(alternatives, fit::TOLERANCE);
     for (variant, other) in &alike {
         let text = match other {
             None => Text::new(
