@@ -2,7 +2,6 @@
 
 mod check;
 mod error;
-mod toml_error;
 
 use crate::accepted::AcceptedAnswer;
 use crate::advice::Advice;
@@ -10,16 +9,17 @@ use crate::equation::{Equation, Reads, Variant};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::{Texture, Type};
+use crate::manifest::Layers;
 pub use crate::manifest::{RubricLine, Stage, Task};
 use crate::mistake::{Form, FoundMistake, Mistake};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
 use crate::typeset::Typeset;
-use crate::{Folder, Text, Value, manifest};
+use crate::{Folder, Text, Value};
 pub use error::AssignmentError;
 pub(crate) use error::{both, error};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// A homework as data.
 #[derive(Clone, Debug)]
@@ -170,38 +170,6 @@ pub struct Constant {
 /// Name of the file that describes an assignment.
 pub const MANIFEST: &str = "assignment.toml";
 
-/// A built-in folder: its name, and its files by name.
-type BuiltIn = (&'static str, &'static [(&'static str, &'static [u8])]);
-
-/// Every folder below `reference/assignments`.
-const BUILT_IN: &[BuiltIn] = include!(concat!(env!("OUT_DIR"), "/built_in.rs"));
-
-/// The names of the assignments that are built in, in order.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    BUILT_IN.iter().map(|(name, _)| *name)
-}
-
-/// The built-in assignment of this name, which is its id.
-///
-/// # Panics
-/// If the built-in folder is not an assignment, which the tests of this crate rule out.
-pub fn assignment(name: &str) -> Option<&'static Arc<Assignment>> {
-    static LOADED: [OnceLock<Arc<Assignment>>; BUILT_IN.len()] = [const { OnceLock::new() }; BUILT_IN.len()];
-    let place = names().position(|known| known == name)?;
-    Some(LOADED[place].get_or_init(|| {
-        let folder = Folder::of(BUILT_IN[place].1.iter().copied());
-        Arc::new(Assignment::load(folder).expect("a built-in assignment is broken"))
-    }))
-}
-
-/// The assignments that are built in.
-///
-/// # Panics
-/// See [`assignment`].
-pub fn assignments() -> impl Iterator<Item = &'static Arc<Assignment>> {
-    names().filter_map(assignment)
-}
-
 impl Assignment {
     /// Reads and checks the assignment in a folder.
     ///
@@ -215,18 +183,8 @@ impl Assignment {
     }
 
     fn read(folder: &Folder) -> Result<Self, AssignmentError> {
-        let text = folder.text(MANIFEST)?;
-        let line_at = |at: usize| text.bytes().take(at).filter(|byte| *byte == b'\n').count() as u32 + 1;
-        let manifest: manifest::Manifest = toml::from_str(text).map_err(|e| {
-            let at = e.span().map(|span| span.start);
-            let before = at.and_then(|at| text.get(..at)).map(|before| before.rsplit('\n').next().unwrap_or_default());
-            AssignmentError {
-                line: at.map(line_at),
-                column: before.map(|before| before.chars().count() as u32 + 1),
-                ..AssignmentError::of_file(MANIFEST, toml_error::explained(e.message()))
-            }
-        })?;
-        check::assignment(manifest, &line_at, folder)
+        let layers = Layers::of(folder)?;
+        check::assignment(layers.manifest()?, &|at| layers.place_at(at), folder)
     }
 
     /// Whether a stage is handed in.

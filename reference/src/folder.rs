@@ -1,7 +1,7 @@
 //! The folder of an assignment: its files, read once, wherever they come from.
 
-use crate::Text;
 use crate::assignment::{AssignmentError, MANIFEST, both, error};
+use crate::{Text, built_in, manifest};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -56,9 +56,59 @@ impl Folder {
                 ),
             ));
         }
-        let mut reading = Reading { root: &root, bytes: 0, files: BTreeMap::new() };
-        reading.folder(&root, "", 0)?;
+        Self::read_alone(&root)?.with_bases(root.parent())
+    }
+
+    /// The files of a folder, without those that it extends.
+    fn read_alone(root: &Path) -> Result<Self, AssignmentError> {
+        let mut reading = Reading { root, bytes: 0, files: BTreeMap::new() };
+        reading.folder(root, "", 0)?;
         Ok(Self { files: reading.files })
+    }
+
+    /// The same with what it extends: the files that it does not have itself, and the manifests under the names
+    /// `../NAME/assignment.toml`. A folder is looked for beside it first, then among those that are built in.
+    ///
+    /// # Errors
+    /// What it extends is nowhere, or cannot be read.
+    pub(crate) fn with_bases(mut self, beside: Option<&Path>) -> Result<Self, AssignmentError> {
+        let mut from = MANIFEST.to_owned();
+        while let Some(base) = self.text(&from).ok().and_then(manifest::extended) {
+            let file = manifest::name_of_base(&base);
+            if self.files.contains_key(&file) {
+                break;
+            }
+            let is_name = !base.is_empty() && !base.contains(['/', '\\']) && !base.starts_with('.');
+            let root = beside.filter(|_| is_name).map(|folder| folder.join(&base));
+            let found = match root.filter(|root| root.join(MANIFEST).is_file()) {
+                Some(root) => Some(Self::read_alone(&fs::canonicalize(&root).map_err(|e| cannot_read(&base, &e))?)?),
+                None => built_in::folder(&base),
+            };
+            let Some(mut found) = found else { return Err(self.extends_nothing(&from, &base)) };
+            let text = found.files.remove(MANIFEST).unwrap_or_default();
+            self.files.insert(file.clone(), text);
+            for (name, bytes) in found.files {
+                self.files.entry(name).or_insert(bytes);
+            }
+            from = file;
+        }
+        Ok(self)
+    }
+
+    fn extends_nothing(&self, from: &str, base: &str) -> AssignmentError {
+        let known = built_in::names().collect::<Vec<_>>().join(", ");
+        let line = self.text(from).map_or(1, manifest::line_of_extends);
+        error(
+            format!("{from}, line {line}"),
+            both(
+                format!(
+                    "there is no folder `{base}` beside this one with an {MANIFEST}, and none is built in: built in are {known}"
+                ),
+                format!(
+                    "`{base}` というフォルダ（{MANIFEST} を持つもの）がこのフォルダと同じ場所になく、組み込みの課題にもありません。組み込みの課題: {known}"
+                ),
+            ),
+        )
     }
 
     /// A folder of these files.

@@ -27,6 +27,7 @@
 pub mod accepted;
 pub mod advice;
 pub mod assignment;
+pub mod built_in;
 pub mod equation;
 pub mod feature;
 pub mod feed;
@@ -51,7 +52,8 @@ mod value;
 /// Names the code of this crate: what other code computed has another name.
 pub const ENGINE: &str = env!("GGRADE_ENGINE");
 
-pub use assignment::{Assignment, AssignmentError, assignment, assignments};
+pub use assignment::{Assignment, AssignmentError};
+pub use built_in::{assignment, assignments};
 pub use folder::Folder;
 pub use text::Text;
 pub use value::{Value, Values};

@@ -1,12 +1,15 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
 mod interface;
+mod layers;
 mod mistake;
 mod scene;
 mod texture;
+mod toml_error;
 mod variant;
 
 pub use interface::{Input, Uniform};
+pub use layers::{Layers, extended, line_of_extends, name_of_base};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 pub use texture::{Format, Texture, Wraps};
@@ -24,6 +27,11 @@ use toml::Spanned;
 pub struct Manifest {
     /// Name of the assignment, as in `ggsample06`.
     pub id: String,
+    /// The homework that this one is laid over: the folder of that name beside this one, or else the built-in one.
+    pub extends: Option<String>,
+    /// What is not taken over of it: keys, and the names and ids of what its lists have.
+    #[serde(default)]
+    pub leave_out: Vec<String>,
     /// Title of the homework.
     pub title: Text,
     /// What there is to do.

@@ -55,7 +55,7 @@ pub fn run(arguments: &Corpus) -> Result<ExitStatus, Fault> {
 fn assignment(arguments: &Corpus) -> Option<Arc<Assignment>> {
     let folders = arguments.folder.iter().flat_map(|folder| folder.components());
     let mut names = folders.filter_map(|folder| folder.as_os_str().to_str());
-    let named = names.find(|name| reference::assignment::names().any(|known| known == *name));
+    let named = names.find(|name| reference::built_in::names().any(|known| known == *name));
     super::assignment(arguments.machine.assignment.as_deref().or(named), &[], language(None))
 }
 

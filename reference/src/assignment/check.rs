@@ -31,8 +31,8 @@ const MAX_LINES: usize = 64;
 
 type Checked<T> = Result<T, AssignmentError>;
 
-/// `line_at`: the line of `assignment.toml` in which a byte of it stands.
-pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder: &Folder) -> Checked<Assignment> {
+/// `place_at`: where a byte of `assignment.toml` stands.
+pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, folder: &Folder) -> Checked<Assignment> {
     check_id(&m.id, folder)?;
     let read = |name: &str| -> Checked<String> { folder.text(name).map(str::to_owned) };
     let mut files = files(&m.file, &read)?;
@@ -43,30 +43,30 @@ pub(super) fn assignment(mut m: Manifest, line_at: &dyn Fn(usize) -> u32, folder
         file.accepted = stages.accepted(file.stage, &entry.accepted, &read)?;
     }
     let mut solution = Solution::read(&files, &pipeline, &m.constant)?;
-    let textures = textures::textures(&m.texture, folder, line_at)?;
-    let interface = interface::interface(&m, &textures, &stages, &solution, line_at)?;
+    let textures = textures::textures(&m.texture, folder, place_at)?;
+    let interface = interface::interface(&m, &textures, &stages, &solution, place_at)?;
     let constants = solution.constants(std::mem::take(&mut m.constant))?;
     let lines = rubric(&mut m.rubric, &solution)?;
     for constant in &constants {
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
-    let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, line_at)).transpose()?;
+    let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, place_at)).transpose()?;
     let variants = Variants { files: &files, stages: &stages, read: &read };
-    let features = features::features(&m, &mut solution, &variants, line_at)?;
+    let features = features::features(&m, &mut solution, &variants, place_at)?;
     let mistakes = std::mem::take(&mut m.mistake);
-    let mut mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, line_at)?;
+    let mut mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, place_at)?;
     if features.iter().all(Option::is_none) {
         mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()));
     }
     let probing = probing::probing(&m.probes, &constants, &solution)?;
-    let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, line_at)?;
+    let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, place_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<Checked<Vec<_>>>()?;
     let textures: Arc<[Texture]> = textures.into();
     let equation = solution.finish(&m, &interface, &pipeline, &constants, Arc::clone(&textures))?;
     let assignment = Assignment {
-        scene: scene::scene(&m.scene, folder, line_at)?,
+        scene: scene::scene(&m.scene, folder, place_at)?,
         files,
         id: m.id,
         digest: String::new(),

@@ -1,7 +1,7 @@
 //! Why a folder is not an assignment: the file, the line, what is wrong, and what to write instead.
 
 use super::MANIFEST;
-use crate::{Folder, Text};
+use crate::{Folder, Text, manifest};
 use std::fmt;
 
 /// Why a folder is not an assignment.
@@ -34,18 +34,28 @@ impl AssignmentError {
         Text { en: format!("{en}{}: {}", entry(", "), message.en), ja: format!("{ja}{}: {}", entry("、"), message.ja) }
     }
 
-    /// The same with the line of the entry, where the error was found without one.
+    /// The same with the line of the entry, where the error was found without one, and with what to do about an entry of a
+    /// folder that is extended.
     pub(super) fn located(self, folder: &Folder) -> Self {
-        let is_known = self.line.is_some() || self.file != MANIFEST;
-        let line = self.line.or_else(|| {
-            let entry = self.entry.as_deref().filter(|_| !is_known)?;
-            line_of(folder.text(MANIFEST).ok()?, entry)
-        });
-        let located = Self { line, ..self };
-        match folder.text(&located.file) {
-            Ok(text) => located.in_column_of(text),
-            Err(_) => located,
+        let mut located = self;
+        if located.line.is_none() && located.file == MANIFEST {
+            let found = located.entry.as_deref().and_then(|entry| entry_in(folder, entry));
+            (located.file, located.line) = found.map_or((located.file, None), |(file, line)| (file, Some(line)));
         }
+        if let Ok(text) = folder.text(&located.file) {
+            located = located.in_column_of(text);
+        }
+        let name = located.entry.as_deref().and_then(|entry| entry.split('`').nth(1));
+        if let Some(name) = name.filter(|_| located.file.starts_with("../")) {
+            let Text { en, ja } = &mut located.message;
+            en.push_str(&format!(
+                "; this homework has it from there: write `leave_out = [\"{name}\"]`, or write it anew"
+            ));
+            ja.push_str(&format!(
+                "。この課題が継承しているものです。`leave_out = [\"{name}\"]` と書いて除くか、書き直してください"
+            ));
+        }
+        located
     }
 
     /// About a whole file.
@@ -121,6 +131,18 @@ pub(crate) fn error(place: impl Into<String>, message: impl Into<Text>) -> Assig
     };
     let entry = (!rest.is_empty()).then(|| rest.to_owned());
     AssignmentError { line, entry, ..AssignmentError::of_file(first, message) }
+}
+
+/// The manifest of a folder, or of one that it extends, in which an entry stands, and its line there.
+fn entry_in(folder: &Folder, entry: &str) -> Option<(String, u32)> {
+    let mut file = MANIFEST.to_owned();
+    loop {
+        let text = folder.text(&file).ok()?;
+        if let Some(line) = line_of(text, entry) {
+            return Some((file, line));
+        }
+        file = manifest::name_of_base(&manifest::extended(text)?);
+    }
 }
 
 /// The line of the manifest at which an entry begins: the one that names it (`id = "gamma"`), or the head of its table.

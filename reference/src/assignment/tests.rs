@@ -1,4 +1,5 @@
 use super::*;
+use crate::built_in::{assignment, assignments, names};
 use std::path::Path;
 
 mod meshes;
@@ -391,7 +392,7 @@ fn regions_and_designs_speak_of_the_solution() {
         "lobe = \"n\"",
         "probes: the lobe depends on the normal by `n`: name a direction that does not",
     );
-    says("power = \"kshi\"", "power = \"pl\"", "probes: there is no float constant `pl`");
+    says("power = \"kshi\"", "power = \"pl\"", "probes: there is no float constant `pl`: `raised` needs it as `power`");
     says("angle = [2, 25]", "angle = [2, 250]", "probes, design 1: [2, 250] is no range within [0, 180]");
     says("raised = [0.85, 1], ", "", "probes, design 1: write one of `cosine` and `raised`: how the normal stands");
     let found = broken("within = { nl =", "within = { nl2 =");

@@ -21,8 +21,9 @@ pub(crate) struct Aim {
     pub axis: usize,
     /// The definition around which normals stand; it does not depend on them.
     pub lobe: usize,
-    /// The constant to whose power the cosine between normal and lobe is raised: its place among the constants.
-    pub power: usize,
+    /// The constant to whose power the cosine between normal and lobe is raised: its place among the constants. Only
+    /// [`Normal::Raised`] needs it.
+    pub power: Option<usize>,
     /// What each vertex shows.
     pub designs: Vec<Design>,
 }
@@ -48,7 +49,7 @@ pub(crate) enum Normal {
     Cosine(Range),
 }
 
-/// Chooses vertices in eye space, where all matrices of the solution are the identity.
+/// Chooses vertices in eye space: what is drawn stands there, so that model-view and normal matrix are the identity.
 pub(super) struct EyeSpace<'a> {
     aim: &'a Aim,
     point: Point<'a>,
@@ -71,7 +72,10 @@ struct Point<'a> {
 impl<'a> EyeSpace<'a> {
     pub(super) fn of(assignment: &'a Assignment, aim: &'a Aim) -> Self {
         let equation = &assignment.equation;
-        let power = assignment.constants.get(aim.power).map_or(f64::NAN, |constant| constant.value.float());
+        let power = aim
+            .power
+            .and_then(|power| assignment.constants.get(power))
+            .map_or(f64::NAN, |constant| constant.value.float());
         let needed = |definitions: &[usize]| -> Vec<usize> {
             let is_needed = |on: &usize| definitions.iter().any(|of| equation.depends(*of, *on));
             (0..equation.definitions.len()).filter(is_needed).collect()
@@ -95,7 +99,12 @@ impl<'a> EyeSpace<'a> {
     /// Gives the solution what a group is given, but for its matrices.
     pub(super) fn enter(&mut self, group: &Group) {
         let Assignment { equation, interface, scene, .. } = self.point.assignment;
-        let here = scene.moment(group.t, Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY));
+        // What is drawn stands in eye space; what stands in world space is where the group's camera sees it.
+        let view = group.matrices.view;
+        let own = DMat4::IDENTITY;
+        let world = Matrices::seen(view.inverse(), view, own);
+        let here =
+            scene.moment(group.t, Matrices { model_view: own, model_view_projection: own, normal: own, ..world });
         let uniforms = interface.uniforms.iter().zip(&group.uniforms);
         for (cell, (uniform, given)) in equation.uniforms.iter().zip(uniforms) {
             let own = matches!(uniform.feed, Feed::Role(_)).then(|| uniform.value(&here));

@@ -3,7 +3,6 @@
 use super::Checked;
 use super::solution::Solution;
 use super::variants::Variants;
-use crate::assignment::MANIFEST;
 use crate::feature::Feature;
 use crate::interpreter::Scalar;
 use crate::manifest::Manifest;
@@ -15,11 +14,11 @@ pub(super) fn features(
     m: &Manifest,
     solution: &mut Solution<'_>,
     variants: &Variants<'_>,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Vec<Option<Feature>>> {
     let mut features = Vec::new();
     for line in &m.rubric {
-        let place = |at: usize| format!("{MANIFEST}, line {}, rubric line `{}`", line_at(at), line.id);
+        let place = |at: usize| format!("{}, rubric line `{}`", place_at(at), line.id);
         features.push(match &line.without {
             Some(without) => Some(Feature::Program(variants.program(without.get_ref(), &place(without.span().start))?)),
             None if m.region.is_empty() => term(solution, &line.judges)?.map(Feature::Term),

@@ -17,16 +17,16 @@ use samplers::Samplers;
 /// More uniforms, each part counted, than this are refused.
 const MOST_UNIFORMS: usize = 4_096;
 
-/// The interface. `line_at`: the line of the manifest in which a byte of it stands.
+/// The interface. `place_at`: where a byte of the manifest stands.
 pub(super) fn interface(
     m: &Manifest,
     textures: &[Texture],
     stages: &Stages,
     solution: &Solution<'_>,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Interface> {
-    let samplers = Samplers { entries: &m.texture, textures, line_at };
-    let reader = InterfaceReader { programs: &stages.0, samplers, line_at };
+    let samplers = Samplers { entries: &m.texture, textures, place_at };
+    let reader = InterfaceReader { programs: &stages.0, samplers, place_at };
     let mut uniforms = Vec::new();
     for entry in &m.uniform {
         reader.uniforms(entry, &mut uniforms)?;
@@ -81,7 +81,7 @@ pub(super) fn interface(
 struct InterfaceReader<'a> {
     programs: &'a [Compiled],
     samplers: Samplers<'a>,
-    line_at: &'a dyn Fn(usize) -> u32,
+    place_at: &'a dyn Fn(usize) -> String,
 }
 
 /// Whether a path names this variable or something that it lies in.
@@ -105,7 +105,7 @@ fn of_key(key: &str, leaf: &str, kind: &Type, what: &Text) -> Text {
 
 impl InterfaceReader<'_> {
     fn wrong(&self, at: usize, place: &str, message: impl Into<Text>) -> AssignmentError {
-        error(format!("{}, {place}", solution::place(MANIFEST, (self.line_at)(at))), message)
+        error(format!("{}, {place}", (self.place_at)(at)), message)
     }
 
     /// The uniforms that an entry speaks of, each with its type.
@@ -212,7 +212,7 @@ impl InterfaceReader<'_> {
                 value.map(Feed::Constant).map_err(|what| self.wrong(at, place, of_key("value", leaf, kind, &what)))
             }
             (None, None, Some(text)) if rest.is_empty() => {
-                let expression = expression(text, kind, place, self.line_at)?;
+                let expression = expression(text, kind, place, self.place_at)?;
                 Ok(Feed::Expression(expression))
             }
             (None, None, Some(text)) => {

@@ -1,8 +1,8 @@
 //! The meshes of an assignment: each is made once, however often it is drawn.
 
-use super::{Checked, solution};
+use super::Checked;
 use crate::Folder;
-use crate::assignment::{AssignmentError, MANIFEST, both, error};
+use crate::assignment::{AssignmentError, both, error};
 use crate::scene::{Mesh, MeshError, Shape};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -15,13 +15,13 @@ const MOST_VERTICES: usize = 400_000;
 /// The meshes so far: by the file that they are read from, or by their place in the manifest.
 pub(super) struct Meshes<'a> {
     folder: &'a Folder,
-    line_at: &'a dyn Fn(usize) -> u32,
+    place_at: &'a dyn Fn(usize) -> String,
     known: RefCell<HashMap<(usize, String), Arc<Mesh>>>,
 }
 
 impl<'a> Meshes<'a> {
-    pub fn new(folder: &'a Folder, line_at: &'a dyn Fn(usize) -> u32) -> Self {
-        Self { folder, line_at, known: RefCell::default() }
+    pub fn new(folder: &'a Folder, place_at: &'a dyn Fn(usize) -> String) -> Self {
+        Self { folder, place_at, known: RefCell::default() }
     }
 
     /// The mesh that an entry describes.
@@ -34,7 +34,7 @@ impl<'a> Meshes<'a> {
         if let Some(known) = self.known.borrow().get(&key) {
             return Ok(Arc::clone(known));
         }
-        let place = || format!("{}, scene, `mesh`", solution::place(MANIFEST, (self.line_at)(at)));
+        let place = || format!("{}, scene, `mesh`", (self.place_at)(at));
         let mesh = shape.get_ref().mesh(self.folder).map_err(|MeshError { message, file, line }| match file {
             Some(file) => AssignmentError { line, ..AssignmentError::of_file(file, message) },
             None => error(place(), message),

@@ -1,10 +1,10 @@
 //! The known mistakes of an assignment.
 
-use super::solution::{self, Solution};
+use super::solution::Solution;
 use super::variants::Variants;
 use super::{Checked, known_line};
 use crate::Text;
-use crate::assignment::{Constant, MANIFEST, both, error};
+use crate::assignment::{Constant, both, error};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine, TermState};
 use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
@@ -19,7 +19,7 @@ pub(super) fn all(
     solution: &mut Solution<'_>,
     constants: &[Constant],
     variants: &Variants<'_>,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Vec<Mistake>> {
     let lines: HashSet<String> = rubric.iter().map(|line| line.id.clone()).collect();
     let mut ids = HashSet::new();
@@ -46,7 +46,7 @@ pub(super) fn all(
     }
     let general = general(rubric, solution)?.into_iter().filter(|entry| !ids.contains(&entry.id));
     let entries: Vec<_> = entries.into_iter().chain(general).collect();
-    entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, variants, line_at)).collect()
+    entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, variants, place_at)).collect()
 }
 
 /// What goes wrong in any homework.
@@ -68,14 +68,14 @@ fn general(rubric: &[RubricLine], solution: &Solution<'_>) -> Checked<Vec<manife
     Ok(mistake)
 }
 
-/// A mistake whose forms fit the solution. `line_at`: the line of the manifest in which a byte of it stands.
+/// A mistake whose forms fit the solution. `place_at`: where a byte of the manifest stands.
 fn mistake(
     entry: manifest::Mistake,
     solution: &mut Solution<'_>,
     lines: &HashSet<String>,
     constants: &[Constant],
     variants: &Variants<'_>,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Mistake> {
     let place = format!("mistake `{}`", entry.id);
     title(&entry.title, &place)?;
@@ -114,7 +114,7 @@ fn mistake(
     let mut forms = Vec::new();
     for (number, texts) in entry.forms.iter().enumerate() {
         let at = |at: usize| {
-            let first = solution::place(MANIFEST, line_at(at));
+            let first = place_at(at);
             format!("{first}, {place}, form {number}")
         };
         forms.push(form(texts, solution, free, &at, &format!("{place}, form {number}"))?);

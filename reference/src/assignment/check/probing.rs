@@ -1,8 +1,8 @@
 //! How probes are chosen, and what a right answer shows at them.
 
-use super::solution::{self, Solution};
+use super::solution::Solution;
 use super::{Checked, listed};
-use crate::assignment::{Assignment, Attribute, Constant, Input, MANIFEST, Stream, both, error};
+use crate::assignment::{Assignment, Attribute, Constant, Input, Stream, both, error};
 use crate::equation::{Definition, Reads};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine};
@@ -30,7 +30,12 @@ fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>
     let place = || "probes".to_owned();
     let is_power = |constant: &Constant| constant.name == entry.power && *constant.value.kind() == Type::FLOAT;
     let power = constants.iter().position(is_power);
-    let power = power.ok_or_else(|| error("probes", format!("there is no float constant `{}`", entry.power)))?;
+    if power.is_none() && (!entry.power.is_empty() || entry.design.iter().any(|design| design.raised.is_some())) {
+        return Err(error(
+            "probes",
+            format!("there is no float constant `{}`: `raised` needs it as `power`", entry.power),
+        ));
+    }
     let direction = |name: &str| solution.definition_of(name, &Type::VEC3, &place);
     let (axis, lobe) = (direction(&entry.axis)?, direction(&entry.lobe)?);
     let designs = entry.design.iter().zip(1..).map(|(entry, number)| design(entry, number, solution));
@@ -85,13 +90,13 @@ pub(super) fn regions(
     entries: Vec<manifest::Region>,
     solution: &mut Solution<'_>,
     rubric: &[RubricLine],
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Vec<Region>> {
     let mut ids = HashSet::new();
     let mut regions = Vec::new();
     for entry in entries {
         let place = || {
-            let first = solution::place(MANIFEST, line_at(entry.when.span().start));
+            let first = place_at(entry.when.span().start);
             format!("{first}, region `{}`", entry.id)
         };
         if !ids.insert(entry.id.clone()) {

@@ -1,9 +1,9 @@
 //! The scenes of an assignment.
 
+use super::Checked;
 use super::meshes::Meshes;
-use super::{Checked, solution};
 use crate::Folder;
-use crate::assignment::{AssignmentError, MANIFEST, both, error};
+use crate::assignment::{AssignmentError, both, error};
 use crate::feed::Expression;
 use crate::interpreter::Type;
 use crate::manifest::{self, Depth, Poses};
@@ -22,9 +22,9 @@ const MOST_INSTANCES: u32 = 1_000;
 /// The longest side of a window, in pixels.
 const LONGEST_SIDE: u32 = 8_192;
 
-/// All scenes as one. `line_at`: the line of the manifest in which a byte of it stands.
-pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn(usize) -> u32) -> Checked<Scene> {
-    let meshes = Meshes::new(folder, line_at);
+/// All scenes as one. `place_at`: where a byte of the manifest stands.
+pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, place_at: &dyn Fn(usize) -> String) -> Checked<Scene> {
+    let meshes = Meshes::new(folder, place_at);
     let [first, ..] = &scenes.0[..] else {
         return Err(error("scene", both("there is none: write [scene]", "ありません。[scene] を書いてください")));
     };
@@ -55,7 +55,7 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, line_at: &dyn Fn
     let views = scenes
         .0
         .iter()
-        .map(|own| SceneReader { own, first, meshes: &meshes, line_at }.view())
+        .map(|own| SceneReader { own, first, meshes: &meshes, place_at }.view())
         .collect::<Checked<Vec<_>>>()?;
     let scene = Scene {
         width,
@@ -115,7 +115,7 @@ struct SceneReader<'a> {
     own: &'a manifest::Scene,
     first: &'a manifest::Scene,
     meshes: &'a Meshes<'a>,
-    line_at: &'a dyn Fn(usize) -> u32,
+    place_at: &'a dyn Fn(usize) -> String,
 }
 
 impl SceneReader<'_> {
@@ -263,7 +263,7 @@ impl SceneReader<'_> {
                 both("write one of `model` and `turn`", "`model` と `turn` は、どちらか一方だけを書いてください"),
             )),
             Some((Some(text), None)) => {
-                expression(text, &Type::MAT4, "scene, `model`", self.line_at).map(Model::Expression)
+                expression(text, &Type::MAT4, "scene, `model`", self.place_at).map(Model::Expression)
             }
             Some((None, turn)) => Ok(Model::Turn(turn.unwrap_or_default())),
             None => Ok(Model::Turn(0.0)),
@@ -286,10 +286,10 @@ pub(super) fn expression(
     text: &Spanned<String>,
     kind: &Type,
     place: &str,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Expression> {
     let wrong = |what: &str| -> AssignmentError {
-        let line = solution::place(MANIFEST, line_at(text.span().start));
+        let line = place_at(text.span().start);
         let message = both(
             format!("{what}: write an expression of type {kind} with `t`, `i`, `resolution`, `turn` and `pi`"),
             format!("{what}: `t`、`i`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください"),

@@ -1,9 +1,8 @@
 //! The textures of an assignment.
 
 use super::Checked;
-use super::solution;
 use crate::Folder;
-use crate::assignment::{AssignmentError, MANIFEST, both, error};
+use crate::assignment::{AssignmentError, both, error};
 use crate::interpreter::{Filter, Texels, Texture, Wrap};
 use crate::manifest::{self, Format};
 use crate::texture::{BrokenPicture, Generator, Picture, read};
@@ -18,11 +17,11 @@ const MOST_TEXELS: usize = 1 << 22;
 /// A texel of four floats counts as so many of four bytes.
 const FLOATS: usize = 4;
 
-/// The textures, in the order of the manifest. `line_at`: the line of the manifest in which a byte of it stands.
+/// The textures, in the order of the manifest. `place_at`: where a byte of the manifest stands.
 pub(super) fn textures(
     entries: &[manifest::Texture],
     folder: &Folder,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Vec<Texture>> {
     if entries.len() > MOST_TEXTURES {
         let count = entries.len();
@@ -37,7 +36,7 @@ pub(super) fn textures(
     let mut room = MOST_TEXELS;
     let mut all = Vec::new();
     for (number, entry) in entries.iter().enumerate() {
-        let reader = TextureReader { entry, folder, line_at };
+        let reader = TextureReader { entry, folder, place_at };
         if entries[..number].iter().any(|other| other.name.get_ref() == entry.name.get_ref()) {
             return Err(
                 reader.wrong("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください")
@@ -53,15 +52,15 @@ pub(super) fn textures(
 }
 
 /// The entry of a texture.
-pub(super) fn place(entry: &manifest::Texture, line_at: &dyn Fn(usize) -> u32) -> String {
-    let line = solution::place(MANIFEST, line_at(entry.name.span().start));
+pub(super) fn place(entry: &manifest::Texture, place_at: &dyn Fn(usize) -> String) -> String {
+    let line = place_at(entry.name.span().start);
     format!("{line}, texture `{}`", entry.name.get_ref())
 }
 
 struct TextureReader<'a> {
     entry: &'a manifest::Texture,
     folder: &'a Folder,
-    line_at: &'a dyn Fn(usize) -> u32,
+    place_at: &'a dyn Fn(usize) -> String,
 }
 
 /// The pictures of a texture, one after the other.
@@ -75,7 +74,7 @@ struct Pictures {
 
 impl TextureReader<'_> {
     fn wrong(&self, en: impl Into<String>, ja: impl Into<String>) -> AssignmentError {
-        error(place(self.entry, self.line_at), both(en, ja))
+        error(place(self.entry, self.place_at), both(en, ja))
     }
 
     fn in_file(&self, file: &str, en: impl Into<String>, ja: impl Into<String>) -> AssignmentError {
@@ -191,7 +190,7 @@ impl TextureReader<'_> {
         if !is_small {
             return Err(self.too_large(None, size));
         }
-        let pictures = generator.pictures(size).map_err(|message| error(place(entry, self.line_at), message))?;
+        let pictures = generator.pictures(size).map_err(|message| error(place(entry, self.place_at), message))?;
         let numbers: Vec<[f64; 4]> = pictures.into_iter().flat_map(|picture| picture.texels).collect();
         let texels = if is_float {
             Texels::Numbers(numbers.into_iter().map(|texel| texel.map(|number| f64::from(number as f32))).collect())

@@ -1,8 +1,7 @@
 //! The equation as the lecture writes it.
 
-use super::solution;
 use super::{Checked, known_line};
-use crate::assignment::{MANIFEST, both, error};
+use crate::assignment::{both, error};
 use crate::manifest;
 use crate::typeset::{SymbolMeaning, Term, Typeset};
 use math_core::{LatexToMathML, MathDisplay};
@@ -13,13 +12,13 @@ use toml::Spanned;
 pub(super) fn typeset(
     entry: manifest::Equation,
     lines: &HashSet<String>,
-    line_at: &dyn Fn(usize) -> u32,
+    place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Typeset> {
     let latex = LatexToMathML::new(Default::default()).map_err(|e| error("equation", format!("{e:?}")))?;
     let formula = |text: &Spanned<String>| {
         let made = latex.convert_with_local_state(text.get_ref(), MathDisplay::Inline);
         let made = made.map_err(|refusal| {
-            let place = solution::place(MANIFEST, line_at(text.span().start));
+            let place = place_at(text.span().start);
             let found = text.get_ref().get(refusal.0.clone()).unwrap_or_default();
             let why = refusal.error_message();
             let message =

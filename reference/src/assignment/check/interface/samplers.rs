@@ -18,7 +18,7 @@ pub(super) struct Samplers<'a> {
     pub entries: &'a [manifest::Texture],
     /// Themselves, in the same order.
     pub textures: &'a [Texture],
-    pub line_at: &'a dyn Fn(usize) -> u32,
+    pub place_at: &'a dyn Fn(usize) -> String,
 }
 
 impl Samplers<'_> {
@@ -91,7 +91,7 @@ impl Samplers<'_> {
                 let entry = &self.entries[number];
                 let name = entry.name.get_ref();
                 Err(error(
-                    place(entry, self.line_at),
+                    place(entry, self.place_at),
                     both(
                         format!("no uniform reads it: write [[uniform]] with `texture = \"{name}\"`, or remove it"),
                         format!(

@@ -1,7 +1,7 @@
 //! What is wrong in a file that does not read as a manifest, as a person can mend it.
 
-use super::both;
 use crate::Text;
+use crate::assignment::both;
 
 /// A name that is so far from another, in letters changed, is not what was meant.
 const FARTHEST: usize = 3;
@@ -44,7 +44,7 @@ fn listed(names: &[&str]) -> String {
 }
 
 /// The name that is nearest to one that nobody knows.
-fn nearest<'n>(found: &str, known: &[&'n str]) -> Option<&'n str> {
+pub(super) fn nearest<'n>(found: &str, known: &[&'n str]) -> Option<&'n str> {
     let distance = |name: &&str| strsim::damerau_levenshtein(found, name);
     let near = known.iter().copied().min_by_key(distance)?;
     (distance(&near) <= FARTHEST.min(near.len() / 2)).then_some(near)
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn the_nearest_key_is_named() {
         let Text { en, ja } = said("id = \"x\"\nttle = \"y\"");
-        assert!(en.starts_with("there is no key `ttle`: write `title`; known are `id`, `title`,"), "{en}");
+        assert!(en.starts_with("there is no key `ttle`: write `title`; known are `id`, `extends`,"), "{en}");
         assert!(ja.starts_with("`ttle` というキーはありません。`title` と書いてください"), "{ja}");
         let far = said("id = \"x\"\nquaternions = 3");
         assert!(far.en.starts_with("there is no key `quaternions`: known are"), "{}", far.en);
