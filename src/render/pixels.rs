@@ -191,7 +191,8 @@ pub(super) fn some_of(batches: &[Batch]) -> Option<Batch> {
 }
 
 /// The batches of a scene's pixels with what a vertex stage hands over to them, from its captured header and records.
-pub(super) fn between(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> Vec<Batch> {
+/// How that is interpolated is said by the `inputs` of the fragment stage.
+pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribute], scene: &Scene) -> Vec<Batch> {
     let stride = (outputs.len() + 1) * CAPTURE_SLOT as usize;
     let records = captured.get(CAPTURE_HEADER as usize..).unwrap_or_default();
     let frames: u32 = scene.frames.iter().flatten().map(Batch::drawn).sum();
@@ -200,21 +201,33 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> 
     let of_batch = |((pixels, probes), shares): ((&Batch, &Batch), &Vec<[f64; 3]>)| {
         let own = first;
         first += probes.drawn() as usize;
+        // The first slot is the position.
         let word = |vertex: usize, slot: usize, axis: usize| {
-            let at = (own + vertex) * stride + (slot + 1) * CAPTURE_SLOT as usize + 4 * axis;
+            let at = (own + vertex) * stride + slot * CAPTURE_SLOT as usize + 4 * axis;
             records.get(at..).and_then(|rest| rest.first_chunk()).map_or(0, |bytes| u32::from_le_bytes(*bytes))
         };
+        let w = |vertex: usize| f64::from(f32::from_bits(word(vertex, 0, 3)));
+        let linear: Vec<[f64; 3]> = (0..)
+            .zip(shares)
+            .map(|(pixel, shares)| {
+                reference::probes::linear(*shares, std::array::from_fn(|corner| w(3 * pixel + corner)))
+            })
+            .collect();
         let column = |(slot, output): (usize, &Attribute)| {
             let number = |vertex: usize, axis: usize| match output.kind {
-                Some(ScalarKind::Sint) => f64::from(word(vertex, slot, axis).cast_signed()),
-                Some(ScalarKind::Uint) => f64::from(word(vertex, slot, axis)),
-                _ => f64::from(f32::from_bits(word(vertex, slot, axis))),
+                Some(ScalarKind::Sint) => f64::from(word(vertex, slot + 1, axis).cast_signed()),
+                Some(ScalarKind::Uint) => f64::from(word(vertex, slot + 1, axis)),
+                _ => f64::from(f32::from_bits(word(vertex, slot + 1, axis))),
             };
-            let is_flat =
-                output.qualifiers.interpolation == Interpolation::Flat || output.kind != Some(ScalarKind::Float);
-            let between = |(pixel, shares): (usize, &[f64; 3]), axis: usize| match is_flat {
-                true => number(3 * pixel + 2, axis),
-                false => (0..3).map(|corner| shares[corner] * number(3 * pixel + corner, axis)).sum(),
+            let input = inputs.iter().find(|input| input.name == output.name).unwrap_or(output);
+            let interpolation = match output.kind {
+                Some(ScalarKind::Float) => input.qualifiers.interpolation,
+                _ => Interpolation::Flat,
+            };
+            let shares = if interpolation == Interpolation::NoPerspective { &linear } else { shares };
+            let between = |(pixel, shares): (usize, &[f64; 3]), axis: usize| match interpolation {
+                Interpolation::Flat => number(3 * pixel + 2, axis),
+                _ => (0..3).map(|corner| shares[corner] * number(3 * pixel + corner, axis)).sum(),
             };
             let pixels = shares.iter().enumerate();
             let numbers = pixels.flat_map(|pixel| (0..4).map(move |axis| between(pixel, axis))).collect();

@@ -31,8 +31,8 @@ pub struct Captured {
     capture: Capture,
     outputs: Vec<Attribute>,
     rendering: Rendering,
-    /// What is fed to the fragments that are probed, where this stage does it.
-    pixels: Option<Vec<Batch>>,
+    /// Header and records, where this stage feeds the fragments that are probed.
+    handed: Option<Vec<u8>>,
 }
 
 impl std::fmt::Debug for Captured {
@@ -86,22 +86,20 @@ impl Renderer {
     pub fn capture(&self, vertex: &Shader, scene: &Scene) -> Result<Captured, Fault> {
         let (capture, rendering) = self.run(vertex, scene)?;
         let outputs = vertex.outputs.clone();
-        let pixels = (!scene.shares.is_empty() && rendering.ran_out.is_none())
-            .then(|| {
-                let bytes = map(&self.device, &capture.readback)?;
-                Ok(pixels::between(bytes.bytes(), &outputs, scene))
-            })
+        let handed = (!scene.shares.is_empty() && rendering.ran_out.is_none())
+            .then(|| Ok(map(&self.device, &capture.readback)?.bytes().to_vec()))
             .transpose()?;
-        Ok(Captured { capture, outputs, rendering, pixels })
+        Ok(Captured { capture, outputs, rendering, handed })
     }
 
     /// Draws a scene whose vertices are known, and computes the probes of the fragment stage.
     pub fn draw(&mut self, captured: &Captured, fragment: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
-        let Captured { capture, outputs, rendering, pixels } = captured;
+        let Captured { capture, outputs, rendering, handed } = captured;
         if rendering.ran_out.is_some() {
             return Ok(rendering.clone());
         }
-        let pixels = pixels.as_deref().unwrap_or(&scene.pixels);
+        let fed = handed.as_ref().map(|bytes| pixels::between(bytes, outputs, &fragment.inputs, scene));
+        let pixels = fed.as_deref().unwrap_or(&scene.pixels);
         let (mut stage, rendering) = self.run_pixels(fragment, scene, pixels, rendering.clone())?;
         if rendering.of_fragments.ran_out.is_some() {
             return Ok(rendering);

@@ -12,8 +12,8 @@ use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
 use glam::{DMat3, DQuat, DVec2, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
-pub use shown::Shown;
 use shown::{Handed, WAYS, mixed};
+pub use shown::{Shown, linear};
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.
 const ASIDE: f64 = 0.05;
@@ -146,7 +146,7 @@ impl Assignment {
             shares.push((number, weights));
             spots.push((Spot { corners, weights, place, is_front, varyings: Vec::new() }, ends[0]));
         }
-        let mut handed = mixed(&pipeline.vertex, &written, &shares);
+        let mut handed = mixed(pipeline, &written, &positions, &shares);
         handed.iter_mut().flatten().flatten().for_each(|number| *number = f64::from(*number as f32));
         for (at, (spot, _)) in spots.iter_mut().enumerate() {
             let value = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {

@@ -191,7 +191,7 @@ impl Assignment {
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
         let shares: Vec<_> = spots.iter().map(|spot| spot.weights).enumerate().collect();
-        let handed = mixed(&pipeline.vertex, &written, &shares);
+        let handed = mixed(pipeline, &written, &positions, &shares);
         let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
             let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
@@ -201,16 +201,40 @@ impl Assignment {
     }
 }
 
-/// What is interpolated at fragments: the number of each triangle, and the shares of its corners.
-pub(super) fn mixed(program: &Program, written: &Handed, shares: &[(usize, [f64; 3])]) -> Handed {
-    let output = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {
-        let is_flat = output.interpolation == Interpolation::Flat
-            || !matches!(output.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None);
-        let at = |column: &Vec<f64>, (triangle, weights): &(usize, [f64; 3])| match is_flat {
-            true => column[3 * triangle + 2],
-            false => (0..3).map(|corner| weights[corner] * column[3 * triangle + corner]).sum(),
+/// What is interpolated at fragments: the number of each triangle, and the shares of its corners. How, the fragment stage
+/// says. `positions` are those of the corners, in clip space.
+pub(super) fn mixed(
+    pipeline: &Pipeline,
+    written: &Handed,
+    positions: &[DVec4],
+    shares: &[(usize, [f64; 3])],
+) -> Handed {
+    let linear: Vec<_> = shares
+        .iter()
+        .map(|(triangle, weights)| {
+            (*triangle, linear(*weights, std::array::from_fn(|corner| positions[3 * triangle + corner].w)))
+        })
+        .collect();
+    let output = |((place, output), columns): ((usize, &crate::interpreter::Variable), &Vec<Vec<f64>>)| {
+        let read = pipeline.varyings.iter().find(|varying| varying.output == place);
+        let interpolation = match output.kind.scalar() {
+            Some(Scalar::Float | Scalar::Double) | None => read.map_or(output.interpolation, |read| read.interpolation),
+            _ => Interpolation::Flat,
+        };
+        let shares = if interpolation == Interpolation::NoPerspective { &linear } else { shares };
+        let at = |column: &Vec<f64>, (triangle, weights): &(usize, [f64; 3])| match interpolation {
+            Interpolation::Flat => column[3 * triangle + 2],
+            _ => (0..3).map(|corner| weights[corner] * column[3 * triangle + corner]).sum(),
         };
         columns.iter().map(|column| shares.iter().map(|share| at(column, share)).collect()).collect()
     };
-    program.outputs().iter().zip(written).map(output).collect()
+    pipeline.vertex.outputs().iter().enumerate().zip(written).map(output).collect()
+}
+
+/// Shares of three corners in the window, where `noperspective` mixes, from those in space; `w` is that of the corners in
+/// clip space.
+pub fn linear(shares: [f64; 3], w: [f64; 3]) -> [f64; 3] {
+    let seen: [f64; 3] = std::array::from_fn(|corner| shares[corner] * w[corner]);
+    let sum: f64 = seen.iter().sum();
+    seen.map(|share| share / sum)
 }
