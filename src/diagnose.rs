@@ -72,6 +72,13 @@ pub struct Diagnosis {
     pub probes: ProbeResult,
 }
 
+impl Diagnosis {
+    /// What it is worth.
+    pub fn points(&self) -> f64 {
+        self.rubric.iter().map(|line| line.points).sum()
+    }
+}
+
 /// Judges the evidence.
 pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let probes = compare_probes(evidence);

@@ -10,18 +10,19 @@ use programs::Programs;
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
-use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
+use crate::diagnose::{self, Evidence, Fresh, Hints};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
+use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
-use crate::report::{Environment, FrameResult, Report, SourceInfo, Verdict};
+use crate::report::{Advice, Environment, FrameResult, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
 use crate::source::{self, Source};
 use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
-use reference::accepted::AcceptedAnswer;
+use reference::accepted::{AcceptedAnswer, Reading};
 use reference::probes::ProbeSet;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -266,20 +267,33 @@ impl Grader {
         let mut diagnosis = diagnose::diagnose(&evidence);
         if !diagnosis.is_right {
             // Advice and the explanation are about the solution, which this answer is not.
-            let accepted = self.accepted.iter().find_map(|(answer, expected)| {
+            let accepted = self.accepted.iter().filter_map(|(answer, expected)| {
                 let frames = compared(expected);
                 let probes = self.assignment.probes_of(answer, &self.probes);
                 let of_answer = self.assignment.probes_of(answer, fresh);
                 let fresh = Fresh { probes: &of_answer, samples: fresh_samples };
                 let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], ..evidence };
-                let diagnosis = diagnose::agreement(&evidence)?;
-                Some((frames, Diagnosis { explanation: None, ..diagnosis }))
+                let reading = answer.reading.as_deref();
+                let read =
+                    |reading: &Reading| diagnose::diagnose(&Evidence { assignment: &reading.assignment, ..evidence });
+                let mut diagnosis = diagnose::agreement(&evidence).or_else(|| reading.map(read))?;
+                diagnosis.explanation = None;
+                diagnosis.advice.extend(reading.map(|reading| Advice {
+                    id: reading.id.clone(),
+                    message: Text::new(&*reading.note.en, &*reading.note.ja),
+                    file: source.facts.name.clone(),
+                    line: None,
+                }));
+                Some((frames, diagnosis))
             });
-            if let Some(accepted) = accepted {
-                (frames, diagnosis) = accepted;
+            // The reading by which most is right, where more is right by it; of equal ones the first.
+            let found = accepted.collect::<Vec<_>>().into_iter().rev();
+            let best = found.max_by(|(_, a), (_, b)| a.points().total_cmp(&b.points()));
+            if let Some(best) = best.filter(|(_, read)| read.is_right || read.points() > diagnosis.points()) {
+                (frames, diagnosis) = best;
             }
         }
-        let score = diagnosis.rubric.iter().map(|line| line.points).sum();
+        let score = diagnosis.points();
         let max_score = self.assignment.max_score();
         Report {
             assignment: self.assignment.id.clone(),

@@ -149,7 +149,7 @@ fn reference_tables() -> BTreeMap<String, Vec<[String; 3]>> {
 fn the_reference_of_the_manifest_has_each_key_and_no_other() {
     let schema = reference::schema::schema().to_value();
     let definitions = schema["definitions"].as_object().unwrap();
-    let mut types: BTreeMap<String, &serde_json::Value> = BTreeMap::from([("Manifest".to_owned(), &schema)]);
+    let mut types: BTreeMap<String, &serde_json::Value> = BTreeMap::new();
     for (name, definition) in definitions {
         let variants = definition["anyOf"].as_array().into_iter().flatten();
         let with_keys = std::iter::once(definition).chain(variants).find(|one| one["properties"].is_object());

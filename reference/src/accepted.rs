@@ -1,7 +1,5 @@
 //! Other answers that are right as well: shaders of their own, which are run as they are.
 
-use crate::Assignment;
-use crate::Value;
 use crate::equation::Reads;
 use crate::frames::VertexStage;
 use crate::interpreter::{Column, Program};
@@ -9,7 +7,9 @@ use crate::pipeline::{Pipeline, columns, slices};
 use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
 use crate::scene::Pose;
+use crate::{Assignment, Text, Value};
 use glam::{DVec3, DVec4};
+use std::sync::Arc;
 
 /// A shader that is right beside the solution.
 #[derive(Clone, Debug)]
@@ -17,6 +17,19 @@ pub struct AcceptedAnswer {
     /// The name of its file.
     pub name: String,
     pub(crate) pipeline: Pipeline,
+    /// What is asked for, read in another way, where the answer is right by that.
+    pub reading: Option<Arc<Reading>>,
+}
+
+/// Another reading of what is asked for, which costs nothing.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// Its id in reports.
+    pub id: String,
+    /// What is said of an answer that follows it.
+    pub note: Text,
+    /// The homework with the answer in the place of its solution: what goes wrong beside the reading is known by it.
+    pub assignment: Assignment,
 }
 
 /// A colour and a position.

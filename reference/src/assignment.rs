@@ -3,20 +3,19 @@
 mod check;
 mod error;
 
-use crate::accepted::AcceptedAnswer;
+use crate::accepted::{AcceptedAnswer, Reading};
 use crate::advice::Advice;
 use crate::equation::{Equation, Reads, Variant};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::interpreter::{Texture, Type};
-use crate::manifest::Layers;
 pub use crate::manifest::{RubricLine, Stage, Task};
 use crate::mistake::{Form, FoundMistake, Mistake};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
 use crate::typeset::Typeset;
-use crate::{Folder, Text, Value};
+use crate::{Folder, Text, Value, manifest};
 pub use error::AssignmentError;
 pub(crate) use error::{both, error};
 use std::sync::Arc;
@@ -54,6 +53,8 @@ pub struct Assignment {
     pub equation: Equation,
     /// What it is worth.
     pub rubric: Vec<RubricLine>,
+    /// For each line of the rubric the solution with 0 for the definition that it judges, where that is a part of what is seen.
+    pub(crate) terms: Vec<Option<Form>>,
     /// For each line of the rubric the solution without what the line judges, where that is known.
     pub features: Vec<Option<Feature>>,
     /// What goes wrong.
@@ -183,8 +184,25 @@ impl Assignment {
     }
 
     fn read(folder: &Folder) -> Result<Self, AssignmentError> {
-        let layers = Layers::of(folder)?;
-        check::assignment(layers.manifest()?, &|at| layers.place_at(at), folder)
+        let layers = manifest::Layers::of(folder)?;
+        let checked = |manifest| check::assignment(manifest, &|at| layers.place_at(at), folder);
+        let manifest = layers.manifest()?;
+        let read_as = manifest.read_otherwise();
+        let mut assignment = checked(manifest)?;
+        for (file, accepted, reading) in read_as {
+            let read = checked(layers.manifest()?.with_solution(file, &reading.file)).map_err(|error| {
+                let Text { en, ja } = error.message;
+                let message = both(
+                    format!("{en} (with {} as the solution, which is accepted as a reading)", reading.file),
+                    format!("{ja} ({} を別解釈の解答として読んだとき)", reading.file),
+                );
+                AssignmentError { message, ..error }
+            })?;
+            let manifest::Reading { id, note, .. } = reading;
+            let reading = Arc::new(Reading { id, note, assignment: read });
+            assignment.files[file].accepted[accepted].reading = Some(reading);
+        }
+        Ok(assignment)
     }
 
     /// Whether a stage is handed in.

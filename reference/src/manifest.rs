@@ -76,6 +76,27 @@ pub struct Manifest {
     pub advice: Vec<Advice>,
 }
 
+impl Manifest {
+    /// The other readings of what is asked for: the place of the file that is handed in, that among what is accepted for it.
+    pub fn read_otherwise(&self) -> Vec<(usize, usize, Reading)> {
+        let of_file = |(file, entry): (usize, &File)| {
+            let readings = entry.accepted.iter().enumerate().filter_map(move |(place, accepted)| match accepted {
+                Accepted::Reading(reading) => Some((file, place, reading.clone())),
+                Accepted::File(_) => None,
+            });
+            readings.collect::<Vec<_>>()
+        };
+        self.file.iter().enumerate().flat_map(of_file).collect()
+    }
+
+    /// The same with another solution for a file, and with nothing beside it.
+    pub fn with_solution(mut self, file: usize, solution: &str) -> Self {
+        self.file.iter_mut().for_each(|file| file.accepted.clear());
+        solution.clone_into(&mut self.file[file].solution);
+        self
+    }
+}
+
 /// What there is to do, as a page for students has it.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -95,6 +116,9 @@ pub struct Equation {
     /// The symbol of the sum.
     #[schemars(with = "String")]
     pub total: Spanned<String>,
+    /// How the sum is made of the summands, each as the id of its line in braces; they are added, where nothing is written.
+    #[schemars(with = "Option<String>")]
+    pub sum: Option<Spanned<String>>,
     /// The summands, in order.
     pub term: Vec<Term>,
     /// What the terms need.
@@ -175,10 +199,42 @@ pub struct File {
     pub solution: String,
     /// Other files that compute what is right as well.
     #[serde(default)]
-    pub accepted: Vec<String>,
+    pub accepted: Vec<Accepted>,
     /// The same as [[fixed]] of the whole homework.
     #[serde(default)]
     pub fixed: Vec<Fixed>,
+}
+
+/// A file that is right beside the solution.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "the name of a file, or { file = \"…\", id = \"…\", note = { en = \"…\", ja = \"…\" } }")]
+pub enum Accepted {
+    /// It is right, and nothing is said.
+    File(String),
+    /// Another reading of what is asked for.
+    Reading(Reading),
+}
+
+/// Another reading of what is asked for: it costs nothing, and is told.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reading {
+    /// The file, which defines what the solution defines.
+    pub file: String,
+    /// Its id in reports, among the advice.
+    pub id: String,
+    /// What is said of an answer that is right by it.
+    pub note: Text,
+}
+
+impl Accepted {
+    /// The name of the file.
+    pub fn file(&self) -> &str {
+        match self {
+            Self::File(file) => file,
+            Self::Reading(reading) => &reading.file,
+        }
+    }
 }
 
 /// A stage that every submission is linked with.

@@ -2,16 +2,48 @@
 
 use crate::manifest::Manifest;
 use schemars::generate::SchemaSettings;
-use schemars::{JsonSchema, Schema};
+use schemars::{JsonSchema, Schema, json_schema};
 use serde::Deserialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// The schema. Descriptions are those of the types.
 pub fn schema() -> Schema {
-    let generator = SchemaSettings::draft07().into_generator();
-    let mut schema = generator.into_root_schema_for::<Manifest>();
-    schema.insert("title".to_owned(), "assignment.toml of ggrade".into());
-    schema
+    let mut generator = SchemaSettings::draft07().into_generator();
+    generator.subschema_for::<Manifest>();
+    let definitions = Value::Object(generator.take_definitions(true));
+    // What extends another homework may leave out whatever that one says.
+    let mut laid_over = definitions.clone();
+    loosen(&mut laid_over);
+    json_schema!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "assignment.toml of ggrade",
+        "required": ["id"],
+        "if": { "required": ["extends"] },
+        "then": { "$ref": "#/laidOver/Manifest" },
+        "else": { "$ref": "#/definitions/Manifest" },
+        "definitions": definitions,
+        "laidOver": laid_over,
+    })
+}
+
+/// Takes out what asks for a key, and refers to the same without that.
+fn loosen(schema: &mut Value) {
+    match schema {
+        Value::Object(members) => {
+            if members.get("required").is_some_and(Value::is_array) {
+                members.remove("required");
+            }
+            for (key, member) in members {
+                match member {
+                    Value::String(path) if key == "$ref" => *path = path.replace("#/definitions/", "#/laidOver/"),
+                    member => loosen(member),
+                }
+            }
+        }
+        Value::Array(elements) => elements.iter_mut().for_each(loosen),
+        _ => {}
+    }
 }
 
 /// The schema as a file has it.

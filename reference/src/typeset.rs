@@ -10,10 +10,21 @@ pub struct Typeset {
     pub source: Text,
     /// The symbol of the sum.
     pub total: String,
+    /// What the sum is made of, from left to right.
+    pub sum: Vec<SumPart>,
     /// The summands, in order.
     pub terms: Vec<Term>,
     /// What the terms need.
     pub given: Vec<SymbolMeaning>,
+}
+
+/// A part of the sum.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SumPart {
+    /// What stands between summands.
+    Formula(String),
+    /// The symbol of a summand, by its place.
+    Term(usize),
 }
 
 /// One summand.

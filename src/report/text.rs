@@ -138,7 +138,8 @@ impl Writer {
         if report.advice.is_empty() {
             return;
         }
-        let heading = self.paint(BOLD, self.labels.advice);
+        let is_right = report.verdict == Verdict::Correct;
+        let heading = self.paint(BOLD, if is_right { self.labels.advice } else { self.labels.note });
         self.line(&heading);
         for advice in &report.advice {
             self.paragraph(2, advice.message.get(self.language));

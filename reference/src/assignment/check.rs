@@ -2,6 +2,7 @@
 
 mod advice;
 mod answers;
+mod constants;
 mod features;
 mod interface;
 mod meshes;
@@ -45,14 +46,15 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     let mut solution = Solution::read(&files, &pipeline, &m.constant)?;
     let textures = textures::textures(&m.texture, folder, place_at)?;
     let interface = interface::interface(&m, &textures, &stages, &solution, place_at)?;
-    let constants = solution.constants(std::mem::take(&mut m.constant))?;
+    let constants = constants::constants(&files, std::mem::take(&mut m.constant))?;
     let lines = rubric(&mut m.rubric, &solution)?;
     for constant in &constants {
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, place_at)).transpose()?;
     let variants = Variants { files: &files, stages: &stages, read: &read };
-    let features = features::features(&m, &mut solution, &variants, place_at)?;
+    let terms = features::terms(&m, &mut solution)?;
+    let features = features::features(&m, &terms, &variants, place_at)?;
     let mistakes = std::mem::take(&mut m.mistake);
     let mut mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, place_at)?;
     if features.iter().all(Option::is_none) {
@@ -81,6 +83,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
         constants,
         equation,
         rubric: m.rubric,
+        terms,
         features,
         mistakes,
         advice,

@@ -13,6 +13,9 @@ use glam::DVec3;
 /// A right term below this does not show: far under half a step of 8 bits, also when its colour is wrong.
 const FAINT: f64 = 1e-6;
 
+/// Sums of a few numbers of magnitude 1 in f64 are this exact.
+const ROUNDING: f64 = 1e-12;
+
 /// A sample beyond this is not looked at: f32 has no digits left for the other terms.
 const OVERFLOWING: f64 = 1e3;
 
@@ -76,10 +79,20 @@ impl<'a> Views<'a> {
         let colour = assignment.equation.colour();
         let is_term = |line: &RubricLine| assignment.equation.index(&line.judges) != Some(colour);
         let lines = lines.filter(|(_, line)| !line.alone_in.is_empty() && is_term(line));
-        let values = |line: &RubricLine| -> Vec<DVec3> {
-            outcomes.iter().map(|o| o.get(&line.judges).map_or(DVec3::NAN, |value| value.vec3())).collect()
+        // What a line's definition adds to the colour: itself, or what it is multiplied by on the way.
+        let values = |place: usize, line: &RubricLine| -> Option<Vec<DVec3>> {
+            let without = assignment.equation.right().with(assignment.terms[place].as_ref()?, f64::NAN);
+            let adds: Vec<DVec3> = probes
+                .iter()
+                .zip(&outcomes)
+                .map(|(p, right)| right.colour() - without.evaluate(probes.uniforms(p), &p.attributes).colour())
+                .collect();
+            let own = outcomes.iter().map(|right| right.get(&line.judges).map_or(DVec3::NAN, |value| value.vec3()));
+            let own: Vec<DVec3> = own.collect();
+            let is_itself = own.iter().zip(&adds).all(|(own, adds)| (*own - *adds).abs().max_element() < ROUNDING);
+            Some(if is_itself { own } else { adds })
         };
-        let terms = lines.map(|(place, line)| Term::new(place, line, values(line))).collect();
+        let terms = lines.filter_map(|(place, line)| Some(Term::new(place, line, values(place, line)?))).collect();
         Self { terms, regions: &assignment.regions, probes, samples, tolerance }
     }
 

@@ -1,12 +1,13 @@
 //! `assignment.toml` and those that it extends, read as one.
 
+mod overlay;
+
 use super::Manifest;
 use crate::assignment::{AssignmentError, MANIFEST, both, error};
 use crate::folder::Folder;
 use serde::Deserialize;
-use std::collections::BTreeSet;
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
 /// Most folders that extend one another.
 const MAX_LAYERS: usize = 8;
@@ -14,22 +15,6 @@ const MAX_LAYERS: usize = 8;
 /// The key that names what is extended, and the key that names what of it is not taken over.
 const EXTENDS: &str = "extends";
 const LEAVE_OUT: &str = "leave_out";
-
-/// What tells the elements of a list of tables apart: elements that have the same are one.
-const IDENTITIES: [(&str, &str); 12] = [
-    ("file", "stage"),
-    ("fixed", "stage"),
-    ("input", "name"),
-    ("uniform", "name"),
-    ("texture", "name"),
-    ("constant", "name"),
-    ("rubric", "id"),
-    ("mistake", "id"),
-    ("region", "id"),
-    ("advice", "id"),
-    ("equation.term", "line"),
-    ("equation.where", "symbol"),
-];
 
 /// The manifests of a folder, the one that extends none first.
 pub struct Layers {
@@ -140,8 +125,8 @@ impl Layers {
             base.remove(key);
         }
         for name in strings(own.get(LEAVE_OUT)) {
-            if !leave_out(&mut base, name.get_ref()) {
-                let (known, name) = (names(&base), name.as_ref());
+            if !overlay::leave_out(&mut base, name.get_ref()) {
+                let (known, name) = (overlay::names(&base), name.as_ref());
                 let place = self.place_at(own[LEAVE_OUT].span().start);
                 let near = super::toml_error::nearest(name, &known.iter().map(String::as_str).collect::<Vec<_>>());
                 let (en, ja) = match near {
@@ -158,7 +143,7 @@ impl Layers {
             }
         }
         own.remove(LEAVE_OUT);
-        lay_table(&mut base, own, "");
+        overlay::lay(&mut base, own);
         Ok(base)
     }
 }
@@ -168,98 +153,6 @@ fn strings<'a, 'i>(list: Option<&'a Spanned<DeValue<'i>>>) -> Vec<Spanned<String
     let list = list.and_then(|list| list.get_ref().as_array());
     let string = |one: &Spanned<DeValue>| one.get_ref().as_str().map(|text| Spanned::new(one.span(), text.to_owned()));
     list.into_iter().flat_map(|list| list.iter()).filter_map(string).collect()
-}
-
-/// Takes a key, or the element of a list that has this name, out of a manifest. Whether it was there.
-fn leave_out(base: &mut DeTable, name: &str) -> bool {
-    let mut is_there = base.remove(name).is_some();
-    for (path, identity) in IDENTITIES {
-        let Some(list) = at_path(base, path).and_then(list_of) else { continue };
-        let kept: Vec<_> = list.iter().filter(|one| !is_called(one, identity, name)).cloned().collect();
-        is_there |= kept.len() < list.len();
-        *list = kept.into_iter().collect();
-    }
-    let definitions = at_path(base, "definition").and_then(table_of);
-    is_there | definitions.is_some_and(|definitions| definitions.remove(name).is_some())
-}
-
-/// What can be left out of a manifest.
-fn names(base: &DeTable) -> Vec<String> {
-    let mut names: BTreeSet<String> = base.keys().map(|key| key.get_ref().to_string()).collect();
-    for (path, identity) in IDENTITIES.iter().filter(|(path, _)| !path.contains('.')) {
-        let list = base.get(*path).and_then(|list| list.get_ref().as_array());
-        let elements = list.into_iter().flat_map(|list| list.iter());
-        names.extend(elements.filter_map(|one| one.get_ref().get(*identity)?.get_ref().as_str().map(str::to_owned)));
-    }
-    names.into_iter().collect()
-}
-
-fn at_path<'t, 'i>(table: &'t mut DeTable<'i>, path: &str) -> Option<&'t mut DeValue<'i>> {
-    match path.split_once('.') {
-        None => table.get_mut(path).map(Spanned::get_mut),
-        Some((first, rest)) => at_path(table.get_mut(first).map(Spanned::get_mut).and_then(table_of)?, rest),
-    }
-}
-
-fn table_of<'t, 'i>(value: &'t mut DeValue<'i>) -> Option<&'t mut DeTable<'i>> {
-    match value {
-        DeValue::Table(table) => Some(table),
-        _ => None,
-    }
-}
-
-fn list_of<'t, 'i>(value: &'t mut DeValue<'i>) -> Option<&'t mut DeArray<'i>> {
-    match value {
-        DeValue::Array(list) => Some(list),
-        _ => None,
-    }
-}
-
-fn is_called(element: &Spanned<DeValue>, identity: &str, name: &str) -> bool {
-    element.get_ref().get(identity).and_then(|found| found.get_ref().as_str()) == Some(name)
-}
-
-/// Key by key; `path` is where the table stands.
-fn lay_table<'i>(base: &mut DeTable<'i>, own: DeTable<'i>, path: &str) {
-    for (key, value) in own {
-        let path = if path.is_empty() { key.get_ref().to_string() } else { format!("{path}.{}", key.get_ref()) };
-        match base.get_mut(&key) {
-            None => {
-                base.insert(key, value);
-            }
-            Some(below) => lay_value(below, value, &path),
-        }
-    }
-}
-
-fn lay_value<'i>(base: &mut Spanned<DeValue<'i>>, own: Spanned<DeValue<'i>>, path: &str) {
-    let span = own.span();
-    if path == "scene" && base.get_ref().is_table() && own.get_ref().is_array() {
-        // A table is the first of several scenes.
-        let only = std::mem::replace(base, Spanned::new(span.clone(), DeValue::Boolean(false)));
-        *base = Spanned::new(span.clone(), DeValue::Array([only].into_iter().collect()));
-    }
-    let identity = IDENTITIES.iter().find(|(known, _)| *known == path).map(|(_, identity)| *identity);
-    match (base.get_mut(), own.into_inner()) {
-        (DeValue::Table(base), DeValue::Table(own)) => lay_table(base, own, path),
-        (DeValue::Array(base), DeValue::Array(own)) if identity.is_some() || path == "scene" => {
-            for (place, element) in own.into_iter().enumerate() {
-                let name = identity
-                    .and_then(|identity| element.get_ref().get(identity)?.get_ref().as_str().map(str::to_owned));
-                let same = match (identity, name) {
-                    (Some(identity), Some(name)) => base.iter().position(|one| is_called(one, identity, &name)),
-                    // Scenes are told apart by their order.
-                    (None, _) => Some(place).filter(|place| *place < base.len()),
-                    (Some(_), None) => None,
-                };
-                match same {
-                    Some(same) => lay_value(&mut base.as_mut()[same], element, path),
-                    None => base.push(element),
-                }
-            }
-        }
-        (_, own) => *base = Spanned::new(span, own),
-    }
 }
 
 #[cfg(test)]

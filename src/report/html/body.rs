@@ -12,7 +12,7 @@ use crate::report::text::number;
 use crate::report::{Advice, Hints, Report, RubricLine, Verdict};
 use askama::Template;
 use reference::Assignment;
-use reference::typeset::{SymbolMeaning, Typeset};
+use reference::typeset::{SumPart, SymbolMeaning, Typeset};
 
 /// How much of its points a line or a whole file earned, as a teacher marks it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -190,6 +190,7 @@ impl SecondOpinion {
 struct EquationView<'a> {
     source: &'a str,
     total: &'a str,
+    sum: &'a [SumPart],
     terms: Vec<EquationTerm<'a>>,
     definitions: Vec<(&'a str, &'a str, &'a str)>,
 }
@@ -218,6 +219,7 @@ impl<'a> EquationView<'a> {
         Self {
             source: language.of(&equation.source),
             total: &equation.total,
+            sum: &equation.sum,
             terms: terms.collect(),
             definitions: equation.given.iter().map(given).collect(),
         }

@@ -18,7 +18,7 @@ use crate::slots::Slot;
 use askama::Template;
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use reference::assignment::Stage;
-use reference::typeset::Typeset;
+use reference::typeset::{SumPart, Typeset};
 
 /// Attempts that a page lists.
 pub(super) const LISTED: u32 = 60;

@@ -8,20 +8,25 @@ use crate::interpreter::Scalar;
 use crate::manifest::Manifest;
 use crate::mistake::{Form, Override};
 
+/// For each line of the rubric the solution with 0 for the definition that it judges, where that is a part of what is seen.
+pub(super) fn terms(m: &Manifest, solution: &mut Solution<'_>) -> Checked<Vec<Option<Form>>> {
+    m.rubric.iter().map(|line| term(solution, &line.judges)).collect()
+}
+
 /// What the folder says with `without`; else the definition that the line judges. Where there are regions, they say more exactly
 /// at which probes a definition can be judged.
 pub(super) fn features(
     m: &Manifest,
-    solution: &mut Solution<'_>,
+    terms: &[Option<Form>],
     variants: &Variants<'_>,
     place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Vec<Option<Feature>>> {
     let mut features = Vec::new();
-    for line in &m.rubric {
+    for (line, term) in m.rubric.iter().zip(terms) {
         let place = |at: usize| format!("{}, rubric line `{}`", place_at(at), line.id);
         features.push(match &line.without {
             Some(without) => Some(Feature::Program(variants.program(without.get_ref(), &place(without.span().start))?)),
-            None if m.region.is_empty() => term(solution, &line.judges)?.map(Feature::Term),
+            None if m.region.is_empty() => term.clone().map(Feature::Term),
             None => None,
         });
     }

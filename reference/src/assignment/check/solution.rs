@@ -1,7 +1,6 @@
 //! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
 
 use super::{Checked, listed};
-use crate::Value;
 use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Texture, Type};
@@ -248,42 +247,6 @@ impl<'a> Solution<'a> {
     /// What the handed-in stages write beside `gl_Position`.
     pub(super) fn outputs(&self) -> Vec<Output> {
         self.outputs.clone()
-    }
-
-    /// The constants with the values that they have in the solution, which are those of the handed-out file.
-    pub(super) fn constants(&self, entries: Vec<manifest::Constant>) -> Checked<Vec<Constant>> {
-        let names: Vec<&str> = entries.iter().map(|constant| constant.name.as_str()).collect();
-        if names.is_empty() {
-            return Ok(Vec::new());
-        }
-        let stage = Stage::from(self.file.stage);
-        let read =
-            |name: &str, text: &str| Draft::constants(text, stage, &names).map_err(|refusal| refused(name, &refusal));
-        let ours = read(&self.file.solution.name, &self.file.solution.text)?;
-        let starters = read(&self.file.starter_name, &self.file.starter)?;
-        let constant = |entry: &manifest::Constant| {
-            let (name, file) = (&entry.name, &self.file.solution.name);
-            let missing = || {
-                error(
-                    format!("constant `{name}`"),
-                    both(
-                        format!("{file} has no `const type {name} = …;`: write it there, or correct the name"),
-                        format!("{file} に `const 型 {name} = …;` がありません。書くか、名前を直してください"),
-                    ),
-                )
-            };
-            let (cell, numbers) = ours.iter().find(|(cell, _)| cell.name == *name).ok_or_else(missing)?;
-            if let Some((other, theirs)) = starters.iter().find(|(cell, _)| cell.name == *name)
-                && (theirs != numbers || other.kind != cell.kind)
-            {
-                let message =
-                    format!("`{name}` is not what it is in {file}, line {}: write the same in both", cell.line);
-                return Err(error(place(&self.file.starter_name, other.line), message));
-            }
-            let value = Value::new(cell.kind.clone(), numbers.clone()).ok_or_else(missing)?;
-            Ok(Constant { name: name.clone(), value, means: entry.means.clone(), line: entry.line.clone() })
-        };
-        entries.iter().map(constant).collect()
     }
 
     /// The equation that the solution is, with what the lecture calls its definitions.

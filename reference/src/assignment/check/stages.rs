@@ -59,17 +59,18 @@ impl Stages {
     pub fn accepted(
         &self,
         stage: manifest::Stage,
-        names: &[String],
+        entries: &[manifest::Accepted],
         read: &dyn Fn(&str) -> Checked<String>,
     ) -> Checked<Vec<AcceptedAnswer>> {
-        let answer = |name: &String| {
+        let answer = |entry: &manifest::Accepted| {
+            let name = entry.file();
             let own = compiled(name, stage.into(), &read(name)?)?;
             let other = |stage| if own.stage == stage { &own.program } else { &self.get(stage).program };
             let linked = Pipeline::link(other(Stage::Vertex), other(Stage::Fragment), None);
             let pipeline = linked.map_err(|what| error(name, what))?;
-            Ok(AcceptedAnswer { name: name.clone(), pipeline })
+            Ok(AcceptedAnswer { name: name.to_owned(), pipeline, reading: None })
         };
-        names.iter().map(answer).collect()
+        entries.iter().map(answer).collect()
     }
 }
 
@@ -90,7 +91,7 @@ impl Stages {
         };
         let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
         let pipeline = Pipeline::link(&vertex, &fragment, None).map_err(|what| error(place, what))?;
-        Ok(AcceptedAnswer { name: place.to_owned(), pipeline })
+        Ok(AcceptedAnswer { name: place.to_owned(), pipeline, reading: None })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Checked, known_line};
 use crate::assignment::{both, error};
 use crate::manifest;
-use crate::typeset::{SymbolMeaning, Term, Typeset};
+use crate::typeset::{SumPart, SymbolMeaning, Term, Typeset};
 use math_core::{LatexToMathML, MathDisplay};
 use std::collections::HashSet;
 use toml::Spanned;
@@ -32,13 +32,48 @@ pub(super) fn typeset(
         known_line(lines, &term.line, "equation")?;
         Ok(Term { symbol: formula(&term.symbol)?, value: formula(&term.value)?, line: term.line })
     };
+    let terms: Vec<Term> = entry.term.into_iter().map(term).collect::<Checked<_>>()?;
+    let sum = match &entry.sum {
+        Some(sum) => parts(sum, &terms, &formula)?,
+        None => {
+            let plus = (0..terms.len()).flat_map(|place| [SumPart::Formula("<mo>+</mo>".into()), SumPart::Term(place)]);
+            plus.skip(1).collect()
+        }
+    };
     let given = |given: manifest::SymbolMeaning| {
         Ok(SymbolMeaning { symbol: formula(&given.symbol)?, value: formula(&given.value)?, source: given.source })
     };
     Ok(Typeset {
         total: formula(&entry.total)?,
-        terms: entry.term.into_iter().map(term).collect::<Checked<_>>()?,
+        sum,
+        terms,
         given: entry.given.into_iter().map(given).collect::<Checked<_>>()?,
         source: entry.source,
     })
+}
+
+/// A sum as it is written, in which `{LINE}` is a summand.
+fn parts(
+    sum: &Spanned<String>,
+    terms: &[Term],
+    formula: &dyn Fn(&Spanned<String>) -> Checked<String>,
+) -> Checked<Vec<SumPart>> {
+    let (mut rest, mut start) = (sum.get_ref().as_str(), sum.span().start);
+    let mut parts = Vec::new();
+    loop {
+        let found = terms.iter().enumerate().filter_map(|(place, term)| {
+            let mark = format!("{{{}}}", term.line);
+            Some((rest.find(&mark)?, mark.len(), place))
+        });
+        let Some((at, length, place)) = found.min() else { break };
+        if !rest[..at].trim().is_empty() {
+            parts.push(SumPart::Formula(formula(&Spanned::new(start..start + at, rest[..at].to_owned()))?));
+        }
+        parts.push(SumPart::Term(place));
+        (rest, start) = (&rest[at + length..], start + at + length);
+    }
+    if !rest.trim().is_empty() {
+        parts.push(SumPart::Formula(formula(&Spanned::new(start..start + rest.len(), rest.to_owned()))?));
+    }
+    Ok(parts)
 }

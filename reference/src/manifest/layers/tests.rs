@@ -51,11 +51,30 @@ fn elements_are_matched_by_what_identifies_them() {
 }
 
 #[test]
+fn what_is_left_out_is_forgotten_by_the_rest() {
+    let own = laid_over(
+        "leave_out = [\"specular\", \"highlight\", \"facing\"]\n[[region]]\nid = \"between\"\nwhen = \"false\"\n[probes]\ndesign = []\n[[file]]\n\
+         stage = \"vertex\"\nstarter = \"starter.vert\"",
+    );
+    let own = own.expect("an assignment");
+    let lines: Vec<&str> = own.rubric.iter().map(|line| line.id.as_str()).collect();
+    assert_eq!(lines, ["shape", "ambient", "diffuse"]);
+    assert!(own.mistake("specular-missing").is_none(), "it cost the specular term alone");
+    assert!(own.mistake("specular-wrong-exponent").is_none(), "it replaces what is left out");
+    assert!(own.mistake("normal-unnormalized").is_some(), "it costs the diffuse term as well");
+    let terms = &own.typeset.as_ref().expect("an equation").terms;
+    assert_eq!(terms.iter().map(|term| term.line.as_str()).collect::<Vec<_>>(), ["ambient", "diffuse"]);
+}
+
+#[test]
 fn a_second_scene_is_added_to_the_first() {
     let scene = "[[scene]]\nposes = 3\n[[scene]]\nmesh = { sphere = { radius = 1 } }\nturn = 1\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n\
                  fovy = 0.5\nnear = 1\nfar = 15\nposes = 2\n";
     let own = laid_over(scene).expect("an assignment");
     assert_eq!(own.scene.all_poses().len(), 5);
+    // What is drawn is one thing: another takes the place of the base's triangle.
+    let other = laid_over("[scene]\nmesh = { sphere = { radius = 1 } }").expect("an assignment");
+    assert!(other.scene.all_poses().len() == 25);
 }
 
 #[test]
