@@ -2,23 +2,39 @@
 
 use crate::language::Text;
 use crate::sandbox::MOST_ASSIGNMENTS;
-use reference::assignment::HandedIn;
 use reference::{Assignment, Folder};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The assignment that `--assignment` names; without it, the built-in one whose files these are, as far as they are known.
+/// The homework that is meant where nothing says which: the one that this program began with.
+const DEFAULT: &str = "ggsample06";
+
+/// The assignment that was found for a command line.
+pub struct Choice {
+    /// It.
+    pub assignment: Arc<Assignment>,
+    /// What to tell who asked, where neither an option nor the names of the files say that it is this one.
+    pub notice: Option<Text>,
+}
+
+/// The assignment that `--assignment` names; without it, the built-in one whose files these are.
 ///
 /// # Errors
-/// What to tell who asked: there is no such assignment, or its folder is broken.
-pub fn assignment(asked: Option<&str>, files: &[&str]) -> Result<Arc<Assignment>, Text> {
+/// What to tell who asked: there is no such assignment, its folder is broken, or the files are of several homeworks.
+pub fn assignment(asked: Option<&str>, files: &[PathBuf]) -> Result<Choice, Text> {
     match asked {
-        Some(asked) => named(asked),
+        Some(asked) => Ok(Choice { assignment: named(asked)?, notice: None }),
         None => fitting(files),
     }
 }
 
-/// The assignments of a service: those that are named, or else all that are built in. What is named twice is there once.
+/// The homework that is meant where nothing says which.
+pub fn default() -> &'static Arc<Assignment> {
+    reference::assignment(DEFAULT).unwrap_or_else(|| unreachable!("{DEFAULT} is built in"))
+}
+
+/// The assignments of a service: those that are named, or else the one that is meant where nothing says which. What is named
+/// twice is there once.
 ///
 /// # Errors
 /// What to tell who asked: one of them is no assignment, two that differ have one id, or there are too many.
@@ -33,7 +49,7 @@ pub fn assignments(asked: &[String]) -> Result<Vec<Arc<Assignment>>, Text> {
         }
     }
     if asked.is_empty() {
-        all.extend(reference::assignments().cloned());
+        all.push(Arc::clone(default()));
     }
     if all.len() > MOST_ASSIGNMENTS {
         return Err(Text::new(
@@ -92,30 +108,37 @@ pub fn folder(path: &Path) -> Result<Arc<Assignment>, Text> {
     })
 }
 
-/// The built-in assignment that these files are for: by their names, or else by their stages. The only one there is takes
-/// any file: what is wrong with it is said in its report.
-fn fitting(files: &[&str]) -> Result<Arc<Assignment>, Text> {
-    let is_named = |slot: &HandedIn| files.contains(&slot.name.as_str());
-    let is_of_stage = |slot: &HandedIn| files.iter().any(|file| extension(file) == extension(&slot.name));
-    let fit = |fits: &dyn Fn(&HandedIn) -> bool| {
-        let mut fitting = reference::assignments().filter(|assignment| assignment.files.iter().any(fits));
-        fitting.next().filter(|_| fitting.next().is_none())
-    };
-    let only = || fit(&|_| true);
-    fit(&is_named).or_else(only).or_else(|| fit(&is_of_stage)).cloned().ok_or_else(|| {
-        let list = list();
-        Text::new(
-            format!("which assignment is it? Say so with --assignment NAME or --assignment FOLDER. {}", list.en),
-            format!(
-                "課題を特定できません。--assignment 名前 または --assignment フォルダ で指定してください。{}",
-                list.ja
-            ),
-        )
-    })
-}
-
-fn extension(name: &str) -> Option<&str> {
-    Path::new(name).extension()?.to_str()
+/// The built-in assignment that these files are for: by their names, by a folder on the way to them, or else the usual one,
+/// which takes one file of any name: what is wrong with it is said in its report.
+fn fitting(files: &[PathBuf]) -> Result<Choice, Text> {
+    let names: Vec<&str> = files.iter().filter_map(|file| file.file_name()?.to_str()).collect();
+    let fitting = reference::built_in::handing_in(&names);
+    let chosen = |name: &str| reference::assignment(name).cloned();
+    if let Some(assignment) = Some(&fitting).filter(|fitting| fitting.len() == 1).and_then(|fitting| chosen(fitting[0]))
+    {
+        return Ok(Choice { assignment, notice: None });
+    }
+    let folders = files.iter().filter_map(|file| file.parent()).flat_map(|folder| folder.iter().rev());
+    let on_the_way = folders.filter_map(|folder| folder.to_str()).find_map(chosen);
+    if let Some(assignment) = on_the_way {
+        return Ok(Choice { assignment, notice: None });
+    }
+    if fitting.is_empty() && files.len() < 2 {
+        let assignment = Arc::clone(default());
+        let Assignment { id, title, .. } = &*assignment;
+        let notice = names.first().map(|name| {
+            Text::new(
+                format!("no homework has a file `{name}`: it is graded as {id} ({}). Another one: --assignment NAME", title.en),
+                format!("`{name}` というファイルの課題はないので、{id}（{}）として採点します。ほかの課題: --assignment 名前", title.ja),
+            )
+        });
+        return Ok(Choice { assignment, notice });
+    }
+    let list = list();
+    Err(Text::new(
+        format!("which assignment is it? Say so with --assignment NAME or --assignment FOLDER. {}", list.en),
+        format!("課題を特定できません。--assignment 名前 または --assignment フォルダ で指定してください。{}", list.ja),
+    ))
 }
 
 /// The built-in assignments, each with its files, in one sentence.

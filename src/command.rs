@@ -94,8 +94,11 @@ fn file_fault(action: &Text, path: &Path, error: &std::io::Error) -> Fault {
 
 /// The assignment that is asked for; none where there is no such assignment, which is told.
 fn assignment(asked: Option<&str>, files: &[PathBuf], language: Language) -> Option<Arc<Assignment>> {
-    let names: Vec<&str> = files.iter().filter_map(|file| file.file_name()?.to_str()).collect();
-    choice::assignment(asked, &names).inspect_err(|text| anstream::eprintln!("ggrade: {}", text.get(language))).ok()
+    let chosen = choice::assignment(asked, files);
+    let told = |text: &Text| anstream::eprintln!("ggrade: {}", text.get(language));
+    let choice = chosen.inspect_err(told).ok()?;
+    choice.notice.iter().for_each(told);
+    Some(choice.assignment)
 }
 
 /// The time that a grading may take; none for a number that is none.

@@ -1,5 +1,6 @@
 //! The assignments that are part of the program: every folder below `reference/assignments`.
 
+use crate::assignment::MANIFEST;
 use crate::{Assignment, Folder};
 use std::sync::{Arc, OnceLock};
 
@@ -17,6 +18,18 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 pub(crate) fn folder(name: &str) -> Option<Folder> {
     let (_, files) = BUILT_IN.iter().find(|(known, _)| *known == name)?;
     Some(Folder::of(files.iter().copied()))
+}
+
+/// The names of the assignments that hand in a file of one of these names, case aside. They are not loaded for it.
+pub fn handing_in(files: &[&str]) -> Vec<&'static str> {
+    let hands_in = |name: &&str| {
+        let folder = folder(name);
+        let manifest = folder.as_ref().and_then(|folder| folder.text(MANIFEST).ok()?.parse::<toml::Table>().ok());
+        let own = manifest.as_ref().and_then(|manifest| manifest.get("file")?.as_array());
+        let mut own = own.into_iter().flatten().filter_map(|file| file.get("name")?.as_str());
+        own.any(|own| files.iter().any(|file| file.eq_ignore_ascii_case(own)))
+    };
+    names().filter(hands_in).collect()
 }
 
 /// The built-in assignment of this name, which is its id.

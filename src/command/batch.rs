@@ -35,7 +35,8 @@ pub fn run(arguments: &Batch) -> Result<ExitStatus, Fault> {
 }
 
 fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result<ExitStatus, NotBegun> {
-    let assignment = choice::assignment(arguments.machine.assignment.as_deref(), &[]).map_err(NotBegun::Usage)?;
+    let assignment =
+        choice::assignment(arguments.machine.assignment.as_deref(), &[]).map_err(NotBegun::Usage)?.assignment;
     begin::outside(arguments)?;
     let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
     let before = arguments.compare.as_deref().map(begin::read_earlier).transpose()?;

@@ -1,6 +1,7 @@
 //! `ggrade doctor`: what this machine has, and what to install.
 
 use super::{ExitStatus, language};
+use crate::choice;
 use crate::cli::Doctor;
 use crate::fault::Fault;
 use crate::grade::{Order, handed_out};
@@ -19,10 +20,9 @@ pub fn run(arguments: &Doctor) -> Result<ExitStatus, Fault> {
     for assignment in reference::assignments() {
         healthy &= check_assignment(assignment, language);
     }
-    let first = reference::assignments().next();
-    let gpu = first.map(|first| Settings { adapter: AdapterKind::Gpu, ..settings(first) });
-    let gpu = match gpu.map(|gpu| Pool::start(gpu, 1)) {
-        Some(Ok(pool)) => {
+    let gpu = Settings { adapter: AdapterKind::Gpu, ..settings(choice::default()) };
+    let gpu = match Pool::start(gpu, 1) {
+        Ok(pool) => {
             let Environment { renderer, driver, .. } = pool.environment();
             Text::new(
                 format!("graphics card: {renderer} ({driver}), used with --adapter gpu"),
@@ -42,8 +42,7 @@ fn settings(assignment: &Arc<Assignment>) -> Settings {
 
 /// Says of each layer of the sandbox whether it holds, and what a worker could do in spite of all.
 fn check_sandbox(language: Language) -> bool {
-    let Some(assignment) = reference::assignments().next() else { return true };
-    let protection = match Pool::start(settings(assignment), 1) {
+    let protection = match Pool::start(settings(choice::default()), 1) {
         Ok(pool) => pool.protection().clone(),
         Err(fault) => return complain(&fault, language),
     };

@@ -124,9 +124,12 @@ impl Layers {
         for key in ["id", EXTENDS, LEAVE_OUT] {
             base.remove(key);
         }
+        // What goes with another may be named as well.
+        let known = overlay::names(&base);
         for name in strings(own.get(LEAVE_OUT)) {
-            if !overlay::leave_out(&mut base, name.get_ref()) {
-                let (known, name) = (overlay::names(&base), name.as_ref());
+            let is_left_out = overlay::leave_out(&mut base, name.get_ref());
+            if !is_left_out && !known.contains(name.get_ref()) {
+                let name = name.as_ref();
                 let place = self.place_at(own[LEAVE_OUT].span().start);
                 let near = super::toml_error::nearest(name, &known.iter().map(String::as_str).collect::<Vec<_>>());
                 let (en, ja) = match near {
