@@ -4,7 +4,7 @@
 // Computed in eye space. The names in main are what assignment.toml speaks of.
 
 // The light: its position (w = 0: parallel rays), and what it sends out.
-const vec4 pl = vec4(2.0, -0.6, 1.5, 0.0);
+const vec4 pl = vec4(2.4, -0.6, -0.6, 0.0);
 const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
 const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
 const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
@@ -13,7 +13,7 @@ const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
 const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
 const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
 const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
-const float t = 0.933;
+const float t = 0.903;
 
 layout (location = 0) in vec4 pv;
 in vec4 cv;

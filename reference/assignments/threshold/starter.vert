@@ -5,7 +5,7 @@
 //
 
 // 光源 (視点座標系, w = 0 なので平行光線) / light (eye space; w = 0: parallel rays)
-const vec4 pl = vec4(2.0, -0.6, 1.5, 0.0);
+const vec4 pl = vec4(2.4, -0.6, -0.6, 0.0);
 const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);    // 環境光強度 / ambient intensity
 const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);    // 拡散反射光強度 / diffuse intensity
 const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);    // 鏡面反射光強度 / specular intensity
@@ -14,7 +14,7 @@ const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);    // 鏡面反射光強度 / spec
 const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);      // 環境光の反射係数 / ambient reflectance
 const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);  // 拡散反射係数 / diffuse reflectance
 const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);   // 鏡面反射係数 / specular reflectance
-const float t = 0.933;                           // ハイライトのしきい値 / threshold of the highlight
+const float t = 0.903;                           // ハイライトのしきい値 / threshold of the highlight
 
 // 頂点属性 / vertex attributes
 layout (location = 0) in vec4 pv;                // ローカル座標系の頂点位置 / position in object space
