@@ -1,6 +1,7 @@
 #version 330
 
-// Right as well: Blinn's half vector (slides 20 and 21) in place of the reflected one; the rest is as in solution.vert.
+// Right as well: Blinn's half vector (slides 20 and 21) in place of the reflected one. It has all names of solution.vert,
+// also r, which it does not need, so that mistakes are looked for beside it too.
 
 struct MaterialParam
 {
@@ -34,13 +35,14 @@ void main()
     vec3 v = normalize(-p);
     vec3 l = normalize(light - p);
     vec3 n = normalize(transpose(inverse(mat3(mv))) * a_normal);
+    vec3 r = reflect(-l, n);
     vec3 h = normalize(l + v);
 
     // No light from behind the surface.
     float nl = dot(n, l);
     float lambert = max(nl, 0.0);
-    float nh = dot(n, h);
-    float facing = max(nh, 0.0);
+    float rv = dot(n, h);
+    float facing = max(rv, 0.0);
     float mirrored = pow(facing, u_material.shininess);
     float highlight = nl < 0.0 ? 0.0 : mirrored;
 
