@@ -1,0 +1,19 @@
+#version 410 core
+
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+out vec4 position;
+out vec3 normal;
+out vec4 many[1000];
+
+void main(void)
+{
+  position = mw * pv;
+  normal = normalize((mg * cv).xyz);
+  for (int i = 0; i < 1000; i++) many[i] = position;
+  gl_Position = mc * pv;
+}

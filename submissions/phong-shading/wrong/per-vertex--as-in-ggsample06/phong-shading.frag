@@ -1,0 +1,4 @@
+#version 410 core
+in vec4 vc;
+out vec4 fc;
+void main(void) { fc = vc; }
