@@ -1,0 +1,15 @@
+#version 450
+
+layout (location = 0) in vec4 pv;
+in vec2 tv;
+uniform mat4 mc;
+
+out float a;
+out float b;
+out float c;
+
+void main(void)
+{
+  a = b = c = tv.x;
+  gl_Position = mc * pv;
+}
