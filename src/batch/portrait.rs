@@ -1,7 +1,7 @@
 //! The small picture of each student's shader: one pose for the whole class, so that pictures can be compared at a glance.
 
 use crate::fault::Fault;
-use crate::pictures::telling_pose;
+use crate::pictures::{expected_pictures, telling_pose};
 use crate::report::{Picture, pictures};
 use reference::Assignment;
 
@@ -30,6 +30,16 @@ impl Portraits {
     pub fn of(&self, frames: &[Picture]) -> Result<Option<Vec<u8>>, Fault> {
         frames.get(self.pose).map(|frame| pictures::png(&reduced(frame))).transpose()
     }
+}
+
+/// The right pictures of the homework's own scene, small and moving: a PNG that repeats for ever.
+pub fn moving(assignment: &Assignment) -> Result<Vec<u8>, Fault> {
+    let scene = &assignment.scene;
+    let poses = scene.all_poses();
+    let all = expected_pictures(assignment);
+    let own = poses.iter().zip(all.iter()).filter(|(pose, _)| pose.view == 0);
+    let frames: Vec<Picture> = own.map(|(_, frame)| reduced(frame)).collect();
+    pictures::animated(&frames, scene.cycle)
 }
 
 /// The picture at a fraction of its size; each pixel is the mean of those that it stands for.

@@ -8,7 +8,7 @@
 use super::State;
 use super::errors::Problem;
 use super::store::Submission;
-use crate::batch::portrait::Portraits;
+use crate::batch::portrait::{self, Portraits};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::pictures::expected_pictures;
@@ -81,12 +81,13 @@ pub struct RightPictures {
     assignment: Arc<Assignment>,
     poses: OnceLock<Vec<Vec<u8>>>,
     portraits: OnceLock<Portraits>,
+    moving: OnceLock<Vec<u8>>,
 }
 
 impl RightPictures {
     /// Those of a homework.
     pub fn new(assignment: Arc<Assignment>) -> Self {
-        Self { assignment, poses: OnceLock::new(), portraits: OnceLock::new() }
+        Self { assignment, poses: OnceLock::new(), portraits: OnceLock::new(), moving: OnceLock::new() }
     }
 
     /// How portraits are made, and the right one.
@@ -98,6 +99,15 @@ impl RightPictures {
         Ok(self.portraits.get_or_init(|| portraits))
     }
 
+    /// What a right answer draws, small and moving.
+    fn moving(&self) -> Result<Vec<u8>, Fault> {
+        if let Some(moving) = self.moving.get() {
+            return Ok(moving.clone());
+        }
+        let moving = portrait::moving(&self.assignment)?;
+        Ok(self.moving.get_or_init(|| moving).clone())
+    }
+
     /// One pose, from 0.
     fn pose(&self, index: usize) -> Result<Option<Vec<u8>>, Fault> {
         if let Some(poses) = self.poses.get() {
@@ -106,6 +116,11 @@ impl RightPictures {
         let all = expected_pictures(&self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
         Ok(self.poses.get_or_init(|| all).get(index).cloned())
     }
+}
+
+/// What a right answer to a homework draws, small and moving.
+pub async fn goal(state: &State) -> Result<Vec<u8>, Problem> {
+    blocking(state, |state| state.right.moving()).await
 }
 
 impl Default for Gallery {

@@ -9,6 +9,7 @@ use crate::grade::handed_out;
 use crate::service::State;
 use crate::service::download;
 use crate::service::errors::Problem;
+use crate::service::gallery;
 use crate::service::idempotency::RequestKey;
 use crate::service::identity::Visitor;
 use crate::service::limits::Client;
@@ -38,6 +39,7 @@ pub(super) fn router() -> Router<State> {
         .route("/draft", post(draft))
         .route("/read", post(read))
         .route("/starter", get(starter))
+        .route("/goal.png", get(goal))
 }
 
 /// `GET /a/{assignment}`.
@@ -125,6 +127,12 @@ pub(super) async fn starter(Shared(state): Shared<State>, Query(wanted): Query<W
     };
     let headers = [(header::CONTENT_TYPE, "text/plain; charset=utf-8"), (header::CACHE_CONTROL, "no-cache")];
     Ok((headers, file.starter.clone()).into_response())
+}
+
+/// `GET /a/{assignment}/goal.png`: what a right answer draws, small and moving. Its address has the digest of the homework.
+async fn goal(Shared(state): Shared<State>) -> Result<Response, Problem> {
+    let headers = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, "private, max-age=86400, immutable")];
+    Ok((headers, gallery::goal(&state).await?).into_response())
 }
 
 /// A file as the editor of its slot takes it.

@@ -45,8 +45,9 @@ struct Homework {
     file: String,
     task: Vec<Piece>,
     facts: Vec<Fact>,
-    /// What a right answer draws, a PNG in the address.
-    picture: String,
+    /// What a right answer draws, a PNG in the address, and the address of the same as it moves.
+    still: String,
+    moving: String,
 }
 
 impl Homework {
@@ -59,7 +60,8 @@ impl Homework {
             file: student::file_names(assignment),
             task: student::task(assignment, frame),
             facts,
-            picture: format!("data:image/png;base64,{}", STANDARD.encode(picture)),
+            still: format!("data:image/png;base64,{}", STANDARD.encode(picture)),
+            moving: format!("/a/{}/goal.png?v={}", assignment.id, &assignment.digest[..16]),
         })
     }
 }
