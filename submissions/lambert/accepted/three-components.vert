@@ -1,0 +1,29 @@
+#version 330 core
+// homework: lambert
+
+const vec4	pl	= vec4(1.5, 0.5, 2.0, 0.0);	// light position
+const vec4	lamb	= vec4(0.25, 0.25, 0.3, 1.0);	// ambient light
+const vec4	ldiff	= vec4(0.9, 0.85, 0.8, 0.0);	// diffuse light
+const vec4	kamb	= vec4(0.5, 0.1, 0.1, 1.0);	// ambient reflectance
+const vec4	kdiff	= vec4(0.75, 0.12, 0.08, 1.0);	// diffuse reflectance
+
+in vec4	pv;		// position
+in vec4	cv;		// normal
+
+uniform mat4	mw, mc, mg;
+
+out vec4	vc;
+
+void main(void)
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+
+  vec3 colour = kamb.rgb * lamb.rgb;
+  float d = dot(n, l);
+  if (d > 0.0) colour += d * kdiff.rgb * ldiff.rgb;
+  vc = vec4(colour, 1.0);
+  gl_Position = mc * pv;
+}

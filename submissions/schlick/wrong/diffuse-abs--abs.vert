@@ -1,0 +1,37 @@
+#version 450 core
+
+/*
+ * schlick
+ */
+
+const vec4 pl = vec4(2.0, -0.6, 1.5, 0.0); // 光源の位置
+const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0); // 環境光
+const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0); // 拡散反射光
+const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0); // 鏡面反射光
+const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0); // 環境光の反射係数
+const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0); // 拡散反射係数
+const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0); // 鏡面反射係数
+const float kshi = 15.0; // 輝き係数
+
+layout(location = 0) in vec4 pv; // 頂点位置
+layout(location = 1) in vec4 cv; // 法線
+
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+layout(location = 0) out vec4 vc; // 色
+
+void main(void)
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+
+  vec3 h = normalize(l + v);
+  float t = max(dot(n, h), 0.0);
+  float s = t / (kshi - t * kshi + t);
+  vc = kamb * lamb + abs(dot(n, l)) * kdiff * ldiff + s * kspec * lspec;
+  gl_Position = mc * pv;
+}
