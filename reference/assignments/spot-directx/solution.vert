@@ -20,7 +20,7 @@ const float kshi = 40.0;
 const vec4 ldir = vec4(-0.9, -0.6, -1.0, 0.0);
 const float sexp = 6.0;
 const float thetap = 12.0;
-const float thetau = 25.0;
+const float thetau = 26.0;
 
 layout (location = 0) in vec4 pv;
 in vec4 cv;

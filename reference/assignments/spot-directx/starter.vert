@@ -20,7 +20,7 @@ const float kshi = 40.0;                         // 輝き係数 / shininess
 const vec4 ldir = vec4(-0.9, -0.6, -1.0, 0.0);  // 光軸の方向, 光源から外向き / direction of the axis, away from the light
 const float sexp = 6.0;                         // 光の集中の度合い (指数) / exponent of the cone
 const float thetap = 12.0;                      // 内側の円錐の半頂角 (度) / half angle of the inner cone, in degrees
-const float thetau = 25.0;                      // 外側の円錐の半頂角 (度) / half angle of the outer cone, in degrees
+const float thetau = 26.0;                      // 外側の円錐の半頂角 (度) / half angle of the outer cone, in degrees
 
 // 頂点属性 / vertex attributes
 layout (location = 0) in vec4 pv;             // ローカル座標系の頂点位置 / position in object space

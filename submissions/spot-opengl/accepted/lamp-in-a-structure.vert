@@ -1,0 +1,41 @@
+#version 410 core
+const vec4 pl = vec4(1.6, 1.4, -3.4, 1.0);
+const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
+const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
+const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
+const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
+const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
+const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
+const float kshi = 40.0;
+const vec4 ldir = vec4(-0.9, -0.6, -1.0, 0.0);
+const float sexp = 6.0;
+const float thetau = 25.0;
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+struct Lamp { vec4 position; vec3 axis; float exponent; float cosine; };
+
+void beam(in Lamp lamp, in vec3 place, out float c)
+{
+    vec3 away = normalize(place - lamp.position.xyz / lamp.position.w);
+    float s = dot(away, lamp.axis);
+    c = s >= lamp.cosine ? pow(s, lamp.exponent) : 0.0;
+}
+
+void main()
+{
+    Lamp lamp = Lamp(pl, normalize(ldir.xyz), sexp, cos(radians(thetau)));
+    vec4 p = mw * pv;
+    vec3 place = p.xyz / p.w;
+    float c;
+    beam(lamp, place, c);
+    vec3 l = normalize(lamp.position.xyz / lamp.position.w - place);
+    vec3 n = normalize((mg * cv).xyz);
+    vec3 h = normalize(l + normalize(-place));
+    vc = c * (kamb * lamb + kdiff * ldiff * max(dot(l, n), 0.0) + kspec * lspec * pow(max(dot(h, n), 0.0), kshi));
+    gl_Position = mc * pv;
+}

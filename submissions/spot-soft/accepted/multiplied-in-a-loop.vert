@@ -1,0 +1,39 @@
+#version 410 core
+const vec4 pl = vec4(1.6, 1.4, -3.4, 1.0);
+const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
+const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
+const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
+const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
+const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
+const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
+const float kshi = 40.0;
+const vec4 ldir = vec4(-0.9, -0.6, -1.0, 0.0);
+const float sexp = 8.0;
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+float power(float x, int n)
+{
+    float result = 1.0;
+    for (int i = 0; i < n; ++i) result *= x;
+    return result;
+}
+
+void main()
+{
+    vec4 p = mw * pv;
+    vec3 v = normalize(-p.xyz / p.w);
+    vec3 l = normalize(pl.xyz / pl.w - p.xyz / p.w);
+    vec3 n = normalize(mat3(mg) * cv.xyz);
+    float c = power(max(dot(-l, normalize(ldir.xyz)), 0.0), int(sexp));
+    vec4 colour = vec4(0.0);
+    colour += c * kamb * lamb;
+    colour += c * max(dot(n, l), 0.0) * kdiff * ldiff;
+    colour += c * power(max(dot(n, normalize(l + v)), 0.0), int(kshi)) * kspec * lspec;
+    vc = colour;
+    gl_Position = mc * pv;
+}
