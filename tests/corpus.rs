@@ -16,14 +16,30 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How many samples each homework has. A sample that is lost, and a folder that is no longer walked, are seen here.
-const SAMPLES: [(&str, usize); 9] = [
+const SAMPLES: [(&str, usize); 25] = [
+    ("blinn", 190),
     ("bumps", 7),
+    ("falloff-linear", 57),
+    ("falloff-pixar", 67),
+    ("falloff-quadratic", 66),
+    ("flat", 142),
     ("fog", 8),
     ("ggsample06", 1465),
+    ("gouraud-point-light", 175),
+    ("interpolation", 57),
+    ("lambert", 131),
     ("lamp", 17),
     ("maps", 81),
     ("per-pixel", 11),
+    ("phong", 189),
+    ("phong-shading", 153),
     ("rings", 9),
+    ("schlick", 190),
+    ("several-lights", 177),
+    ("spot-directx", 86),
+    ("spot-opengl", 76),
+    ("spot-soft", 62),
+    ("threshold", 200),
     ("toon", 19),
     ("waves", 8),
 ];

@@ -1,14 +1,16 @@
 //! Homeworks in folders: what ggrade draws and what the reference draws, against a real OpenGL driver.
 
-use super::opengl::{Draw, Kind, OpenGl, Version, Window};
-use ggrade::render::{AdapterKind, Batch, Device, Renderer};
+use super::opengl::{Draw, Kind, OpenGl, Rejection, Version, Window};
+use ggrade::render::{AdapterKind, Batch, Device, Renderer, Scene};
 use ggrade::source;
 use ggrade::translate::{Interface, Program, Stage};
 use reference::interpreter::{Scalar, Texels, Texture, Type};
-use reference::rasteriser::Coverage;
+use reference::rasteriser::{Coverage, Frame};
 use reference::scene::{Cull, DepthTest};
 use reference::{Assignment, Folder, Value, assignment};
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Largest difference of a channel between the drivers, in 1/255, and between a driver in f32 and the reference in f64.
 const DRIVER_TOLERANCE: u8 = 1;
@@ -55,13 +57,50 @@ struct Counts {
     reference: usize,
 }
 
-fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
+/// The text of each stage, vertex before fragment; of those that are handed in it is what `handed_in` gives.
+fn texts<'a>(assignment: &'a Assignment, handed_in: impl Fn(&'a assignment::HandedIn) -> &'a str) -> [&'a str; 2] {
     let of = |wanted: assignment::Stage| {
-        let handed_in = assignment.files.iter().map(|file| (file.stage, &file.solution.text));
-        let fixed = assignment.fixed.iter().map(|fixed| (fixed.stage, &fixed.text));
-        handed_in.chain(fixed).find(|(stage, _)| *stage == wanted).map(|(_, text)| text.as_str()).expect("a stage")
+        let handed_in = assignment.files.iter().map(|file| (file.stage, handed_in(file)));
+        let fixed = assignment.fixed.iter().map(|fixed| (fixed.stage, fixed.text.as_str()));
+        handed_in.chain(fixed).find(|(stage, _)| *stage == wanted).map(|(_, text)| text).expect("a stage")
     };
-    let texts = [of(assignment::Stage::Vertex), of(assignment::Stage::Fragment)];
+    [of(assignment::Stage::Vertex), of(assignment::Stage::Fragment)]
+}
+
+/// What a real driver draws of a program: 8 bits a channel, rows from above, as ours.
+fn by_opengl(
+    gl: &OpenGl,
+    assignment: &Assignment,
+    scene: &Scene,
+    texts: [&str; 2],
+    frame: usize,
+) -> Result<Vec<[u8; 4]>, Rejection> {
+    let (width, height) = (scene.width as usize, scene.height as usize);
+    let background = scene.background.map(|channel| f32::from(channel) / 255.0);
+    let window = Window { width, height, background, is_float: false };
+    let textures: Vec<(&str, Texture)> = assignment.textures.iter().map(|texture| ("", texture.clone())).collect();
+    let draws: Vec<Draw> = scene.frames[frame].iter().map(draw).collect();
+    let drawn = gl.scene(texts, &draws, &textures, window, 1);
+    let drawn = drawn?.remove(0);
+    let rows = drawn.chunks_exact(width).rev().flatten();
+    Ok(rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect())
+}
+
+fn differs(from: &[u8], from_opengl: [u8; 4], by: u8) -> bool {
+    (0..3).any(|axis| from[axis].abs_diff(from_opengl[axis]) > by)
+}
+
+/// How many pixels of a picture that are judged are not what OpenGL draws.
+fn disagreeing(right: &Frame, drawn: &[[u8; 4]]) -> usize {
+    let pixels = right.coverage.iter().zip(&right.pixels).zip(drawn);
+    let wrong = pixels.filter(|((coverage, right), drawn)| {
+        **coverage != Coverage::Silhouette && differs(&right[..], **drawn, REFERENCE_TOLERANCE)
+    });
+    wrong.count()
+}
+
+fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
+    let texts = texts(assignment, |file| &file.solution.text);
     let own = assignment.fixed.first().map(|fixed| (Stage::from(fixed.stage), fixed.text.as_str()));
     let program = Program::new(Interface::of(assignment).unwrap(), own).unwrap();
     let read = |file: &assignment::HandedIn| {
@@ -73,49 +112,110 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let linked = program.translate(&given).unwrap_or_else(|refusal| panic!("{refusal:?}"));
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
     let mut renderer = Renderer::new(device, None).unwrap();
-    let scene = ggrade::render::Scene::of(assignment, &[]);
+    let scene = Scene::of(assignment, &[]);
     let ours = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
-    let (width, height) = (scene.width as usize, scene.height as usize);
-    let background = scene.background.map(|channel| f32::from(channel) / 255.0);
-    let window = Window { width, height, background, is_float: false };
-    let textures: Vec<(&str, Texture)> = assignment.textures.iter().map(|texture| ("", texture.clone())).collect();
     let mut counts = Counts::default();
-    for (index, (batches, right)) in scene.frames.iter().zip(assignment.frames()).enumerate() {
-        let draws: Vec<Draw> = batches.iter().map(draw).collect();
-        let theirs = gl.scene(texts, &draws, &textures, window, 1);
-        let theirs = theirs.unwrap_or_else(|rejection| panic!("{rejection:?}")).remove(0);
+    for (index, right) in assignment.frames().into_iter().enumerate() {
+        let drawn = by_opengl(gl, assignment, &scene, texts, index);
+        let drawn = drawn.unwrap_or_else(|rejection| panic!("{rejection:?}"));
         let ours = ours.picture(index as u32);
-        for pixel in 0..width * height {
-            let (x, y) = (pixel % width, pixel / width);
-            let gl = theirs[(height - 1 - y) * width + x].map(|channel| (channel * 255.0).round() as u8);
-            let differs = |from: &[u8], by: u8| (0..3).any(|axis| from[axis].abs_diff(gl[axis]) > by);
-            let is_judged = right.coverage[pixel] != Coverage::Silhouette;
-            counts.pixels += 1;
-            counts.painted += usize::from(differs(&scene.background, 0));
-            counts.drivers += usize::from(differs(&ours.rgba[4 * pixel..], DRIVER_TOLERANCE));
-            counts.judged += usize::from(is_judged);
-            counts.reference += usize::from(is_judged && differs(&right.pixels[pixel], REFERENCE_TOLERANCE));
-        }
+        counts.pixels += drawn.len();
+        counts.painted += drawn.iter().filter(|pixel| differs(&scene.background, **pixel, 0)).count();
+        let ours = ours.rgba.chunks_exact(4).zip(&drawn);
+        counts.drivers += ours.filter(|(ours, pixel)| differs(ours, **pixel, DRIVER_TOLERANCE)).count();
+        counts.judged += right.coverage.iter().filter(|coverage| **coverage != Coverage::Silhouette).count();
+        counts.reference += disagreeing(&right, &drawn);
     }
     counts
 }
 
-/// Every homework in `tests/homeworks` is what real OpenGL draws of it, textures included.
+/// Every homework that is built in or in `tests/homeworks` is what real OpenGL draws of it, textures included.
 #[test]
-fn homeworks_in_folders_are_what_opengl_draws() {
+fn homeworks_are_what_opengl_draws() {
     let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
+    let folder = |path: PathBuf| {
+        Arc::new(Folder::read(&path).and_then(Assignment::load).unwrap_or_else(|error| panic!("{error}")))
+    };
+    let in_folders = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/homeworks")).unwrap();
+    let in_folders = in_folders.map(|entry| folder(entry.unwrap().path()));
     let mut names = Vec::new();
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/homeworks")).unwrap() {
-        let path = entry.unwrap().path();
-        let assignment = Folder::read(&path).and_then(Assignment::load).unwrap_or_else(|error| panic!("{error}"));
+    for assignment in reference::assignments().cloned().chain(in_folders) {
         let counts = compared(&gl, &assignment);
-        println!("{}: {counts:?}", assignment.id);
-        assert!(counts.painted > counts.pixels / 20 && counts.judged > counts.pixels / 2, "{path:?}: {counts:?}");
-        assert!(counts.drivers <= counts.pixels / DOUBTFUL, "{path:?}: {counts:?}");
-        assert_eq!(counts.reference, 0, "{path:?}: {counts:?}");
-        names.push(assignment.id);
+        let name = &assignment.id;
+        println!("{name}: {counts:?}");
+        assert!(counts.painted > counts.pixels / 20 && counts.judged > counts.pixels / 2, "{name}: {counts:?}");
+        assert!(counts.drivers <= counts.pixels / DOUBTFUL, "{name}: {counts:?}");
+        assert_eq!(counts.reference, 0, "{name}: {counts:?}");
+        names.push(assignment.id.clone());
     }
-    assert!(names.iter().any(|name| name == "carpet"), "{names:?}");
+    assert!(["carpet", "falloff-pixar", "phong-shading"].iter().all(|known| names.iter().any(|name| name == known)));
+}
+
+/// One of so many frames of a right sample is drawn by OpenGL.
+const SOME_FRAMES: usize = 11;
+
+/// What the samples say is right is what real OpenGL draws of them: the solution's pictures, or those of what is accepted.
+#[test]
+fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
+    let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
+    let submissions = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions");
+    let (mut count, mut wrong) = (0, Vec::new());
+    // The first homework has 447 of them, and tests of its own.
+    for assignment in reference::assignments().filter(|assignment| assignment.id != "ggsample06") {
+        let scene = Scene::of(assignment, &[]);
+        let mut frames: BTreeMap<usize, Vec<Frame>> = BTreeMap::new();
+        for (index, pose) in assignment.scene.all_poses().iter().enumerate().step_by(SOME_FRAMES) {
+            let accepted = assignment.accepted().map(|answer| assignment.frame_of(answer, pose));
+            frames.insert(index, std::iter::once(assignment.right_frame(pose)).chain(accepted).collect());
+        }
+        for sample in samples(&submissions.join(&assignment.id).join("accepted")) {
+            let read = |file: &assignment::HandedIn| {
+                let is_it = |path: &PathBuf| path.extension() == Path::new(&file.name).extension();
+                let name =
+                    if sample.is_dir() { samples(&sample).into_iter().find(is_it) } else { Some(sample.clone()) };
+                let name = name.unwrap_or_else(|| panic!("{} has no {}", sample.display(), file.name));
+                let bytes = std::fs::read(&name).unwrap_or_else(|error| panic!("{}: {error}", name.display()));
+                source::read_stage(file.stage.into(), &file.name, &bytes).expect("a text").text
+            };
+            let handed_in: Vec<(assignment::Stage, String)> =
+                assignment.files.iter().map(|file| (file.stage, read(file))).collect();
+            let own = |file: &assignment::HandedIn| -> &str {
+                handed_in.iter().find(|(stage, _)| *stage == file.stage).map_or("", |(_, text)| text)
+            };
+            let [mut vertex, mut fragment] = texts(assignment, |file| &file.starter);
+            for file in &assignment.files {
+                match file.stage {
+                    assignment::Stage::Vertex => vertex = own(file),
+                    assignment::Stage::Fragment => fragment = own(file),
+                }
+            }
+            count += 1;
+            for (index, right) in &frames {
+                let drawn = match by_opengl(&gl, assignment, &scene, [vertex, fragment], *index) {
+                    Ok(drawn) => drawn,
+                    Err(rejection) => {
+                        wrong.push(format!("{}: {rejection:?}", sample.display()));
+                        break;
+                    }
+                };
+                let off = right.iter().map(|right| disagreeing(right, &drawn)).min().unwrap_or_default();
+                if off > 0 {
+                    wrong.push(format!("{}, frame {index}: {off} pixels", sample.display()));
+                }
+            }
+        }
+    }
+    assert!(count > 150, "{count} samples");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The samples of a folder: files, and folders that have their expectation beside them.
+fn samples(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let mut found: Vec<_> = paths.filter(|path| path.extension().is_none_or(|extension| extension != "json")).collect();
+    found.sort();
+    found
 }
 
 /// A picture's rows are uploaded as a host program does it: turned over where the folder does not say otherwise.

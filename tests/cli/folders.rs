@@ -298,6 +298,41 @@ fn the_built_in_assignments_are_listed_with_their_files() {
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0));
     assert!(said.lines().any(|line| line.starts_with("ggsample06  ggsample06.vert  ")), "{said}");
+    assert!(said.lines().any(|line| line.starts_with("flat  flat.vert, flat.frag  ")), "{said}");
+    assert!(said.lines().any(|line| line.starts_with("gouraud-point-light  gouraud.vert  ")), "{said}");
+    assert!(said.lines().count() >= 17, "{said}");
+}
+
+/// Without `--assignment` the names of the files say which homework it is; a folder on the way to a sample does as well.
+#[test]
+fn the_homework_is_found_by_the_names_of_the_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/assignments");
+    let folder = tempfile::tempdir().unwrap();
+    let graded = |files: &[&Path]| {
+        let output = ggrade().arg("grade").args(files).args(["--format", "json"]).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap_or_default(), said)
+    };
+    let put = |name: &str, from: &str| {
+        let path = folder.path().join(name);
+        fs::copy(root.join(from), &path).unwrap();
+        path
+    };
+    let (report, said) = graded(&[&put("Schlick.vert", "schlick/solution.vert")]);
+    assert_eq!((&report["assignment"], &report["score"]), (&"schlick".into(), &100.0.into()), "{said}");
+    assert_eq!(said, "");
+    let both = [put("flat.vert", "flat/solution.vert"), put("flat.frag", "flat/solution.frag")];
+    let (report, said) = graded(&[&both[0], &both[1]]);
+    assert_eq!((&report["assignment"], &report["score"]), (&"flat".into(), &100.0.into()), "{said}");
+    // Any other name is the first homework's, and that is said.
+    let (report, said) = graded(&[&put("mine.vert", "ggsample06/solution.vert")]);
+    assert_eq!((&report["assignment"], &report["score"]), (&"ggsample06".into(), &100.0.into()), "{said}");
+    assert!(said.contains("graded as ggsample06 (Gouraud shading)") && said.contains("--assignment NAME"), "{said}");
+    // Files of two homeworks are of none.
+    let output = ggrade().arg("grade").arg(&both[0]).arg(folder.path().join("Schlick.vert")).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("Built in: blinn (blinn.vert),"), "{said}");
 }
 
 #[test]

@@ -1,23 +1,24 @@
-#version 410 core
-layout (location = 0) in vec4 pv;
-in vec4 cv;
+#version 330 core
+// homework: blinn
 
-uniform mat4 mw;
-uniform mat4 mc;
-uniform mat4 mg;
+const vec4	pl	= vec4(0.3, -0.7, -3.4, 1.0);	// light position
+const vec4	lamb	= vec4(0.25, 0.25, 0.3, 1.0);	// ambient light
+const vec4	ldiff	= vec4(0.9, 0.85, 0.8, 0.0);	// diffuse light
+const vec4	lspec	= vec4(1.0, 0.95, 0.7, 0.0);	// specular light
+const vec4	kamb	= vec4(0.5, 0.1, 0.1, 1.0);	// ambient reflectance
+const vec4	kdiff	= vec4(0.75, 0.12, 0.08, 1.0);	// diffuse reflectance
+const vec4	kspec	= vec4(0.4, 0.42, 0.45, 1.0);	// specular reflectance
+const float	kshi	= 40.0;	// shininess
 
-out vec4 vc;
+in vec4	pv;		// position
+in vec4	cv;		// normal
 
-const vec4 pl = vec4(0.3, -0.7, -3.4, 1.0);
-const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
-const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
-const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
-const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
-const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
-const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
-const float kshi = 40.0;
+uniform mat4	mw, mc, mg;
 
-void main() {
+out vec4	vc;
+
+void main(void)
+{
   vec4 p = mw * pv;
   vec3 v = -normalize(p.xyz / p.w);
   vec3 l = normalize((pl * p.w - p * pl.w).xyz);

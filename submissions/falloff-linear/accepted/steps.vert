@@ -44,8 +44,8 @@ void main(void)
   float inside = step(rs, r) * step(r, re);
   float d = (1.0 - step(rs, r)) + inside * (re - r) / (re - rs);
   // 拡散反射光
-  float cosine = max(dot(n, l), 0.0);
-  vec4 diffuse = cosine * kdiff * ldiff;
+  float lambert = max(dot(n, l), 0.0);
+  vec4 diffuse = lambert * kdiff * ldiff;
 
   // 鏡面反射光
   float shine = pow(max(dot(n, h), 0.0), kshi);

@@ -43,8 +43,8 @@ void main(void)
   float r = length(pl.xyz - p.xyz);
   float d = clamp((re - r) / (re - rs), 0.0, 1.0);
   // 拡散反射光
-  float cosine = max(dot(n, l), 0.0);
-  vec4 diffuse = cosine * kdiff * ldiff;
+  float lambert = max(dot(n, l), 0.0);
+  vec4 diffuse = lambert * kdiff * ldiff;
 
   // 鏡面反射光
   float shine = pow(max(dot(n, h), 0.0), kshi);

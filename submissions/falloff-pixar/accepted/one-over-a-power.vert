@@ -52,8 +52,8 @@ void main(void)
     d = fc / pow(r / rc, se);
   }
   // 拡散反射光
-  float cosine = max(dot(n, l), 0.0);
-  vec4 diffuse = cosine * kdiff * ldiff;
+  float lambert = max(dot(n, l), 0.0);
+  vec4 diffuse = lambert * kdiff * ldiff;
 
   // 鏡面反射光
   float shine = pow(max(dot(n, h), 0.0), kshi);

@@ -45,8 +45,8 @@ void main(void)
   float r = length(pl.xyz - p.xyz);
   float d = fc * pow(rc / r, se);
   // 拡散反射光
-  float cosine = dot(n, l);
-  vec4 diffuse = cosine * kdiff * ldiff;
+  float lambert = dot(n, l);
+  vec4 diffuse = lambert * kdiff * ldiff;
 
   // 鏡面反射光
   float shine = pow(max(dot(n, h), 0.0), kshi);

@@ -47,8 +47,8 @@ void main(void)
   float k1 = se / k0;
   float d = r <= rc ? fmax * exp(k0 * pow(r / rc, -k1)) : fc * pow(rc / r, se);
   // 拡散反射光
-  float cosine = max(dot(n, l), 0.0);
-  vec4 diffuse = cosine * kdiff * ldiff;
+  float lambert = max(dot(n, l), 0.0);
+  vec4 diffuse = lambert * kdiff * ldiff;
 
   // 鏡面反射光
   float shine = pow(max(dot(n, h), 0.0), kshi);

@@ -35,13 +35,13 @@ Point at(vec4 p)
 void main()
 {
     vec4 p = mw * pv;
-    Point s = at(p);
+    Point sp = at(p);
     float r = length((pl - p).xyz);
     float att = 1.0 / dot(vec3(sc, sl, sq), vec3(1.0, r, r * r));
-    vec3 h = normalize(s.l + s.v);
+    vec3 h = normalize(sp.l + sp.v);
     vec4 i_a = kamb * lamb;
-    vec4 i_d = max(dot(s.n, s.l), 0.0) * kdiff * ldiff;
-    vec4 i_s = pow(max(dot(s.n, h), 0.0), kshi) * kspec * lspec;
+    vec4 i_d = max(dot(sp.n, sp.l), 0.0) * kdiff * ldiff;
+    vec4 i_s = pow(max(dot(sp.n, h), 0.0), kshi) * kspec * lspec;
     vc = i_a + att * (i_d + i_s);
     gl_Position = mc * pv;
 }

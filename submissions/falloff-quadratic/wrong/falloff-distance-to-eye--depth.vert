@@ -35,12 +35,12 @@ Point at(vec4 p)
 void main()
 {
     vec4 p = mw * pv;
-    Point s = at(p);
+    Point sp = at(p);
     float depth = -p.z / p.w;
-    vec3 h = normalize(s.l + s.v);
+    vec3 h = normalize(sp.l + sp.v);
     vec4 i_a = kamb * lamb;
-    vec4 i_d = max(dot(s.n, s.l), 0.0) * kdiff * ldiff;
-    vec4 i_s = pow(max(dot(s.n, h), 0.0), kshi) * kspec * lspec;
+    vec4 i_d = max(dot(sp.n, sp.l), 0.0) * kdiff * ldiff;
+    vec4 i_s = pow(max(dot(sp.n, h), 0.0), kshi) * kspec * lspec;
     vc = i_a + 1.0 / (sc + depth * sl + depth * depth * sq) * (i_d + i_s);
     gl_Position = mc * pv;
 }

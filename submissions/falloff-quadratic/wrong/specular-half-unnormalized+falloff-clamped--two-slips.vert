@@ -35,13 +35,13 @@ Point at(vec4 p)
 void main()
 {
     vec4 p = mw * pv;
-    Point s = at(p);
+    Point sp = at(p);
     float r = length(pl.xyz - p.xyz);
     float d = min(1.0, 1.0 / (sc + sl * r + sq * r * r));
-    vec3 h = (s.l + s.v) / 2.0;
+    vec3 h = (sp.l + sp.v) / 2.0;
     vec4 i_a = kamb * lamb;
-    vec4 i_d = max(dot(s.n, s.l), 0.0) * kdiff * ldiff;
-    vec4 i_s = pow(max(dot(s.n, h), 0.0), kshi) * kspec * lspec;
+    vec4 i_d = max(dot(sp.n, sp.l), 0.0) * kdiff * ldiff;
+    vec4 i_s = pow(max(dot(sp.n, h), 0.0), kshi) * kspec * lspec;
     vc = i_a + d * (i_d + i_s);
     gl_Position = mc * pv;
 }

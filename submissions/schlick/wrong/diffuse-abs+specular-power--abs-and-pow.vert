@@ -1,21 +1,26 @@
-#version 330 core
-// homework: schlick
+#version 450 core
 
-const vec4	pl	= vec4(2.0, -0.6, 1.5, 0.0);	// light position
-const vec4	lamb	= vec4(0.25, 0.25, 0.3, 1.0);	// ambient light
-const vec4	ldiff	= vec4(0.9, 0.85, 0.8, 0.0);	// diffuse light
-const vec4	lspec	= vec4(1.0, 0.95, 0.7, 0.0);	// specular light
-const vec4	kamb	= vec4(0.5, 0.1, 0.1, 1.0);	// ambient reflectance
-const vec4	kdiff	= vec4(0.75, 0.12, 0.08, 1.0);	// diffuse reflectance
-const vec4	kspec	= vec4(0.4, 0.42, 0.45, 1.0);	// specular reflectance
-const float	kshi	= 15.0;	// shininess
+/*
+ * schlick
+ */
 
-in vec4	pv;		// position
-in vec4	cv;		// normal
+const vec4 pl = vec4(2.0, -0.6, 1.5, 0.0); // 光源の位置
+const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0); // 環境光
+const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0); // 拡散反射光
+const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0); // 鏡面反射光
+const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0); // 環境光の反射係数
+const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0); // 拡散反射係数
+const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0); // 鏡面反射係数
+const float kshi = 15.0; // 輝き係数
 
-uniform mat4	mw, mc, mg;
+layout(location = 0) in vec4 pv; // 頂点位置
+layout(location = 1) in vec4 cv; // 法線
 
-out vec4	vc;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+layout(location = 0) out vec4 vc; // 色
 
 void main(void)
 {

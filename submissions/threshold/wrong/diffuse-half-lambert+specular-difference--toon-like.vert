@@ -1,4 +1,5 @@
-#version 410 core
+#version 400
+
 layout (location = 0) in vec4 pv;
 in vec4 cv;
 
@@ -6,8 +7,9 @@ uniform mat4 mw;
 uniform mat4 mc;
 uniform mat4 mg;
 
-out vec4 vc;
+out vec4 vc;  // to the fragment shader
 
+// given
 const vec4 pl = vec4(2.4, -0.6, -0.6, 0.0);
 const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
 const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
@@ -16,6 +18,8 @@ const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
 const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
 const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
 const float t = 0.903;
+
+// mine
 
 void main() {
   vec4 p = mw * pv;

@@ -1,5 +1,17 @@
-#version 400
+#version 410 core
 
+// shukudai: threshold.vert
+
+const vec4 pl = vec4(2.4, -0.6, -0.6, 0.0);  // kougen no ichi
+const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);  // kankyoukou
+const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);  // kakusan hansha kou
+const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);  // kyoumen hansha kou
+const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);  // kankyou keisuu
+const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);  // kakusan keisuu
+const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);  // kyoumen keisuu
+const float t = 0.903;  // shikii chi
+
+// nyuuryoku
 layout (location = 0) in vec4 pv;
 in vec4 cv;
 
@@ -7,19 +19,8 @@ uniform mat4 mw;
 uniform mat4 mc;
 uniform mat4 mg;
 
-out vec4 vc;  // to the fragment shader
-
-// given
-const vec4 pl = vec4(2.4, -0.6, -0.6, 0.0);
-const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
-const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
-const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
-const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
-const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
-const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
-const float t = 0.903;
-
-// mine
+// shutsuryoku
+out vec4 vc;
 
 void main() {
   vec4 p = mw * pv;

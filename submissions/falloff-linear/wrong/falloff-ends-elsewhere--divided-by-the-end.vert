@@ -1,0 +1,51 @@
+#version 410 core
+const vec4 pl = vec4(0.3, 0.9, -3.4, 1.0);
+const vec4 lamb = vec4(0.25, 0.25, 0.3, 1.0);
+const vec4 ldiff = vec4(0.9, 0.85, 0.8, 0.0);
+const vec4 lspec = vec4(1.0, 0.95, 0.7, 0.0);
+const vec4 kamb = vec4(0.5, 0.1, 0.1, 1.0);
+const vec4 kdiff = vec4(0.75, 0.12, 0.08, 1.0);
+const vec4 kspec = vec4(0.4, 0.42, 0.45, 1.0);
+const float kshi = 40.0;
+const float rs = 1.9;
+const float re = 3.1;
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+out vec4 vc;
+
+vec4 ambientTerm()
+{
+  return kamb * lamb;
+}
+
+vec4 diffuseTerm(vec3 n, vec3 l)
+{
+  return max(dot(n, l), 0.0) * kdiff * ldiff;
+}
+
+vec4 specularTerm(vec3 n, vec3 l, vec3 v)
+{
+  vec3 h = normalize(l + v);
+  return pow(max(dot(n, h), 0.0), kshi) * kspec * lspec;
+}
+
+float weight(vec4 p, vec3 l, vec3 v, vec3 n)
+{
+  float beyond = max(length(pl.xyz - p.xyz) - rs, 0.0);
+  return max(1.0 - beyond / re, 0.0);
+}
+
+void main()
+{
+  vec4 p = mw * pv;
+  vec3 v = -normalize(p.xyz / p.w);
+  vec3 l = normalize((pl * p.w - p * pl.w).xyz);
+  vec3 n = normalize((mg * cv).xyz);
+
+  float w = weight(p, l, v, n);
+  vc = ambientTerm() + w * (diffuseTerm(n, l) + specularTerm(n, l, v));
+  gl_Position = mc * pv;
+}
