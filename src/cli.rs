@@ -56,7 +56,7 @@ pub enum Command {
 /// Which homework, on which adapter.
 #[derive(Clone, Debug, Args)]
 pub struct Machine {
-    /// The assignment: the name of a built-in one, or the folder of one [default: the built-in one whose file it is]
+    /// The assignment: the name of a built-in one, or the folder of one [default: the built-in one whose file it is, or else ggsample06]
     #[arg(long, value_name = "NAME|FOLDER")]
     pub assignment: Option<String>,
     /// What renders: Mesa's software driver, or a real graphics card

@@ -42,7 +42,7 @@ pub struct Serve {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub trusted_proxies: Vec<String>,
     /// An assignment: the name of a built-in one, or the folder of one; may be given again, for a service with several
-    /// [default: all that are built in]
+    /// [default: ggsample06]
     #[arg(long, value_name = "NAME|FOLDER")]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<String>,

@@ -55,6 +55,7 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
     is_whole &= say_starter(said, &grade(&grade::handed_out(&assignment), "handed-out")?);
     is_whole &= shows::say(said, &assignment, &album)?;
     texts::say(said, &assignment);
+    is_whole &= texts::say_unfilled(said, &assignment);
     said.ok(&Text::new(format!("digest: {}", assignment.digest), format!("ダイジェスト: {}", assignment.digest)));
     Ok(if is_whole { ExitStatus::FullMarks } else { ExitStatus::Usage })
 }
