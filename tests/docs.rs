@@ -30,6 +30,14 @@ fn advice() -> String {
     table
 }
 
+fn derived() -> String {
+    let mut table = "| mistake | what it is | kept |\n| --- | --- | --- |\n".to_owned();
+    for (id, title, keeps) in reference::derived::costs() {
+        writeln!(table, "| `{id}-…` | {} | {:.0} % |", title.en, keeps * 100.0).unwrap();
+    }
+    table
+}
+
 /// Holds the table called `name` in `docs/scoring.md` against what is expected.
 fn check_table(name: &str, expected: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scoring.md");
@@ -44,9 +52,10 @@ fn check_table(name: &str, expected: &str) {
 }
 
 #[test]
-fn the_tables_of_mistakes_and_advice_are_the_assignments_own() {
+fn the_tables_of_mistakes_and_advice_are_the_programs_own() {
     check_table("mistakes", &mistakes());
     check_table("advice", &advice());
+    check_table("derived", &derived());
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod error;
 
 use crate::accepted::{AcceptedAnswer, Reading};
 use crate::advice::Advice;
+use crate::derived::{Derived, is_derived};
 use crate::equation::{Equation, Reads, Variant};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
@@ -18,7 +19,7 @@ use crate::typeset::Typeset;
 use crate::{Folder, Text, Value, manifest};
 pub use error::AssignmentError;
 pub(crate) use error::{both, error};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A homework as data.
 #[derive(Clone, Debug)]
@@ -64,6 +65,7 @@ pub struct Assignment {
     /// What a right answer shows at a probe.
     pub regions: Vec<Region>,
     pub(crate) probing: Probing,
+    pub(crate) derived: OnceLock<Arc<Derived>>,
 }
 
 /// A file that is handed in.
@@ -212,13 +214,23 @@ impl Assignment {
 
     /// The mistake with this id.
     pub fn mistake(&self, id: &str) -> Option<&Mistake> {
-        self.mistakes.iter().find(|m| m.id == id)
+        let own = self.mistakes.iter().find(|m| m.id == id);
+        own.or_else(|| self.deriving(id)?.assignment.mistake(id))
+    }
+
+    /// The homework with derived mistakes, where this is without them and `id` is that of one.
+    fn deriving(&self, id: &str) -> Option<&Derived> {
+        let has_some = || self.mistakes.iter().any(|mistake| is_derived(&mistake.id));
+        (is_derived(id) && !has_some()).then(|| self.derived()).filter(|derived| !derived.mistakes().is_empty())
     }
 
     /// Fraction of a rubric line's points that is kept by a mistake in the form in which it was found: 1 for a line that
     /// the form does not reach, although others of the same mistake do.
     pub fn keeps(&self, found: &FoundMistake, line: &RubricLine) -> f64 {
         let Some(mistake) = self.mistake(&found.id) else { return 1.0 };
+        if let Some(derived) = self.deriving(&found.id) {
+            return if derived.touches(found, line) { mistake.keeps(&line.id) } else { 1.0 };
+        }
         let reaches = mistake.forms.get(found.form).is_none_or(|form| self.reaches(form, line));
         if reaches { mistake.keeps(&line.id) } else { 1.0 }
     }
@@ -277,6 +289,9 @@ impl Assignment {
 
     /// The equation with these mistakes in it; `None` if one is not known or has no such form.
     pub fn variant(&self, mistakes: &[FoundMistake]) -> Option<Variant<'_>> {
+        if let Some(derived) = mistakes.iter().find_map(|found| self.deriving(&found.id)) {
+            return derived.assignment.variant(mistakes);
+        }
         let mut variant = self.equation.right();
         for found in mistakes {
             let form = self.mistake(&found.id)?.forms.get(found.form)?;
@@ -300,6 +315,10 @@ impl Assignment {
             }
             other.constants[place].value = value.clone();
             other.equation.constants[place].1 = value.clone();
+        }
+        other.derived = OnceLock::new();
+        if let Some(derived) = self.derived.get().and_then(|derived| derived.with_constants(changed)) {
+            let _ = other.derived.set(Arc::new(derived));
         }
         Ok(other)
     }

@@ -1,10 +1,10 @@
 //! What a right answer computes: the definitions of the solution, in their order, with any of them replaced.
 
-use crate::Value;
 use crate::interpreter::{Formula, Registers, Sheet, Type};
 use crate::mistake::Form;
 use crate::probes::Region;
 use crate::value;
+use crate::{Text, Value};
 use glam::{DVec3, DVec4};
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -39,6 +39,8 @@ pub struct Definition {
     pub slide: Option<u32>,
     /// What the lecture calls it.
     pub symbol: Option<String>,
+    /// What it is, as a part of a sentence.
+    pub means: Option<Text>,
 }
 
 /// Constants, uniforms, vertex attributes, and what is computed from them, each in a cell of the solution's sheet.
@@ -111,7 +113,10 @@ impl Equation {
 
     /// The numbers of the colour as they are seen: a fragment's go to a target of fixed point, a vertex's to the next stage.
     pub fn seen(&self, numbers: &[f64]) -> DVec3 {
-        let colour = value::vec3(numbers);
+        self.clamped(value::vec3(numbers))
+    }
+
+    pub(crate) fn clamped(&self, colour: DVec3) -> DVec3 {
         if self.reads == Reads::Varyings { colour.map(|channel| channel.clamp(0.0, 1.0)) } else { colour }
     }
 
@@ -145,6 +150,11 @@ impl Equation {
     /// The cell of a form's free parameter.
     pub(crate) fn parameter_cell(&self) -> usize {
         self.cell(self.definitions.len())
+    }
+
+    /// Whether a formula uses no more definitions than a search keeps.
+    pub(crate) fn is_few(&self, formula: &Formula) -> bool {
+        self.used(formula).count() <= MAX_INPUTS
     }
 
     /// The names of the constants in the expression of a definition.
@@ -184,18 +194,33 @@ impl<'a> Variant<'a> {
         self
     }
 
+    /// Takes back what forms replace, and replaces what another one does.
+    pub(crate) fn instead(&mut self, form: Option<&'a Form>, parameter: f64) {
+        for (at, definition) in self.equation.definitions.iter().enumerate() {
+            (self.formulas[at], self.parameters[at]) = (&definition.formula, f64::NAN);
+        }
+        for replaced in form.iter().flat_map(|form| &form.overrides) {
+            (self.formulas[replaced.definition], self.parameters[replaced.definition]) = (&replaced.formula, parameter);
+        }
+    }
+
     /// Computes every definition for one sample. `uniforms` stand in the interface's order, `attributes` as [`Reads`] says.
     pub fn evaluate(&self, uniforms: &[Value], attributes: &[Value]) -> Evaluation<'a> {
-        self.computed(uniforms, attributes, None)
+        self.computed(uniforms, attributes, &[], [0.0; 3])
     }
 
     /// By how much the colour moves, before it is clamped, when so much is added to a definition.
     pub fn moves(&self, uniforms: &[Value], attributes: &[Value], definition: usize, by: [f64; 3]) -> DVec3 {
-        let colour = |by| self.computed(uniforms, attributes, Some((definition, by))).vec3(self.equation.colour);
-        colour(by) - colour([0.0; 3])
+        self.moved(uniforms, attributes, &[definition], by)
     }
 
-    fn computed(&self, uniforms: &[Value], attributes: &[Value], moved: Option<(usize, [f64; 3])>) -> Evaluation<'a> {
+    /// The same when so much is added to each of some definitions.
+    pub(crate) fn moved(&self, uniforms: &[Value], attributes: &[Value], definitions: &[usize], by: [f64; 3]) -> DVec3 {
+        let colour = |moved: &[usize]| self.computed(uniforms, attributes, moved, by).vec3(self.equation.colour);
+        colour(definitions) - colour(&[])
+    }
+
+    fn computed(&self, uniforms: &[Value], attributes: &[Value], moved: &[usize], by: [f64; 3]) -> Evaluation<'a> {
         let Equation { sheet, .. } = self.equation;
         let mut registers = self.registers.borrow_mut();
         let given = self.equation.uniforms.iter().zip(uniforms);
@@ -208,7 +233,7 @@ impl<'a> Variant<'a> {
                 sheet.set(self.equation.parameter_cell(), &[*parameter], &mut registers);
             }
             sheet.compute(formula, &mut registers);
-            if let Some((_, by)) = moved.filter(|(moved, _)| *moved == definition) {
+            if moved.contains(&definition) {
                 let mut own = sheet.get(formula.cell(), &registers).to_vec();
                 own.iter_mut().zip(by).for_each(|(number, by)| *number += by);
                 sheet.set(formula.cell(), &own, &mut registers);

@@ -5,6 +5,7 @@
 
 mod alternatives;
 mod columns;
+mod derived;
 mod digits;
 mod features;
 mod parts;
@@ -14,6 +15,7 @@ mod terms;
 mod views;
 
 pub use alternatives::Alternatives;
+pub use derived::explain_derived;
 pub use features::{FEWEST, Footprints, alike, judge_features, program_of};
 pub use parts::{Part, Parts, explain_parts};
 pub use terms::{TermJudgement, Worst};
@@ -127,7 +129,7 @@ fn alternating(wrong: &[usize], rest: &[usize]) -> Vec<usize> {
 const OVERFLOWING: f64 = 1e36;
 
 /// Whether a sample is what is expected, see [`explain`].
-fn agrees(expected: DVec3, sample: DVec3, tolerance: f64) -> bool {
+pub(crate) fn agrees(expected: DVec3, sample: DVec3, tolerance: f64) -> bool {
     (0..3).all(|channel| channel_agrees(expected[channel], sample[channel], tolerance))
 }
 

@@ -37,6 +37,7 @@
 //! after every operation instead; how far the two are apart tells how much a value depends on rounding.
 
 mod builtin;
+mod change;
 mod code;
 mod compile;
 mod nature;
@@ -52,8 +53,9 @@ mod types;
 #[cfg(test)]
 mod tests;
 
+pub use change::{FREE, Operator, ProgramSlip, program_slips};
 pub use code::{Interpolation, Variable};
-pub use compile::Draft;
+pub use compile::{Draft, Slip};
 pub use nature::{Copied, Nature};
 pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Run, Stopped, Undefined};
 pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
@@ -150,6 +152,10 @@ impl Program {
         let preprocessed = text::preprocess(source)?;
         let items = parse::parse(&preprocessed.tokens)?;
         Ok(Self { code: compile::compile(&items, preprocessed.version, stage)? })
+    }
+
+    fn of(code: code::Code) -> Self {
+        Self { code }
     }
 
     /// The uniforms that can be set, each part of a structure, array or block by its path.

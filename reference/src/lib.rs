@@ -28,6 +28,7 @@ pub mod accepted;
 pub mod advice;
 pub mod assignment;
 pub mod built_in;
+pub mod derived;
 pub mod equation;
 pub mod feature;
 pub mod feed;

@@ -286,6 +286,8 @@ pub struct Definition {
     pub slide: Option<u32>,
     /// What the lecture calls it.
     pub symbol: Option<String>,
+    /// What it is, as a part of a sentence: `the cosine between N and L`.
+    pub means: Option<Text>,
 }
 
 /// How probes are chosen. Without designs they lie near the vertices of what the scene draws.

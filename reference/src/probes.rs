@@ -128,6 +128,18 @@ impl ProbeSet {
         Some([first, first + other].map(|group| group * each..(group + 1) * each))
     }
 
+    /// The probes of so many groups, and their places in this set.
+    pub(crate) fn part(&self, groups: usize) -> (Vec<usize>, Self) {
+        let count = self.groups.len().max(1);
+        let each = self.probes.len() / count;
+        let chosen: Vec<usize> = (0..groups.min(count)).map(|at| at * count / groups.min(count)).collect();
+        let places: Vec<usize> = chosen.iter().flat_map(|group| group * each..(group + 1) * each).collect();
+        let own = |(at, place): (usize, &usize)| Probe { group: at / each.max(1), ..self.probes[*place].clone() };
+        let probes = places.iter().enumerate().map(own).collect();
+        let groups = chosen.iter().map(|group| self.groups[*group].clone()).collect();
+        (places, Self { seed: self.seed, groups, probes, twins: 0 })
+    }
+
     /// The probes of one group.
     pub fn of_group(&self, group: usize) -> &[Probe] {
         let each = self.probes.len() / self.groups.len().max(1);

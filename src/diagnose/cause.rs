@@ -11,10 +11,11 @@ use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::{
-    Alternatives, Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_parts, is_right, judge_features, judge_terms,
-    program_of,
+    Alternatives, Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_derived, explain_parts, is_right,
+    judge_features, judge_terms, program_of,
 };
 use reference::mistake::FoundMistake;
+use reference::probes::ProbeSet;
 
 const HARD_CODED: &str = "hard-coded";
 /// Nothing that is known explains a wrong answer.
@@ -117,11 +118,32 @@ fn unexplained(
     if let Some(parts) = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
         return Cause::Parts(parts);
     }
+    if let Some(cause) = derived(evidence, samples) {
+        return cause;
+    }
     for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
         terms.retain(|term| term.line != feature.line);
         terms.push(feature);
     }
     Cause::Unexplained(addends::credit(evidence, terms))
+}
+
+/// The derived mistakes that explain the samples, also those that nobody knows beforehand; perhaps on top of changed constants.
+fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
+    let constants = constants::changed(evidence.source, evidence.assignment);
+    let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
+        let found = explain_derived(assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
+        let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
+        let cause = Cause::Known { constants, found };
+        (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)
+    };
+    if let Some(changed) = with_constants(evidence.assignment, &constants).filter(|_| !constants.is_empty()) {
+        let cause = explained(&changed, &changed.reprobe(evidence.probes), constants);
+        if cause.is_some() {
+            return cause;
+        }
+    }
+    explained(evidence.assignment, evidence.probes, Vec::new())
 }
 
 /// Whether a sample has a given position, but for the factor that all have in common where they are right.
@@ -170,8 +192,13 @@ fn explained_by(
 impl Cause {
     /// The cause; a lookup where the shader does something else at probes that nobody knows beforehand.
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
+        if self.is_refuted(evidence) { Self::HardCoded } else { self }
+    }
+
+    /// Whether the shader does something else at probes that nobody knows beforehand.
+    fn is_refuted(&self, evidence: &Evidence<'_>) -> bool {
         let Evidence { assignment, fresh, .. } = *evidence;
-        let is_refuted = match &self {
+        match self {
             // What an undefined power gives depends on the driver.
             Self::Known { .. } if evidence.undefined.is_some() => false,
             Self::Known { constants, found } if constants.is_empty() => {
@@ -184,8 +211,7 @@ impl Cause {
             Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
             Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
             Self::HardCoded | Self::Parts(_) | Self::Unexplained(_) => false,
-        };
-        if is_refuted { Self::HardCoded } else { self }
+        }
     }
 
     /// The equation that computes what the shader computes, where one is known.

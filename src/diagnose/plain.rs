@@ -25,6 +25,13 @@ pub fn explained(
     }
 }
 
+/// Whether the text has what each of these mistakes needs.
+pub fn is_borne_out(assignment: &Assignment, source: &Source, found: &[FoundMistake]) -> bool {
+    let squeezed = squeezed(&statements(source));
+    let needed = found.iter().filter_map(|found| Some(&assignment.mistake(&found.id)?.needs));
+    needed.filter(|needs| !needs.is_empty()).all(|needs| needs.iter().any(|part| squeezed.contains(part)))
+}
+
 /// The assignment without the found mistakes that the text refutes, if there are any.
 fn without_refuted(assignment: &Assignment, source: &Source, found: &[FoundMistake]) -> Option<Assignment> {
     let statements = statements(source);

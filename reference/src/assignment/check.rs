@@ -21,7 +21,7 @@ use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use solution::Solution;
 use std::collections::HashSet;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use variants::Variants;
 
 /// What is said of features.
@@ -89,6 +89,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
         advice,
         regions,
         probing,
+        derived: OnceLock::new(),
     };
     probing::lobe_is_known(&assignment)?;
     answers::are_defined(&assignment)?;

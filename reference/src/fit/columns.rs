@@ -6,7 +6,7 @@
 use crate::equation::{Equation, MAX_INPUTS};
 use crate::interpreter::{Formula, Registers};
 use crate::probes::{Probe, ProbeSet};
-use crate::{Assignment, Value};
+use crate::{Assignment, Value, value};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -190,6 +190,12 @@ impl<'a> Columns<'a> {
 
     /// The vertex colour at a probe for `base` with some definitions replaced, without making columns of them.
     pub(super) fn colour_with(&mut self, base: &Resolved, replaced: &[Replaced], probe: usize) -> DVec3 {
+        let numbers = self.unclamped_with(base, replaced, probe);
+        self.equation.clamped(numbers)
+    }
+
+    /// The same as the stage writes it.
+    pub(super) fn unclamped_with(&mut self, base: &Resolved, replaced: &[Replaced], probe: usize) -> DVec3 {
         let Equation { sheet, colour, first, .. } = self.equation;
         let mut changed: Set = 0;
         let from = replaced.first().map_or(base.len(), |r| r.definition);
@@ -217,9 +223,11 @@ impl<'a> Columns<'a> {
             changed |= 1 << definition;
         }
         if changed & (1 << *colour) == 0 {
-            return self.colour(self.colour_column(base), probe);
+            let column = self.colour_column(base);
+            self.fill(column, probe);
+            return value::vec3(self.columns[column as usize].at(probe));
         }
-        self.equation.seen(sheet.get(first + colour, &self.scratch))
+        value::vec3(sheet.get(first + colour, &self.scratch))
     }
 
     fn fill(&mut self, column: u32, probe: usize) {

@@ -15,18 +15,18 @@ const MOST_COLOURS: u64 = 800_000;
 
 /// One form of one mistake.
 pub(super) struct Candidate<'a> {
-    mistake: usize,
+    pub mistake: usize,
     form: usize,
     /// The definitions that are replaced.
-    touches: Set,
+    pub touches: Set,
     /// The rubric lines that it costs points, as bits.
     pub lines: u64,
     /// The rubric lines of which it leaves nothing.
     empties: u64,
     /// Whether it is in what becomes of all terms.
-    is_of_all: bool,
+    pub is_of_all: bool,
     /// Whether nothing of the rubric's terms is left in the colour: such a mistake stands alone.
-    whole: bool,
+    pub whole: bool,
     pub replaced: Vec<Replaced>,
     pub free: Option<&'a FreeParameter>,
 }
@@ -39,13 +39,13 @@ impl Candidate<'_> {
 }
 
 /// A candidate of an explanation, and the value of what is free in it.
-type Chosen<'a> = (Rc<Candidate<'a>>, Option<f64>);
+pub(super) type Chosen<'a> = (Rc<Candidate<'a>>, Option<f64>);
 
 pub(super) struct Search<'a> {
-    assignment: &'a Assignment,
+    pub assignment: &'a Assignment,
     pub columns: Columns<'a>,
     /// In the order of the definitions that they replace: what is replaced last has the least to recompute.
-    candidates: Vec<Rc<Candidate<'a>>>,
+    pub candidates: Vec<Rc<Candidate<'a>>>,
     /// In the order in which they are tried.
     pub samples: Vec<DVec3>,
     pub tolerance: f64,
@@ -56,14 +56,14 @@ pub(super) struct Search<'a> {
     /// What may be spent on the combinations of the present number of mistakes.
     budget: u64,
     /// The most plausible explanation so far.
-    best: Option<(Rank, Vec<FoundMistake>)>,
+    pub best: Option<(Rank, Vec<FoundMistake>)>,
 }
 
 /// How plausible an explanation is among others of as many mistakes; less is more.
 ///
 /// Mistakes that touch few lines of the rubric come before those that upset everything, and then the table's order decides: an
 /// answer without diffuse and specular term is just that, and not one with a reversed light and a constant normal.
-type Rank = (u32, Vec<usize>);
+pub(super) type Rank = (u32, Vec<usize>);
 
 /// The mistakes that explain samples that are not all right; `None` if nothing explains them.
 ///
@@ -75,24 +75,7 @@ pub(super) fn search(
     order: &[usize],
     tolerance: f64,
 ) -> Option<Vec<FoundMistake>> {
-    let mut columns = Columns::new(assignment, probes, order);
-    let right = columns.right();
-    let mut candidates = candidates(assignment, &mut columns);
-    let agreeing = Views::new(assignment, probes, samples, tolerance).agreeing(order);
-    candidates.retain(|c| {
-        !agreeing.iter().any(|(line, places)| is_refuted(c, *line, places, &mut columns, &right, tolerance))
-    });
-    let mut search = Search {
-        assignment,
-        candidates,
-        columns,
-        samples: order.iter().map(|place| samples[*place]).collect(),
-        tolerance,
-        count: 0,
-        spent: 0,
-        budget: u64::MAX,
-        best: None,
-    };
+    let (mut search, right) = Search::new(assignment, probes, samples, order, tolerance);
     for count in 1..=MOST_MISTAKES {
         for free in 0..=count {
             search.count = count;
@@ -197,6 +180,35 @@ fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
 }
 
 impl<'a> Search<'a> {
+    /// A search that has found nothing yet, and the right equation. See [`search`].
+    pub fn new(
+        assignment: &'a Assignment,
+        probes: &'a ProbeSet,
+        samples: &[DVec3],
+        order: &[usize],
+        tolerance: f64,
+    ) -> (Self, Resolved) {
+        let mut columns = Columns::new(assignment, probes, order);
+        let right = columns.right();
+        let mut candidates = candidates(assignment, &mut columns);
+        let agreeing = Views::new(assignment, probes, samples, tolerance).agreeing(order);
+        candidates.retain(|c| {
+            !agreeing.iter().any(|(line, places)| is_refuted(c, *line, places, &mut columns, &right, tolerance))
+        });
+        let search = Self {
+            assignment,
+            candidates,
+            columns,
+            samples: order.iter().map(|place| samples[*place]).collect(),
+            tolerance,
+            count: 0,
+            spent: 0,
+            budget: u64::MAX,
+            best: None,
+        };
+        (search, right)
+    }
+
     /// Adds to the chosen ones `fixed` candidates without a free parameter, from `next` on, and `free` with one.
     fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Chosen<'a>>, next: usize, fixed: usize, free: usize) {
         if self.spent > self.budget {
@@ -263,7 +275,7 @@ impl<'a> Search<'a> {
     }
 
     /// Keeps an explanation if it is the most plausible so far.
-    fn keep(&mut self, chosen: &[Chosen<'a>], last: &[Chosen<'a>]) {
+    pub fn keep(&mut self, chosen: &[Chosen<'a>], last: &[Chosen<'a>]) {
         let mut all = [chosen, last].concat();
         all.sort_by_key(|(c, _)| (c.mistake, c.form));
         let lines = all.iter().map(|(c, _)| c.lines.count_ones()).sum();
@@ -285,7 +297,7 @@ impl<'a> Search<'a> {
 ///
 /// `free`: one of the mistakes is to have a free parameter. Then not even two of three are in the same lines, and none is in
 /// what becomes of all terms, because a number to choose makes up for nearly anything.
-fn fits(chosen: &[Chosen<'_>], new: &Candidate<'_>, free: bool) -> bool {
+pub(super) fn fits(chosen: &[Chosen<'_>], new: &Candidate<'_>, free: bool) -> bool {
     let is_last = chosen.len() + 1 == MOST_MISTAKES;
     let clash = |(c, _): &Chosen| {
         let empty = c.empties & new.lines == new.lines || new.empties & c.lines == c.lines;

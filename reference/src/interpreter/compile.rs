@@ -15,7 +15,7 @@ mod sheet;
 
 pub use builder::{Builder, class};
 pub use conversion::{Direction, Signature};
-pub use sheet::Draft;
+pub use sheet::{Draft, Slip};
 
 use super::code::{Code, Node, Slot, Variable};
 use super::syntax::{Expression, Function, Item, Name};

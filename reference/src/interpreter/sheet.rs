@@ -147,6 +147,23 @@ impl Sheet {
         Self { cells, functions, first, formulas, textures }
     }
 
+    /// How many scalars its registers hold.
+    pub(super) fn slots(&self) -> usize {
+        self.first.len()
+    }
+
+    /// The sheet with what is compiled beyond it, see [`super::Draft::beyond`].
+    pub fn with(&self, beyond: &Self) -> Self {
+        let more = beyond.first.get(self.first.len()..).unwrap_or_default();
+        Self {
+            cells: self.cells.clone(),
+            functions: self.functions.clone(),
+            first: [self.first.as_slice(), more].concat(),
+            formulas: self.formulas.clone(),
+            textures: Arc::clone(&self.textures),
+        }
+    }
+
     /// All cells: constants, uniforms and inputs, then the definitions in their order, then the number that is free.
     pub fn cells(&self) -> &[Cell] {
         &self.cells

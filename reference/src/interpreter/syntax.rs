@@ -7,7 +7,7 @@ use std::rc::Rc;
 pub type Name = Rc<str>;
 
 /// What stands outside of functions.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Item {
     /// A function or its prototype.
     Function(Function),
@@ -20,7 +20,7 @@ pub enum Item {
 }
 
 /// A function.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Function {
     /// Where its name stands.
     pub line: u32,
@@ -35,7 +35,7 @@ pub struct Function {
 }
 
 /// A parameter.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Parameter {
     /// `in`, `out`, `inout`, `const`.
     pub storage: Storage,
@@ -81,7 +81,7 @@ pub struct Qualifiers {
 }
 
 /// A type as it is written.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct TypeName {
     /// Where it stands.
     pub line: u32,
@@ -92,7 +92,7 @@ pub struct TypeName {
 }
 
 /// A type without lengths.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Base {
     /// By its name.
     Named(Name),
@@ -101,7 +101,7 @@ pub enum Base {
 }
 
 /// Variables of one type.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Declaration {
     /// Where it starts.
     pub line: u32,
@@ -114,7 +114,7 @@ pub struct Declaration {
 }
 
 /// A variable as it is declared.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Variable {
     /// Where its name stands.
     pub line: u32,
@@ -127,7 +127,7 @@ pub struct Variable {
 }
 
 /// An interface block.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct InterfaceBlock {
     /// Where it starts.
     pub line: u32,
@@ -142,7 +142,7 @@ pub struct InterfaceBlock {
 }
 
 /// A statement.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Statement {
     /// Where it starts.
     pub line: u32,
@@ -151,7 +151,7 @@ pub struct Statement {
 }
 
 /// What a statement is.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum StatementKind {
     /// `;`
     Empty,
@@ -182,7 +182,7 @@ pub enum StatementKind {
 }
 
 /// What a loop asks.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Condition {
     /// A value.
     Expression(Expression),
@@ -191,7 +191,7 @@ pub enum Condition {
 }
 
 /// An expression.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Expression {
     /// Where its operator or first token stands.
     pub line: u32,
@@ -202,7 +202,7 @@ pub struct Expression {
 }
 
 /// What an expression is.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum ExpressionKind {
     /// `7`, `7u`
     Integer(f64, bool),

@@ -271,7 +271,8 @@ impl<'a> Solution<'a> {
             let Cell { name, kind, .. } = cells[formula.cell()].clone();
             let said = m.definition.get(&name);
             let (slide, symbol) = said.map_or((None, None), |said| (said.slide, said.symbol.clone()));
-            Definition { name, kind, formula: formula.clone(), slide, symbol }
+            let means = said.and_then(|said| said.means.clone());
+            Definition { name, kind, formula: formula.clone(), slide, symbol, means }
         };
         let definitions: Vec<Definition> = self.draft.formulas().iter().map(definition).collect();
         let given = |name: &str| cells[..self.first].iter().position(|cell| cell.name == *name);

@@ -2,6 +2,7 @@
 
 use super::Compiler;
 use super::scope::Symbol;
+use crate::interpreter::change::{self, Change, FREE, Operator, Scope, written};
 use crate::interpreter::code::{Node, Slot, Variable as Outside};
 use crate::interpreter::sheet::{Cell, Formula, Sheet, Stored};
 use crate::interpreter::syntax::{
@@ -22,6 +23,8 @@ pub struct Draft {
     /// Values of the constants that may have others.
     values: Vec<(Slot, f64)>,
     formulas: Vec<Formula>,
+    /// What the formulas are, as they are written.
+    expressions: Vec<Expression>,
     stored: Vec<Stored>,
     /// How many inputs the file declares.
     declared: usize,
@@ -31,6 +34,30 @@ pub struct Draft {
     temporaries: Slot,
     /// `main` among the functions, which calls what the definitions call.
     main: usize,
+}
+
+/// A definition by a slip.
+pub struct Slip {
+    /// Of which kind it is.
+    pub operator: Operator,
+    /// The name that is concerned, where it is a single one.
+    pub about: Option<String>,
+    /// Whether it is in the whole definition, not in a part of it.
+    pub is_whole: bool,
+    /// Whether it is a bound of 0 that is concerned.
+    pub is_bound_by_zero: bool,
+    /// What is written.
+    pub text: String,
+    /// Whether a number in it is free.
+    pub is_free: bool,
+    /// How it is computed.
+    pub formula: Formula,
+}
+
+/// A name, or the path of a member, as an expression.
+fn path(name: &str) -> Option<Expression> {
+    let tokens = text::preprocess(name).ok()?.tokens;
+    parse::parse_expression(&tokens, HashSet::new()).ok()
 }
 
 /// As many as usual formulas need.
@@ -81,6 +108,7 @@ impl Draft {
             cells: Vec::new(),
             values: Vec::new(),
             formulas: Vec::new(),
+            expressions: Vec::new(),
             stored: Vec::new(),
             declared: 0,
             hindrance: None,
@@ -186,6 +214,7 @@ impl Draft {
         self.compiler.scopes.declare(Name::clone(name), Symbol::variable(kind, slot));
         let formula = self.formula(self.cells.len() - 1, nodes, variable.line)?;
         self.formulas.push(formula);
+        self.expressions.push(value.clone());
         Ok(())
     }
 
@@ -213,6 +242,7 @@ impl Draft {
                 let cell = self.cells.len() - 1;
                 let formula = self.formula(cell, nodes, line)?;
                 self.formulas.push(formula);
+                self.expressions.push(from.clone());
                 cell
             }
         };
@@ -240,6 +270,59 @@ impl Draft {
         self.compiler.scopes.pop();
         let (nodes, _) = compiled?;
         self.formula(cell, nodes, 1)
+    }
+
+    /// The slips of a definition, as far as they have its type and use what is there before it.
+    pub fn slips(&mut self, definition: usize) -> Vec<Slip> {
+        let cell = self.formulas[definition].cell();
+        let root = self.expressions[definition].clone();
+        let named = self.cells[..cell].iter().filter(|cell| !cell.name.is_empty());
+        let names: Vec<(Expression, Type)> =
+            named.filter_map(|cell| Some((path(&cell.name)?, cell.kind.clone()))).rev().collect();
+        let varies: HashSet<usize> = self.formulas.iter().map(Formula::cell).collect();
+        let inputs: Vec<&str> = self.compiler.inputs.iter().map(|input| input.name.as_str()).collect();
+        let is_constant = |(at, cell): &(usize, &Cell)| !varies.contains(at) && !inputs.contains(&cell.name.as_str());
+        let constants = self.cells.iter().enumerate().filter(is_constant).map(|(_, cell)| cell.name.clone()).collect();
+        let compiler = &mut self.compiler;
+        let mut kind = |expression: &Expression| {
+            let mark = compiler.builder.mark();
+            let value = compiler.nodes(|compiler| compiler.value(expression));
+            compiler.end_statement(mark).ok()?;
+            Some(value.ok()?.1.kind)
+        };
+        let mut scope = Scope { names: &names, constants: &constants, kind: &mut kind, free: true };
+        let changes = change::changes(&root, &mut scope);
+        self.compiler.scopes.push();
+        if let Some(last) = self.cells.last() {
+            self.compiler.scopes.declare(Name::from(FREE), Symbol::variable(Type::FLOAT, last.slots.start));
+        }
+        let free = self.cells.len() - 1;
+        let slips = changes.into_iter().filter_map(|change| self.slip(cell, free, &change)).collect();
+        self.compiler.scopes.pop();
+        slips
+    }
+
+    fn slip(&mut self, cell: usize, free: usize, change: &Change) -> Option<Slip> {
+        let Cell { kind, slots, .. } = self.cells[cell].clone();
+        let (nodes, _) = self.compiled(&change.expression, &kind, Some(slots.start)).ok()?;
+        let formula = self.formula(cell, nodes, 1).ok()?;
+        let is_known = formula.uses().iter().all(|used| *used < cell || *used == free);
+        is_known.then(|| Slip {
+            operator: change.operator,
+            about: change.about.as_ref().map(|name| name.to_string()),
+            text: written(&change.expression),
+            is_whole: change.is_whole,
+            is_bound_by_zero: change.is_bound_by_zero,
+            is_free: formula.uses().contains(&free),
+            formula,
+        })
+    }
+
+    /// Leaves the slots to a sheet of the same program that it has beyond this draft's: what is compiled from here on can be
+    /// computed in the registers of both.
+    pub fn beyond(&mut self, sheet: &Sheet) -> Result<(), Refusal> {
+        let missing = sheet.slots().saturating_sub(self.compiler.builder.constants.len());
+        self.compiler.builder.allocate(missing).map(drop)
     }
 
     /// A condition on the definitions. Where it holds, the cell of what is free becomes 1, and 0 elsewhere.

@@ -1,0 +1,125 @@
+//! Slips of which each is a program of its own: of solutions that are no lists of definitions, and of functions beside `main`.
+
+use super::{Derived, wording};
+use crate::Assignment;
+use crate::accepted::{AcceptedAnswer, Computed};
+use crate::assignment::{HandedIn, RubricLine};
+use crate::equation::Reads;
+use crate::fit::{Alternatives, Footprints, TOLERANCE, agrees};
+use crate::interpreter::{Operator, ProgramSlip, Stage, program_slips};
+use crate::mistake::{Condition, FoundMistake, Mistake};
+use crate::pipeline::Pipeline;
+use crate::probes::ProbeSet;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Probes under so many cameras tell most programs apart.
+const FIRST: usize = 3;
+
+/// What every program shows at the first probes of a set.
+#[derive(Debug)]
+pub(crate) struct Screen {
+    seed: u64,
+    /// The probes: those of some of the groups.
+    places: Vec<usize>,
+    shown: Vec<(FoundMistake, Vec<Computed>)>,
+}
+
+/// The mistakes of an assignment that are programs, the plainer ones first.
+pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
+    let mut grouped: BTreeMap<(Operator, String), Vec<(ProgramSlip, AcceptedAnswer)>> = BTreeMap::new();
+    for file in &assignment.files {
+        let is_part = |name: &str| assignment.equation.reads() == Reads::Outputs || name != "main";
+        let slips = program_slips(&file.solution.text, Stage::from(file.stage), &is_part).unwrap_or_default();
+        for mut slip in slips {
+            let Some(answer) = linked(assignment, file, &mut slip) else { continue };
+            let name = slip.name.clone().unwrap_or_else(|| "result".into());
+            grouped.entry((slip.operator, name)).or_default().push((slip, answer));
+        }
+    }
+    let mistake = |((operator, name), slips): ((Operator, String), Vec<(ProgramSlip, AcceptedAnswer)>)| {
+        let (slips, answers): (Vec<_>, Vec<_>) = slips.into_iter().unzip();
+        Mistake { variants: answers, ..wording::of_program(assignment, operator, &name, &slips) }
+    };
+    grouped.into_iter().map(mistake).collect()
+}
+
+/// The solution with a slip in one of its files.
+fn linked(assignment: &Assignment, file: &HandedIn, slip: &mut ProgramSlip) -> Option<AcceptedAnswer> {
+    let own = Arc::new(slip.program.clone());
+    let right = &assignment.pipeline;
+    let [vertex, fragment] = match Stage::from(file.stage) {
+        Stage::Vertex => [&own, &right.fragment],
+        Stage::Fragment => [&right.vertex, &own],
+    };
+    let pipeline = Pipeline::link(vertex, fragment, None).ok()?;
+    Some(AcceptedAnswer { name: slip.text.clone(), pipeline, reading: None })
+}
+
+/// Adds mistakes to others, into those of the same name.
+pub(super) fn add(all: &mut Vec<Mistake>, first: usize, more: Vec<Mistake>) {
+    for mut mistake in more {
+        let Some(known) = all[first..].iter_mut().find(|known| known.id == mistake.id) else {
+            all.push(mistake);
+            continue;
+        };
+        let before = known.ways();
+        for (place, text) in mistake.instead.iter_mut().enumerate() {
+            text.when = vec![Condition::Forms(vec![before + place])];
+        }
+        known.variants.append(&mut mistake.variants);
+        known.instead.append(&mut mistake.instead);
+    }
+}
+
+impl Derived {
+    /// The mistakes that are programs, in their order.
+    fn programs(&self) -> impl Iterator<Item = (FoundMistake, &AcceptedAnswer)> {
+        self.mistakes().iter().flat_map(|mistake| {
+            let ways = mistake.variants.iter().zip(mistake.forms.len()..);
+            ways.map(|(program, form)| (FoundMistake { id: mistake.id.clone(), form, parameter: None }, program))
+        })
+    }
+
+    /// The programs that may show what is shown at the first of these probes: `shows` says whether they do at a place.
+    pub(crate) fn likely(&self, probes: &ProbeSet, shows: &dyn Fn(usize, &Computed) -> bool) -> Vec<FoundMistake> {
+        let compute = || {
+            let (places, part) = probes.part(FIRST);
+            let programs = self.programs();
+            let shown = programs.map(|(found, program)| (found, self.assignment.computed_by(program, &part)));
+            Screen { seed: probes.seed, places, shown: shown.collect() }
+        };
+        let known = self.screen.get_or_init(compute);
+        let other;
+        let screen = if known.seed == probes.seed {
+            known
+        } else {
+            other = compute();
+            &other
+        };
+        let is_likely = |shown: &[Computed]| screen.places.iter().zip(shown).all(|(place, own)| shows(*place, own));
+        screen.shown.iter().filter(|(_, shown)| is_likely(shown)).map(|(found, _)| found.clone()).collect()
+    }
+
+    /// What a mistake that is a program shows at probes.
+    pub(crate) fn shown(&self, found: &FoundMistake, probes: &ProbeSet) -> Option<Vec<Computed>> {
+        let program = self.assignment.mistake(&found.id)?.program(found.form)?;
+        Some(self.assignment.computed_by(program, probes))
+    }
+
+    /// Whether a line is touched by a program: it is not where what it judges shows by itself, and is right there.
+    pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+        let probes = self.judging.get_or_init(|| self.assignment.judging_probes());
+        let Some(shown) = self.shown(found, probes) else { return true };
+        let pairs = || probes.iter().zip(&shown);
+        if self.assignment.judges_position(line) {
+            return pairs().any(|(probe, (_, position))| (probe.position - *position).abs().max_element() > TOLERANCE);
+        }
+        let is_right = |place: usize| agrees(probes.probes[place].colour, shown[place].0, TOLERANCE);
+        let alternatives = Alternatives::new(&self.assignment, probes);
+        let judged = Footprints::of(&alternatives, TOLERANCE).judged(&is_right);
+        let number = self.assignment.rubric.iter().position(|own| own.id == line.id);
+        let own = judged.into_iter().find(|(judged, _)| Some(*judged) == number);
+        own.is_none_or(|(_, places)| !places.into_iter().all(is_right))
+    }
+}

@@ -1,0 +1,184 @@
+//! What is said of a derived mistake: made from its operator, and from what the lecture or the student calls the quantity.
+
+use super::{OperatorText, PREFIX, operator_of};
+use crate::assignment::RubricLine;
+use crate::interpreter::{Operator, ProgramSlip, Slip};
+use crate::mistake::{Alternative, Condition, Mistake};
+use crate::{Assignment, Text};
+
+/// A mistake without its forms, which are those of the slips.
+pub(super) fn mistake(assignment: &Assignment, operator: Operator, definition: usize, slips: &[Slip]) -> Mistake {
+    let name = &assignment.equation.definitions[definition].name;
+    let quantity = Quantity::of(assignment, definition);
+    let said = operator_of(operator);
+    let instead = slips.iter().enumerate().map(|(form, slip)| {
+        let part = quantity.part(assignment, slip);
+        alternative(form, said, &quantity, &part, slip.is_bound_by_zero)
+    });
+    Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) }
+}
+
+/// A mistake without its variants, which are those of the slips.
+pub(super) fn of_program(assignment: &Assignment, operator: Operator, name: &str, slips: &[ProgramSlip]) -> Mistake {
+    let quantity = Quantity::of_program(assignment);
+    let said = operator_of(operator);
+    let part = Text {
+        en: format!("a value in {}", quantity.named.en),
+        ja: format!("{}を求める途中の値", quantity.named.ja),
+    };
+    let instead = slips.iter().enumerate();
+    let instead = instead.map(|(form, slip)| alternative(form, said, &quantity, &part, slip.is_bound_by_zero));
+    Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) }
+}
+
+fn alternative(
+    form: usize,
+    said: &OperatorText,
+    quantity: &Quantity,
+    part: &Text,
+    is_bound_by_zero: bool,
+) -> Alternative {
+    let bounded = said.bounded.as_ref().filter(|_| is_bound_by_zero);
+    let equation = bounded.map_or(&said.equation, |bounded| &bounded.equation);
+    let look = bounded.map_or(&said.look, |bounded| &bounded.look);
+    Alternative {
+        when: vec![Condition::Forms(vec![form])],
+        seen: None,
+        equation: Some(filled(equation, &quantity.plain, &quantity.plain)),
+        look: Some(filled(look, &quantity.named, part)),
+    }
+}
+
+fn blank(assignment: &Assignment, said: &OperatorText, name: &str, seen: Text) -> Mistake {
+    let keeps = assignment.rubric.iter().map(|line| (line.id.clone(), said.keeps));
+    Mistake {
+        id: format!("{PREFIX}{}-{name}", said.id),
+        title: Text { en: format!("{} ({name})", said.title.en), ja: format!("{} ({name})", said.title.ja) },
+        keeps: keeps.collect(),
+        forms: Vec::new(),
+        variants: Vec::new(),
+        fit: None,
+        handed_out: false,
+        undefined_power: false,
+        at_use: false,
+        needs: Vec::new(),
+        lacks: Vec::new(),
+        seen,
+        equation: said.equation.clone(),
+        look: said.look.clone(),
+        instead: Vec::new(),
+    }
+}
+
+/// What a definition is called.
+struct Quantity {
+    /// Without the student's own name for it.
+    plain: Text,
+    /// With it.
+    named: Text,
+    /// Whether it is called anything.
+    is_known: bool,
+}
+
+impl Quantity {
+    fn of(assignment: &Assignment, definition: usize) -> Self {
+        let own = &assignment.equation.definitions[definition];
+        let plain = match (&own.means, &own.symbol) {
+            (Some(means), _) => means.clone(),
+            (None, Some(symbol)) => Text { en: symbol.clone(), ja: symbol.clone() },
+            (None, None) => of_line(assignment, definition),
+        };
+        let named = Text {
+            en: format!("{}⟨ ({{{}}})⟩", plain.en, own.name),
+            ja: format!("{}⟨ ({{{}}}) ⟩", plain.ja.trim_end(), own.name),
+        };
+        let named = if own.means.is_none() && own.symbol.is_some() { plain.clone() } else { named };
+        Self {
+            plain,
+            named,
+            is_known: own.means.is_some() || own.symbol.is_some() || is_judged(assignment, definition),
+        }
+    }
+
+    /// What a program computes of which nothing is told apart.
+    fn of_program(assignment: &Assignment) -> Self {
+        let plain = match &assignment.rubric[..] {
+            [line] => part_called(line),
+            _ => Text { en: "the result".into(), ja: "結果".into() },
+        };
+        Self { named: plain.clone(), plain, is_known: true }
+    }
+
+    fn seen(&self) -> Text {
+        Text {
+            en: format!("The result is not the right one where {} counts.", self.plain.en),
+            ja: format!("{}が効くところで、結果が正しいものと違います。", self.plain.ja.trim_start()),
+        }
+    }
+
+    /// What of the quantity is concerned: all of it, a value that goes into it, or some part.
+    fn part(&self, assignment: &Assignment, slip: &Slip) -> Text {
+        if slip.is_whole || !self.is_known {
+            return self.named.clone();
+        }
+        let Text { en, ja } = &self.named;
+        match slip.about.as_deref().and_then(|about| value_called(assignment, about)) {
+            Some(value) => Text { en: format!("{} in {en}", value.en), ja: format!("{ja}に使う{}", value.ja) },
+            None => Text { en: format!("a value in {en}"), ja: format!("{ja}を求める途中の値") },
+        }
+    }
+}
+
+/// What a definition without a name of the lecture's is part of.
+fn of_line(assignment: &Assignment, definition: usize) -> Text {
+    let equation = &assignment.equation;
+    let judged = |line: &&RubricLine| equation.index(&line.judges);
+    let mut lines = assignment.rubric.iter();
+    if let Some(line) = lines.clone().find(|line| judged(line) == Some(definition)) {
+        return Text {
+            en: format!("the part “{}”", line.label.en), ja: format!("「{}」の部分", line.label.ja)
+        };
+    }
+    if let Some(line) = lines.find(|line| judged(line).is_some_and(|judged| equation.depends(judged, definition))) {
+        return Text {
+            en: format!("a value of the part “{}”", line.label.en),
+            ja: format!("「{}」に使う値", line.label.ja),
+        };
+    }
+    Text { en: "the colour".into(), ja: "色".into() }
+}
+
+fn part_called(line: &RubricLine) -> Text {
+    Text { en: format!("the part “{}”", line.label.en), ja: format!("「{}」の部分", line.label.ja) }
+}
+
+fn is_judged(assignment: &Assignment, definition: usize) -> bool {
+    assignment.rubric.iter().any(|line| assignment.equation.index(&line.judges) == Some(definition))
+}
+
+/// A value by its name in the solution, where it is called anything.
+fn value_called(assignment: &Assignment, name: &str) -> Option<Text> {
+    if let Some(definition) = assignment.equation.index(name) {
+        return Some(Quantity::of(assignment, definition)).filter(|quantity| quantity.is_known).map(|it| it.named);
+    }
+    let constant = assignment.constants.iter().find(|constant| constant.name == name)?;
+    let Text { en, ja } = &constant.means;
+    Some(Text { en: format!("the {en}⟨ ({{{name}}})⟩"), ja: format!("{ja}⟨ ({{{name}}}) ⟩") })
+}
+
+fn filled(text: &Text, quantity: &Text, part: &Text) -> Text {
+    let en = text.en.replace("{quantity}", &quantity.en).replace("{part}", &part.en);
+    let en = en.replace("{Quantity}", &capital(&quantity.en)).replace("{Part}", &capital(&part.en));
+    let ja = |name: &str, with: &Text, text: String| text.replace(&format!("{{{name}}}"), &with.ja);
+    let mut japanese = text.ja.clone();
+    for (name, with) in [("quantity", quantity), ("Quantity", quantity), ("part", part), ("Part", part)] {
+        japanese = ja(name, with, japanese);
+    }
+    Text { en, ja: japanese.trim_start().to_owned() }
+}
+
+/// With a capital letter at the beginning.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

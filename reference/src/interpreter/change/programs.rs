@@ -1,0 +1,208 @@
+//! The slips of a program that is no list of definitions: each as a program of its own.
+
+use super::tree::{Names, Walk, walk};
+use super::{Change, Operator, Scope, changes, written};
+use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Item, Name, Statement, StatementKind};
+use crate::interpreter::types::{Scalar, Type};
+use crate::interpreter::{Program, Refusal, Stage, builtin, compile, parse, text};
+use std::collections::HashSet;
+
+/// A program with a slip in it.
+pub struct ProgramSlip {
+    /// Of which kind it is.
+    pub operator: Operator,
+    /// The variable that is given a value there.
+    pub name: Option<String>,
+    /// Whether it is a bound of 0 that is concerned.
+    pub is_bound_by_zero: bool,
+    /// What is written there.
+    pub text: String,
+    /// The program.
+    pub program: Program,
+}
+
+/// Most slips of a program.
+const MOST: usize = 1_200;
+
+/// Where a slip is, and what stands there then.
+enum Slip {
+    /// The expression with this number, in the order of a walk.
+    Expression(usize, Option<Name>, Change),
+    /// What the loop with this number goes on by.
+    Bound(usize, Change),
+    /// The statement with this number is left out.
+    Statement(usize, Option<Name>),
+}
+
+/// The slips of a program in those of its functions that `is_part` names, as far as they are programs. The plainer ones come first.
+///
+/// # Errors
+/// The program is none.
+pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool) -> Result<Vec<ProgramSlip>, Refusal> {
+    let preprocessed = text::preprocess(source)?;
+    let items = parse::parse(&preprocessed.tokens)?;
+    let mut slips = found(&items, is_part);
+    slips.sort_by_key(|slip| match slip {
+        Slip::Expression(_, _, change) | Slip::Bound(_, change) => change.operator,
+        Slip::Statement(..) => Operator::StatementLeftOut,
+    });
+    slips.truncate(MOST);
+    let compiled = |slip: &Slip| {
+        let code = compile::compile(&with(&items, slip, is_part), preprocessed.version, stage).ok()?;
+        let program = Program::of(code);
+        let (name, change) = match slip {
+            Slip::Expression(_, name, change) => (name.as_ref(), Some(change)),
+            Slip::Bound(_, change) => (None, Some(change)),
+            Slip::Statement(_, name) => (name.as_ref(), None),
+        };
+        Some(ProgramSlip {
+            operator: change.map_or(Operator::StatementLeftOut, |change| change.operator),
+            name: name.map(|name| name.to_string()),
+            is_bound_by_zero: change.is_some_and(|change| change.is_bound_by_zero),
+            text: change.map(|change| written(&change.expression)).unwrap_or_default(),
+            program,
+        })
+    };
+    Ok(slips.iter().filter_map(compiled).collect())
+}
+
+fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<Slip> {
+    let mut items = items.to_vec();
+    let mut slips = Vec::new();
+    let mut of_statements = Vec::new();
+    let (mut expression, mut statement) = (0, 0);
+    let mut bounds = Vec::new();
+    let mut bound = 0;
+    walk(
+        &mut items,
+        &mut Walk {
+            is_part,
+            bound: &mut |own, names| {
+                let changes = changes_of(own, names).into_iter();
+                // Any other slip may be a loop without an end.
+                let changes = changes.filter(|change| change.operator == Operator::OtherNumber);
+                bounds.extend(changes.map(|change| Slip::Bound(bound, change)));
+                bound += 1;
+            },
+            statement: &mut |own, _| {
+                if let Some(name) = left_out(own) {
+                    of_statements.push(Slip::Statement(statement, name));
+                }
+                statement += 1;
+            },
+            expression: &mut |own, name, names| {
+                let own = changes_of(own, names).into_iter();
+                slips.extend(own.map(|change| Slip::Expression(expression, name.cloned(), change)));
+                expression += 1;
+            },
+        },
+    );
+    slips.extend(of_statements);
+    slips.extend(bounds);
+    slips
+}
+
+fn changes_of(own: &Expression, names: &Names) -> Vec<Change> {
+    let typed = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
+    let typed: Vec<(Expression, Type)> = typed.collect();
+    let mut kind = |expression: &Expression| guess(expression, &typed);
+    changes(own, &mut Scope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false })
+}
+
+fn of_name(name: &Name, line: u32) -> Expression {
+    Expression { line, changes: false, kind: ExpressionKind::Name(Name::clone(name)) }
+}
+
+/// Whether a statement may be left out, and the variable that then has no other value.
+fn left_out(statement: &Statement) -> Option<Option<Name>> {
+    match &statement.kind {
+        StatementKind::Expression(expression) => match &expression.kind {
+            ExpressionKind::Assign(_, to, _) => match &to.kind {
+                ExpressionKind::Name(name) => Some(Some(Name::clone(name))),
+                _ => Some(None),
+            },
+            _ => Some(None),
+        },
+        StatementKind::If(_, _, None) | StatementKind::Discard => Some(None),
+        _ => None,
+    }
+}
+
+/// The program with a slip in it.
+fn with(items: &[Item], slip: &Slip, is_part: &dyn Fn(&str) -> bool) -> Vec<Item> {
+    let mut items = items.to_vec();
+    let (mut expression, mut statement, mut bound) = (0, 0, 0);
+    walk(
+        &mut items,
+        &mut Walk {
+            is_part,
+            bound: &mut |own, _| {
+                if let Slip::Bound(at, change) = slip
+                    && *at == bound
+                {
+                    *own = change.expression.clone();
+                }
+                bound += 1;
+            },
+            statement: &mut |own, _| {
+                if matches!(slip, Slip::Statement(at, _) if *at == statement) {
+                    own.kind = StatementKind::Empty;
+                }
+                statement += 1;
+            },
+            expression: &mut |own, _, _| {
+                if let Slip::Expression(at, _, change) = slip
+                    && *at == expression
+                {
+                    *own = change.expression.clone();
+                }
+                expression += 1;
+            },
+        },
+    );
+    items
+}
+
+/// The type of an expression, as far as it is easily seen; the compiler knows better.
+fn guess(expression: &Expression, names: &[(Expression, Type)]) -> Option<Type> {
+    match &expression.kind {
+        ExpressionKind::Floating(_, false) => Some(Type::FLOAT),
+        ExpressionKind::Integer(_, false) => Some(Type::INT),
+        ExpressionKind::Name(_) => {
+            let text = written(expression);
+            names.iter().find(|(name, _)| written(name) == text).map(|(_, kind)| kind.clone())
+        }
+        ExpressionKind::Unary(_, of) => guess(of, names),
+        ExpressionKind::Comma(all) => guess(all.last()?, names),
+        ExpressionKind::Conditional(_, yes, _) => guess(yes, names),
+        ExpressionKind::Member(of, taken) => match guess(of, names)? {
+            Type::Vector(scalar, _) => Some(Type::Vector(scalar, u8::try_from(taken.len()).ok()?)),
+            _ => None,
+        },
+        ExpressionKind::Call(name, arguments) => {
+            let own = Type::named(name);
+            let of = |place: usize| guess(arguments.get(place)?, names);
+            own.or_else(|| match &**name {
+                "dot" | "length" | "distance" => Some(Type::FLOAT),
+                "texture" => Some(Type::VEC4),
+                "step" => of(1),
+                "smoothstep" => of(2),
+                name => builtin::signatures(name).first().and_then(|_| of(0)),
+            })
+        }
+        ExpressionKind::Chain(first, others) => {
+            if others.iter().any(|(operator, ..)| !is_arithmetic(*operator)) {
+                return Some(Type::BOOL);
+            }
+            let kinds = std::iter::once(&**first).chain(others.iter().map(|(_, _, other)| other));
+            let kinds: Vec<Type> = kinds.map(|operand| guess(operand, names)).collect::<Option<_>>()?;
+            let is_vector = |kind: &&Type| matches!(kind, Type::Vector(Scalar::Float, count) if *count > 1);
+            kinds.iter().rfind(is_vector).or(kinds.first()).cloned()
+        }
+        _ => None,
+    }
+}
+
+fn is_arithmetic(operator: Binary) -> bool {
+    matches!(operator, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Remainder)
+}

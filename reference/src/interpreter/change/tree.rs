@@ -1,0 +1,200 @@
+//! Places in a syntax tree, and the tree with another expression at one of them.
+
+use crate::interpreter::syntax::{
+    Base, Condition, Declaration, Expression, ExpressionKind, Function, Item, Name, Statement, StatementKind, Storage,
+};
+
+/// A place in an expression: which operand of which operand.
+pub(super) type Path = Vec<usize>;
+
+/// An expression within another.
+pub(super) struct Place<'a> {
+    pub own: &'a Expression,
+    /// What it is an operand of.
+    pub parent: Option<&'a Expression>,
+}
+
+impl<'a> Place<'a> {
+    pub fn of(root: &'a Expression, path: &[usize]) -> Self {
+        let mut place = Self { own: root, parent: None };
+        for at in path {
+            place = Self { own: operands(place.own)[*at], parent: Some(place.own) };
+        }
+        place
+    }
+
+    pub fn is_root(&self) -> bool {
+        self.parent.is_none()
+    }
+}
+
+/// All places, the outermost first.
+pub(super) fn paths(root: &Expression) -> Vec<Path> {
+    let mut paths = vec![Vec::new()];
+    let mut next = 0;
+    while let Some(path) = paths.get(next).cloned() {
+        let count = operands(Place::of(root, &path).own).len();
+        paths.extend((0..count).map(|at| [path.as_slice(), &[at]].concat()));
+        next += 1;
+    }
+    paths
+}
+
+/// What an expression is made of; what is written to is no part of it.
+fn operands(expression: &Expression) -> Vec<&Expression> {
+    match &expression.kind {
+        ExpressionKind::Unary(_, of) | ExpressionKind::Member(of, _) => vec![of],
+        ExpressionKind::Chain(first, others) => {
+            std::iter::once(&**first).chain(others.iter().map(|(_, _, other)| other)).collect()
+        }
+        ExpressionKind::Assign(_, _, from) => vec![from],
+        ExpressionKind::Conditional(condition, yes, no) => vec![condition, yes, no],
+        ExpressionKind::Comma(all) | ExpressionKind::Call(_, all) | ExpressionKind::ArrayConstructor(_, all) => {
+            all.iter().collect()
+        }
+        ExpressionKind::Index(of, index) => vec![of, index],
+        _ => Vec::new(),
+    }
+}
+
+fn operand_mut(expression: &mut Expression, at: usize) -> Option<&mut Expression> {
+    match &mut expression.kind {
+        ExpressionKind::Unary(_, of) | ExpressionKind::Member(of, _) => Some(of),
+        ExpressionKind::Chain(first, _) if at == 0 => Some(first),
+        ExpressionKind::Chain(_, others) => others.get_mut(at - 1).map(|(_, _, other)| other),
+        ExpressionKind::Assign(_, _, from) => Some(from),
+        ExpressionKind::Conditional(condition, yes, no) => Some([condition, yes, no].into_iter().nth(at)?),
+        ExpressionKind::Comma(all) | ExpressionKind::Call(_, all) | ExpressionKind::ArrayConstructor(_, all) => {
+            all.get_mut(at)
+        }
+        ExpressionKind::Index(of, index) => Some(if at == 0 { of } else { index }),
+        _ => None,
+    }
+}
+
+/// `root` with another expression at a place.
+pub(super) fn with(root: &Expression, path: &[usize], other: Expression) -> Expression {
+    let mut changed = root.clone();
+    let mut place = Some(&mut changed);
+    for at in path {
+        place = place.and_then(|place| operand_mut(place, *at));
+    }
+    if let Some(place) = place {
+        *place = other;
+    }
+    changed
+}
+
+/// Names, and the names of their types.
+pub type Names = [(Name, Name)];
+
+/// What a walk through a program meets.
+pub struct Walk<'w> {
+    /// Whether the function of a name is gone through.
+    pub is_part: &'w dyn Fn(&str) -> bool,
+    /// What is called for every statement: may replace it. The names that are known there, with the names of their types.
+    pub statement: &'w mut dyn FnMut(&mut Statement, &Names),
+    /// What is called for every expression that is not part of another, with the variable that it gives a value to.
+    pub expression: &'w mut dyn FnMut(&mut Expression, Option<&Name>, &Names),
+    /// What is called for what a loop goes on by.
+    pub bound: &'w mut dyn FnMut(&mut Expression, &Names),
+}
+
+/// Goes through the functions of a program, in the order of the text.
+pub fn walk(items: &mut [Item], walk: &mut Walk<'_>) {
+    let mut names: Vec<(Name, Name)> = Vec::new();
+    for item in items {
+        match item {
+            Item::Declaration(declaration) => {
+                if declaration.qualifiers.storage != Storage::Output {
+                    declared(declaration, &mut names);
+                }
+            }
+            Item::Function(function) if (walk.is_part)(&function.name) => {
+                let known = names.len();
+                of_function(function, walk, &mut names);
+                names.truncate(known);
+            }
+            Item::Function(_) | Item::Block(_) | Item::Requalification => {}
+        }
+    }
+}
+
+fn of_function(function: &mut Function, walk: &mut Walk<'_>, names: &mut Vec<(Name, Name)>) {
+    for parameter in &function.parameters {
+        if let Base::Named(kind) = &parameter.kind.base {
+            names.push((Name::clone(&parameter.name), Name::clone(kind)));
+        }
+    }
+    function.body.iter_mut().flatten().for_each(|statement| of_statement(statement, walk, names));
+}
+
+fn of_statement(statement: &mut Statement, walk: &mut Walk<'_>, names: &mut Vec<(Name, Name)>) {
+    (walk.statement)(statement, names);
+    let known = names.len();
+    match &mut statement.kind {
+        StatementKind::Expression(expression) => {
+            let name = assigned(expression);
+            (walk.expression)(expression, name.as_ref(), names);
+        }
+        StatementKind::Declaration(declaration) => {
+            of_declaration(declaration, walk, names);
+            return;
+        }
+        StatementKind::Block(all) | StatementKind::Switch(_, all) => {
+            all.iter_mut().for_each(|statement| of_statement(statement, walk, names));
+        }
+        StatementKind::If(condition, yes, no) => {
+            (walk.expression)(condition, None, names);
+            of_statement(yes, walk, names);
+            if let Some(no) = no {
+                of_statement(no, walk, names);
+            }
+        }
+        StatementKind::Loop(first, condition, _, body) => {
+            if let Some(first) = first {
+                of_statement(first, walk, names);
+            }
+            if let Some(Condition::Expression(condition)) = condition {
+                (walk.bound)(condition, names);
+            }
+            of_statement(body, walk, names);
+        }
+        StatementKind::DoWhile(body, condition) => {
+            of_statement(body, walk, names);
+            (walk.bound)(condition, names);
+        }
+        StatementKind::Return(Some(value)) => (walk.expression)(value, None, names),
+        _ => {}
+    }
+    names.truncate(known);
+}
+
+fn of_declaration(declaration: &mut Declaration, walk: &mut Walk<'_>, names: &mut Vec<(Name, Name)>) {
+    for variable in &mut declaration.variables {
+        if let Some(value) = &mut variable.value {
+            (walk.expression)(value, Some(&variable.name), names);
+        }
+    }
+    declared(declaration, names);
+}
+
+fn declared(declaration: &Declaration, names: &mut Vec<(Name, Name)>) {
+    if let Base::Named(kind) = &declaration.kind.base {
+        let own = declaration.variables.iter().filter(|variable| variable.lengths.is_empty());
+        names.extend(own.map(|variable| (Name::clone(&variable.name), Name::clone(kind))));
+    }
+}
+
+/// The variable that an assignment gives a value to.
+fn assigned(expression: &Expression) -> Option<Name> {
+    let ExpressionKind::Assign(_, to, _) = &expression.kind else { return None };
+    let mut to = &**to;
+    loop {
+        match &to.kind {
+            ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => to = of,
+            ExpressionKind::Name(name) => return Some(Name::clone(name)),
+            _ => return None,
+        }
+    }
+}
