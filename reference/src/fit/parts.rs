@@ -138,9 +138,9 @@ impl Search<'_> {
         }))
     }
 
-    /// Whether nothing of a channel of a colour is cut off.
+    /// Whether nothing of a channel of a colour is cut off. What is no number is not cut off, and explains nothing.
     fn is_whole(&self, colour: DVec3, channel: usize) -> bool {
-        !self.is_clamped || colour[channel] < FULL
+        !(self.is_clamped && colour[channel] >= FULL)
     }
 
     /// Whether a sample shows this, which is made of what is right and of `base`, as far as nothing of these is cut off.
