@@ -48,8 +48,8 @@ void main()
     float ls = dot(-l, axis);
     float cp = cos(radians(thetap));
     float cu = cos(radians(thetau));
-    float fading = pow(clamp((ls - cu) / (cp - cu), 0.0, 1.0), sexp);
-    float limited = ls > cu ? fading : 0.0;
+    float fading = pow(max(ls, 0.0), sexp);
+    float limited = pow(clamp((ls - cu) / (cp - cu), 0.0, 1.0), sexp);
     float c = ls >= cp ? 1.0 : limited;
 
     // No light from behind the surface.
