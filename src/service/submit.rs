@@ -1,24 +1,28 @@
 //! The one way in: every set of files that a student hands in, by page, editor or API.
 
+mod files;
+
+mod allowed;
+
 use super::State;
 use super::clock::millis;
 use super::errors::Problem;
 use super::grading::{GradingResult, Job};
 use super::idempotency;
 use super::identity::{Identity, new_id};
-use super::roster::not_on_roster;
-use super::store::{Audience, Key, NewSubmission, Stored, Submission, Via};
+use super::store::{Key, NewSubmission, Stored, Submission, Via};
 use super::{Config, metrics, store};
-use crate::batch::intake::{self, Content, HandInPart};
 use crate::diagnose::Hints;
-use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
-use crate::hand_in::{HandIn, HandedInFile};
-use crate::language::Text;
+use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
+pub(super) use allowed::is_stranger;
+use allowed::may_hand_in;
 use axum::http::StatusCode;
+use files::checked;
+pub(super) use files::{check_text, for_slots};
 use sha2::{Digest, Sha256};
 use std::sync::Arc;
 use std::time::Instant;
@@ -157,153 +161,6 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
     place.fill(Job { submission: submission.clone(), hand_in: new.hand_in, since: Instant::now() });
     let outcome = in_time(state, &mut listener).await;
     Ok(Some(Receipt { submission, outcome }))
-}
-
-/// The files that the homework asks for, where they may be handed in at all.
-async fn checked(state: &State, upload: &Upload) -> Result<(store::Assignment, HandIn), Problem> {
-    if state.is_ending() {
-        return Err(Problem::new(
-            StatusCode::SERVICE_UNAVAILABLE,
-            "ending",
-            "The service is being restarted; nothing was stored. Please try again in a minute.",
-            "サービスを再起動しています。何も保存されていません。1 分ほどしてからもう一度試してください。",
-        )
-        .retry_after(10));
-    }
-    let hand_in = asked_for(state, upload.hand_in.clone()).await?;
-    let assignment = state.store.assignment(&state.assignment.id).await?;
-    may_hand_in(state, &assignment, upload).await?;
-    Ok((assignment, hand_in))
-}
-
-/// The files that the homework asks for among those that somebody sent, archives opened. What is missing, double or no
-/// text is named; it is not stored and costs no attempt.
-async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Problem> {
-    let given = given(state, sent.files);
-    let options = intake::Options::new(&state.assignment);
-    let chosen = tokio::task::spawn_blocking(move || intake::one(given, &options));
-    let hand_in = match chosen.await.map_err(|panic| Problem::internal(&panic))? {
-        Content::Files { hand_in, .. } => hand_in,
-        Content::Nothing(why) => return Err(unfilled(&why)),
-    };
-    for (file, slot) in hand_in.files.iter().zip(&state.assignment.files) {
-        check_text(slot, &file.bytes).map_err(|problem| match hand_in.files.len() {
-            1 => problem,
-            _ => problem.about(&file.name),
-        })?;
-    }
-    Ok(hand_in)
-}
-
-/// What there is for which slot among the files that somebody chose, archives opened, see [`intake::some`].
-pub(super) async fn for_slots(
-    state: &State,
-    sent: Vec<HandedInFile>,
-    shown: usize,
-) -> Result<impl Iterator<Item = (usize, HandedInFile)>, Problem> {
-    let given = given(state, sent);
-    let options = intake::Options::new(&state.assignment);
-    let placed = tokio::task::spawn_blocking(move || intake::some(given, shown, &options));
-    let placed = placed.await.map_err(|panic| Problem::internal(&panic))?.map_err(|why| unfilled(&why))?;
-    Ok((0..).zip(placed).filter_map(|(slot, file)| Some((slot, file?))))
-}
-
-fn given(state: &State, sent: Vec<HandedInFile>) -> Vec<HandInPart> {
-    let named = |(index, file): (usize, HandedInFile)| {
-        let name = file_name(&file.name, state.assignment.files.get(index));
-        HandInPart::File { file: HandedInFile { name, ..file }, local: None }
-    };
-    sent.into_iter().enumerate().map(named).collect()
-}
-
-/// The answer to files of which the homework's slots cannot be filled.
-fn unfilled(why: &Text) -> Problem {
-    Problem::new(
-        StatusCode::UNPROCESSABLE_ENTITY,
-        "files",
-        format!("{} Nothing was stored.", why.en),
-        format!("{}何も保存されていません。", why.ja),
-    )
-}
-
-/// Whether the file for a slot can be read as text. What cannot is not stored and costs no attempt.
-pub(super) fn check_text(slot: &Slot, bytes: &[u8]) -> Result<(), Problem> {
-    if bytes.is_empty() {
-        return Err(Problem::unprocessable(
-            "The file is empty. Save it in your text editor and choose it again.",
-            "ファイルが空です。テキストエディタで保存してから、もう一度選んでください。",
-        ));
-    }
-    if bytes.len() > MAX_UPLOAD {
-        return Err(too_large());
-    }
-    let Some(Diagnostic { message, hint, .. }) = source::not_text(slot.stage.into(), bytes) else { return Ok(()) };
-    let (en, ja) = hint.map(|hint| (format!("{} ", hint.en), hint.ja)).unwrap_or_default();
-    Err(Problem::new(
-        StatusCode::UNPROCESSABLE_ENTITY,
-        "not-text",
-        format!("{} {en}Nothing was stored.", message.en),
-        format!("{}{ja}何も保存されていません。", message.ja),
-    ))
-}
-
-async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upload) -> Result<(), Problem> {
-    let forbidden = |kind, en: &str, ja: &str| Err(Problem::new(StatusCode::FORBIDDEN, kind, en, ja));
-    let now = state.clock.now();
-    if assignment.opens_at.is_some_and(|opens| now < opens) {
-        return forbidden("not-open", "Handing in has not begun yet.", "提出の受付はまだ始まっていません。");
-    }
-    let is_draft = upload.via == Via::Editor;
-    if assignment.is_closed(now) && !(is_draft && assignment.practice) {
-        return forbidden("closed", "Handing in is over.", "提出の受付は終了しました。");
-    }
-    if assignment.audience == Audience::Number && upload.identity.student().is_none() {
-        return forbidden(
-            "no-number",
-            "Open the course link first and give your student number.",
-            "先に授業のリンクを開き、学籍番号を入力してください。",
-        );
-    }
-    // A number from before the roster counts for nobody; whoever hands in under it must learn that now.
-    if !is_draft
-        && let Some(student) = upload.identity.student()
-        && is_stranger(state, student).await?
-    {
-        return Err(not_on_roster(&student.number));
-    }
-    if is_draft && !assignment.grades_drafts(now) {
-        return forbidden(
-            "no-drafts",
-            "The number of attempts is limited, so nothing is graded while you type: hand in to be graded.",
-            "提出回数に制限があるため、入力中の採点は行いません。提出すると採点します。",
-        );
-    }
-    let Some(limit) = assignment.attempts.filter(|_| !is_draft) else { return Ok(()) };
-    let student = upload.identity.student().map(|student| student.id.as_str());
-    let made = match (upload.identity.owner_id(), student) {
-        (None, None) => {
-            return forbidden(
-                "no-number",
-                "The number of attempts is limited: hand in on the page, or say for which student.",
-                "提出回数に制限があります。ページから提出するか、学生を指定してください。",
-            );
-        }
-        (owner, student) => state.store.attempts(&assignment.id, owner.unwrap_or_default(), student).await?,
-    };
-    if made >= limit {
-        return Err(Problem::new(
-            StatusCode::FORBIDDEN,
-            "attempts",
-            format!("All {limit} attempts are used up."),
-            format!("提出できる回数 ({limit} 回) を使い切りました。"),
-        ));
-    }
-    Ok(())
-}
-
-/// Whether there is a roster, and this student is not on it.
-pub(super) async fn is_stranger(state: &State, student: &store::Student) -> Result<bool, Problem> {
-    Ok(!student.is_on_roster() && state.store.has_roster().await?)
 }
 
 /// The answer to a file that is larger.

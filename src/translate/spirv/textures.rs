@@ -4,118 +4,23 @@
 //! So samplers may stand in structures and arrays, be chosen by an index and be handed to functions, which naga takes in
 //! no other way; what a lookup gives is that of the reference's rules, and depends on no driver.
 
+mod image;
+
+mod library;
+
 use super::code::{Code, Instruction};
 use super::lower::{Builder, rewrite};
-use super::op::{self, decoration, storage};
-use crate::translate::glslang::{Reached, Request, Rules, Stage, StageText, compile};
+use super::op::{self};
+pub use image::Samplers;
+use image::{ImageType, Texel};
+use library::splice;
 use std::collections::HashMap;
-use std::ffi::CString;
-use std::sync::OnceLock;
 
 /// What the names of the functions end with that read textures; no GLSL has such a name.
 pub const OURS: &str = "@ours";
 
 /// Bind group and binding of the textures.
 pub const TEXTURES: (u32, u32) = (1, 1);
-
-/// What a sampler's or image's type is made of (SPIR-V specification, `OpTypeImage`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct ImageType {
-    dimension: u32,
-    has_layers: bool,
-    compares: bool,
-    scalar: Texel,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Texel {
-    Float,
-    Int,
-    Uint,
-}
-
-const CUBE: u32 = 3;
-const RECTANGLE: u32 = 4;
-
-impl ImageType {
-    /// How many coordinates there are, layers aside.
-    fn axes(self) -> u32 {
-        match self.dimension {
-            0 => 1,
-            2 => 3,
-            _ => 2,
-        }
-    }
-
-    /// As `textures.glsl` has it.
-    fn mode(self) -> u32 {
-        let bit = |is: bool, bit: u32| if is { bit } else { 0 };
-        self.axes()
-            | bit(self.has_layers, 4)
-            | bit(self.dimension == CUBE, 8)
-            | bit(self.compares, 16)
-            | bit(self.dimension == RECTANGLE, 32)
-    }
-
-    /// The name that GLSL gives to its sampler.
-    fn name(self) -> String {
-        let prefix = match self.scalar {
-            Texel::Float => "",
-            Texel::Int => "i",
-            Texel::Uint => "u",
-        };
-        let dimension = ["1D", "2D", "3D", "Cube", "2DRect", "Buffer"].get(self.dimension as usize).unwrap_or(&"");
-        let array = if self.has_layers { "Array" } else { "" };
-        format!("{prefix}sampler{dimension}{array}{}", if self.compares { "Shadow" } else { "" })
-    }
-}
-
-/// The types that were samplers and images, by id.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Samplers(HashMap<u32, ImageType>);
-
-impl Samplers {
-    /// The name of the type, where it is one of these.
-    pub fn name(&self, ty: u32) -> Option<String> {
-        self.0.get(&ty).map(|kind| kind.name())
-    }
-
-    /// Makes numbers of them. Buffers, and what has several samples, are none.
-    pub fn take(code: &mut Code) -> Self {
-        let mut found: HashMap<u32, ImageType> = HashMap::new();
-        let scalars: HashMap<u32, Texel> = code
-            .globals
-            .iter()
-            .filter_map(|i| match (i.opcode, &i.operands[..]) {
-                (op::TYPE_FLOAT, [id, ..]) => Some((*id, Texel::Float)),
-                (op::TYPE_INT, [id, _, 1]) => Some((*id, Texel::Int)),
-                (op::TYPE_INT, [id, ..]) => Some((*id, Texel::Uint)),
-                _ => None,
-            })
-            .collect();
-        for declared in &mut code.globals {
-            let kind = match (declared.opcode, &declared.operands[..]) {
-                (op::TYPE_IMAGE, &[_, texel, dimension @ 0..=RECTANGLE, depth, layers, 0, 1, ..]) => {
-                    let scalar = scalars.get(&texel).copied().unwrap_or(Texel::Float);
-                    Some(ImageType { dimension, has_layers: layers == 1, compares: depth == 1, scalar })
-                }
-                (op::TYPE_SAMPLED_IMAGE, [_, image, ..]) => found.get(image).copied(),
-                _ => None,
-            };
-            if let Some(kind) = kind {
-                found.insert(declared.operands[0], kind);
-                declared.opcode = op::TYPE_INT;
-                declared.operands = vec![declared.operands[0], 32, 0];
-            }
-        }
-        for pointer in code.globals.iter_mut().filter(|i| i.opcode == op::TYPE_POINTER) {
-            if found.contains_key(&pointer.operands[2]) {
-                pointer.operands[1] = storage::PRIVATE;
-            }
-        }
-        Self(found)
-    }
-}
 
 /// Replaces the lookups; gives whether there are any.
 pub(super) fn lower(code: &mut Code, samplers: &Samplers, is_fragment: bool) -> bool {
@@ -344,87 +249,4 @@ impl LookUp<'_, '_> {
             (false, Texel::Uint) => self.b.op_as(id, op::CONVERT_F_TO_U, ty, &[found]),
         };
     }
-}
-
-/// What the compiler makes of `textures.glsl`, once a process.
-fn library() -> Option<&'static Code> {
-    static LIBRARY: OnceLock<Option<Code>> = OnceLock::new();
-    LIBRARY
-        .get_or_init(|| {
-            let text = CString::new(include_str!("textures/textures.glsl")).ok()?;
-            let stages = [StageText::plain(Stage::Fragment, &text)];
-            let outcome = compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Fragment });
-            let code = (outcome.reached == Reached::Done).then(|| Code::parse(&outcome.spirv)).flatten();
-            debug_assert!(code.is_some(), "{}{}", outcome.log(Stage::Fragment), outcome.link_log);
-            code
-        })
-        .as_ref()
-}
-
-/// Adds the functions of the library; gives their ids and the types of their results, by name.
-fn splice(code: &mut Code, is_fragment: bool) -> Option<HashMap<String, (u32, u32)>> {
-    let library = library()?;
-    let names = library.names();
-    let name = |id: u32| names.get(&id).and_then(|name| name.split('(').next()).unwrap_or_default();
-    let is_left_out = |id: u32| name(id) == "main" || !is_fragment && name(id) == "detail_here";
-    let first = code.bound();
-    code.reserve(library.bound());
-    // naga knows one type without a value.
-    let void = |code: &Code| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
-    let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(library)?, void(code)?);
-    let moved = |id: u32| match id {
-        id if id == own_set => set,
-        id if id == own_void => void,
-        id => id + first,
-    };
-    for head in library.heads.iter().filter(|head| matches!(head.opcode, op::DECORATE | op::MEMBER_DECORATE)) {
-        code.heads.push(renumbered(head, &moved));
-    }
-    for global in library.globals.iter().filter(|global| global.opcode != op::TYPE_VOID) {
-        // Inputs and outputs are those of its own `main`.
-        if global.opcode == op::VARIABLE && global.operands[2] != storage::UNIFORM {
-            code.heads.retain(|head| head.operands.first() != Some(&(global.operands[1] + first)));
-            continue;
-        }
-        if global.opcode == op::VARIABLE {
-            code.decorate(&[global.operands[1] + first], &[decoration::DESCRIPTOR_SET, TEXTURES.0]);
-        }
-        code.globals.push(renumbered(global, &moved));
-    }
-    let mut functions = HashMap::new();
-    let mut is_kept = false;
-    for instruction in &library.functions {
-        if instruction.opcode == op::FUNCTION {
-            let (ty, id) = (instruction.operands[0], instruction.operands[1]);
-            is_kept = !is_left_out(id);
-            if is_kept {
-                functions.insert(name(id).to_owned(), (moved(id), moved(ty)));
-                code.name(&[moved(id)], &format!("{}{OURS}", name(id)));
-            }
-        }
-        if is_kept {
-            code.functions.push(Instruction { line: None, ..renumbered(instruction, &moved) });
-        }
-    }
-    Some(functions)
-}
-
-/// The instruction with other ids. Which operands are ids, the specification says.
-fn renumbered(instruction: &Instruction, moved: &dyn Fn(u32) -> u32) -> Instruction {
-    let leading = match instruction.opcode {
-        op::DECORATE | op::MEMBER_DECORATE | op::TYPE_INT | op::TYPE_FLOAT | op::SELECTION_MERGE => 1,
-        op::CONSTANT | op::TYPE_VECTOR | op::TYPE_MATRIX | op::VARIABLE | op::LOOP_MERGE => 2,
-        op::COMPOSITE_EXTRACT => 3,
-        op::COMPOSITE_INSERT | op::VECTOR_SHUFFLE => 4,
-        _ => usize::MAX,
-    };
-    let is_literal = |at: usize| match instruction.opcode {
-        op::TYPE_POINTER => at == 1,
-        op::FUNCTION => at == 2,
-        op::EXT_INST => at == 3,
-        _ => at >= leading,
-    };
-    let operands = instruction.operands.iter().enumerate();
-    let operands = operands.map(|(at, &word)| if is_literal(at) { word } else { moved(word) }).collect();
-    Instruction { opcode: instruction.opcode, operands, line: instruction.line }
 }

@@ -1,0 +1,91 @@
+//! What a download consists of, written to files.
+
+use super::Download;
+use crate::batch::class::{Class, Entry};
+use crate::batch::folder::{Folder, NotOpened};
+use crate::batch::formats::{Format, KEY};
+use crate::batch::output;
+use crate::batch::page::Pages;
+use crate::batch::summary::Written;
+use crate::fault::Fault;
+use crate::language::{Language, Text};
+use crate::report::Report;
+use crate::service::State;
+use crate::service::errors::Problem;
+use crate::service::gallery::blocking;
+use crate::service::store::Submission;
+use crate::source::Source;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Writes a student's report as a page with its pictures; where that is. `sources` are its files as far as a report shows them.
+pub(super) async fn page(
+    state: &State,
+    submission: &Submission,
+    report: &Report,
+    sources: Vec<Source>,
+    language: Language,
+    path: PathBuf,
+) -> Result<PathBuf, Problem> {
+    let mut frames = state.gallery.decoded(state, submission).await?;
+    let report = report.clone();
+    let write = move |state: &State| {
+        let page = Pages::new(Arc::clone(&state.assignment), language).page(&report, &sources, &mut frames)?;
+        std::fs::write(&path, page).map_err(|error| disk(&error))?;
+        Ok(path)
+    };
+    blocking(state, write).await
+}
+
+/// Writes a format into a folder, and takes its file from there, or all its files as a ZIP.
+pub(super) fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> Result<Download, Fault> {
+    let folder = match Folder::open(path) {
+        Ok(folder) => folder,
+        Err(NotOpened::Fault(fault)) => return Err(fault),
+        Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
+    };
+    let (Written { notes, .. }, fault) = output::write(class, &[format], sheet, None, &folder);
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    let pages: Vec<&Entry> = class.entries.iter().filter(|entry| entry.page.is_some()).collect();
+    if format == Format::Html && !pages.is_empty() {
+        // Where the class page links to.
+        let folder = path.join("students");
+        std::fs::create_dir_all(&folder).map_err(|error| disk(&error))?;
+        for entry in pages {
+            let to = folder.join(format!("{}.html", entry.student.key));
+            std::fs::copy(entry.page.as_deref().unwrap_or(path), to).map_err(|error| disk(&error))?;
+        }
+        let bytes = zipped(path).map_err(|error| disk(&error))?;
+        return Ok(Download { name: format!("{}.zip", format.id()), bytes, notes });
+    }
+    match format.files() {
+        [file] if !file.contains(KEY) => {
+            let bytes = std::fs::read(folder.at(file)).map_err(|error| disk(&error))?;
+            Ok(Download { name: (*file).to_owned(), bytes, notes })
+        }
+        _ => {
+            let bytes = zipped(path).map_err(|error| disk(&error))?;
+            Ok(Download { name: format!("{}.zip", format.id()), bytes, notes })
+        }
+    }
+}
+
+/// Every file below a folder, in the order of their names.
+pub(super) fn zipped(folder: &Path) -> std::io::Result<Vec<u8>> {
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
+        let entry = entry?;
+        let Ok(name) = entry.path().strip_prefix(folder) else { continue };
+        if entry.file_type().is_file() {
+            zip.start_file(name.to_string_lossy(), zip::write::SimpleFileOptions::default())?;
+            std::io::copy(&mut std::fs::File::open(entry.path())?, &mut zip)?;
+        }
+    }
+    Ok(zip.finish()?.into_inner())
+}
+
+pub(super) fn disk(error: &std::io::Error) -> Fault {
+    Fault::new(Text::new(format!("a temporary file: {error}"), format!("一時ファイルの障害: {error}")))
+}

@@ -1,0 +1,92 @@
+//! The functions that look-ups become: what the compiler makes of `textures.glsl`, put into a module.
+
+use super::{OURS, TEXTURES};
+use crate::translate::glslang::{Reached, Request, Rules, Stage, StageText, compile};
+use crate::translate::spirv::code::{Code, Instruction};
+use crate::translate::spirv::op::{self, decoration, storage};
+use std::collections::HashMap;
+use std::ffi::CString;
+use std::sync::OnceLock;
+
+/// What the compiler makes of `textures.glsl`, once a process.
+pub(super) fn library() -> Option<&'static Code> {
+    static LIBRARY: OnceLock<Option<Code>> = OnceLock::new();
+    LIBRARY
+        .get_or_init(|| {
+            let text = CString::new(include_str!("textures.glsl")).ok()?;
+            let stages = [StageText::plain(Stage::Fragment, &text)];
+            let outcome = compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Fragment });
+            let code = (outcome.reached == Reached::Done).then(|| Code::parse(&outcome.spirv)).flatten();
+            debug_assert!(code.is_some(), "{}{}", outcome.log(Stage::Fragment), outcome.link_log);
+            code
+        })
+        .as_ref()
+}
+
+/// Adds the functions of the library; gives their ids and the types of their results, by name.
+pub(super) fn splice(code: &mut Code, is_fragment: bool) -> Option<HashMap<String, (u32, u32)>> {
+    let library = library()?;
+    let names = library.names();
+    let name = |id: u32| names.get(&id).and_then(|name| name.split('(').next()).unwrap_or_default();
+    let is_left_out = |id: u32| name(id) == "main" || !is_fragment && name(id) == "detail_here";
+    let first = code.bound();
+    code.reserve(library.bound());
+    // naga knows one type without a value.
+    let void = |code: &Code| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
+    let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(library)?, void(code)?);
+    let moved = |id: u32| match id {
+        id if id == own_set => set,
+        id if id == own_void => void,
+        id => id + first,
+    };
+    for head in library.heads.iter().filter(|head| matches!(head.opcode, op::DECORATE | op::MEMBER_DECORATE)) {
+        code.heads.push(renumbered(head, &moved));
+    }
+    for global in library.globals.iter().filter(|global| global.opcode != op::TYPE_VOID) {
+        // Inputs and outputs are those of its own `main`.
+        if global.opcode == op::VARIABLE && global.operands[2] != storage::UNIFORM {
+            code.heads.retain(|head| head.operands.first() != Some(&(global.operands[1] + first)));
+            continue;
+        }
+        if global.opcode == op::VARIABLE {
+            code.decorate(&[global.operands[1] + first], &[decoration::DESCRIPTOR_SET, TEXTURES.0]);
+        }
+        code.globals.push(renumbered(global, &moved));
+    }
+    let mut functions = HashMap::new();
+    let mut is_kept = false;
+    for instruction in &library.functions {
+        if instruction.opcode == op::FUNCTION {
+            let (ty, id) = (instruction.operands[0], instruction.operands[1]);
+            is_kept = !is_left_out(id);
+            if is_kept {
+                functions.insert(name(id).to_owned(), (moved(id), moved(ty)));
+                code.name(&[moved(id)], &format!("{}{OURS}", name(id)));
+            }
+        }
+        if is_kept {
+            code.functions.push(Instruction { line: None, ..renumbered(instruction, &moved) });
+        }
+    }
+    Some(functions)
+}
+
+/// The instruction with other ids. Which operands are ids, the specification says.
+pub(super) fn renumbered(instruction: &Instruction, moved: &dyn Fn(u32) -> u32) -> Instruction {
+    let leading = match instruction.opcode {
+        op::DECORATE | op::MEMBER_DECORATE | op::TYPE_INT | op::TYPE_FLOAT | op::SELECTION_MERGE => 1,
+        op::CONSTANT | op::TYPE_VECTOR | op::TYPE_MATRIX | op::VARIABLE | op::LOOP_MERGE => 2,
+        op::COMPOSITE_EXTRACT => 3,
+        op::COMPOSITE_INSERT | op::VECTOR_SHUFFLE => 4,
+        _ => usize::MAX,
+    };
+    let is_literal = |at: usize| match instruction.opcode {
+        op::TYPE_POINTER => at == 1,
+        op::FUNCTION => at == 2,
+        op::EXT_INST => at == 3,
+        _ => at >= leading,
+    };
+    let operands = instruction.operands.iter().enumerate();
+    let operands = operands.map(|(at, &word)| if is_literal(at) { word } else { moved(word) }).collect();
+    Instruction { opcode: instruction.opcode, operands, line: instruction.line }
+}
