@@ -4,8 +4,7 @@ use super::Upload;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::roster::not_on_roster;
-use crate::service::store;
-use crate::service::store::{Audience, Via};
+use crate::service::store::{self, Audience, Via};
 use axum::http::StatusCode;
 
 pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upload) -> Result<(), Problem> {
