@@ -6,6 +6,7 @@ mod cause;
 pub mod constants;
 mod fresh;
 mod hard_coded;
+mod inside;
 mod locate;
 mod message;
 mod plain;
@@ -37,6 +38,8 @@ pub struct Evidence<'a> {
     pub assignment: &'a Assignment,
     /// The student's text.
     pub source: &'a Source,
+    /// All that was handed in, each text with its stage.
+    pub sources: &'a [(reference::interpreter::Stage, &'a Source)],
     /// The frames, compared.
     pub frames: &'a [FrameResult],
     /// The probes that judge.
@@ -53,6 +56,17 @@ pub struct Evidence<'a> {
     pub beyond: &'a [Beyond],
     /// How much the messages help.
     pub hints: Hints,
+}
+
+impl<'a> Evidence<'a> {
+    /// The text of a stage, and the file that was handed out for it.
+    fn text(&self, stage: Option<reference::interpreter::Stage>) -> (&'a Source, &'a str) {
+        let own = |known: reference::interpreter::Stage| stage == Some(known);
+        let source = self.sources.iter().find(|(known, _)| own(*known)).map_or(self.source, |(_, source)| source);
+        let files = &self.assignment.files;
+        let file = files.iter().find(|file| own(file.stage.into())).unwrap_or(&files[0]);
+        (source, &file.starter)
+    }
 }
 
 /// What is to be said and credited.
@@ -189,7 +203,7 @@ fn judge(
         max_points: line.points,
         mistake: culprits.first().map(|id| (*id).to_owned()),
         message: told.text,
-        file: None,
+        file: told.file,
         line: told.line,
     }
 }

@@ -82,6 +82,7 @@ struct Probing {
 struct Judged<'a> {
     /// The text that messages point into.
     source: &'a Source,
+    sources: &'a [(translate::Stage, &'a Source)],
     fresh: &'a ProbeSet,
     rendering: &'a Rendering,
     interpreter: Option<&'a Interpreter>,
@@ -187,7 +188,14 @@ impl Grader {
             rendering.undefined = None;
         }
         let interpreter = translation.steps.interpreter(&source);
-        let judged = Judged { source: &source, fresh, rendering: &rendering, interpreter: interpreter.as_ref() };
+        let sources_given = [(translate::Stage::Vertex, &source)];
+        let judged = Judged {
+            source: &source,
+            sources: &sources_given,
+            fresh,
+            rendering: &rendering,
+            interpreter: interpreter.as_ref(),
+        };
         let report = self.report(judged, diagnostics, order.hints);
         let cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
         let report = Report { sources, cross_check, ..report };
@@ -244,7 +252,7 @@ impl Grader {
 
     /// The report but for what was handed in.
     fn report(&self, judged: Judged<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
-        let Judged { source, fresh, rendering, interpreter } = judged;
+        let Judged { source, sources, fresh, rendering, interpreter } = judged;
         let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
             let frames = expected.iter().zip(0..);
             frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
@@ -255,6 +263,7 @@ impl Grader {
         let evidence = Evidence {
             assignment: &self.assignment,
             source,
+            sources,
             frames: &frames,
             probes: &self.probes,
             samples,

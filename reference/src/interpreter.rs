@@ -48,6 +48,7 @@ mod sheet;
 mod syntax;
 mod text;
 mod texture;
+pub mod trace;
 mod types;
 
 #[cfg(test)]
@@ -57,8 +58,9 @@ pub use change::{FREE, Operator, ProgramSlip, program_slips};
 pub use code::{Interpolation, Variable};
 pub use compile::{Draft, Slip};
 pub use nature::{Copied, Nature};
-pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Run, Stopped, Undefined};
+pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Prepared, Run, Stopped, Undefined};
 pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
+pub use syntax::Binary;
 pub use texture::{Compare, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 
@@ -158,6 +160,23 @@ impl Program {
         Self { code }
     }
 
+    /// Compiles a shader so that each value on its way can be looked at and changed. Lines are those on which something is
+    /// written, also within a macro.
+    ///
+    /// # Errors
+    /// As for [`Program::compile`].
+    pub fn traced(source: &str, stage: Stage) -> Result<Self, Refusal> {
+        let preprocessed = text::preprocess(source)?;
+        let tokens: Vec<_> = preprocessed.tokens.into_iter().map(text::Token::on_its_line).collect();
+        let items = parse::parse(&tokens)?;
+        Ok(Self { code: compile::compile_traced(&items, preprocessed.version, stage)? })
+    }
+
+    /// Where values are looked at, in a program that was compiled for that.
+    pub fn sites(&self) -> &[trace::Site] {
+        &self.code.sites
+    }
+
     /// The uniforms that can be set, each part of a structure, array or block by its path.
     pub fn uniforms(&self) -> &[Variable] {
         &self.code.uniforms
@@ -193,6 +212,12 @@ impl Program {
     /// For each scalar of its outputs the scalar of an input that it is a copy of; none where it computes anything.
     pub fn copies(&self) -> Option<Vec<Vec<Copied>>> {
         nature::copies(&self.code)
+    }
+
+    /// Makes ready for runs of so many samples, again and again; all of them together take the steps. The first one says how
+    /// many a run may take: some times as many as that.
+    pub fn prepared<'a>(&'a self, samples: usize, textures: &'a [Texture], fuel: u64) -> Prepared<'a> {
+        Prepared::new(&self.code, samples, textures, fuel)
     }
 
     /// Begins a run for so many samples.

@@ -47,6 +47,7 @@ pub mod schema;
 mod shading;
 mod text;
 pub mod texture;
+pub mod traced;
 pub mod typeset;
 mod value;
 

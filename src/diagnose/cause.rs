@@ -1,6 +1,7 @@
 //! Why the colours are as they are, and what that leaves of each line's points.
 
 use super::constants::{self, ChangedConstant};
+use super::inside::{self, Finding};
 use super::locate::Points;
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
@@ -20,7 +21,7 @@ use reference::probes::ProbeSet;
 const HARD_CODED: &str = "hard-coded";
 /// Nothing that is known explains a wrong answer.
 pub const UNEXPLAINED: &str = "unexplained";
-const NEARLY_RIGHT: &str = "nearly-right";
+pub(super) const NEARLY_RIGHT: &str = "nearly-right";
 pub(super) const PART_MISSING: &str = "part-missing";
 pub(super) const PART_SCALED: &str = "part-scaled";
 
@@ -48,8 +49,11 @@ pub(super) enum Cause {
     HardCoded,
     /// Nothing known explains it, but it is never off by much.
     NearlyRight,
-    /// Nothing known explains it; each term as far as it stands alone.
-    Unexplained(Vec<TermJudgement>),
+    /// Nothing known explains it; each term as far as it stands alone, and where in the text the mistakes stand.
+    Unexplained {
+        terms: Vec<TermJudgement>,
+        findings: Vec<Finding>,
+    },
 }
 
 /// Finds it. `shape`: whether everything stands where it should.
@@ -73,7 +77,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
             _ if frames_agree || !shape => Cause::Right,
             Reads::Attributes => Cause::HardCoded,
             // Not all that a fragment stage reads is probed.
-            Reads::Varyings | Reads::Outputs => Cause::Unexplained(Vec::new()),
+            Reads::Varyings | Reads::Outputs => Cause::Unexplained { terms: Vec::new(), findings: Vec::new() },
         };
     }
     let constants = constants::changed(evidence.source, assignment);
@@ -125,7 +129,7 @@ fn unexplained(
         terms.retain(|term| term.line != feature.line);
         terms.push(feature);
     }
-    Cause::Unexplained(addends::credit(evidence, terms))
+    Cause::Unexplained { terms: addends::credit(evidence, terms), findings: inside::find(evidence) }
 }
 
 /// The derived mistakes that explain the samples, also those that nobody knows beforehand; perhaps on top of changed constants.
@@ -210,7 +214,7 @@ impl Cause {
             }),
             Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
             Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
-            Self::HardCoded | Self::Parts(_) | Self::Unexplained(_) => false,
+            Self::HardCoded | Self::Parts(_) | Self::Unexplained { .. } => false,
         }
     }
 
@@ -224,7 +228,7 @@ impl Cause {
                     .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
                     .collect(),
             ),
-            Self::HardCoded | Self::Parts(_) | Self::NearlyRight | Self::Unexplained(_) => None,
+            Self::HardCoded | Self::Parts(_) | Self::NearlyRight | Self::Unexplained { .. } => None,
         }
     }
 
@@ -245,7 +249,7 @@ impl Cause {
             }
             Self::HardCoded => vec![HARD_CODED.into()],
             Self::NearlyRight => vec![NEARLY_RIGHT.into()],
-            Self::Unexplained(_) => vec![UNEXPLAINED.into()],
+            Self::Unexplained { .. } => vec![UNEXPLAINED.into()],
         }
     }
 }
@@ -263,7 +267,7 @@ pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, caus
     let is_touched = match (cause, id) {
         (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
         // What cannot be judged by itself is not known to be right.
-        (Cause::Unexplained(terms), UNEXPLAINED) => terms
+        (Cause::Unexplained { terms, .. }, UNEXPLAINED) => terms
             .iter()
             .find(|term| term.line == line.id)
             .map_or(!assignment.judges_position(line), |term| !term.is_right()),

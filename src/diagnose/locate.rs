@@ -5,6 +5,8 @@
 //! the mistake is about. A search for names in the text would not see that a statement further down changes the value, or
 //! that a function or a variable of another name computes it. Where no single statement mends the colour, no line is named.
 
+use reference::interpreter::Stage;
+
 mod lines;
 mod points;
 mod search;
@@ -21,12 +23,14 @@ pub(super) struct Located {
     pub name: Option<String>,
     /// What the value is to the colour.
     pub role: Role,
+    /// The stage whose text it is; none where there is only one.
+    pub stage: Option<Stage>,
 }
 
 impl Located {
     /// A line of which no more is known.
     pub fn at(line: u32) -> Self {
-        Self { line, name: None, role: Role::Wrong }
+        Self { line, name: None, role: Role::Wrong, stage: None }
     }
 }
 

@@ -2,8 +2,9 @@
 //!
 //! A message is said only where it is true of the student's text: what it presupposes is looked up first ([`Facts`]).
 
-use super::cause::PART_SCALED;
+use super::cause::{NEARLY_RIGHT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
+use super::inside::{self, Finding};
 use super::locate::{Located, Points, Role, Words, is_handed_out};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
@@ -19,6 +20,8 @@ use reference::mistake::{Condition, FoundMistake, Mistake};
 pub(super) struct Told {
     pub text: Text,
     pub line: Option<u32>,
+    /// The file of that line, where there are several.
+    pub file: Option<String>,
 }
 
 /// The message for a line of the rubric that these mistakes cost points.
@@ -35,7 +38,7 @@ pub(super) fn tell(
         .map(|mistake| of_mistake(evidence, facts, line, cause, mistake))
         .collect();
     if told.is_empty() {
-        return Told { text: agreement(evidence, line), line: None };
+        return Told { text: agreement(evidence, line), line: None, file: None };
     }
     let join = |language: fn(&Text) -> &String, space| {
         told.iter().map(|told| language(&told.text).as_str()).collect::<Vec<_>>().join(space)
@@ -43,6 +46,7 @@ pub(super) fn tell(
     Told {
         text: Text::new(join(|text| &text.en, " "), join(|text| &text.ja, "")),
         line: told.iter().find_map(|told| told.line),
+        file: told.iter().find(|told| told.line.is_some()).and_then(|told| told.file.clone()),
     }
 }
 
@@ -56,10 +60,15 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
     if evidence.hints >= Hints::Gentle {
         parts.push(texts.equation);
     }
-    if evidence.hints >= Hints::Full {
+    let is_full = evidence.hints >= Hints::Full;
+    // What is known of the very place says more than advice for any file.
+    let sentence = blanks.finding.filter(|_| is_full && is_general(&mistake.id));
+    let sentence = sentence.map(|finding| finding.sentence(evidence.assignment));
+    if is_full && sentence.is_none() {
         parts.push(texts.look);
     }
-    let filled: Vec<reference::Text> = parts.iter().map(|part| part.fill(&values)).collect();
+    let mut filled: Vec<reference::Text> = parts.iter().map(|part| part.fill(&values)).collect();
+    filled.extend(sentence.map(|text| reference::Text { en: text.en, ja: text.ja }));
     let join = |language: fn(&reference::Text) -> &String, space| {
         filled.iter().map(|part| language(part).as_str()).collect::<Vec<_>>().join(space)
     };
@@ -69,7 +78,12 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
         text.en = format!("{} ({}.)", text.en, place.en);
         text.ja = format!("{}({})", text.ja, place.ja);
     }
-    Told { text, line: (evidence.hints >= Hints::Full).then_some(blanks.line).flatten() }
+    Told { text, line: is_full.then_some(blanks.line).flatten(), file: blanks.file.clone() }
+}
+
+/// Whether a mistake is only known by what is seen, so that its texts say nothing of the place.
+fn is_general(id: &str) -> bool {
+    [UNEXPLAINED, PART_MISSING, PART_SCALED, NEARLY_RIGHT].contains(&id)
 }
 
 /// What the messages may say of the student's text, because it was looked up there.
@@ -80,6 +94,8 @@ pub(super) struct Facts {
     /// What stands for a name in the texts: the student's own for a definition, or the lecture's symbol; and the
     /// names of the handed-out file that the student's still has.
     names: Vec<(String, String)>,
+    /// Where in the text the mistakes stand that nobody wrote down.
+    findings: Vec<Finding>,
 }
 
 impl Facts {
@@ -92,15 +108,34 @@ impl Facts {
         let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
         let points = Points::new(evidence, &theirs);
         let points = points.as_ref();
-        let place = |index: usize| points.and_then(|points| points.locate(found, index));
+        let located = |index: usize| points.and_then(|points| points.locate(found, index));
+        let only = (found.len() > 1).then(|| inside::only(evidence, &theirs)).flatten();
+        let place = |index: usize| {
+            let known = located(index);
+            // Of what is 0 everywhere, or not in a sum, more is known than its place.
+            if known.as_ref().is_some_and(|known| known.role != Role::Wrong) {
+                return known;
+            }
+            let inside = || inside::find_one(evidence, &theirs, found, index);
+            let inside = only.clone().or_else(inside).map(|one| one.located());
+            let is_same = inside.as_ref().zip(known.as_ref()).is_none_or(|(inside, known)| inside.line == known.line);
+            if is_same { known.or(inside) } else { inside }
+        };
         let places = found.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index)));
+        let findings = match cause {
+            // Everything stands where it should not, and nothing else is wrong.
+            Cause::Known { constants, found } if constants.is_empty() && found.is_empty() => inside::find(evidence),
+            Cause::Right | Cause::Parts(_) | Cause::NearlyRight => inside::find(evidence),
+            Cause::Known { .. } | Cause::HardCoded => Vec::new(),
+            Cause::Unexplained { findings, .. } => findings.clone(),
+        };
         let mut names = Self::handed_out(evidence);
         for definition in evidence.assignment.equation.definitions() {
             let own = points.and_then(|points| points.name_of(&definition.name));
             let symbol = definition.symbol.clone();
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
-        Self { places: places.collect(), names }
+        Self { places: places.collect(), names, findings }
     }
 
     /// The names of the handed-out file that the student's still has.
@@ -111,6 +146,12 @@ impl Facts {
         let all = constants.chain(inputs).chain(interface.outputs.iter().map(|output| &output.name));
         let code = Words::all(evidence.source);
         all.filter(|name| code.has(name)).map(|name| (name.clone(), format!("`{name}`"))).collect()
+    }
+
+    /// Where the mistake stands that a line of the rubric suffers from.
+    fn finding(&self, line: &RubricLine) -> Option<&Finding> {
+        let own = self.findings.iter().find(|finding| finding.touches.contains(&line.judges));
+        own.or(self.findings.first())
     }
 
     fn place(&self, id: &str) -> Option<&Located> {
@@ -125,21 +166,30 @@ struct Blanks<'f> {
     line: Option<u32>,
     role: Option<Role>,
     worst: Option<Worst>,
+    /// The file of the line, where there are several.
+    file: Option<String>,
+    /// The text that the line is of.
+    source: Option<&'f Source>,
+    finding: Option<&'f Finding>,
 }
 
 impl<'f> Blanks<'f> {
-    fn of(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Self {
+    fn of(evidence: &'f Evidence<'_>, facts: &'f Facts, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Self {
         let mut blanks = Self::default();
+        if is_general(&mistake.id) {
+            blanks.finding(evidence, facts.finding(line));
+        }
         match (cause, mistake.id.as_str()) {
             (_, super::POSITION_CHANGED) => {
-                let store = evidence.interpreter.and_then(Interpreter::last_position);
-                blanks.place(evidence, mistake, store.map(Located::at));
+                let store = evidence.interpreter.and_then(Interpreter::last_position).map(Located::at);
+                let moved = facts.findings.iter().find(|finding| finding.touches_position);
+                blanks.place(evidence, mistake, moved.map(Finding::located).or(store));
             }
             (Cause::Known { constants, .. }, super::CONSTANTS_CHANGED) => {
                 let of_line = |changed: &&ChangedConstant| super::belongs(evidence.assignment, &changed.name, line);
                 blanks.constant(constants.iter().find(of_line));
             }
-            (Cause::Unexplained(terms), _) => {
+            (Cause::Unexplained { terms, .. }, _) => {
                 let worst = terms.iter().find(|term| term.line == line.id).and_then(|term| term.worst);
                 let throws_away = evidence.source.words().any(|(_, word)| word == "discard");
                 blanks.worst(worst, throws_away);
@@ -174,25 +224,37 @@ impl<'f> Blanks<'f> {
         blanks
     }
 
-    fn place(&mut self, evidence: &Evidence<'_>, mistake: &Mistake, located: Option<Located>) {
-        let Some(Located { line, name, role }) = located else { return };
+    fn place(&mut self, evidence: &'f Evidence<'_>, mistake: &Mistake, located: Option<Located>) {
+        let Some(Located { line, name, role, stage }) = located else { return };
         self.role = Some(role);
+        let (source, starter) = evidence.text(stage);
         // A line that the student did not write is not where the student's mistake is.
-        let starter = &evidence.assignment.files[0].starter;
-        if !mistake.handed_out && is_handed_out(evidence.source, line, starter) {
+        if !mistake.handed_out && is_handed_out(source, line, starter) {
             return;
         }
-        self.line = Some(line);
-        self.values.push(("line", line.to_string()));
-        let code = Words::at(evidence.source, line);
+        self.is_at(evidence, source, line);
+        let code = Words::at(source, line);
         self.values.extend(name.filter(|name| code.has(name)).map(|name| ("name", name)));
+    }
+
+    fn is_at(&mut self, evidence: &Evidence<'_>, source: &'f Source, line: u32) {
+        self.line = Some(line);
+        self.source = Some(source);
+        self.file = (evidence.sources.len() > 1).then(|| source.facts.name.clone());
+        self.values.push(("line", line.to_string()));
+    }
+
+    fn finding(&mut self, evidence: &'f Evidence<'_>, finding: Option<&'f Finding>) {
+        let Some(finding) = finding else { return };
+        self.is_at(evidence, evidence.text(Some(finding.stage)).0, finding.line);
+        self.finding = Some(finding);
     }
 
     /// What decides which of a mistake's texts are true of this file.
     fn situation(&self, evidence: &Evidence<'_>, cause: &Cause, mistake: &Mistake) -> impl Fn(&Condition) -> bool {
-        let code = match self.line {
-            Some(line) => Words::at(evidence.source, line),
-            None => Words::all(evidence.source),
+        let code = match (self.line, self.source) {
+            (Some(line), source) => Words::at(source.unwrap_or(evidence.source), line),
+            (None, _) => Words::all(evidence.source),
         };
         let form = match cause {
             Cause::Known { found, .. } => found.iter().find(|found| found.id == mistake.id).map(|found| found.form),

@@ -91,7 +91,7 @@ impl Grader {
         let steps = linked.steps.last().filter(|_| self.assignment.equation.reads() == Reads::Varyings);
         let interpreter = steps.and_then(|steps| steps.interpreter(source));
         let interpreter = interpreter.as_ref();
-        let judged = Judged { source, fresh: &probing.fresh, rendering: &rendering, interpreter };
+        let judged = Judged { source, sources: &given, fresh: &probing.fresh, rendering: &rendering, interpreter };
         let mut report = self.report(judged, diagnostics, order.hints);
         if report.mistakes.iter().any(|id| id == UNEXPLAINED) {
             report.diagnostics.extend(overlooked(&self.assignment, &given, &linked));

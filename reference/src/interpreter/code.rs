@@ -6,6 +6,7 @@
 
 use super::run::Undefined;
 use super::texture::Query;
+use super::trace::Site;
 use super::types::Type;
 
 /// Number of a column.
@@ -195,6 +196,23 @@ pub enum Node {
     Derivative { to: Slot, of: Slot, direction: Direction, coarse: bool, line: u32 },
     /// A texture lookup.
     Texture(Box<Query>),
+    /// A value that is looked at.
+    Record(Box<Record>),
+    /// Slots that have been given the last value of a site.
+    Wrote { site: usize, base: Slot, count: u32 },
+    /// A slot that has been given what another one was.
+    HandedOn { to: Slot, from: Slot },
+}
+
+/// A value that is looked at, and may be changed before it is used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The number of its site.
+    pub site: usize,
+    /// Where it is.
+    pub slots: Vec<Slot>,
+    /// Where it was read.
+    pub sources: Vec<Slot>,
 }
 
 /// A variable that the host sees.
@@ -256,4 +274,6 @@ pub struct Code {
     pub outputs: Vec<Variable>,
     /// Variables of `main`, outside of inner blocks.
     pub locals: Vec<Variable>,
+    /// Where values are looked at, in a program that is traced.
+    pub sites: Vec<Site>,
 }

@@ -12,6 +12,7 @@ mod operator;
 mod place;
 mod scope;
 mod sheet;
+mod traced;
 
 pub use builder::{Builder, class};
 pub use conversion::{Direction, Signature};
@@ -23,6 +24,7 @@ use super::types::Type;
 use super::{Refusal, Stage};
 use scope::Scopes;
 use std::collections::HashMap;
+use traced::Tracing;
 
 /// Deepest nesting of statements and calls together.
 const MAX_DEPTH: usize = 1_000;
@@ -65,6 +67,7 @@ struct Compiler {
     outputs: Vec<Variable>,
     locals: Vec<Variable>,
     defaults: Vec<(Slot, f64)>,
+    tracing: Tracing,
 }
 
 /// Compiles a parsed file.
@@ -73,6 +76,17 @@ struct Compiler {
 /// It is not valid, or something in it is not supported.
 pub fn compile(items: &[Item], version: u32, stage: Stage) -> Result<Code, Refusal> {
     let mut compiler = Compiler::new(version, stage);
+    items.iter().try_for_each(|item| compiler.item(item))?;
+    compiler.finish()
+}
+
+/// The same with every value of the program recorded.
+///
+/// # Errors
+/// As for [`compile`].
+pub fn compile_traced(items: &[Item], version: u32, stage: Stage) -> Result<Code, Refusal> {
+    let mut compiler = Compiler::new(version, stage);
+    compiler.tracing.is_on = true;
     items.iter().try_for_each(|item| compiler.item(item))?;
     compiler.finish()
 }
@@ -105,6 +119,7 @@ impl Compiler {
             outputs: Vec::new(),
             locals: Vec::new(),
             defaults: Vec::new(),
+            tracing: Tracing::default(),
         }
     }
 
@@ -154,6 +169,7 @@ impl Compiler {
             return Err(self.invalid(format!("{} is defined twice", function.name)));
         }
         self.current = Some(index);
+        self.tracing.function = Some(function.name.to_string());
         self.scopes.push();
         let declared = &self.functions[index];
         let parameters: Vec<_> =
@@ -169,6 +185,7 @@ impl Compiler {
         self.builder.begin_function();
         self.scopes.pop();
         self.current = None;
+        self.tracing.function = None;
         self.functions[index].body = Some(nodes);
         Ok(())
     }
@@ -193,6 +210,7 @@ impl Compiler {
             inputs: self.inputs,
             outputs: self.outputs,
             locals: self.locals,
+            sites: self.tracing.sites,
         })
     }
 

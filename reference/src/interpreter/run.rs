@@ -7,12 +7,14 @@ mod lookup;
 mod machine;
 mod mask;
 mod memory;
+mod prepared;
 mod single;
 mod undefined;
 
 pub use kernel::Precision;
 pub(super) use kernel::{defined, scalar};
 pub use memory::Cause;
+pub use prepared::Prepared;
 pub(super) use single::Single;
 pub use undefined::Undefined;
 pub(super) use undefined::lanes as undefined_lanes;

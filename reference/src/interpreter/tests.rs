@@ -5,6 +5,7 @@ mod language;
 mod limits;
 mod sheet;
 mod stages;
+mod trace;
 mod undefined;
 
 use super::{Outputs, Precision, Program, Refusal, Stage};

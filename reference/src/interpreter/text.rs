@@ -34,6 +34,8 @@ pub struct Token {
     pub text: Rc<str>,
     /// The line in the file, from 1, `#line` directives aside; of a macro's tokens, where the macro is used.
     pub line: u32,
+    /// The line on which it is written: of a macro's tokens, that of the macro; 0 of what no file has.
+    pub written: u32,
     /// The byte of the text that was read at which it starts.
     pub at: u32,
     /// Whether it follows the token before without white space.
@@ -60,7 +62,12 @@ impl Drop for Hidden {
 
 impl Token {
     fn new(kind: TokenKind, text: &str, line: u32) -> Self {
-        Self { kind, text: text.into(), line, at: 0, touches: false, hidden: None }
+        Self { kind, text: text.into(), line, written: line, at: 0, touches: false, hidden: None }
+    }
+
+    /// The token on the line on which it is written.
+    pub fn on_its_line(self) -> Self {
+        Self { line: if self.written == 0 { self.line } else { self.written }, ..self }
     }
 
     /// Whether it is a name or keyword.

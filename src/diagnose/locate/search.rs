@@ -125,7 +125,7 @@ impl<'s, 'a> Search<'s, 'a> {
     fn located(&self, place: Site, role: Role) -> Option<Located> {
         let interpreter = self.points.interpreter;
         let name = interpreter.variable(place).map(str::to_owned);
-        Some(Located { line: interpreter.line(place)?, name, role })
+        Some(Located { line: interpreter.line(place)?, name, role, stage: None })
     }
 
     /// The values at the first point, which is a wrong one.
@@ -284,7 +284,7 @@ impl<'s, 'a> Search<'s, 'a> {
             return self.located(sum, role);
         }
         let store = self.points.interpreter.last_store(self.points.output)?;
-        Some(Located { line: self.points.interpreter.line(store)?, name: None, role })
+        Some(Located { line: self.points.interpreter.line(store)?, name: None, role, stage: None })
     }
 
     /// Whether a constant is what a sum begins with, and not a term.

@@ -160,6 +160,11 @@ impl Builder {
         slots.iter().map(|&slot| if self.known(slot).is_some() { slot } else { self.copy(slot) }).collect()
     }
 
+    /// A copy, of what is known as well.
+    pub fn own_copy(&mut self, slot: Slot) -> Slot {
+        self.copy(slot)
+    }
+
     fn copy(&mut self, slot: Slot) -> Slot {
         let (to, line) = (self.temporary(), self.line);
         self.push(Node::Do(Instruction { operation: Operation::Copy, class: Class::Double, to, of: [slot; 3], line }));

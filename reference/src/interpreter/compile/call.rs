@@ -93,8 +93,9 @@ impl Compiler {
         let parameters = self.functions[index].parameters.clone();
         let mut written = Vec::new();
         // All values are there before the first parameter is set: an argument may call the same function.
-        for ((argument, (direction, kind)), &slot) in arguments.into_iter().zip(&signature.parameters).zip(&parameters)
-        {
+        let count = arguments.len();
+        let all = arguments.into_iter().zip(&signature.parameters).zip(&parameters);
+        for (number, ((argument, (direction, kind)), &slot)) in all.enumerate() {
             let (place, value) = match argument {
                 Argument::Value(value) => (None, value),
                 Argument::Place(place, value) => (Some(place), value),
@@ -104,6 +105,7 @@ impl Compiler {
             } else {
                 let value = self.implicit(value, kind)?;
                 self.store(slot, &value.slots);
+                self.passed(number, count, slot, &value);
             }
             if *direction != Direction::In {
                 let place = place.ok_or_else(|| self.invalid("this cannot be written by a function"))?;
@@ -116,9 +118,11 @@ impl Compiler {
             self.functions[current].calls.push(index);
         }
         let result: Vec<_> = (self.functions[index].result..).take(signature.result.slots().unwrap_or(0)).collect();
+        self.read_from(&result);
         let result = Value { kind: signature.result.clone(), slots: self.builder.copies(&result) };
         for (place, slot, kind) in written {
             let slots: Vec<_> = (slot..).take(kind.slots().unwrap_or(0)).collect();
+            self.handed_back(&place, &slots);
             let value = self.implicit(Value { kind, slots }, &place.kind)?;
             self.write(&place, &value)?;
         }

@@ -24,6 +24,7 @@ impl Compiler {
             StatementKind::Empty => {}
             StatementKind::Expression(expression) => {
                 self.value(expression)?;
+                self.thrown_away();
             }
             StatementKind::Declaration(declaration) => self.plain_variables(declaration)?,
             StatementKind::Block(statements) => self.scoped(|compiler| compiler.statements(statements))?,
@@ -154,6 +155,7 @@ impl Compiler {
                 let value = self.implicit(value, &kind)?;
                 let slot = self.functions[current].result;
                 self.store(slot, &value.slots);
+                self.handed(slot, &value);
             }
         }
         self.builder.push(Node::Return);

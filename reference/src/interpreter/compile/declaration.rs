@@ -67,7 +67,7 @@ impl Compiler {
 
     /// The value of a constant whole number.
     pub(super) fn constant_whole(&mut self, expression: &Expression) -> Result<f64, Refusal> {
-        let value = self.value(expression)?;
+        let value = self.untraced(|compiler| compiler.value(expression))?;
         let is_whole = value.kind.is_scalar() && value.kind.scalar().is_some_and(Scalar::is_integer);
         let known = value.slots.first().and_then(|&slot| self.builder.known(slot)).filter(|_| is_whole);
         known.ok_or_else(|| self.invalid("a constant whole number is expected"))
@@ -96,8 +96,9 @@ impl Compiler {
         self.builder.line = variable.line;
         let kind = self.arrays_of(base.clone(), &variable.lengths)?;
         let Some(value) = &variable.value else { return self.without_value(&variable.name, kind) };
-        let value = self.initial_value(value, &kind)?;
+        let value = self.first_value(variable, value, &kind, is_constant)?;
         let slot = self.with_value(value.clone(), is_constant)?;
+        self.gave(&variable.name, &value, slot);
         self.scopes.declare(Name::clone(&variable.name), Symbol::variable(value.kind.clone(), slot));
         self.remember_local(&variable.name, &value.kind, slot);
         Ok(())

@@ -6,11 +6,12 @@ use super::{Compiler, Value};
 use crate::interpreter::Refusal;
 use crate::interpreter::code::{Class, Node, Operation};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
+use crate::interpreter::trace::What;
 use crate::interpreter::types::{Scalar, Type};
 
 impl Compiler {
-    /// The value of an expression.
-    pub(super) fn value(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+    /// The value of an expression as it is computed.
+    pub(super) fn computed(&mut self, expression: &Expression) -> Result<Value, Refusal> {
         self.builder.line = expression.line;
         match &expression.kind {
             ExpressionKind::Integer(value, unsigned) => {
@@ -53,7 +54,10 @@ impl Compiler {
             ExpressionKind::List(_) => Err(self.invalid("a list in braces stands only behind `=`")),
             ExpressionKind::Name(_) | ExpressionKind::Index(..) | ExpressionKind::Member(..) => {
                 match self.place(expression)? {
-                    Some(place) => self.read(&place),
+                    Some(place) => {
+                        self.reads(&place);
+                        self.read(&place)
+                    }
                     None => self.part(expression),
                 }
             }
@@ -155,7 +159,8 @@ impl Compiler {
 
     fn chain(&mut self, first: &Expression, others: &[(Binary, u32, Expression)]) -> Result<Value, Refusal> {
         let mut left = self.value(first)?;
-        for (operator, line, right) in others {
+        let last = others.len().saturating_sub(1);
+        for (number, (operator, line, right)) in others.iter().enumerate() {
             if right.changes && matches!(operator, Binary::And | Binary::Or) {
                 self.builder.line = *line;
                 left = self.short_circuit(*operator, left, right)?;
@@ -167,6 +172,10 @@ impl Compiler {
             let right = self.value(right)?;
             self.builder.line = *line;
             left = self.binary(*operator, left, right)?;
+            // The last one is that of the whole expression.
+            if number < last {
+                left = self.recorded_step(What::Binary(*operator), left);
+            }
         }
         Ok(left)
     }
@@ -201,13 +210,16 @@ impl Compiler {
                 // The place is known first, and read last: `s += (s = x)` is `2 x`, as compilers have it.
                 let value = self.value(from)?;
                 self.builder.line = line;
+                self.reads(&place);
                 let before = self.read(&place)?;
                 self.binary(operator, before, value)?
             }
         };
         self.builder.line = line;
         let value = self.implicit(value, &place.kind)?;
+        let value = self.recorded_assignment(to, operator.is_none(), value);
         self.write(&place, &value)?;
+        self.wrote(&place);
         Ok(value)
     }
 

@@ -46,7 +46,7 @@ impl Compiler {
             self.exchange(storage, &variable.name, &kind, slot)?;
             self.qualify(storage, interpolation, location);
             if let Some(value) = &variable.value {
-                let value = self.initial_value(value, &kind)?;
+                let value = self.untraced(|compiler| compiler.initial_value(value, &kind))?;
                 for (slot, &from) in (slot..).zip(&value.slots) {
                     let known = self.builder.known(from);
                     let known = known.ok_or_else(|| self.invalid("a uniform's value must be constant"))?;

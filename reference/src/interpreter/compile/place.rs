@@ -31,7 +31,7 @@ impl Compiler {
                 if place.components.is_some() {
                     return Ok(None);
                 }
-                let index = self.value(index)?;
+                let index = self.index(index)?;
                 self.builder.line = expression.line;
                 self.element(place, &index).map(Some)
             }
@@ -152,6 +152,15 @@ impl Compiler {
             });
         }
         Ok(())
+    }
+
+    /// The slots that a place may lie in.
+    pub(super) fn all_slots(&self, place: &LValue) -> Vec<Slot> {
+        match (place.offset, self.slots_of(place)) {
+            (None, Ok(slots)) => slots,
+            // Any of the elements: those from the first on.
+            _ => (place.base..(place.base + 64).min(self.builder.constants.len() as Slot)).collect(),
+        }
     }
 
     /// Stores scalars in a row of slots.

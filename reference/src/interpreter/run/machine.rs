@@ -7,6 +7,7 @@ use super::memory::{Cause, CauseNumber, Memory};
 use super::undefined::Undefined;
 use crate::interpreter::code::{Code, Node, Slot};
 use crate::interpreter::texture::Texture;
+use crate::interpreter::trace::Recorder;
 
 /// Steps that a branch, a turn of a loop or a call costs: it makes a few masks.
 const CONTROL: u64 = 4;
@@ -26,7 +27,9 @@ pub(super) struct Machine<'a> {
     pub discarded: Mask,
     /// For each lane, why it may have run other statements than it should have.
     pub strayed: Vec<CauseNumber>,
-    fuel: u64,
+    pub fuel: u64,
+    /// What looks at the values of a program that is traced.
+    pub recorder: Option<Box<Recorder>>,
 }
 
 impl<'a> Machine<'a> {
@@ -44,6 +47,7 @@ impl<'a> Machine<'a> {
             discarded: none,
             strayed: Vec::new(),
             fuel,
+            recorder: None,
         }
     }
 
@@ -139,6 +143,9 @@ impl<'a> Machine<'a> {
                 self.burn_many(16, query.line)?;
                 self.lookup(query);
             }
+            Node::Record(record) => self.record(record),
+            Node::Wrote { site, base, count } => self.wrote(*site, *base..*base + *count),
+            Node::HandedOn { to, from } => self.handed_on(*to, *from),
         }
         Ok(())
     }
@@ -148,6 +155,7 @@ impl<'a> Machine<'a> {
     }
 
     fn leave(&mut self, into: impl FnOnce(&mut Self) -> Option<&mut Mask>) {
+        self.recorder.iter_mut().for_each(|recorder| recorder.leave());
         let none = self.none();
         let leaving = std::mem::replace(&mut self.active, none);
         if let Some(mask) = into(self) {
@@ -169,6 +177,7 @@ impl<'a> Machine<'a> {
 
     fn branch(&mut self, condition: Slot, yes: &[Node], no: &[Node]) -> Result<(), Stopped> {
         self.stray(condition);
+        self.enter(condition);
         let (on_yes, on_no) = self.active.split(self.memory.column(condition));
         self.active = on_yes;
         self.execute(yes)?;
@@ -176,6 +185,7 @@ impl<'a> Machine<'a> {
         self.execute(no)?;
         after.add(&self.active);
         self.active = after;
+        self.leave_condition();
         Ok(())
     }
 
@@ -185,11 +195,17 @@ impl<'a> Machine<'a> {
         self.breaks.push(none.clone());
         let mut left = none.clone();
         let mut tests = *test_first;
+        let mut is_within = false;
         loop {
             self.burn_many(CONTROL, *line)?;
             if tests {
                 self.execute(test)?;
                 if let Some(condition) = condition {
+                    if is_within {
+                        self.leave_condition();
+                    }
+                    is_within = true;
+                    self.enter(*condition);
                     self.stray(*condition);
                     let (going_on, leaving) = self.active.split(self.memory.column(*condition));
                     left.add(&leaving);
@@ -210,12 +226,16 @@ impl<'a> Machine<'a> {
         if let Some(broken) = self.breaks.pop() {
             left.add(&broken);
         }
+        if is_within {
+            self.leave_condition();
+        }
         self.active = left;
         Ok(())
     }
 
     fn switch(&mut self, selector: Slot, cases: &[(Vec<Option<f64>>, Vec<Node>)]) -> Result<(), Stopped> {
         self.stray(selector);
+        self.enter(selector);
         let none = self.none();
         let selected = self.memory.column(selector);
         let labelled = |value: f64| cases.iter().position(|(labels, _)| labels.contains(&Some(value)));
@@ -231,6 +251,7 @@ impl<'a> Machine<'a> {
         if let Some(broken) = self.breaks.pop() {
             self.active.add(&broken);
         }
+        self.leave_condition();
         Ok(())
     }
 

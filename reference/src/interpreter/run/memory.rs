@@ -65,6 +65,13 @@ impl Memory {
         self.undefined.fill(false);
     }
 
+    /// Gives constants their values again.
+    pub fn restore(&mut self, constants: &[Option<Constant>]) {
+        for (column, constant) in self.columns.iter_mut().zip(constants) {
+            constant.iter().for_each(|constant| column.fill(constant.value));
+        }
+    }
+
     pub fn column(&self, slot: Slot) -> &[f64] {
         &self.columns[slot as usize]
     }

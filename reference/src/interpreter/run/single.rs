@@ -103,6 +103,8 @@ impl<'a> Single<'a> {
                 }
             }
             Node::Discard | Node::Derivative { .. } => return Err(Astray),
+            // Nothing of a sheet is traced.
+            Node::Record(_) | Node::Wrote { .. } | Node::HandedOn { .. } => {}
         }
         Ok(Next::Node)
     }

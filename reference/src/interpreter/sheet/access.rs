@@ -59,6 +59,7 @@ impl Access {
                 }
             }
             Node::Break | Node::Continue | Node::Return => {}
+            Node::Record(_) | Node::Wrote { .. } | Node::HandedOn { .. } => {}
             Node::Discard => return Err(("a definition throws no sample away".into(), 0)),
             Node::Derivative { line, .. } => return Err(("a definition has no derivatives".into(), *line)),
             Node::Texture(query) => {

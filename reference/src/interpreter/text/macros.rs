@@ -169,7 +169,7 @@ fn paste(left: &mut Vec<Token>, right: &mut [Token], used: &Token) -> Result<(),
     joined.retain(|token| token.kind != TokenKind::LineEnd);
     match <[Token; 1]>::try_from(joined) {
         Ok([token]) => {
-            right[0] = Token { line: used.line, hidden: before.hidden, ..token };
+            right[0] = Token { line: used.line, written: before.written, hidden: before.hidden, ..token };
             Ok(())
         }
         Err(_) => Err(Refusal::invalid(used.line, "## makes no token")),

@@ -1,0 +1,142 @@
+//! What is known of a place that mends everything.
+
+use super::quantities::{Columns, Quantity, is_same, made_of};
+use super::search::{Mend, Search};
+use super::{Finding, Flaw, Site, Stage, What};
+use reference::interpreter::Scalar;
+use reference::interpreter::trace::Event;
+
+impl Search<'_, '_> {
+    /// What is said of a place.
+    pub(super) fn finding(&self, mend: &Mend) -> Option<Finding> {
+        let trace = self.trace(mend.stage)?;
+        let sites = self.theirs.stage(mend.stage).sites();
+        let site = &sites[mend.suspect.site];
+        let quantity = mend.quantity.map(|number| &self.quantities.all[number]);
+        let event = &trace.events[*mend.suspect.events.first()?];
+        let missing = self.missing_in(mend);
+        let flaw = match quantity {
+            _ if site.kind.scalar() == Some(Scalar::Bool) => Flaw::Condition,
+            Some(_) => missing.clone().map_or(Flaw::Value, Flaw::Lacks),
+            None => Flaw::Value,
+        };
+        let overwritten = match &flaw {
+            Flaw::Lacks(_) => self.overwritten(mend, quantity),
+            _ => None,
+        };
+        let thrown_away = mend.values.first().and_then(|wanted| self.thrown_away(mend.stage, wanted));
+        let (line, flaw) = match thrown_away {
+            Some(line) => (line, Flaw::ThrownAway),
+            None => overwritten.map_or((site.line, flaw), |line| (line, Flaw::Overwrites)),
+        };
+        let name = self.name(mend, sites);
+        let lane = worst(event, &mend.values[0]);
+        let at = |columns: &Columns| columns.iter().map(|column| column[lane]).collect();
+        Some(Finding {
+            stage: mend.stage,
+            line,
+            name,
+            quantity: quantity.and_then(|quantity| quantity.names.first().cloned()),
+            is_settled: self.is_settled(mend),
+            is_whole: self.is_whole(mend),
+            touches_position: !self.is_in_place(self.own, self.count),
+            is_use: matches!(site.what, What::Read(_)),
+            touches: match missing {
+                Some(missing) => missing,
+                None => quantity.map_or_else(Vec::new, |quantity| self.quantities.touched_by(quantity)),
+            },
+            flaw,
+            expected: at(&mend.values[0]),
+            found: at(&event.values),
+        })
+    }
+
+    /// The variable that is given the value, or else that the statement gives a value to.
+    pub(super) fn name(&self, mend: &Mend, sites: &[Site]) -> Option<String> {
+        match &sites[mend.suspect.site].what {
+            What::Assign { name, .. } | What::Read(name) => return Some(name.clone()),
+            _ => {}
+        }
+        let user = sites.iter().find(|site| site.operands.contains(&mend.suspect.site))?;
+        match &user.what {
+            What::Assign { name, .. } => Some(name.clone()),
+            _ => None,
+        }
+    }
+
+    /// What a place lacks of a sum.
+    pub(super) fn missing_in(&self, mend: &Mend) -> Option<Vec<String>> {
+        let trace = self.trace(mend.stage)?;
+        let quantity = mend.quantity.map(|number| &self.quantities.all[number])?;
+        self.lacking(&trace.events[*mend.suspect.events.first()?], quantity)
+    }
+
+    /// The addends that a sum lacks, where what it has are the others.
+    pub(super) fn lacking(&self, event: &Event, quantity: &Quantity) -> Option<Vec<String>> {
+        let addends = &quantity.addends;
+        if addends.len() < 2 || addends.len() > 8 {
+            return None;
+        }
+        let sum = |chosen: usize| -> Columns {
+            let width = event.values.len();
+            let lanes = event.lanes.len();
+            let mut total = vec![vec![0.0; lanes]; width];
+            for (_, addend) in addends.iter().enumerate().filter(|(at, _)| chosen >> at & 1 == 1).map(|(_, one)| one) {
+                for (scalar, column) in total.iter_mut().enumerate() {
+                    let own = addend.get(scalar).or(addend.first().filter(|_| addend.len() == 1));
+                    if let Some(own) = own {
+                        column.iter_mut().zip(own).for_each(|(to, from)| *to += from);
+                    }
+                }
+            }
+            total
+        };
+        let all = (1_usize << addends.len()) - 1;
+        let chosen = (0..all).find(|chosen| is_same(event, &sum(*chosen)))?;
+        let missing = addends.iter().enumerate().filter(|(at, _)| chosen >> at & 1 == 0);
+        missing.map(|(_, (name, _))| name.clone()).collect()
+    }
+
+    /// The line of the statement that writes over what a sum lacks.
+    pub(super) fn overwritten(&self, mend: &Mend, quantity: Option<&Quantity>) -> Option<u32> {
+        let trace = self.trace(mend.stage)?;
+        let sites = self.theirs.stage(mend.stage).sites();
+        let name = self.name(mend, sites)?;
+        let missing = self.missing_in(mend)?;
+        let is_missing = |event: &Event| {
+            let lost =
+                quantity?.addends.iter().filter(|(name, _)| name.as_ref().is_some_and(|name| missing.contains(name)));
+            Some(lost.into_iter().any(|(_, addend)| is_same(event, addend)))
+        };
+        let writes = trace
+            .events
+            .iter()
+            .enumerate()
+            .filter(|(_, event)| matches!(&sites[event.site].what, What::Assign { name: own, .. } if *own == name));
+        let writes: Vec<(usize, &Event)> = writes.collect();
+        let is_kept = |from: &usize, before: usize| *from == before || made_of(trace, &[*from]).contains(&before);
+        let pair = writes.windows(2).find(|pair| {
+            let (before, after) = (pair[0].0, pair[1].1);
+            is_missing(pair[0].1) == Some(true) && !after.from.iter().any(|from| is_kept(from, before))
+        })?;
+        Some(sites[pair[1].1.site].line)
+    }
+
+    /// The line of a statement that computes what is needed, and does nothing with it.
+    pub(super) fn thrown_away(&self, stage: Stage, wanted: &Columns) -> Option<u32> {
+        let trace = self.trace(stage)?;
+        let sites = self.theirs.stage(stage).sites();
+        let event = trace.events.iter().find(|event| !sites[event.site].is_used && is_same(event, wanted))?;
+        Some(sites[event.site].line)
+    }
+}
+
+/// The lane where a value is furthest from what it should be.
+fn worst(event: &Event, wanted: &Columns) -> usize {
+    let apart = |lane: usize| {
+        let columns = event.values.iter().zip(wanted);
+        let apart = columns.map(|(own, wanted)| (own[lane] - wanted[lane]).abs()).fold(0.0, f64::max);
+        if event.lanes[lane] && apart.is_finite() { apart } else { -1.0 }
+    };
+    (0..event.lanes.len()).max_by(|a, b| apart(*a).total_cmp(&apart(*b)).then(b.cmp(a))).unwrap_or(0)
+}

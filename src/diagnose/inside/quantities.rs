@@ -1,0 +1,270 @@
+//! What a right answer computes on its way.
+
+use super::{Place, is_number};
+use glam::DVec3;
+use reference::Assignment;
+use reference::equation::Variant;
+use reference::interpreter::trace::{Event, Trace, What};
+use reference::interpreter::{Binary, Program, Scalar, Stage};
+use reference::traced::TracedProgram;
+use std::collections::BTreeSet;
+
+/// The scalars of a value, each for all samples.
+pub(super) type Columns = Vec<Vec<f64>>;
+
+/// A value of the right answer.
+#[derive(Clone, Debug)]
+pub(super) struct Quantity {
+    pub stage: Stage,
+    /// The variables that are given it.
+    pub names: Vec<String>,
+    /// Each time that it is computed.
+    pub turns: Vec<Columns>,
+    /// Where it is computed: the events of the right answer's trace.
+    events: Vec<usize>,
+    pub is_bool: bool,
+    /// Whether it is written as it is, or read: what may stand in the place of a number.
+    pub is_leaf: bool,
+    /// What is added up to it.
+    pub addends: Vec<(Option<String>, Columns)>,
+    /// Whether it is the same at all places: such values are equal by chance.
+    pub is_constant: bool,
+}
+
+/// What is done to a value where it is computed.
+const FINISHING: [&str; 6] = ["normalize", "max", "min", "clamp", "abs", "fract"];
+
+/// All of them.
+#[derive(Debug)]
+pub(super) struct Quantities {
+    pub all: Vec<Quantity>,
+    traces: [Option<Trace>; 2],
+    /// The variable that each event gives its value, by stage.
+    names: [Vec<Option<String>>; 2],
+    /// What each event does, by stage.
+    doings: [Vec<What>; 2],
+}
+
+impl Quantities {
+    pub fn of(solution: &TracedProgram, traces: [Option<Trace>; 2]) -> Self {
+        let mut quantities =
+            Self { all: Vec::new(), names: [Vec::new(), Vec::new()], doings: [Vec::new(), Vec::new()], traces };
+        for stage in [Stage::Vertex, Stage::Fragment] {
+            let program = solution.stage(stage);
+            let Some(trace) = quantities.traces[stage as usize].take() else { continue };
+            quantities.names[stage as usize] = trace.events.iter().map(|event| name(program, event)).collect();
+            let doing = |event: &Event| program.sites()[event.site].what.clone();
+            quantities.doings[stage as usize] = trace.events.iter().map(doing).collect();
+            let mut own = of_stage(stage, program, &trace);
+            quantities.all.append(&mut own);
+            quantities.traces[stage as usize] = Some(trace);
+        }
+        quantities
+    }
+
+    /// The definitions as a variant of the equation has them; its colours.
+    /// `each`: how many samples each place has.
+    pub fn replace(
+        &mut self,
+        assignment: &Assignment,
+        variant: &Variant<'_>,
+        places: &[Place<'_>],
+        each: usize,
+    ) -> Option<Vec<DVec3>> {
+        let outcomes: Vec<_> = places.iter().map(|at| variant.evaluate(at.uniforms, &at.probe.attributes)).collect();
+        for definition in assignment.equation.definitions() {
+            let values: Vec<_> = outcomes.iter().map(|one| one.get(&definition.name)).collect::<Option<_>>()?;
+            let count = values.first()?.numbers().len();
+            let column = |scalar: usize| {
+                let numbers = values.iter().map(|value| value.numbers()[scalar]);
+                numbers.flat_map(|number| std::iter::repeat_n(number, each)).collect()
+            };
+            let columns: Columns = (0..count).map(column).collect();
+            for own in self.all.iter_mut().filter(|own| own.names.contains(&definition.name)) {
+                if own.turns.len() == 1 && own.turns[0].len() == count {
+                    own.is_constant = is_constant(&columns);
+                    own.turns = vec![columns.clone()];
+                }
+            }
+        }
+        Some(outcomes.iter().map(reference::equation::Evaluation::colour).collect())
+    }
+
+    /// A right quantity that a value equals where it is computed, and not by chance.
+    pub fn equal_to(&self, stage: Stage, event: &Event) -> Option<&Quantity> {
+        if is_constant(&event.values) {
+            return None;
+        }
+        let is_it = |own: &&Quantity| {
+            own.stage == stage && !own.is_constant && own.turns.iter().any(|turn| is_same(event, turn))
+        };
+        self.all.iter().find(is_it)
+    }
+
+    /// Whether a quantity is another one, clamped or made a unit vector: what is done to a value where it is computed, not
+    /// where it is used.
+    pub fn finishes(&self, of: &Quantity, on: &Quantity) -> bool {
+        let Some(trace) = &self.traces[of.stage as usize] else { return false };
+        let doings = &self.doings[of.stage as usize];
+        let finishes = |event: &usize| {
+            let is_finish = match &doings[*event] {
+                What::Call(name) => FINISHING.contains(&name.as_str()),
+                _ => false,
+            };
+            is_finish
+                && trace.events[*event]
+                    .from
+                    .iter()
+                    .any(|from| on.turns.iter().any(|turn| is_equal(turn, &trace.events[*from].values)))
+        };
+        of.stage == on.stage && of.events.iter().any(finishes)
+    }
+
+    /// The names of what a quantity is computed from, its own, and those of what is computed from it.
+    pub fn touched_by(&self, quantity: &Quantity) -> Vec<String> {
+        let Some(trace) = &self.traces[quantity.stage as usize] else { return Vec::new() };
+        let names = &self.names[quantity.stage as usize];
+        let mut is_touched = vec![false; trace.events.len()];
+        quantity.events.iter().for_each(|event| is_touched[*event] = true);
+        for (number, event) in trace.events.iter().enumerate() {
+            is_touched[number] |= event.from.iter().chain(&event.under).any(|from| is_touched[*from]);
+        }
+        made_of(trace, &quantity.events).into_iter().for_each(|event| is_touched[event] = true);
+        let named = names.iter().zip(&is_touched).filter(|(_, is)| **is);
+        let mut found: Vec<String> = named.filter_map(|(name, _)| name.clone()).collect();
+        found.sort();
+        found.dedup();
+        found
+    }
+}
+
+/// The events that some events are computed from, and they themselves.
+pub(super) fn made_of(trace: &Trace, events: &[usize]) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    let mut open = events.to_vec();
+    while let Some(event) = open.pop() {
+        if found.insert(event) {
+            open.extend(&trace.events[event].from);
+        }
+    }
+    found
+}
+
+fn name(program: &Program, event: &Event) -> Option<String> {
+    match &program.sites()[event.site].what {
+        What::Assign { name, is_part: false } => Some(name.clone()),
+        _ => None,
+    }
+}
+
+fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
+    let mut found: Vec<Quantity> = Vec::new();
+    let sites = program.sites();
+    let mut by_site: Vec<Vec<usize>> = vec![Vec::new(); sites.len()];
+    trace.events.iter().enumerate().for_each(|(number, event)| by_site[event.site].push(number));
+    for (site, events) in sites.iter().zip(by_site).filter(|(_, events)| !events.is_empty()) {
+        let is_bool = site.kind.scalar() == Some(Scalar::Bool);
+        if !is_bool && !matches!(site.kind.scalar(), Some(Scalar::Float)) {
+            continue;
+        }
+        let name = match &site.what {
+            What::Assign { name, is_part: false } => Some(name.clone()),
+            _ => None,
+        };
+        let turns: Vec<Columns> = events.iter().map(|event| trace.events[*event].values.clone()).collect();
+        let quantity = |turns: Vec<Columns>, events: Vec<usize>| Quantity {
+            stage,
+            names: name.iter().cloned().collect(),
+            is_constant: turns.iter().all(is_constant),
+            addends: events.last().map_or_else(Vec::new, |event| addends(program, trace, *event)),
+            turns,
+            events,
+            is_bool,
+            is_leaf: matches!(site.what, What::Literal | What::Read(_)),
+        };
+        if turns.len() > 1 {
+            for (turn, event) in turns.iter().zip(&events).take(8) {
+                add(&mut found, quantity(vec![turn.clone()], vec![*event]));
+            }
+        }
+        add(&mut found, quantity(turns, events));
+    }
+    found
+}
+
+/// Adds a quantity; one that is there already only gets a name.
+fn add(found: &mut Vec<Quantity>, quantity: Quantity) {
+    let is_it = |own: &&mut Quantity| {
+        let alike = own.turns.len() == quantity.turns.len() && own.is_bool == quantity.is_bool;
+        alike && own.turns.iter().zip(&quantity.turns).all(|(a, b)| is_equal(a, b))
+    };
+    match found.iter_mut().find(is_it) {
+        Some(own) => {
+            own.names.extend(quantity.names);
+            own.events.extend(quantity.events);
+            own.is_leaf |= quantity.is_leaf;
+        }
+        None => found.push(quantity),
+    }
+}
+
+/// What is added up to an event, with the names of variables.
+fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, Columns)> {
+    let own = &trace.events[event];
+    let site = &program.sites()[own.site];
+    let is_sum = matches!(site.what, What::Binary(Binary::Add));
+    let operands = || own.from.iter().copied();
+    match &site.what {
+        What::Binary(Binary::Add) => {
+            operands().flat_map(|operand| addend(program, trace, operand)).filter(|_| is_sum).collect()
+        }
+        What::Assign { .. } => match own.from.as_slice() {
+            [only] => addends(program, trace, *only),
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
+    }
+}
+
+fn addend(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, Columns)> {
+    let inner = addends(program, trace, event);
+    if !inner.is_empty() {
+        return inner;
+    }
+    let own = &trace.events[event];
+    let name = match &program.sites()[own.site].what {
+        What::Read(name) => Some(name.clone()),
+        _ => None,
+    };
+    vec![(name, own.values.clone())]
+}
+
+/// Whether a value is the same at all places.
+pub(super) fn is_constant(columns: &Columns) -> bool {
+    columns.iter().all(|column| column.iter().all(|value| is_number(*value, column[0])))
+}
+
+/// Whether two values are the same everywhere.
+pub(super) fn is_equal(a: &Columns, b: &Columns) -> bool {
+    let is_one = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || is_number(*a, *b);
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(is_one))
+}
+
+/// Whether a value fits a quantity by its shape: a colour may have three components instead of four.
+pub(super) fn fits(value: usize, quantity: usize) -> bool {
+    value == quantity || value == 3 && quantity == 4 || value == 4 && quantity == 3
+}
+
+/// Whether a value equals a quantity wherever both are there.
+pub(super) fn is_same(event: &Event, quantity: &Columns) -> bool {
+    if !fits(event.values.len(), quantity.len()) {
+        return false;
+    }
+    let is_lane = |lane: usize, own: &f64, right: &f64| !event.lanes[lane] || right.is_nan() || is_number(*own, *right);
+    let columns = event.values.iter().zip(quantity);
+    let is_column = |(own, right): (&Vec<f64>, &Vec<f64>)| {
+        own.len() == right.len()
+            && own.iter().zip(right).enumerate().all(|(lane, (own, right))| is_lane(lane, own, right))
+    };
+    columns.into_iter().all(is_column)
+}

@@ -1,0 +1,313 @@
+//! Which value has to be another one for all that is seen to be right.
+
+use super::quantities::{Columns, fits, is_same};
+use super::walk::{Suspect, suspects};
+use super::*;
+use reference::interpreter::trace::{Change, Event};
+use reference::interpreter::{Program, Scalar};
+use std::collections::BTreeSet;
+
+/// What to try for a number that is written: what makes no difference, or the other sign.
+const PLAIN: [f64; 4] = [1.0, 0.0, -1.0, 2.0];
+
+/// What makes no difference to a product or a sum.
+pub(super) const ONES: [f64; 2] = [1.0, 0.0];
+
+pub(super) struct Search<'s, 'a> {
+    pub evidence: &'s Evidence<'a>,
+    pub theirs: &'s TracedProgram,
+    pub traces: &'s [Option<Trace>; 2],
+    pub own: &'s Seen,
+    pub wanted: &'s Seen,
+    pub quantities: &'s Quantities,
+    pub few: Bench<'s>,
+    pub all: Bench<'s>,
+    pub count: usize,
+    /// What is changed already.
+    pub base: [Vec<Change>; 2],
+}
+
+/// A place that mends what is seen, and what has to stand there.
+#[derive(Clone, Debug)]
+pub(super) struct Mend {
+    pub stage: Stage,
+    pub suspect: Suspect,
+    /// The quantity by its place; none of a plain number or a truth value.
+    pub quantity: Option<usize>,
+    pub values: Vec<Columns>,
+}
+
+impl Mend {
+    /// The same place with a number in it.
+    fn with_number(&self, number: f64) -> Self {
+        let fill = |column: &Vec<f64>| vec![number; column.len()];
+        let values = self.values.iter().map(|turn| turn.iter().map(fill).collect()).collect();
+        Self { quantity: None, values, ..self.clone() }
+    }
+
+    /// What is changed by it.
+    pub fn change(&self) -> Change {
+        Change { site: self.suspect.site, values: self.values.clone() }
+    }
+}
+
+impl Search<'_, '_> {
+    /// Whether what is seen at the first places is what should be.
+    pub fn is_right(&self, seen: &Seen, count: usize) -> bool {
+        let mut colours = seen.colours.iter().zip(&self.wanted.colours).take(count);
+        colours.all(|(own, wanted)| is_colour(*wanted, *own)) && self.is_in_place(seen, count)
+    }
+
+    /// Whether everything stands where it should.
+    pub fn is_in_place(&self, seen: &Seen, count: usize) -> bool {
+        let mut positions = seen.positions.iter().zip(&self.wanted.positions).take(count);
+        positions.all(|(own, wanted)| {
+            let largest = wanted.abs().max_element().max(f64::MIN_POSITIVE);
+            (*own - *wanted).abs().max_element() <= POSITION_TOLERANCE * largest
+        })
+    }
+
+    pub fn findings(&mut self) -> Vec<Finding> {
+        let mend = self.mend_but(None);
+        let is_telling = |mend: &Mend| !self.is_whole(mend) || self.missing_in(mend).is_some() || self.is_settled(mend);
+        if let Some(mend) = mend.as_ref().filter(|mend| is_telling(mend)) {
+            return self.finding(mend).into_iter().collect();
+        }
+        // What goes out can always be mended. Two places further back say more.
+        let mends = self.several();
+        let mends = if mends.is_empty() { mend.into_iter().collect() } else { mends };
+        mends.iter().filter_map(|mend| self.finding(mend)).collect()
+    }
+
+    pub fn trace(&self, stage: Stage) -> Option<&Trace> {
+        self.traces[stage as usize].as_ref()
+    }
+
+    /// The suspects of a stage.
+    pub fn suspects(&self, stage: Stage) -> Vec<Suspect> {
+        let Some(trace) = self.trace(stage) else { return Vec::new() };
+        let program = self.theirs.stage(stage);
+        let roots: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
+        suspects(stage, program, trace, self.quantities, &roots)
+    }
+
+    /// The first place that mends everything by itself, other than one site.
+    ///
+    /// That is the first value which is not right. What it is made of is to blame in its place where that is right, but not
+    /// finished: a vector that is not normalised, a cosine that is not clamped; or where it is the wrong one of its kind.
+    pub fn mend_but(&mut self, but: Option<usize>) -> Option<Mend> {
+        let all = [Stage::Vertex, Stage::Fragment].map(|stage| (stage, self.suspects(stage)));
+        let all: Vec<(Stage, Suspect)> =
+            all.into_iter().flat_map(|(stage, own)| own.into_iter().map(move |one| (stage, one))).collect();
+        let all: Vec<(Stage, Suspect)> = all.into_iter().filter(|(_, one)| Some(one.site) != but).collect();
+        let (own, handed_out): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|(stage, one)| self.is_students(*stage, one));
+        let wrong = |(_, one): &&(Stage, Suspect)| !one.is_right && !one.gives_right;
+        // What a loop computes right at first goes wrong by something else.
+        let (late, early): (Vec<_>, Vec<_>) =
+            own.iter().filter(wrong).partition(|(stage, one)| self.begins_right(*stage, one));
+        let first = early.into_iter().chain(late).find_map(|(stage, one)| self.mend_at(*stage, one));
+        // Where a value begins the same everywhere, and a condition decides what becomes of it, the condition counts.
+        let first = match first {
+            Some(first) if self.is_number(&first) => {
+                let is_bool = |(stage, one): &&(Stage, Suspect)| self.is_bool(*stage, one);
+                let conditions: Vec<(Stage, Suspect)> = own.iter().filter(is_bool).cloned().collect();
+                let condition = conditions.iter().find_map(|(stage, one)| self.mend_at(*stage, one));
+                Some(condition.unwrap_or(first))
+            }
+            first => first,
+        };
+        let is_literal = |mend: &Mend| self.site(mend.stage, &mend.suspect).what == What::Literal;
+        if let Some(literal) = first.as_ref().filter(|mend| is_literal(mend)) {
+            return Some(literal.clone());
+        }
+        let givers = own.iter().filter(|(stage, one)| one.gives_right && self.is_assignment(*stage, one));
+        let givers: Vec<(Stage, Suspect)> = givers.cloned().collect();
+        let giver = givers.iter().find_map(|(stage, one)| self.mend_at(*stage, one));
+        // Where the next step makes of it what it should be, and fails, that step is to blame.
+        let is_same_end = |giver: &Mend| first.as_ref().is_some_and(|first| first.quantity == giver.quantity);
+        if let Some(giver) = giver.filter(|giver| !is_same_end(giver)) {
+            return Some(giver);
+        }
+        if let Some(first) = first {
+            return Some(self.operand(&first, &own).unwrap_or(first));
+        }
+        let rest = own.iter().filter(|(stage, one)| self.is_assignment(*stage, one)).chain(&handed_out);
+        let rest: Vec<(Stage, Suspect)> = rest.cloned().collect();
+        rest.iter().find_map(|(stage, one)| self.any_mend_at(*stage, one))
+    }
+
+    fn is_bool(&self, stage: Stage, suspect: &Suspect) -> bool {
+        self.site(stage, suspect).kind.scalar() == Some(Scalar::Bool)
+    }
+
+    fn begins_right(&self, stage: Stage, suspect: &Suspect) -> bool {
+        let first = suspect.events.first().zip(self.trace(stage)).map(|(event, trace)| &trace.events[*event]);
+        suspect.events.len() > 1 && first.is_some_and(|first| self.quantities.equal_to(stage, first).is_some())
+    }
+
+    fn is_assignment(&self, stage: Stage, suspect: &Suspect) -> bool {
+        matches!(self.site(stage, suspect).what, What::Assign { .. })
+    }
+
+    /// A variable that a place reads, that is right, and that is the wrong one of its kind there. An argument counts before the
+    /// parameter that it becomes.
+    fn operand(&mut self, mend: &Mend, all: &[(Stage, Suspect)]) -> Option<Mend> {
+        let near = self.operands(mend)?;
+        let is_read = |(stage, one): &&(Stage, Suspect)| {
+            let is_near = *stage == mend.stage && one.events.iter().any(|event| near.contains(event));
+            is_near && (one.is_right || one.gives_right) && matches!(self.site(*stage, one).what, What::Read(_))
+        };
+        let reads: Vec<Suspect> = all.iter().filter(is_read).map(|(_, one)| one.clone()).collect();
+        reads.into_iter().find_map(|one| self.mend_at(mend.stage, &one))
+    }
+
+    /// What a place is computed from in its statement, and the arguments that come to it; none of a condition.
+    fn operands(&self, mend: &Mend) -> Option<BTreeSet<usize>> {
+        let trace = self.trace(mend.stage)?;
+        let sites = self.theirs.stage(mend.stage).sites();
+        let is_bool = |event: usize| sites[trace.events[event].site].kind.scalar() == Some(Scalar::Bool);
+        let mut found = BTreeSet::new();
+        let mut open = mend.suspect.events.clone();
+        while let Some(event) = open.pop() {
+            if is_bool(event) || !found.insert(event) {
+                continue;
+            }
+            let is_end = |from: &&usize| !matches!(sites[trace.events[**from].site].what, What::Assign { .. });
+            open.extend(trace.events[event].from.iter().filter(is_end));
+        }
+        Some(found)
+    }
+
+    pub fn site(&self, stage: Stage, suspect: &Suspect) -> &Site {
+        let program: &Program = self.theirs.stage(stage);
+        &program.sites()[suspect.site]
+    }
+
+    /// Whether the student wrote the line: what was handed out is right.
+    pub fn is_students(&self, stage: Stage, suspect: &Suspect) -> bool {
+        let line = self.site(stage, suspect).line;
+        let starter = self.evidence.assignment.files.iter().find(|file| Stage::from(file.stage) == stage);
+        let source = self.evidence.sources.iter().find(|(own, _)| *own == stage);
+        let (Some(starter), Some((_, source))) = (starter, source) else { return true };
+        line == 0 || line > source.line_count() || !is_handed_out(source, line, &starter.starter)
+    }
+
+    /// What has to stand in a place for all to be right, where the place is to blame.
+    fn mend_at(&mut self, stage: Stage, suspect: &Suspect) -> Option<Mend> {
+        let all = self.candidates(stage, suspect);
+        let all: Vec<Mend> = all.into_iter().filter(|mend| self.is_to_blame(mend)).collect();
+        let found = all.into_iter().find(|mend| self.mends(mend))?;
+        // A number that is computed or has a name is not wrong where any use of it would be right without it.
+        let is_number = self.is_number(&found) && ONES.into_iter().any(|one| self.mends(&found.with_number(one)));
+        (!is_number).then_some(found)
+    }
+
+    /// What has to stand in a place for all to be right.
+    fn any_mend_at(&mut self, stage: Stage, suspect: &Suspect) -> Option<Mend> {
+        let all = self.candidates(stage, suspect);
+        let is_possible = |mend: &Mend| self.trace(stage).is_some_and(|trace| !self.is_right_elsewhere(mend, trace));
+        let all: Vec<Mend> = all.into_iter().filter(is_possible).collect();
+        all.into_iter().find(|mend| self.mends(mend))
+    }
+
+    /// What may stand in a place, and is not what stands there.
+    pub fn candidates(&self, stage: Stage, suspect: &Suspect) -> Vec<Mend> {
+        let Some(trace) = self.trace(stage) else { return Vec::new() };
+        let events: Vec<&Event> = suspect.events.iter().map(|event| &trace.events[*event]).collect();
+        let Some(first) = events.first() else { return Vec::new() };
+        let site = self.site(stage, suspect);
+        let is_bool = site.kind.scalar() == Some(Scalar::Bool);
+        let is_float = site.kind.scalar() == Some(Scalar::Float);
+        let lanes = first.lanes.len();
+        if self.has_its_own_name(stage, site, &events) {
+            return Vec::new();
+        }
+        let mend = |quantity, values| Mend { stage, suspect: suspect.clone(), quantity, values };
+        let mut found = Vec::new();
+        for (number, quantity) in self.quantities.all.iter().enumerate() {
+            if quantity.stage != stage
+                || quantity.is_bool != is_bool
+                || !fits(first.values.len(), quantity.turns[0].len())
+            {
+                continue;
+            }
+            // Whole numbers count and choose: they are no quantities.
+            if !is_bool && !is_float || site.what == What::Literal && !quantity.is_leaf {
+                continue;
+            }
+            let turns = &quantity.turns;
+            if turns.len() != 1 && turns.len() != events.len() {
+                continue;
+            }
+            let turn = |at: usize| if turns.len() == 1 { &turns[0] } else { &turns[at] };
+            if turns[0][0].len() != lanes || events.iter().enumerate().all(|(at, event)| is_same(event, turn(at))) {
+                continue;
+            }
+            let shaped = events.iter().enumerate().map(|(at, event)| shaped(event, turn(at))).collect();
+            found.push(mend(Some(number), shaped));
+        }
+        if is_bool {
+            for truth in [0.0, 1.0] {
+                found.push(mend(None, vec![vec![vec![truth; lanes]]]));
+            }
+            let other = |event: &&Event| vec![event.values[0].iter().map(|truth| 1.0 - truth).collect()];
+            found.push(mend(None, events.iter().map(other).collect()));
+        }
+        if matches!(site.what, What::Literal | What::Read(_)) && is_float && first.values.len() <= 4 {
+            for number in PLAIN.into_iter().filter(|number| !is_number(first.values[0][0], *number)) {
+                found.push(mend(None, vec![vec![vec![number; lanes]; first.values.len()]]));
+            }
+        }
+        // One more, or one less: where counting begins and ends.
+        if site.what == What::Literal && matches!(site.kind.scalar(), Some(Scalar::Int | Scalar::Uint)) {
+            for number in [first.values[0][0] + 1.0, first.values[0][0] - 1.0] {
+                found.push(mend(None, vec![vec![vec![number; lanes]]]));
+            }
+        }
+        found
+    }
+
+    /// Whether a variable is given what the right answer gives the variable of that name.
+    fn has_its_own_name(&self, stage: Stage, site: &Site, events: &[&Event]) -> bool {
+        let What::Assign { name, is_part: false } = &site.what else { return false };
+        let own = self.quantities.all.iter().filter(|own| own.stage == stage && own.names.contains(name));
+        own.flat_map(|own| &own.turns).any(|turn| events.iter().all(|event| is_same(event, turn)))
+    }
+
+    /// Whether all that is seen is right with this in its place.
+    pub fn mends(&mut self, mend: &Mend) -> bool {
+        let few = self.count.min(FIRST);
+        let changes = self.changes(mend, few);
+        let Some(seen) = self.few.with(&changes) else { return false };
+        if !self.is_right(&seen, few) {
+            return false;
+        }
+        let changes = self.changes(mend, self.count);
+        self.all.with(&changes).is_some_and(|seen| self.is_right(&seen, self.count))
+    }
+
+    /// The colours at the first places with this in its place.
+    pub fn seen_with(&mut self, mend: &Mend) -> Option<Vec<DVec3>> {
+        let changes = self.changes(mend, self.count.min(FIRST));
+        Some(self.few.with(&changes)?.colours)
+    }
+
+    /// What is changed at the first places.
+    fn changes(&self, mend: &Mend, places: usize) -> [Vec<Change>; 2] {
+        let mut changes = self.base.clone();
+        changes[mend.stage as usize].push(mend.change());
+        let all = changes.iter_mut().flatten().flat_map(|change| &mut change.values);
+        for column in all.flatten() {
+            let each = column.len() / self.count.max(1);
+            column.truncate(each * places);
+        }
+        changes
+    }
+}
+
+/// A quantity in the shape of a value: what it has not stays as it is.
+fn shaped(event: &Event, quantity: &Columns) -> Columns {
+    let own = event.values.iter().enumerate();
+    own.map(|(scalar, own)| quantity.get(scalar).unwrap_or(own).clone()).collect()
+}
