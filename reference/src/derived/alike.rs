@@ -2,6 +2,7 @@
 
 use super::Derived;
 use crate::Value;
+use crate::assignment::RubricLine;
 use crate::equation::Variant;
 use crate::mistake::{Alternative, Condition, Form};
 use glam::DVec3;
@@ -38,7 +39,8 @@ impl Derived {
                 let own = Known { form: Some(form), colours: self.colours(&mut variant, Some(form), self.few()) };
                 let alike = known.entry(bucket(&own.colours)).or_default();
                 let mut others = std::iter::once(&right).chain(&*alike);
-                let is_new = !others.any(|other| self.is_alike(&mut variant, &own, other));
+                let is_new = !others.any(|other| self.is_alike(&mut variant, &own, other))
+                    && !self.is_another_constant(&mut variant, form);
                 if is_new {
                     alike.push(own);
                 }
@@ -74,6 +76,27 @@ impl Derived {
             let mut all = |known: &Known<'a>| self.colours(variant, known.form, 0..self.places.len());
             same(&all(own), &all(other))
         }
+    }
+
+    /// Whether a form replaces what is the same everywhere by something else that is: nothing shows how it was made. Of what a line
+    /// judges it is told all the same.
+    fn is_another_constant<'a>(&'a self, variant: &mut Variant<'a>, form: &'a Form) -> bool {
+        let equation = &self.assignment.equation;
+        let [replaced] = &form.overrides[..] else { return false };
+        let is_judged = |line: &RubricLine| equation.index(&line.judges) == Some(replaced.definition);
+        if self.assignment.rubric.iter().any(is_judged) {
+            return false;
+        }
+        let mut is_constant = |form: Option<&'a Form>| {
+            variant.instead(form, SOME);
+            let value = |(uniforms, attributes): &(Vec<Value>, Vec<Value>)| {
+                variant.evaluate(uniforms, attributes).numbers(replaced.definition).to_vec()
+            };
+            let mut values = self.places[self.few()].iter().map(value);
+            let first = values.next().unwrap_or_default();
+            values.all(|other| other.iter().zip(&first).all(|(a, b)| (a - b).abs() <= RELATIVE))
+        };
+        is_constant(None) && is_constant(Some(form))
     }
 
     /// The colours with a form in the equation at some of the places, not clamped; a number that is free has some value.

@@ -118,8 +118,14 @@ impl Derived {
         let is_right = |place: usize| agrees(probes.probes[place].colour, shown[place].0, TOLERANCE);
         let alternatives = Alternatives::new(&self.assignment, probes);
         let judged = Footprints::of(&alternatives, TOLERANCE).judged(&is_right);
-        let number = self.assignment.rubric.iter().position(|own| own.id == line.id);
-        let own = judged.into_iter().find(|(judged, _)| Some(*judged) == number);
-        own.is_none_or(|(_, places)| !places.into_iter().all(is_right))
+        let rubric = self.assignment.rubric.iter().enumerate();
+        let mut colours = rubric.filter(|(_, line)| !self.assignment.judges_position(line));
+        let is_touched = |number: usize| {
+            let own = judged.iter().find(|(judged, _)| *judged == number);
+            own.is_none_or(|(_, places)| !places.iter().all(|place| is_right(*place)))
+        };
+        // Where every line is right by itself, it is what they have in common.
+        let is_any = colours.clone().any(|(number, _)| is_touched(number));
+        colours.any(|(number, own)| own.id == line.id && (!is_any || is_touched(number)))
     }
 }

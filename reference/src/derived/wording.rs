@@ -15,7 +15,14 @@ pub(super) fn mistake(assignment: &Assignment, operator: Operator, definition: u
         let part = quantity.part(assignment, slip);
         alternative(form, said, &quantity, &part, slip.is_bound_by_zero)
     });
-    Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) }
+    let equation = &assignment.equation;
+    let moves = equation.position.is_some_and(|position| equation.depends(position, definition));
+    let mut mistake = Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) };
+    mistake.keeps.retain(|(id, _)| {
+        let mut lines = assignment.rubric.iter();
+        moves || !lines.any(|line| line.id == *id && assignment.judges_position(line))
+    });
+    mistake
 }
 
 /// A mistake without its variants, which are those of the slips.
@@ -78,6 +85,8 @@ struct Quantity {
     named: Text,
     /// Whether it is called anything.
     is_known: bool,
+    /// Whether it is all that is computed.
+    is_everything: bool,
 }
 
 impl Quantity {
@@ -97,6 +106,7 @@ impl Quantity {
             plain,
             named,
             is_known: own.means.is_some() || own.symbol.is_some() || is_judged(assignment, definition),
+            is_everything: false,
         }
     }
 
@@ -106,10 +116,14 @@ impl Quantity {
             [line] => part_called(line),
             _ => Text { en: "the result".into(), ja: "結果".into() },
         };
-        Self { named: plain.clone(), plain, is_known: true }
+        Self { named: plain.clone(), plain, is_known: true, is_everything: assignment.rubric.len() > 1 }
     }
 
     fn seen(&self) -> Text {
+        if self.is_everything {
+            let (en, ja) = ("The result is not the right one.", "結果が正しいものと違います。");
+            return Text { en: en.into(), ja: ja.into() };
+        }
         Text {
             en: format!("The result is not the right one where {} counts.", self.plain.en),
             ja: format!("{}が効くところで、結果が正しいものと違います。", self.plain.ja.trim_start()),

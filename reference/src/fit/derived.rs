@@ -21,7 +21,7 @@ const SUMMED_AT: usize = 3;
 
 /// Looks for the mistakes that explain `samples`, at least one of them derived, see [`super::explain`].
 ///
-/// `is_there`: whether a sample's position is a given one; `shape`: whether all positions are right.
+/// `is_there`: whether a sample's position is a given one.
 pub fn explain_derived(
     assignment: &Assignment,
     probes: &ProbeSet,

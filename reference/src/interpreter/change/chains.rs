@@ -1,7 +1,7 @@
 //! Slips between operands.
 
 use super::tree::Place;
-use super::{Local, Operator, Scope, bare};
+use super::{Local, Operator, Scope, bare, is_literal};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
@@ -240,12 +240,33 @@ impl Chain<'_> {
         } else {
             return;
         };
-        // Of a power that is another exponent.
+        // Of a power that is another exponent, of a number another number.
         let is_power = |one: &Expression| matches!(&one.kind, ExpressionKind::Call(name, _) if **name == *"pow");
-        for at in (0..self.count()).filter(|at| !is_power(self.operand(*at))) {
+        let is_number = |one: &Expression| kind == Operator::Squared && (is_power(one) || is_literal(one));
+        for at in (0..self.count()).filter(|at| !is_number(self.operand(*at))) {
             let mut others = self.others.clone();
             others.push((operator, self.line, self.operand(at).clone()));
             found.push(Local::new(kind, self.chain(self.first.clone(), others)).about(self.operand(at)));
+        }
+    }
+
+    /// A product of a sum of which only some parts are multiplied.
+    fn partly_grouped(&self, at: usize, inner: &Chain<'_>, found: &mut Vec<Local>) {
+        let product = |part: Expression| {
+            let part = self.bracketed(part);
+            let (mut first, mut others) = (self.first.clone(), self.others.clone());
+            match at {
+                0 => first = part,
+                _ => others[at - 1].2 = part,
+            }
+            self.chain(first, others)
+        };
+        for split in 1..inner.count() {
+            let (operator, line, _) = inner.others[split - 1];
+            let (left, right) = (inner.part(0, split), inner.part(split, inner.count()));
+            let sum = |a: Expression, b: Expression| self.chain(a, vec![(operator, line, b)]);
+            found.push(Local::new(Operator::Grouping, sum(left.clone(), product(right.clone()))));
+            found.push(Local::new(Operator::Grouping, sum(product(left), right)));
         }
     }
 
@@ -270,6 +291,7 @@ impl Chain<'_> {
                     others[last - 1].2 = right;
                 }
                 found.push(Local::new(Operator::Grouping, self.chain(left, others)));
+                self.partly_grouped(at, &inner, found);
             } else if is_additive(outer) && is_multiplicative(within) {
                 // a + b * c becomes (a + b) * c, and a * b + c becomes a * (b + c).
                 if at > 0 {

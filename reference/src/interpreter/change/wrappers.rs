@@ -79,8 +79,8 @@ impl Value<'_> {
         }
         add(Operator::Complement, self.between(self.number(1.0), Binary::Subtract, self.it()));
         // Of a power that is another exponent.
-        let is_power = matches!(&self.own.kind, ExpressionKind::Call(name, _) if **name == *"pow");
-        if !is_power {
+        let is_power = |one: &Expression| matches!(&one.kind, ExpressionKind::Call(name, _) if **name == *"pow");
+        if !is_power(self.own) && !place.parent.is_some_and(is_power) {
             add(Operator::Squared, self.between(self.it(), Binary::Multiply, self.it()));
             add(Operator::Root, self.call("sqrt", vec![own()]));
         }
