@@ -109,7 +109,7 @@ pub fn folder(path: &Path) -> Result<Arc<Assignment>, Text> {
 }
 
 /// The built-in assignment that these files are for: by their names, by a folder on the way to them, or else the usual one,
-/// which takes one file of any name: what is wrong with it is said in its report.
+/// which takes one vertex shader of any name: what is wrong with it is said in its report.
 fn fitting(files: &[PathBuf]) -> Result<Choice, Text> {
     let names: Vec<&str> = files.iter().filter_map(|file| file.file_name()?.to_str()).collect();
     let fitting = reference::built_in::handing_in(&names);
@@ -123,7 +123,8 @@ fn fitting(files: &[PathBuf]) -> Result<Choice, Text> {
     if let Some(assignment) = on_the_way {
         return Ok(Choice { assignment, notice: None });
     }
-    if fitting.is_empty() && files.len() < 2 {
+    let is_fragment = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "frag");
+    if fitting.is_empty() && (files.len() < 2 || !names.iter().any(is_fragment)) {
         let assignment = Arc::clone(default());
         let Assignment { id, title, .. } = &*assignment;
         let notice = names.first().map(|name| {
