@@ -12,8 +12,8 @@ const FIRST_COMMON_VERSION: i32 = 330;
 const FREE_INTERPOLATION: i32 = 440;
 /// From this version on, they may differ in invariance.
 const FREE_INVARIANCE: i32 = 420;
-/// From this version on, an output may have a location that the input has not.
-const FREE_LOCATIONS: i32 = 430;
+/// In every version, drivers refuse an output with a location that the input has not.
+const FREE_LOCATIONS: i32 = i32::MAX;
 
 /// The warnings about `source`, which the compiler accepts.
 pub(super) fn warnings(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
