@@ -20,7 +20,7 @@ uniform mat4 mw;
 uniform mat4 mc;
 uniform mat4 mg;
 
-layout(location = 0) out vec4 vc; // 色
+out vec4 vc; // 色
 
 void main(void)
 {

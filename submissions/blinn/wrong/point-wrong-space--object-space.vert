@@ -20,7 +20,7 @@ uniform mat4 mw;
 uniform mat4 mc;
 uniform mat4 mg;
 
-layout(location = 0) out vec4 vc; // 色
+out vec4 vc; // 色
 
 float shine(vec3 n, vec3 l, vec3 v)
 {
