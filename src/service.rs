@@ -16,10 +16,11 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`store`] keeps everything,
-//! [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
+//! [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
 
+pub mod acts;
 pub mod api;
 pub mod classes;
 pub mod clock;
@@ -69,6 +70,7 @@ pub fn layered(service: Service, routes: Router<Service>) -> Router {
     routes
         .layer(DefaultBodyLimit::max(api::MAX_BODY))
         .layer(CatchPanicLayer::custom(panicked))
+        .layer(axum::middleware::from_fn_with_state(service.clone(), acts::note))
         .layer(axum::middleware::from_fn_with_state(service.clone(), requests::attend))
         .layer(axum::middleware::from_fn(errors::render))
         .layer(fixed(header::CONTENT_SECURITY_POLICY, CSP))

@@ -20,7 +20,8 @@ pub struct Serve {
     #[arg(long, value_name = "FILE", env = "GGRADE_CONFIG")]
     #[serde(skip)]
     pub config: Option<PathBuf>,
-    /// Ask for the teacher's password on standard input, keep its hash in the database, and end
+    /// Ask on standard input for the password by which the first administrator comes in, keep its hash in the database, and
+    /// end
     #[arg(long)]
     #[serde(skip)]
     pub set_teacher_password: bool,
@@ -91,12 +92,12 @@ pub struct Serve {
     #[arg(long, value_name = "BOOL")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cross_check: Option<bool>,
-    /// Secret that lets programs use the teacher's part of the API, and a teacher log in [default: a new one at each
-    /// start, shown at the start, unless there is a password]
+    /// Secret that lets programs use the teacher's part of the API, and the first administrator log in [default: a new one
+    /// at each start, shown at the start, unless there is a password or an administrator]
     #[arg(long, value_name = "SECRET")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub teacher_token: Option<String>,
-    /// Secret that opens one homework's class only, for its teachers and their programs; may be given again
+    /// Secret that opens one homework's class only, for programs of its teachers; may be given again
     #[arg(long = "homework-token", value_name = "NAME=SECRET")]
     #[serde(skip)]
     pub homework_tokens: Vec<String>,

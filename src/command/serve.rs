@@ -5,14 +5,12 @@ use crate::choice;
 use crate::cli::{LogFormat, Serve};
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::service::identity::SHORTEST_PASSWORD;
 use crate::service::{Config, server};
 use reference::Assignment;
 use std::io::{BufRead, IsTerminal, Write};
 use std::sync::Arc;
 use tracing_subscriber::EnvFilter;
-
-/// Shortest password of a teacher, in characters.
-const SHORTEST_PASSWORD: usize = 10;
 
 /// Serves until it is told to end.
 pub fn run(arguments: &Serve) -> Result<ExitStatus, Fault> {
@@ -77,10 +75,10 @@ fn welcome(started: &server::Started) {
     if let Some(token) = &started.one_time_token {
         let text = Text::new(
             format!(
-                "Log in with the token {token}\n(new at each start; `ggrade serve --set-teacher-password` sets a password)"
+                "Log in with the token {token}\n(new at each start, until somebody has an account: make yours at {public}/teacher/people)"
             ),
             format!(
-                "トークン {token} でログインできます\n(起動のたびに変わります。パスワードは ggrade serve --set-teacher-password で設定できます)"
+                "トークン {token} でログインできます\n(アカウントを作成するまで、起動のたびに変わります。作成は {public}/teacher/people で行います)"
             ),
         );
         anstream::eprintln!("{}", text.get(language(None)));

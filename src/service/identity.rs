@@ -1,26 +1,31 @@
 //! Who is there: a browser, a student in it, a teacher.
 //!
-//! A browser is known by an unguessable cookie, which ties its own history together. A student number is given by form
-//! to whoever came by the course link; it says whom a submission counts for in the class table, and opens nothing: a
-//! history belongs to the browser, so that typing a neighbour's number shows nobody's files. A report's address is a
-//! capability. Cookies are stored as hashes only.
+//! A browser is known by an unguessable cookie, which ties its own history together. Whoever came by the course link gives
+//! a student number, and the personal code that goes with it ([`codes`]): then what the browser hands in counts for that
+//! student. Without a roster there is nobody who hands codes out, and the first browser that gives a number has it. A
+//! report's address is a capability. Cookies are stored as hashes only.
 
+mod codes;
 mod cookies;
 mod csrf;
 mod join;
 mod login;
 mod secrets;
+mod staff;
 mod teacher;
 mod visitor;
 
+pub use codes::{code_needed, personal_code};
 pub use cookies::{STUDENT_COOKIE, TEACHER_COOKIE};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
-pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret};
-pub(super) use login::PASSWORD_SETTING;
-pub use login::{LoginForm, login, logout};
+pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code};
+pub use login::{LoginForm, login, logout, open_for};
 pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use secrets::{hex, same};
-pub use teacher::{Teacher, TeacherPage};
+pub(super) use staff::PASSWORD_SETTING;
+pub(crate) use staff::SHORTEST_PASSWORD;
+pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, set_staff};
+pub use teacher::{LecturerPage, Teacher, TeacherPage};
 pub(super) use teacher::{bearer, is_teachers_program};
 pub use visitor::{Visitor, visit};
 
@@ -33,7 +38,9 @@ pub enum Identity {
     Nobody,
     /// A browser.
     Browser(Owner),
-    /// A student who gave a number in a browser. Whoever a learning platform vouches for joins here.
+    /// A browser in which somebody gave a number that they have not proved to be theirs.
+    Claimed(Owner, Student),
+    /// A student who proved in a browser who they are.
     Student(Owner, Student),
     /// A student for whom the teacher's program hands in.
     OnBehalf(Student),
@@ -43,7 +50,7 @@ impl Identity {
     /// Id of the browser.
     pub fn owner_id(&self) -> Option<&str> {
         match self {
-            Self::Browser(owner) | Self::Student(owner, _) => Some(&owner.id),
+            Self::Browser(owner) | Self::Claimed(owner, _) | Self::Student(owner, _) => Some(&owner.id),
             Self::Nobody | Self::OnBehalf(_) => None,
         }
     }
@@ -52,7 +59,20 @@ impl Identity {
     pub fn student(&self) -> Option<&Student> {
         match self {
             Self::Student(_, student) | Self::OnBehalf(student) => Some(student),
-            Self::Nobody | Self::Browser(_) => None,
+            Self::Nobody | Self::Browser(_) | Self::Claimed(..) => None,
+        }
+    }
+
+    /// Id of the student.
+    pub fn student_id(&self) -> Option<&str> {
+        self.student().map(|student| student.id.as_str())
+    }
+
+    /// The student whose number was given without a proof.
+    pub fn claimed(&self) -> Option<&Student> {
+        match self {
+            Self::Claimed(_, student) => Some(student),
+            _ => None,
         }
     }
 }

@@ -75,8 +75,7 @@ fn of_service() -> Router<Service> {
         .route("/r/{id}/frames/{picture}", get(result::frame))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))
-        .route("/teacher/login", get(teacher::login::page).post(teacher::login::login))
-        .route("/teacher/logout", post(teacher::login::logout))
+        .merge(teacher::of_course())
 }
 
 /// A year, in seconds.

@@ -24,7 +24,7 @@ fn is_about_a_class(route: &str) -> bool {
 const HOMEWORK: &str = "/a/{assignment}";
 
 /// A route with no homework's name in it.
-fn of_any_homework(path: &MatchedPath) -> String {
+pub(super) fn of_any_homework(path: &MatchedPath) -> String {
     match path.as_str().strip_prefix("/a/") {
         Some(rest) => format!("{HOMEWORK}{}", rest.find('/').map_or("", |slash| &rest[slash..])),
         None => path.as_str().to_owned(),

@@ -4,6 +4,7 @@
 //! it on the one that is open. Statements that change something go through [`Store::write`]'s pool: SQLite has one
 //! writer at a time, and a pool of one connection queues for it without ever being told that the file is busy.
 
+mod acts;
 mod assignments;
 mod batches;
 mod cross_checks;
@@ -17,21 +18,24 @@ mod reports;
 mod retention;
 mod rows;
 mod settings;
+mod staff;
 mod students;
 mod submissions;
 
+pub use acts::{Act, NamedAct};
 pub use assignments::{Assignment, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
 pub use deletions::{Counts, Deletion, DeletionTarget};
 pub use keys::{Key, KeyResult};
 pub use open::Location;
-pub use owners::Owner;
+pub use owners::{Owner, Proof};
 pub use queue::Claimed;
 pub use regradings::{Again, Compared, Regrading};
 pub use reports::{ClassRow, HistoryRow, Stored};
 pub use retention::Removed;
 pub(crate) use rows::word;
 pub use rows::{State, Submission, Via};
+pub use staff::{Role, Session, StaffMember};
 pub use students::{EntryMatch, RosterLine, Student};
 pub use submissions::NewSubmission;
 

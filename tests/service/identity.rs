@@ -12,7 +12,7 @@ use axum::{Router, middleware};
 use ggrade::service::clock::Clock;
 use ggrade::service::errors::Problem;
 use ggrade::service::identity::{
-    LoginForm, Teacher, TeacherPage, Visitor, course_secret, hash_password, join, login, logout, visit,
+    LoginForm, Teacher, TeacherPage, Visitor, course_secret, hash_password, join, login, logout, personal_code, visit,
 };
 use ggrade::service::limits::Client;
 use ggrade::service::{Config, Service, layered};
@@ -100,7 +100,8 @@ async fn hand_in(bench: &Bench, cookie: &str, site: &str, text: &str) -> String 
 async fn history(bench: &Bench, cookie: &str) -> Vec<String> {
     let visitor = visitor(&bench.state, cookie).await;
     let Some(owner) = visitor.identity.owner_id() else { return Vec::new() };
-    let rows = bench.state.store.history("ggsample06", owner, 100).await.expect("a history");
+    let student = visitor.identity.student_id();
+    let rows = bench.state.store.history("ggsample06", owner, student, 100).await.expect("a history");
     rows.into_iter().map(|row| row.submission.id).collect()
 }
 
@@ -108,11 +109,12 @@ async fn a_history_belongs_to_its_browser(database: Database) {
     let (bench, app) = bench(database, config(), Clock::system()).await;
     let ((mine, _), (theirs, _)) = (browser(&app).await, browser(&app).await);
     let secret = course_secret(&bench.state).await.expect("a secret");
-    // Both say that they are the same student: the number is theirs to type, the files are not.
-    for cookie in [&mine, &theirs] {
-        let visitor = visitor(&bench.state, cookie).await;
-        assert!(join(&bench.state, visitor.clone(), "guessed", "s1").await.is_err());
-        join(&bench.state, visitor, &secret, "s1").await.expect("joined");
+    assert!(join(&bench.state, visitor(&bench.state, &mine).await, "guessed", "s1", "").await.is_err());
+    join(&bench.state, visitor(&bench.state, &mine).await, &secret, "s1", "").await.expect("joined");
+    // Another browser says that it is the same student, and is not believed.
+    for (code, kind) in [("", "code-needed"), ("00000-00000", "wrong-code")] {
+        let refused = join(&bench.state, visitor(&bench.state, &theirs).await, &secret, "s1", code).await;
+        assert_eq!(refused.expect_err("a problem").kind, kind);
     }
     let first = hand_in(&bench, &mine, "same-origin", "mine").await;
     assert_eq!(history(&bench, &mine).await, std::slice::from_ref(&first));
@@ -125,6 +127,11 @@ async fn a_history_belongs_to_its_browser(database: Database) {
     let class = bench.state.store.class("ggsample06", None).await.expect("a class");
     let numbers: Vec<_> = class.iter().filter_map(|row| row.number.as_deref()).collect();
     assert_eq!(numbers, ["S1"]);
+    // With the personal code it is the student's as well, and has their history.
+    let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
+    let code = personal_code(&bench.state, &student).to_lowercase();
+    join(&bench.state, visitor(&bench.state, &theirs).await, &secret, "s1", &code).await.expect("joined");
+    assert_eq!(history(&bench, &theirs).await, [first]);
     bench.finish().await;
 }
 
@@ -132,15 +139,15 @@ async fn the_next_student_at_a_machine_sees_nothing(database: Database) {
     let (bench, app) = bench(database, config(), Clock::system()).await;
     let (cookie, _) = browser(&app).await;
     let secret = course_secret(&bench.state).await.expect("a secret");
-    let first = join(&bench.state, visitor(&bench.state, &cookie).await, &secret, "s1").await.expect("joined");
+    let first = join(&bench.state, visitor(&bench.state, &cookie).await, &secret, "s1", "").await.expect("joined");
     hand_in(&bench, &cookie, "same-origin", "of the first").await;
-    let second = join(&bench.state, first.clone(), &secret, "s2").await.expect("joined");
+    let second = join(&bench.state, first.clone(), &secret, "s2", "").await.expect("joined");
     let new_cookie = cookie_of(&bench.state, &second);
     assert_ne!(new_cookie, cookie);
     assert!(history(&bench, &new_cookie).await.is_empty());
     assert_eq!(second.identity.student().map(|student| student.number.as_str()), Some("S2"));
     // The same student again keeps the history.
-    let again = join(&bench.state, first, &secret, " ｓ１ ").await.expect("joined");
+    let again = join(&bench.state, first, &secret, " ｓ１ ", "").await.expect("joined");
     assert_eq!(history(&bench, &cookie_of(&bench.state, &again)).await.len(), 1);
     bench.finish().await;
 }

@@ -5,7 +5,7 @@ use crate::cluster::Database;
 use crate::{on_both, right, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
-use ggrade::service::identity::course_secret;
+use ggrade::service::identity::{course_secret, personal_code};
 use scraper::{Html, Selector};
 use std::io::{Cursor, Write};
 use std::time::Duration;
@@ -184,9 +184,9 @@ async fn numbers_that_are_not_on_the_roster_are_refused(database: Database) {
         let field = Selector::parse("[name=csrf]").expect("a selector");
         html.select(&field).next().and_then(|field| field.value().attr("value")).expect("a token").to_owned()
     };
-    let join = async |number: &str| {
+    let join_with = async |number: &str, code: &str| {
         let token = csrf(&page);
-        let body = format!("csrf={token}&number={number}");
+        let body = format!("csrf={token}&number={number}&code={code}");
         let request = Request::post(format!("/join/{secret}"))
             .header(header::COOKIE, &cookie)
             .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
@@ -194,6 +194,7 @@ async fn numbers_that_are_not_on_the_roster_are_refused(database: Database) {
             .header(header::ACCEPT_LANGUAGE, "en");
         bench.send(request.body(Body::from(body)).expect("a request")).await
     };
+    let join = async |number: &str| join_with(number, "").await;
     assert_eq!(join("s9").await.status, StatusCode::SEE_OTHER);
     roster(&bench, "S1,和田 花子\n").await;
 
@@ -215,8 +216,11 @@ async fn numbers_that_are_not_on_the_roster_are_refused(database: Database) {
     let own = Request::post("/api/v1/submissions").header(header::COOKIE, &cookie);
     let own = own.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
     assert_eq!(bench.send(own.body(Body::from(right())).expect("a request")).await.problem(), "not-on-roster");
-    // The right number goes on from there.
-    assert_eq!(join("S1").await.status, StatusCode::SEE_OTHER);
+    // The right number goes on from there, with its code.
+    assert_eq!(join("S1").await.status, StatusCode::FORBIDDEN);
+    let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
+    let joined = join_with("S1", &personal_code(&bench.state, &student)).await;
+    assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
     bench.finish().await;
 }
 

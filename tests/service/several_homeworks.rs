@@ -132,7 +132,11 @@ async fn the_pages_of_each_lead_to_its_own(database: Database) {
         .header(header::COOKIE, &cookie)
         .body(Body::from(format!("csrf={csrf}&number=S1")));
     let joined = bench.send(joined.expect("a request")).await;
-    assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, "/"));
+    // Without a roster it first shows the code for other browsers, and then leads on.
+    assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, &*format!("/join/{secret}")));
+    let again = Request::get(joined.header("location")).header(header::COOKIE, &cookie);
+    let again = bench.send(again.body(Body::empty()).expect("a request")).await;
+    assert!(again.all(".personal-code")[0].len() == 11 && again.text().contains("<a href=\"/\">"), "{}", again.text());
     // What is handed in on the page of a homework is of that homework, and so is the page of its report.
     for (id, bytes, title) in [("waves", waves_and_new(), "Waves"), ("ggsample06", right_and_new(), "Gouraud shading")]
     {

@@ -5,13 +5,14 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
 use crate::batch::formats::Format;
 use crate::language::Language;
+use crate::service::acts::Detail;
 use crate::service::classes::{self, Download, Pick, Wanted, Whose};
 use crate::service::download::attachment;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::language::{Lang, asked};
 use crate::service::limits::Client;
-use crate::service::store::Batch;
+use crate::service::store::{Batch, Role};
 use crate::service::{Service, State};
 use axum::Json;
 use axum::body::Bytes;
@@ -71,6 +72,7 @@ pub(super) async fn create(
 ) -> Result<Response, Problem> {
     let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
     teacher.check_csrf(&service, csrf)?;
+    teacher.check_role(Role::Lecturer)?;
     let Query(of) = of.map_err(super::body::other)?;
     let archive = Archive::read(request, &service).await?;
     let of = archive.fields.get("assignment").cloned().or(of.assignment);
@@ -78,13 +80,14 @@ pub(super) async fn create(
     teacher.check(&state.assignment.id)?;
     let key = archive.key(&state.assignment.id, &headers, &client)?;
     let batch = classes::submit(&state, archive.path.to_path_buf(), &archive.title(), key).await?;
+    let title = batch.title.clone();
     let body = shown(&state, batch, language).await?;
     let location = body.links.itself.clone();
     let mut response = (StatusCode::ACCEPTED, Json(body)).into_response();
     if let Ok(location) = HeaderValue::from_str(&location) {
         response.headers_mut().insert(header::LOCATION, location);
     }
-    Ok(response)
+    Ok(Detail { assignment: Some(state.assignment.id.clone()), ..Detail::of(title) }.on(response))
 }
 
 async fn shown(service: &Service, batch: Batch, language: Language) -> Result<BatchJson, Problem> {
@@ -230,6 +233,7 @@ pub(super) async fn filled(
 ) -> Result<Response, Problem> {
     let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
     teacher.check_csrf(&service, csrf)?;
+    teacher.check_role(Role::Lecturer)?;
     let sheet = sheet.map_err(super::body::other)?;
     let (state, batch) = find(&service, &teacher, &id).await?;
     made(&state, Whose::Batch(batch), &format, Some(sheet.into()), (&uri, language)).await

@@ -5,10 +5,11 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{IdempotencyKey, SubmissionJson};
 use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::service::acts::Detail;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, RequestKey};
-use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same};
+use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same, with_code};
 use crate::service::language::Lang;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
@@ -38,11 +39,13 @@ pub(super) struct About {
     #[param(inline)]
     hints: Option<Hints>,
     /// Number of the student for whom it is handed in.
-    /// Needs `course`, or the teacher's token. Where the class has a roster, the number must be on it.
+    /// Needs `course` with `code`, or the teacher's token. Where the class has a roster, the number must be on it.
     #[param(pattern = "^[A-Za-z0-9._-]{1,32}$")]
     student: Option<String>,
     /// Secret of the course link.
     course: Option<String>,
+    /// Personal code of the student, with `course`.
+    code: Option<String>,
     /// A draft: in no history, no attempt, removed after a day.
     draft: Option<bool>,
 }
@@ -67,6 +70,9 @@ pub(super) struct FileForm {
     /// Secret of the course link.
     #[schema(nullable = false)]
     course: Option<String>,
+    /// Personal code of the student, with `course`.
+    #[schema(nullable = false)]
+    code: Option<String>,
     /// In place of the header `Idempotency-Key`.
     #[schema(nullable = false, pattern = "^[!-~]([ -~]{0,253}[!-~])?$")]
     idempotency_key: Option<String>,
@@ -116,6 +122,8 @@ pub(super) async fn create(
     let about = about.with(&form)?;
     let state = service.named(about.assignment.as_deref())?;
     let identity = identity(&state, &about, visitor, teacher, &headers).await?;
+    let is_teachers = about.student.is_some() && about.course.is_none();
+    let student_id = identity.student_id().filter(|_| is_teachers).map(str::to_owned);
     let receipt = submit(
         &state,
         Upload {
@@ -127,7 +135,13 @@ pub(super) async fn create(
         },
     )
     .await?;
-    Ok(answer(&state, &receipt, language))
+    let answer = answer(&state, &receipt, language);
+    // What a teacher hands in for somebody is in the log of acts.
+    let assignment = Some(state.assignment.id.clone());
+    Ok(match student_id {
+        Some(id) => Detail { assignment, ..Detail::about(&id) }.on(answer),
+        None => answer,
+    })
 }
 
 impl About {
@@ -137,6 +151,7 @@ impl About {
         self.assignment = field("assignment").or(self.assignment);
         self.student = field("student").or(self.student);
         self.course = field("course").or(self.course);
+        self.code = field("code").or(self.code);
         if let Some(word) = field("hints") {
             let hints = serde_json::from_value(word.into());
             self.hints = Some(hints.map_err(|_| {
@@ -166,9 +181,13 @@ async fn identity(
         return Err(Problem::new(
             StatusCode::UNAUTHORIZED,
             "unauthorized",
-            "To hand in for a student, send the secret of the course link as `course`, or the teacher's token.",
-            "学生を指定して提出するには、授業のリンクの秘密を `course` で送るか、教員用トークンが必要です。",
+            "To hand in for a student, send the secret of the course link as `course` and the student's personal code as \
+             `code`, or the teacher's token.",
+            "学生を指定して提出するには、授業リンクの秘密を `course`、個人コードを `code` で送るか、教員用トークンが必要です。",
         ));
+    }
+    if about.course.is_some() {
+        return Ok(Identity::OnBehalf(with_code(state, number, about.code.as_deref().unwrap_or_default()).await?));
     }
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable("student is no student number.", "student が学籍番号の形式ではありません。")

@@ -1,10 +1,12 @@
-//! The course link: who has it may say by which number they are known.
+//! The course link: who has it may say by which number they are known, and prove it by their personal code.
 
+use super::codes::{code_needed, is_code_of, wrong_code};
 use super::secrets::same;
 use super::{Identity, Visitor, new_token};
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::roster::not_on_roster;
+use crate::service::store::{Proof, Student};
 
 /// Name of the setting that holds the secret of the course link.
 const SETTING: &str = "course_secret";
@@ -29,10 +31,8 @@ pub async fn check_course_link(service: &Service, secret: &str) -> Result<(), Pr
     if same(secret, &course_secret(service).await?) { Ok(()) } else { Err(Problem::not_found()) }
 }
 
-/// Says that the student with `number` sits at this browser. The answer may be another browser in its place: set its
-/// cookie ([`Visitor::set_cookie`]).
-pub async fn join(service: &Service, visitor: Visitor, secret: &str, number: &str) -> Result<Visitor, Problem> {
-    check_course_link(service, secret).await?;
+/// The student with a number that somebody typed.
+pub async fn student_of(service: &Service, number: &str) -> Result<Student, Problem> {
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable(
             format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`."),
@@ -40,17 +40,57 @@ pub async fn join(service: &Service, visitor: Visitor, secret: &str, number: &st
         )
     })?;
     let student = service.store.student(&number, service.clock.now()).await?;
-    let student = student.ok_or_else(|| not_on_roster(&number))?;
+    student.ok_or_else(|| not_on_roster(&number))
+}
+
+/// Lets a program pass that brings a student's personal code.
+pub async fn with_code(service: &Service, number: &str, code: &str) -> Result<Student, Problem> {
+    let student = student_of(service, number).await?;
+    match code.trim() {
+        "" => Err(code_needed(&student)),
+        code if is_code_of(service, &student, code) => Ok(student),
+        _ => Err(wrong_code(&student)),
+    }
+}
+
+/// Says that the student with `number` sits at this browser, who proves it by their personal code. Without a code: where no
+/// roster has the student, the first browser that gives the number. The answer may be another browser in the place of this
+/// one: set its cookie ([`Visitor::set_cookie`]).
+pub async fn join(
+    service: &Service,
+    visitor: Visitor,
+    secret: &str,
+    number: &str,
+    code: &str,
+) -> Result<Visitor, Problem> {
+    check_course_link(service, secret).await?;
+    let student = student_of(service, number).await?;
+    let proof = match code.trim() {
+        "" if visitor.identity.student_id() == Some(student.id.as_str()) => return Ok(visitor),
+        "" if student.is_on_roster() => return Err(code_needed(&student)),
+        "" => Proof::First,
+        code if is_code_of(service, &student, code) => Proof::Code,
+        _ => return Err(wrong_code(&student)),
+    };
+    become_student(service, visitor, student, proof).await
+}
+
+/// Makes a browser, or another one in its place, that of a student.
+async fn become_student(
+    service: &Service,
+    visitor: Visitor,
+    student: Student,
+    proof: Proof,
+) -> Result<Visitor, Problem> {
     // What another student handed in at this machine is nobody else's to see.
     let visitor = match &visitor.identity {
-        Identity::Student(_, before) if before.id != student.id => Visitor::replaced(),
+        Identity::Student(_, before) | Identity::Claimed(_, before) if before.id != student.id => Visitor::replaced(),
         _ => visitor,
     };
     let mut visitor = visitor.known(service).await?;
-    if let Identity::Browser(owner) | Identity::Student(owner, _) = visitor.identity.clone() {
-        service.store.set_owner_student(&owner.id, Some(&student.id)).await?;
-        visitor.identity = Identity::Student(owner, student);
-    }
+    let owner_id = visitor.identity.owner_id().unwrap_or_default().to_owned();
+    let owner = service.store.bind_owner(&owner_id, &student, proof).await?;
+    visitor.identity = Identity::Student(owner.ok_or_else(|| code_needed(&student))?, student);
     Ok(visitor)
 }
 

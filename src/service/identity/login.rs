@@ -1,35 +1,33 @@
 //! Logging in and out.
 
 use super::cookies::{TEACHER_COOKIE, set};
-use super::secrets::password_matches;
+use super::secrets::{hash_password, password_matches};
+use super::staff::{LONGEST_PASSWORD, PASSWORD_SETTING, normal_login};
 use super::teacher::of_token;
 use super::{Teacher, Visitor, new_token, token_hash};
 use crate::service::Service;
 use crate::service::clock::millis;
 use crate::service::errors::Problem;
 use crate::service::limits::Client;
+use crate::service::store::{Act, Session, StaffMember};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
+use std::sync::LazyLock;
 use std::time::Duration;
 
 /// How long a session lasts: a working day.
 const SESSION: Duration = Duration::from_secs(12 * 3600);
 
-/// Longest password that is looked at, in bytes.
-const LONGEST_PASSWORD: usize = 1024;
-
-/// Name of the setting that holds the hash of the teacher's password.
-pub(in crate::service) const PASSWORD_SETTING: &str = "teacher_password_hash";
-
 /// The form of the login page.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
 pub struct LoginForm {
     /// The page's token.
-    #[serde(default)]
     pub csrf: String,
-    /// Password, or the teacher's token.
-    #[serde(default)]
+    /// The name by which somebody logs in; empty with a secret of the whole service.
+    pub login: String,
+    /// Password, or a secret of the whole service.
     pub password: String,
 }
 
@@ -42,24 +40,43 @@ pub async fn login(
 ) -> Result<Response, Problem> {
     visitor.check_csrf(service, &form.csrf)?;
     service.limits.login(client)?;
-    let homework = match form.password.len() {
-        0..=LONGEST_PASSWORD => opened(service, &form.password).await?,
+    let session = match form.password.len() {
+        0..=LONGEST_PASSWORD => opened(service, &form.login, &form.password).await?,
         _ => None,
     };
-    let Some(homework) = homework else {
+    let Some(session) = session else {
         tracing::warn!(address = %client.address, "teacher login refused");
         return Err(Problem::new(
             StatusCode::FORBIDDEN,
             "login",
-            "This is not the teacher's password or token.",
-            "パスワードまたはトークンが違います。",
+            "There is no such login with this password.",
+            "ログイン名またはパスワードが違います。",
         ));
     };
-    let session = new_token();
-    let now = service.clock.now();
-    service.store.open_session(&token_hash(&session), homework.as_deref(), now, now + millis(SESSION)).await?;
     tracing::info!(address = %client.address, "teacher logged in");
-    Ok(to_page_with_cookie(service, "/teacher", &session, SESSION.as_secs()))
+    open(service, session).await
+}
+
+/// Opens the session of somebody who is known.
+pub async fn open_for(service: &Service, member: StaffMember) -> Result<Response, Problem> {
+    open(service, Session { assignment: None, staff: Some(member) }).await
+}
+
+async fn open(service: &Service, session: Session) -> Result<Response, Problem> {
+    let token = new_token();
+    let now = service.clock.now();
+    service.store.open_session(&token_hash(&token), &session, now, now + millis(SESSION)).await?;
+    let act = Act {
+        at: now,
+        way: if session.staff.is_some() { "account" } else { "password" }.to_owned(),
+        staff_id: session.staff.map(|member| member.id),
+        act: "login".to_owned(),
+        assignment: session.assignment,
+        student_id: None,
+        detail: String::new(),
+    };
+    service.store.note_act(&act).await?;
+    Ok(to_page_with_cookie(service, "/teacher", &token, SESSION.as_secs()))
 }
 
 /// Ends a session: the answer goes to `/` and removes the cookie.
@@ -79,19 +96,46 @@ fn to_page_with_cookie(service: &Service, page: &str, value: &str, seconds: u64)
     response
 }
 
-/// What a password or token opens: the class of a homework, by its id, or, with none, the whole course.
-async fn opened(service: &Service, password: &str) -> Result<Option<Option<String>>, Problem> {
-    if let Some(opened) = of_token(service, password) {
-        return Ok(Some(opened));
+/// What a login and a password open, or a secret of the whole service without a login.
+async fn opened(service: &Service, login: &str, password: &str) -> Result<Option<Session>, Problem> {
+    if login.trim().is_empty() {
+        return shared(service, password).await;
+    }
+    let found = match normal_login(login) {
+        Some(login) => service.store.staff_login(&login).await?,
+        None => None,
+    };
+    let (member, hash) = match found {
+        Some((member, hash)) => (Some(member), hash),
+        // A login that there is not takes as long as a wrong password.
+        None => (None, NOBODYS.clone()),
+    };
+    let is_right = matches(service, password, hash).await?;
+    Ok(member.filter(|_| is_right).map(|member| Session { assignment: None, staff: Some(member) }))
+}
+
+/// The hash of a password that nobody knows.
+static NOBODYS: LazyLock<String> = LazyLock::new(|| hash_password(&new_token()).unwrap_or_default());
+
+/// What a secret of the whole service opens. The password that is set on the machine always does; what the configuration
+/// has, until there is an administrator.
+async fn shared(service: &Service, secret: &str) -> Result<Option<Session>, Problem> {
+    let is_first = !service.store.has_administrator().await?;
+    if is_first && let Some(assignment) = of_token(service, secret) {
+        return Ok(Some(Session { assignment, staff: None }));
     }
     let hash = match &service.config.teacher_password_hash {
-        Some(hash) => Some(hash.clone()),
-        None => service.store.setting(PASSWORD_SETTING).await?,
+        Some(hash) if is_first => Some(hash.clone()),
+        _ => service.store.setting(PASSWORD_SETTING).await?,
     };
     let Some(hash) = hash else { return Ok(None) };
+    Ok(matches(service, secret, hash).await?.then_some(Session { assignment: None, staff: None }))
+}
+
+async fn matches(service: &Service, password: &str, hash: String) -> Result<bool, Problem> {
     // One at a time: each takes a processor and some memory for a while.
     let _turn = service.login_turn.acquire().await;
     let password = password.to_owned();
     let checked = tokio::task::spawn_blocking(move || password_matches(&password, &hash)).await;
-    Ok(checked.map_err(|error| Problem::internal(&error))?.then_some(None))
+    checked.map_err(|error| Problem::internal(&error))
 }

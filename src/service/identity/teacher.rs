@@ -1,10 +1,10 @@
-//! The teacher: a session's cookie in a browser, or the token in a program.
+//! The teacher: a session's cookie in a browser, or a token in a program.
 
 use super::cookies::{TEACHER_COOKIE, read};
 use super::secrets::same;
 use super::{csrf, token_hash};
 use crate::service::errors::Problem;
-use crate::service::store::DeletionTarget;
+use crate::service::store::{DeletionTarget, Role, Session, StaffMember};
 use crate::service::{Scope, Service};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
@@ -12,23 +12,64 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 
 /// A teacher. As an argument of a handler it lets nobody else pass; where the handler is not of one homework, it asks which
-/// class they may see.
+/// class they may see. What assistants may not do asks for more: [`LecturerPage`], [`Teacher::check_role`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Teacher {
     /// The session; none for a program.
     session: Option<String>,
     /// Id of the homework whose teacher it is; none for the whole course.
     homework: Option<String>,
+    /// Who it is; none with a secret of the whole service or of a homework.
+    staff: Option<StaffMember>,
 }
 
 impl Teacher {
-    async fn of(service: &Service, headers: &HeaderMap) -> Result<Option<Self>, Problem> {
+    /// The teacher of a request, where one sends it.
+    pub(in crate::service) async fn of(service: &Service, headers: &HeaderMap) -> Result<Option<Self>, Problem> {
         if let Some(token) = bearer(headers) {
-            return Ok(of_token(service, token).map(|homework| Self { session: None, homework }));
+            return Ok(of_token(service, token).map(|homework| Self { session: None, homework, staff: None }));
         }
         let Some(session) = read(service, headers, TEACHER_COOKIE) else { return Ok(None) };
         let open = service.store.session(&token_hash(&session), service.clock.now()).await?;
-        Ok(open.map(|homework| Self { session: Some(session), homework }))
+        Ok(open.map(|Session { assignment, staff }| Self { session: Some(session), homework: assignment, staff }))
+    }
+
+    /// Who it is; none with a secret of the whole service or of a homework.
+    pub fn staff(&self) -> Option<&StaffMember> {
+        self.staff.as_ref()
+    }
+
+    /// What they may do.
+    pub fn role(&self) -> Role {
+        match (&self.staff, &self.homework) {
+            (Some(member), _) => member.role,
+            (None, Some(_)) => Role::Lecturer,
+            (None, None) => Role::Administrator,
+        }
+    }
+
+    /// Lets who may do that much pass.
+    pub fn check_role(&self, least: Role) -> Result<(), Problem> {
+        if self.role() >= least { Ok(()) } else { Err(not_of_this_role(least)) }
+    }
+
+    /// How they came in, for the log of acts.
+    pub(in crate::service) fn way(&self) -> &'static str {
+        match (&self.staff, &self.session) {
+            (Some(_), _) => "account",
+            (None, Some(_)) => "password",
+            (None, None) => "token",
+        }
+    }
+
+    /// Whether they logged in with a secret that others have as well.
+    pub fn is_shared(&self) -> bool {
+        self.way() == "password"
+    }
+
+    /// Id of the homework whose teacher it is; none for the whole course.
+    pub fn homework(&self) -> Option<&str> {
+        self.homework.as_deref()
     }
 
     /// Whether they may see the class of a homework.
@@ -54,6 +95,7 @@ impl Teacher {
     /// Lets who may delete this pass, where they may see the homework that it was found in. With somebody goes what they
     /// handed in for every homework.
     pub fn may_delete(&self, target: &DeletionTarget) -> Result<(), Problem> {
+        self.check_role(Role::Lecturer)?;
         match target {
             DeletionTarget::Submission(_) | DeletionTarget::Batch(_) | DeletionTarget::Entry(..) => Ok(()),
             DeletionTarget::Student(_) | DeletionTarget::Browser(_) => self.check_course(),
@@ -92,6 +134,21 @@ pub(in crate::service) fn is_teachers_program(service: &Service, headers: &Heade
 /// The secret of an `Authorization: Bearer`.
 pub(in crate::service) fn bearer(headers: &HeaderMap) -> Option<&str> {
     headers.get(header::AUTHORIZATION)?.to_str().ok()?.strip_prefix("Bearer ").map(str::trim)
+}
+
+/// The answer to a teacher who may do less.
+fn not_of_this_role(least: Role) -> Problem {
+    let (en, ja) = match least {
+        Role::Administrator => (
+            "Only an administrator may do this. Ask one; the page of the people says who they are.",
+            "この操作は管理者だけができます。管理者に依頼してください。",
+        ),
+        Role::Lecturer | Role::Assistant => (
+            "Assistants see the class and its reports; this is for lecturers. Ask one to do it.",
+            "アシスタントはクラスと採点結果を閲覧できますが、この操作は担当教員だけができます。担当教員に依頼してください。",
+        ),
+    };
+    Problem::new(StatusCode::FORBIDDEN, "role", en, ja)
 }
 
 impl<S: Scope> FromRequestParts<S> for Teacher {
@@ -136,5 +193,19 @@ impl<S: Scope> FromRequestParts<S> for TeacherPage {
             }
             Err(problem) => Err(problem.into_response()),
         }
+    }
+}
+
+/// A lecturer or an administrator on a page: assistants are told that it is not theirs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LecturerPage(pub Teacher);
+
+impl<S: Scope> FromRequestParts<S> for LecturerPage {
+    type Rejection = Response;
+
+    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Response> {
+        let TeacherPage(teacher) = TeacherPage::from_request_parts(parts, scope).await?;
+        teacher.check_role(Role::Lecturer).map_err(IntoResponse::into_response)?;
+        Ok(Self(teacher))
     }
 }

@@ -35,7 +35,8 @@ impl Visitor {
             Some(owner) => match &owner.student_id {
                 None => Identity::Browser(owner),
                 Some(id) => match service.store.student_by_id(id).await? {
-                    Some(student) => Identity::Student(owner, student),
+                    Some(student) if owner.proves(&student) => Identity::Student(owner, student),
+                    Some(student) => Identity::Claimed(owner, student),
                     None => Identity::Browser(owner),
                 },
             },

@@ -8,6 +8,8 @@ use crate::report::labels::mistake_title;
 use crate::service::clock::Millis;
 use crate::service::course::Course;
 use crate::service::errors::Problem;
+use crate::service::identity::Teacher;
+use crate::service::store::Role;
 use crate::service::{Scope, State};
 use axum::extract::{FromRequestParts, OriginalUri};
 use axum::http::Uri;
@@ -24,6 +26,8 @@ pub struct Frame {
     pub language: Language,
     /// The course, with the time zone of every date.
     pub course: Course,
+    /// The teacher who looks.
+    teacher: Option<Teacher>,
     uri: Uri,
     /// The homework; none on a page that is of none.
     assignment: Option<Arc<Assignment>>,
@@ -42,7 +46,7 @@ pub(super) struct Tongue {
 impl Frame {
     /// The frame of a page at an address.
     pub fn new(language: Language, course: Course, uri: Uri, assignment: Option<Arc<Assignment>>) -> Self {
-        Self { language, course, uri, assignment, base: String::new() }
+        Self { language, course, teacher: None, uri, assignment, base: String::new() }
     }
 
     /// The same for a page of a homework.
@@ -53,6 +57,32 @@ impl Frame {
     /// The address of the teacher's pages.
     pub fn teacher(&self) -> String {
         format!("{}/teacher", self.base)
+    }
+
+    /// Whether it is a page of a homework.
+    pub fn has_homework(&self) -> bool {
+        self.assignment.is_some()
+    }
+
+    /// Whether a lecturer looks, who may do more than an assistant.
+    pub fn is_lecturers(&self) -> bool {
+        self.teacher.as_ref().is_some_and(|teacher| teacher.role() >= Role::Lecturer)
+    }
+
+    /// Whether it is somebody who may do what belongs to the whole course.
+    pub fn has_course(&self) -> bool {
+        self.is_lecturers() && self.teacher.as_ref().is_some_and(Teacher::has_course)
+    }
+
+    /// The name of the teacher who looks; none with a secret of the whole service.
+    pub fn teachers_name(&self) -> Option<&str> {
+        let staff = self.teacher.as_ref()?.staff()?;
+        Some(if staff.name.is_empty() { &staff.login } else { &staff.name })
+    }
+
+    /// Whether the teacher who looks came in by a secret that others have as well.
+    pub fn is_shared_login(&self) -> bool {
+        self.teacher.as_ref().is_some_and(Teacher::is_shared)
     }
 
     /// The address of the student's page.
@@ -169,7 +199,8 @@ impl<S: Scope> FromRequestParts<S> for Frame {
             parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
         let language = of_request(&parts.headers, &uri);
         let course = scope.whole().store.course().await?;
-        let frame = Self::new(language, course, uri, None);
+        let teacher = Teacher::of(scope.whole(), &parts.headers).await?;
+        let frame = Self { teacher, ..Self::new(language, course, uri, None) };
         Ok(match scope.own() {
             Some(state) => frame.of(&state),
             None => frame,

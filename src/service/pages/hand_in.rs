@@ -11,7 +11,7 @@ use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery;
 use crate::service::idempotency::RequestKey;
-use crate::service::identity::Visitor;
+use crate::service::identity::{Visitor, code_needed};
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Submission, Via};
@@ -54,13 +54,14 @@ pub(super) async fn desk(
     let identity = &visitor.identity;
     let (mut history, mut used) = (Vec::new(), 0);
     if let Some(owner) = identity.owner_id() {
-        history = state.store.history(id, owner, LISTED).await?;
-        used = state.store.attempts(id, owner, identity.student().map(|student| student.id.as_str())).await?;
+        history = state.store.history(id, owner, identity.student_id(), LISTED).await?;
+        used = state.store.attempts(id, owner, identity.student_id()).await?;
     }
     let needs_number = settings.audience == Audience::Number && identity.student().is_none();
     let stranger = match identity.student() {
         Some(student) if is_stranger(&state, student).await? => Some(not_on_roster(&student.number).detail),
-        _ => None,
+        Some(_) => None,
+        None => identity.claimed().map(|student| code_needed(student).detail),
     };
     let notice = match &stranger {
         Some(detail) => Some(detail.get(frame.language)),

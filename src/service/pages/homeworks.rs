@@ -85,8 +85,8 @@ async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fa
     let identity = &visitor.identity;
     let (mut history, mut used) = (Vec::new(), 0);
     if let Some(owner) = identity.owner_id() {
-        history = state.store.history(id, owner, student::LISTED).await?;
-        used = state.store.attempts(id, owner, identity.student().map(|student| student.id.as_str())).await?;
+        history = state.store.history(id, owner, identity.student_id(), student::LISTED).await?;
+        used = state.store.attempts(id, owner, identity.student_id()).await?;
     }
     let standing = StudentStanding { settings: &settings, now: state.clock.now(), may_hand_in: true, used };
     let mut facts = standing.facts(frame);

@@ -1,13 +1,14 @@
-//! The course link: a student says by which number they are known.
+//! The course link: a student says by which number they are known, and proves it by their personal code.
 
 use super::frame::Frame;
 use super::{shown, student};
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::identity::{self, Visitor};
+use crate::service::identity::{self, Identity, Visitor, personal_code};
+use crate::service::store::Proof;
 use askama::Template;
 use axum::Form;
-use axum::extract::{Path, State as Shared};
+use axum::extract::{Path, Query, State as Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
@@ -23,7 +24,13 @@ struct JoinPage {
     leave: &'static str,
     csrf: String,
     number: String,
+    code: String,
+    /// Whether every number has a code that the teacher handed out.
+    has_roster: bool,
     who: Option<String>,
+    /// The code that another browser needs, for who has it from nobody else.
+    own_code: Option<String>,
+    desk: String,
 }
 
 /// The form of the page.
@@ -33,38 +40,51 @@ pub(super) struct JoinForm {
     csrf: String,
     #[serde(default)]
     number: String,
+    #[serde(default)]
+    code: String,
 }
 
-fn view(
+async fn view(
     service: &Service,
     frame: Frame,
     secret: &str,
     visitor: &Visitor,
-    number: String,
+    given: JoinForm,
     problem: Option<String>,
-) -> JoinPage {
+) -> Result<Response, Problem> {
     let who = visitor.identity.student().map(|student| student.number.clone());
-    JoinPage {
+    let own_code = match &visitor.identity {
+        Identity::Student(owner, student) if owner.proof == Proof::First => Some(personal_code(service, student)),
+        _ => None,
+    };
+    let JoinForm { number, code, .. } = given;
+    let page = JoinPage {
         title: service.only().map(|state| student::title(&state.assignment, frame.language)).unwrap_or_default(),
         problem,
         action: format!("/join/{secret}"),
         leave: "/leave",
         csrf: visitor.csrf(service),
         number: if number.is_empty() { who.clone().unwrap_or_default() } else { number },
+        code,
+        has_roster: service.store.has_roster().await?,
         who,
+        own_code,
+        desk: desk(service),
         frame,
-    }
+    };
+    shown(page.render())
 }
 
-/// `GET /join/{secret}`.
+/// `GET /join/{secret}`; a link of a student's own has `number` and `code`.
 pub(super) async fn page(
     Shared(service): Shared<Service>,
     Path(secret): Path<String>,
+    Query(given): Query<JoinForm>,
     frame: Frame,
     visitor: Visitor,
 ) -> Result<Response, Problem> {
     identity::check_course_link(&service, &secret).await?;
-    shown(view(&service, frame, &secret, &visitor, String::new(), None).render())
+    view(&service, frame, &secret, &visitor, given, None).await
 }
 
 /// `POST /join/{secret}`.
@@ -76,11 +96,16 @@ pub(super) async fn join(
     Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &given.csrf)?;
-    match identity::join(&service, visitor.clone(), &secret, &given.number).await {
-        Ok(visitor) => Ok(to_desk(&service, &visitor)),
-        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+    match identity::join(&service, visitor.clone(), &secret, &given.number, &given.code).await {
+        // Who has their code from nobody is shown it there.
+        Ok(visitor) if has_first(&visitor) => Ok(to_page(&service, &visitor, &format!("/join/{secret}"))),
+        Ok(visitor) => Ok(to_page(&service, &visitor, &desk(&service))),
+        Err(problem)
+            if problem.status == StatusCode::UNPROCESSABLE_ENTITY
+                || matches!(problem.kind, "code-needed" | "wrong-code") =>
+        {
             let detail = problem.detail.get(frame.language).to_owned();
-            let mut page = shown(view(&service, frame, &secret, &visitor, given.number, Some(detail)).render())?;
+            let mut page = view(&service, frame, &secret, &visitor, given, Some(detail)).await?;
             *page.status_mut() = problem.status;
             Ok(page)
         }
@@ -95,12 +120,21 @@ pub(super) async fn leave(
     Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &given.csrf)?;
-    Ok(to_desk(&service, &identity::leave()))
+    Ok(to_page(&service, &identity::leave(), &desk(&service)))
 }
 
-fn to_desk(service: &Service, visitor: &Visitor) -> Response {
-    let page = service.only().map_or_else(|| "/".to_owned(), |state| state.page());
-    let mut response = Redirect::to(&page).into_response();
+/// Whether a browser is a student's because it was the first that gave the number.
+fn has_first(visitor: &Visitor) -> bool {
+    matches!(&visitor.identity, Identity::Student(owner, _) if owner.proof == Proof::First)
+}
+
+/// Where a student works.
+fn desk(service: &Service) -> String {
+    service.only().map_or_else(|| "/".to_owned(), |state| state.page())
+}
+
+fn to_page(service: &Service, visitor: &Visitor, page: &str) -> Response {
+    let mut response = Redirect::to(page).into_response();
     visitor.set_cookie(service, &mut response);
     response
 }

@@ -3,28 +3,34 @@
 //! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`batches`]
 //! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
-//! the way in, [`live`] what arrives while somebody looks.
+//! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
+//! they choose a password, [`codes`] the students' personal codes, [`acts`] the log of what was done.
 
+mod acts;
 mod batches;
 mod charts;
 mod class;
+mod codes;
 mod delete;
 mod downloads;
 mod live;
 pub(super) mod login;
+mod people;
 mod person;
 mod regradings;
 mod roster;
 mod settings;
 mod table;
+mod welcome;
 
+use super::Service;
 use super::frame::Frame;
 use super::report_fragment;
 use crate::service::State;
 use crate::service::classes::PersonStanding;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
-use axum::http::StatusCode;
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::Response;
 use axum::routing::{get, post};
 
@@ -51,6 +57,19 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher/regradings/{id}/events", get(regradings::events))
 }
 
+/// The routes of what belongs to the whole course.
+pub(super) fn of_course() -> Router<Service> {
+    Router::new()
+        .route("/teacher/login", get(login::page).post(login::login))
+        .route("/teacher/logout", post(login::logout))
+        .route("/teacher/welcome/{secret}", get(welcome::page).post(welcome::choose))
+        .route("/teacher/people", get(people::page).post(people::add))
+        .route("/teacher/people/{id}", post(people::change))
+        .route("/teacher/codes", get(codes::page).post(codes::renew))
+        .route("/teacher/codes/file", get(codes::file))
+        .route("/teacher/log", get(acts::page))
+}
+
 /// Where a page stands among the teacher's, for its navigation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tab {
@@ -60,6 +79,19 @@ pub(super) enum Tab {
     Batches,
     /// Settings.
     Settings,
+    /// Personal codes.
+    Codes,
+    /// Who teaches.
+    People,
+    /// The log of what they did.
+    Acts,
+}
+
+/// The address of the service: the configured one, or that by which the teacher's own browser knows it.
+fn public_address(service: &Service, headers: &HeaderMap) -> String {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
+    let own = || format!("http://{}", host.map_or_else(|| service.config.listen.to_string(), str::to_owned));
+    service.config.public_url.clone().unwrap_or_else(own).trim_end_matches('/').to_owned()
 }
 
 /// How somebody stands, in words.

@@ -126,7 +126,14 @@ mod tests {
     use crate::batch::class::Participant;
 
     fn student(number: &str, name: &str, moodle: Option<i64>) -> Student {
-        Student { id: format!("id-{number}"), number: number.into(), name: name.into(), on_roster: 1, moodle }
+        Student {
+            id: format!("id-{number}"),
+            number: number.into(),
+            name: name.into(),
+            on_roster: 1,
+            moodle,
+            code_generation: 0,
+        }
     }
 
     fn folder(name: &str) -> Entry {

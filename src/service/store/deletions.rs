@@ -110,6 +110,7 @@ impl DeletionTarget {
             Self::Student(_) => &[
                 "DELETE FROM batch_entries WHERE student_id = $1 AND $2 = 0",
                 "DELETE FROM owners WHERE student_id = $1 AND $2 = 0",
+                "UPDATE acts SET detail = '' WHERE student_id = $1 AND $2 = 0",
                 "DELETE FROM students WHERE id = $1 AND $2 = 0",
             ],
             Self::Browser(_) => &["DELETE FROM owners WHERE id = $1 AND $2 = 0"],

@@ -1,76 +1,101 @@
-//! Browsers that handed something in, and teachers' sessions. Their cookies are stored as hashes only.
+//! Browsers that handed something in. Their cookies are stored as hashes only.
 
-use super::{Result, Store, on};
+use super::rows::{from_word, word};
+use super::{Result, Store, Student, on};
 use crate::service::clock::Millis;
+use serde::{Deserialize, Serialize};
 
 /// A browser that handed something in, or came by the course link.
-#[derive(Clone, Debug, PartialEq, Eq, sqlx::FromRow)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Owner {
     /// Id.
     pub id: String,
     /// Who sits there, where they said so.
     pub student_id: Option<String>,
+    /// How they proved it.
+    pub proof: Proof,
+    /// Generation of the personal code that counted then.
+    code_generation: i64,
 }
+
+/// How a browser is known to be a student's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Proof {
+    /// It was the first that gave the number: counts where no roster has the student.
+    First,
+    /// By the student's personal code.
+    Code,
+}
+
+type Row = (String, Option<String>, String, i64);
+
+impl Owner {
+    fn of((id, student_id, proof, code_generation): Row) -> Result<Self> {
+        Ok(Self { id, student_id, proof: from_word(proof)?, code_generation })
+    }
+
+    /// Whether this is known to be the student's browser.
+    pub fn proves(&self, student: &Student) -> bool {
+        self.student_id.as_deref() == Some(student.id.as_str())
+            && self.code_generation == student.code_generation
+            && (self.proof != Proof::First || !student.is_on_roster())
+    }
+}
+
+const SELECT: &str = "SELECT id, student_id, proof, code_generation FROM owners WHERE token_hash = $1";
 
 impl Store {
     /// The owner of a cookie.
     pub async fn owner(&self, token_hash: &str) -> Result<Option<Owner>> {
-        const SQL: &str = "SELECT id, student_id FROM owners WHERE token_hash = $1";
-        Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(token_hash).fetch_optional(db).await?))
+        let row: Option<Row> = on!(&self.read, db => {
+            sqlx::query_as(SELECT).bind(token_hash).fetch_optional(db).await?
+        });
+        row.map(Owner::of).transpose()
     }
 
     /// The owner of a cookie, made when met first.
     pub async fn owner_or_new(&self, token_hash: &str, now: Millis) -> Result<Owner> {
         const SQL: &str = "INSERT INTO owners (id, token_hash, created_at) VALUES ($1, $2, $3) \
                            ON CONFLICT (token_hash) DO NOTHING";
-        const SELECT: &str = "SELECT id, student_id FROM owners WHERE token_hash = $1";
         if let Some(owner) = self.owner(token_hash).await? {
             return Ok(owner);
         }
         let id = super::super::identity::new_id();
         on!(&self.write, db => { sqlx::query(SQL).bind(&id).bind(token_hash).bind(now).execute(db).await?; });
-        Ok(on!(&self.write, db => sqlx::query_as(SELECT).bind(token_hash).fetch_one(db).await?))
+        Owner::of(on!(&self.write, db => sqlx::query_as(SELECT).bind(token_hash).fetch_one(db).await?))
     }
 
-    /// Says who sits at a browser; none: nobody any more.
-    pub async fn set_owner_student(&self, owner_id: &str, student_id: Option<&str>) -> Result<()> {
-        const SQL: &str = "UPDATE owners SET student_id = $2 WHERE id = $1";
-        on!(&self.write, db => { sqlx::query(SQL).bind(owner_id).bind(student_id).execute(db).await?; });
-        Ok(())
-    }
-
-    /// Keeps a teacher's session, and forgets those that are over. `assignment` is the homework whose class it opens; none: all.
-    pub async fn open_session(
-        &self,
-        token_hash: &str,
-        assignment: Option<&str>,
-        now: Millis,
-        expires_at: Millis,
-    ) -> Result<()> {
-        const CLEAR: &str = "DELETE FROM teacher_sessions WHERE expires_at <= $1";
-        const SQL: &str = "INSERT INTO teacher_sessions (token_hash, created_at, expires_at, assignment) \
-                           VALUES ($1, $2, $3, $4)";
-        on!(&self.write, db => {
-            sqlx::query(CLEAR).bind(now).execute(db).await?;
-            sqlx::query(SQL).bind(token_hash).bind(now).bind(expires_at).bind(assignment).execute(db).await?;
+    /// Makes a browser a student's. None where it shall be so as the first that gave the number, and another one was.
+    pub async fn bind_owner(&self, owner_id: &str, student: &Student, proof: Proof) -> Result<Option<Owner>> {
+        // Two that come at once wait for each other at this row.
+        const TURN: &str = "UPDATE students SET number = number WHERE id = $1";
+        const OTHERS: &str = "SELECT count(*) FROM owners WHERE student_id = $1 AND code_generation = $2 AND id <> $3";
+        const BIND: &str = "UPDATE owners SET student_id = $2, proof = $3, code_generation = $4 WHERE id = $1";
+        const BOUND: &str = "SELECT id, student_id, proof, code_generation FROM owners WHERE id = $1";
+        let row: Row = on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            sqlx::query(TURN).bind(&student.id).execute(&mut *transaction).await?;
+            let others: i64 = sqlx::query_scalar(OTHERS)
+                .bind(&student.id)
+                .bind(student.code_generation)
+                .bind(owner_id)
+                .fetch_one(&mut *transaction)
+                .await?;
+            if proof == Proof::First && others > 0 {
+                return Ok(None);
+            }
+            sqlx::query(BIND)
+                .bind(owner_id)
+                .bind(&student.id)
+                .bind(word(&proof))
+                .bind(student.code_generation)
+                .execute(&mut *transaction)
+                .await?;
+            let row = sqlx::query_as(BOUND).bind(owner_id).fetch_one(&mut *transaction).await?;
+            transaction.commit().await?;
+            row
         });
-        Ok(())
-    }
-
-    /// The homework whose class a teacher's session opens, none within for all; nothing where no such session is open.
-    pub async fn session(&self, token_hash: &str, now: Millis) -> Result<Option<Option<String>>> {
-        const SQL: &str = "SELECT assignment FROM teacher_sessions WHERE token_hash = $1 AND expires_at > $2";
-        Ok(on!(&self.read, db => sqlx::query_scalar(SQL).bind(token_hash).bind(now).fetch_optional(db).await?))
-    }
-
-    /// Ends one session; none: all.
-    pub async fn close_session(&self, token_hash: Option<&str>) -> Result<()> {
-        const ONE: &str = "DELETE FROM teacher_sessions WHERE token_hash = $1";
-        const ALL: &str = "DELETE FROM teacher_sessions";
-        on!(&self.write, db => match token_hash {
-            Some(hash) => { sqlx::query(ONE).bind(hash).execute(db).await?; }
-            None => { sqlx::query(ALL).execute(db).await?; }
-        });
-        Ok(())
+        Owner::of(row).map(Some)
     }
 }

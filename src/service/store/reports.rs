@@ -153,16 +153,28 @@ impl Store {
     }
 
     /// What a browser has handed in for an assignment, the newest first; drafts are left out.
-    pub async fn history(&self, assignment: &str, owner_id: &str, limit: u32) -> Result<Vec<HistoryRow>> {
+    pub async fn history(
+        &self,
+        assignment: &str,
+        owner_id: &str,
+        student_id: Option<&str>,
+        limit: u32,
+    ) -> Result<Vec<HistoryRow>> {
         const SQL: &str = concat!(
             "SELECT ",
             submission_columns!(),
             ", r.verdict, r.score, r.max_score FROM submissions s LEFT JOIN reports r ON r.submission_id = s.id \
-             WHERE s.assignment = $1 AND s.owner_id = $2 AND s.via <> 'editor' \
-             ORDER BY s.received_at DESC, s.id LIMIT $3"
+             WHERE s.assignment = $1 AND (s.owner_id = $2 OR (s.student_id = $3 AND s.via <> 'batch')) \
+             AND s.via <> 'editor' ORDER BY s.received_at DESC, s.id LIMIT $4"
         );
         Ok(on!(&self.read, db => {
-            sqlx::query_as(SQL).bind(assignment).bind(owner_id).bind(i64::from(limit)).fetch_all(db).await?
+            sqlx::query_as(SQL)
+                .bind(assignment)
+                .bind(owner_id)
+                .bind(student_id.unwrap_or_default())
+                .bind(i64::from(limit))
+                .fetch_all(db)
+                .await?
         }))
     }
 

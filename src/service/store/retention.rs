@@ -41,6 +41,7 @@ impl Store {
         );
         const BATCHES: &str = "DELETE FROM batches WHERE created_at < $1";
         const REGRADINGS: &str = "DELETE FROM regradings WHERE created_at < $1";
+        const ACTS: &str = "DELETE FROM acts WHERE at < $1";
         const OWNERS: &str = "DELETE FROM owners WHERE created_at < $1 AND NOT EXISTS \
                               (SELECT 1 FROM submissions s WHERE s.owner_id = owners.id)";
         let mut removed = Removed::default();
@@ -49,7 +50,7 @@ impl Store {
             let gone = sqlx::query(DRAFTS).bind(drafts_before).execute(&mut *transaction).await?;
             removed.submissions += gone.rows_affected();
             if let Some(before) = before {
-                for sql in [REGRADINGS, NAMELESS, SUBMISSIONS, BATCHES] {
+                for sql in [REGRADINGS, NAMELESS, SUBMISSIONS, BATCHES, ACTS] {
                     let gone = sqlx::query(sql).bind(before).execute(&mut *transaction).await?;
                     if sql == SUBMISSIONS {
                         removed.submissions += gone.rows_affected();

@@ -16,6 +16,8 @@ pub struct Student {
     pub on_roster: i64,
     /// The number by which Moodle's files name them, where the roster has it.
     pub moodle: Option<i64>,
+    /// Which personal code of theirs counts, from 0.
+    pub code_generation: i64,
 }
 
 impl Student {
@@ -53,7 +55,7 @@ impl Store {
         const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
                               SELECT $1, $2, '', 0, $3 WHERE NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1) \
                               ON CONFLICT (number) DO NOTHING";
-        const SELECT: &str = "SELECT id, number, name, on_roster, moodle FROM students WHERE number = $1 \
+        const SELECT: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE number = $1 \
                               AND (on_roster = 1 OR NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1))";
         let found = on!(&self.read, db => sqlx::query_as(SELECT).bind(number).fetch_optional(db).await?);
         if found.is_some() {
@@ -66,19 +68,19 @@ impl Store {
 
     /// The student with this id.
     pub async fn student_by_id(&self, id: &str) -> Result<Option<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster, moodle FROM students WHERE id = $1";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE id = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?))
     }
 
     /// The student with this number, whether the roster has them or not.
     pub async fn student_by_number(&self, number: &str) -> Result<Option<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster, moodle FROM students WHERE number = $1";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE number = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(number).fetch_optional(db).await?))
     }
 
     /// Everyone, by number.
     pub async fn students(&self) -> Result<Vec<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster, moodle FROM students ORDER BY number";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students ORDER BY number";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))
     }
 
@@ -115,6 +117,13 @@ impl Store {
             }
             transaction.commit().await?;
         });
+        Ok(())
+    }
+
+    /// Makes another personal code count for a student: browsers that are bound by an earlier one are theirs no more.
+    pub async fn renew_code(&self, student_id: &str) -> Result<()> {
+        const SQL: &str = "UPDATE students SET code_generation = code_generation + 1 WHERE id = $1";
+        on!(&self.write, db => { sqlx::query(SQL).bind(student_id).execute(db).await?; });
         Ok(())
     }
 

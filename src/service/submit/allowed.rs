@@ -3,6 +3,7 @@
 use super::Upload;
 use crate::service::State;
 use crate::service::errors::Problem;
+use crate::service::identity::code_needed;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Via};
 use axum::http::StatusCode;
@@ -16,6 +17,10 @@ pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, u
     let is_draft = upload.via == Via::Editor;
     if assignment.is_closed(now) && !(is_draft && assignment.practice) {
         return forbidden("closed", "Handing in is over.", "提出の受付は終了しました。");
+    }
+    // What somebody hands in under a number that they have not proved counts for nobody: they must learn that now.
+    if !is_draft && let Some(student) = upload.identity.claimed() {
+        return Err(code_needed(student));
     }
     if assignment.audience == Audience::Number && upload.identity.student().is_none() {
         return forbidden(

@@ -9,12 +9,13 @@ use super::{Tab, refused};
 use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::service::State;
+use crate::service::acts::Detail;
 use crate::service::api::archive::Archive;
 use crate::service::api::batches::named;
 use crate::service::api::body::other;
 use crate::service::classes::{self, Person, Wanted, Whose, of_batch};
 use crate::service::errors::Problem;
-use crate::service::identity::{Teacher, TeacherPage};
+use crate::service::identity::{LecturerPage, Teacher, TeacherPage};
 use crate::service::limits::Client;
 use crate::service::store::{Batch, Progress};
 use askama::Template;
@@ -104,14 +105,17 @@ async fn view_list(
 /// `POST /teacher/batches`: stores an archive. One that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn upload(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     client: Client,
     headers: HeaderMap,
     frame: Frame,
     request: Request,
 ) -> Result<Response, Problem> {
     match stored(&state, &teacher, (&headers, &client), request).await {
-        Ok(batch) => Ok(Redirect::to(&format!("{}/batches/{}", frame.teacher(), batch.id)).into_response()),
+        Ok(batch) => {
+            let answer = Redirect::to(&format!("{}/batches/{}", frame.teacher(), batch.id)).into_response();
+            Ok(Detail::of(batch.title).on(answer))
+        }
         Err(problem) if problem.status.is_client_error() => {
             let detail = problem.detail.get(frame.language).replace('`', "");
             Ok(refused(view_list(&state, &teacher, frame, Some(detail)).await?, problem.status))

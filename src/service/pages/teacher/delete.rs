@@ -3,11 +3,13 @@
 use super::super::frame::Frame;
 use super::super::shown;
 use super::{Tab, batches};
+use crate::language::Language;
 use crate::service::State;
+use crate::service::acts::Detail;
 use crate::service::classes::people;
 use crate::service::deletion;
 use crate::service::errors::Problem;
-use crate::service::identity::TeacherPage;
+use crate::service::identity::LecturerPage;
 use crate::service::store::{DeletionTarget, Submission};
 use askama::Template;
 use axum::Form;
@@ -106,7 +108,7 @@ async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<Foun
 /// `GET /teacher/delete?submission=`, `batch=` or `person=`: what would go.
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     Query(chosen): Query<Chosen>,
     frame: Frame,
 ) -> Result<Response, Problem> {
@@ -124,13 +126,15 @@ pub(in crate::service::pages) async fn page(
 /// `POST /teacher/delete`.
 pub(in crate::service::pages) async fn delete(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     frame: Frame,
     Form(chosen): Form<Chosen>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &chosen.csrf)?;
     let found = found(&state, &frame, &chosen).await?;
     teacher.may_delete(&found.target)?;
-    deletion::delete(&state, &found.target).await?;
-    Ok(Redirect::to(&format!("{}?done=deleted", frame.teacher())).into_response())
+    // The log has no name of who is gone.
+    let counts = deletion::delete(&state, &found.target).await?.said(Language::En).join(", ");
+    let answer = Redirect::to(&format!("{}?done=deleted", frame.teacher())).into_response();
+    Ok(Detail::of(format!("{}: {counts}", found.target.word())).on(answer))
 }

@@ -18,6 +18,20 @@ struct LoginPage {
     frame: Frame,
     csrf: String,
     problem: Option<String>,
+    /// Whether there are accounts to log in with.
+    has_accounts: bool,
+    login: String,
+}
+
+async fn view(
+    service: &Service,
+    frame: Frame,
+    visitor: &Visitor,
+    login: String,
+    problem: Option<String>,
+) -> Result<Response, Problem> {
+    let has_accounts = service.store.has_administrator().await?;
+    shown(LoginPage { frame, csrf: visitor.csrf(service), problem, has_accounts, login }.render())
 }
 
 /// `GET /teacher/login`.
@@ -30,7 +44,7 @@ pub(in crate::service::pages) async fn page(
     if teacher.is_some() {
         return Ok(Redirect::to("/teacher").into_response());
     }
-    shown(LoginPage { frame, csrf: visitor.csrf(&service), problem: None }.render())
+    view(&service, frame, &visitor, String::new(), None).await
 }
 
 /// `POST /teacher/login`.
@@ -45,7 +59,7 @@ pub(in crate::service::pages) async fn login(
         Ok(response) => Ok(response),
         Err(problem) if problem.kind == "login" => {
             let detail = problem.detail.get(frame.language).to_owned();
-            let mut page = shown(LoginPage { frame, csrf: visitor.csrf(&service), problem: Some(detail) }.render())?;
+            let mut page = view(&service, frame, &visitor, form.login, Some(detail)).await?;
             *page.status_mut() = problem.status;
             Ok(page)
         }

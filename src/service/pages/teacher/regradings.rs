@@ -11,7 +11,7 @@ use crate::report::text::number;
 use crate::service::State;
 use crate::service::api::batches::{Job, progress};
 use crate::service::errors::Problem;
-use crate::service::identity::TeacherPage;
+use crate::service::identity::{LecturerPage, TeacherPage};
 use crate::service::regrade;
 use crate::service::store::{Compared, Progress};
 use askama::Template;
@@ -82,7 +82,7 @@ pub(in crate::service::pages) struct Wished {
 /// `POST /teacher/regradings`: begins.
 pub(in crate::service::pages) async fn start(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     Form(wish): Form<Wish>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &wish.csrf)?;
@@ -93,7 +93,7 @@ pub(in crate::service::pages) async fn start(
 /// `POST /teacher/regradings/{id}`: adopts.
 pub(in crate::service::pages) async fn adopt(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     Path(id): Path<String>,
     Form(token): Form<CsrfForm>,
 ) -> Result<Response, Problem> {

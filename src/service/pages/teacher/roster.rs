@@ -4,9 +4,10 @@ use super::super::frame::Frame;
 use super::refused;
 use super::settings::{self, Said, Typed};
 use crate::service::State;
+use crate::service::acts::Detail;
 use crate::service::api::body::other;
 use crate::service::errors::Problem;
-use crate::service::identity::{Teacher, TeacherPage};
+use crate::service::identity::{LecturerPage, Teacher};
 use crate::service::roster;
 use axum::extract::multipart::MultipartRejection;
 use axum::extract::{Multipart, State as Shared};
@@ -16,13 +17,16 @@ use axum::response::{IntoResponse, Redirect, Response};
 /// `POST /teacher/roster`: a CSV file of student numbers and names. One that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn take(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
     frame: Frame,
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     match import(&state, &teacher, form).await {
-        Ok(()) => Ok(Redirect::to(&format!("{}/settings?done=roster", frame.teacher())).into_response()),
+        Ok(students) => {
+            let answer = Redirect::to(&format!("{}/settings?done=roster", frame.teacher())).into_response();
+            Ok(Detail::of(students.to_string()).on(answer))
+        }
         Err(problem) if problem.status.is_client_error() => {
             let said = Said { roster: Some(problem.detail.get(frame.language).to_owned()), ..Said::default() };
             let page = settings::view(&state, frame, &headers, &teacher, Typed::default(), said).await?;
@@ -32,7 +36,11 @@ pub(in crate::service::pages) async fn take(
     }
 }
 
-async fn import(state: &State, teacher: &Teacher, form: Result<Multipart, MultipartRejection>) -> Result<(), Problem> {
+async fn import(
+    state: &State,
+    teacher: &Teacher,
+    form: Result<Multipart, MultipartRejection>,
+) -> Result<usize, Problem> {
     let mut form = form.map_err(unreadable)?;
     let (mut csrf, mut bytes) = (String::new(), Vec::new());
     while let Some(field) = form.next_field().await.map_err(unreadable)? {
@@ -44,7 +52,9 @@ async fn import(state: &State, teacher: &Teacher, form: Result<Multipart, Multip
     }
     teacher.check_csrf(state, &csrf)?;
     teacher.check_course()?;
-    roster::import(state, &roster::read(&bytes)?).await
+    let roster = roster::read(&bytes)?;
+    roster::import(state, &roster).await?;
+    Ok(roster.len())
 }
 
 /// An upload that did not arrive, or is no roster by its size alone.

@@ -5,18 +5,19 @@ use super::super::frame::Frame;
 use super::super::shown;
 use super::Tab;
 use super::login::CsrfForm;
-use super::refused;
+use super::{public_address, refused};
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::service::State;
+use crate::service::acts::Detail;
 use crate::service::course::{Course, zone_names};
 use crate::service::errors::Problem;
-use crate::service::identity::{self, Teacher, TeacherPage};
+use crate::service::identity::{self, LecturerPage, Teacher};
 use crate::service::store::{Assignment, Audience};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -105,7 +106,7 @@ fn audience_word(audience: Audience) -> &'static str {
 /// `GET /teacher/settings`.
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     Query(Done { done }): Query<Done>,
     headers: HeaderMap,
     frame: Frame,
@@ -129,7 +130,6 @@ pub(super) async fn view(
     typed: Typed,
     said: Said,
 ) -> Result<Response, Problem> {
-    let public = state.config.public_url.clone().unwrap_or_else(|| format!("http://{}", host(state, headers)));
     let settings = state.store.assignment(&state.assignment.id).await?;
     let deletions = state.store.deletions().await?;
     shown(
@@ -141,19 +141,13 @@ pub(super) async fn view(
             has_course: teacher.has_course(),
             course: typed.course.unwrap_or_else(|| CourseFields::of(&frame.course)),
             zones: zone_names(),
-            link: format!("{}/join/{}", public.trim_end_matches('/'), identity::course_secret(state).await?),
+            link: format!("{}/join/{}", public_address(state, headers), identity::course_secret(state).await?),
             students: state.store.students().await?.iter().filter(|student| student.on_roster != 0).count(),
             deletions: deletions.into_iter().map(|gone| (frame.moment(gone.at), gone.said(frame.language))).collect(),
             frame,
         }
         .render(),
     )
-}
-
-/// The name by which the teacher's own browser knows the service.
-fn host(state: &State, headers: &HeaderMap) -> String {
-    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
-    host.map_or_else(|| state.config.listen.to_string(), str::to_owned)
 }
 
 fn read_hints(word: &str) -> Hints {
@@ -181,6 +175,22 @@ impl Rules {
             audience: audience_word(settings.audience).to_owned(),
             practice: if settings.practice { "on".to_owned() } else { String::new() },
         }
+    }
+
+    /// What differs from a form as it stood before, for the log of acts.
+    fn changes_from(&self, before: &Self) -> String {
+        let pairs = [
+            ("opens", &before.opens, &self.opens),
+            ("closes", &before.closes, &self.closes),
+            ("attempts", &before.attempts, &self.attempts),
+            ("hints", &before.hints, &self.hints),
+            ("audience", &before.audience, &self.audience),
+            ("practice", &before.practice, &self.practice),
+        ];
+        let shown = |text: &String| if text.trim().is_empty() { "–".to_owned() } else { text.trim().to_owned() };
+        let changed = pairs.into_iter().filter(|(_, before, after)| before.trim() != after.trim());
+        let lines = changed.map(|(name, before, after)| format!("{name}: {} → {}", shown(before), shown(after)));
+        lines.collect::<Vec<_>>().join(", ")
     }
 
     /// The settings that the form asks for.
@@ -232,17 +242,19 @@ impl CourseFields {
 /// `POST /teacher/settings`.
 pub(in crate::service::pages) async fn save(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
     frame: Frame,
     Form(rules): Form<Rules>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &rules.csrf)?;
     let before = state.store.assignment(&state.assignment.id).await?;
+    let was = Rules::of(&before, &frame.course);
     match rules.read(&frame, before) {
         Ok(settings) => {
             state.store.set_assignment(&settings).await?;
-            Ok(Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response())
+            let answer = Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response();
+            Ok(Detail::of(rules.changes_from(&was)).on(answer))
         }
         Err(wrong) => {
             let said = Said { rules: Some(wrong.to_owned()), ..Said::default() };
@@ -256,7 +268,7 @@ pub(in crate::service::pages) async fn save(
 /// `POST /teacher/course`: time zone and language.
 pub(in crate::service::pages) async fn save_course(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
     frame: Frame,
     Form(fields): Form<CourseFields>,
@@ -266,7 +278,8 @@ pub(in crate::service::pages) async fn save_course(
     match fields.read(&frame) {
         Ok(course) => {
             state.store.set_course(&course).await?;
-            Ok(Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response())
+            let answer = Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response();
+            Ok(Detail::of(format!("{}, {}", fields.zone, fields.language)).on(answer))
         }
         Err(wrong) => {
             let said = Said { course: Some(wrong), ..Said::default() };
@@ -280,7 +293,7 @@ pub(in crate::service::pages) async fn save_course(
 /// `POST /teacher/settings/link`: a new course link.
 pub(in crate::service::pages) async fn renew(
     Shared(state): Shared<State>,
-    TeacherPage(teacher): TeacherPage,
+    LecturerPage(teacher): LecturerPage,
     Form(token): Form<CsrfForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &token.csrf)?;

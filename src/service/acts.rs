@@ -1,0 +1,115 @@
+//! The log of what teachers do: a layer notes every request of a teacher that changed something, so that no handler can
+//! forget it. A handler that knows more says so in its answer ([`Detail`]).
+
+use super::Service;
+use super::identity::Teacher;
+use super::requests::of_any_homework;
+use super::store::Act;
+use axum::extract::{MatchedPath, Request, State as Shared};
+use axum::http::Method;
+use axum::middleware::Next;
+use axum::response::Response;
+
+/// More about an act, for its line in the log.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Detail {
+    /// Id of the student whom it was about.
+    pub student_id: Option<String>,
+    /// The homework, where the address does not say it.
+    pub assignment: Option<String>,
+    /// What else is worth knowing; in no language.
+    pub text: String,
+}
+
+impl Detail {
+    /// An answer with this detail.
+    pub fn on(self, mut response: Response) -> Response {
+        response.extensions_mut().insert(self);
+        response
+    }
+
+    /// The detail of something that has a name.
+    pub fn of(text: impl Into<String>) -> Self {
+        Self { text: text.into(), ..Self::default() }
+    }
+
+    /// The detail of something about a student.
+    pub fn about(student_id: &str) -> Self {
+        Self { student_id: Some(student_id.to_owned()), ..Self::default() }
+    }
+}
+
+/// What a request does, in the word that the log has for it; none for what is logged by itself, or is no act.
+fn act(method: &Method, route: &str) -> Option<String> {
+    let known = match (method.as_str(), route) {
+        ("POST", "/teacher/login" | "/teacher/welcome/{secret}") => return None,
+        ("POST", "/teacher/logout") => "logout",
+        ("POST", "/teacher/settings") => "settings",
+        ("POST", "/teacher/course") => "course",
+        ("POST", "/teacher/settings/link") => "link",
+        ("POST", "/teacher/roster") => "roster",
+        ("POST", "/teacher/codes") => "code",
+        ("POST", "/teacher/people") => "person-added",
+        ("POST", "/teacher/people/{id}") => "person",
+        ("POST", "/teacher/batches" | "/api/v1/batches") => "archive",
+        ("POST", "/teacher/downloads" | "/teacher/batches/{id}/worksheet") => "download",
+        ("POST", "/api/v1/batches/{id}/files/{format}") => "download",
+        ("POST", "/teacher/regradings") => "regrading",
+        ("POST", "/teacher/regradings/{id}") => "adopted",
+        ("POST", "/teacher/delete") | ("DELETE", _) => "deleted",
+        ("POST", "/api/v1/submissions") => "handed-in",
+        (method, route) => return Some(format!("{method} {route}")),
+    };
+    Some(known.to_owned())
+}
+
+/// Acts that are about the course, on whatever page they are done.
+const OF_COURSE: [&str; 7] = ["course", "link", "roster", "code", "person-added", "person", "logout"];
+
+/// Routes that students use as well: what a teacher does there is an act where the handler says so.
+fn is_of_everybody(route: &str) -> bool {
+    !(route.contains("/teacher") || route.starts_with("/api/v1/batches") || route.starts_with("/api/v1/students"))
+}
+
+/// The layer.
+pub(super) async fn note(Shared(service): Shared<Service>, request: Request, next: Next) -> Response {
+    let route = request.extensions().get::<MatchedPath>().map(of_any_homework);
+    let Some(route) = route.filter(|_| !request.method().is_safe()) else { return next.run(request).await };
+    let route = route.strip_prefix("/a/{assignment}").unwrap_or(&route).to_owned();
+    let word = act(request.method(), &route);
+    let assignment = homework_in(request.uri().path());
+    // Before the handler, which may end the session.
+    let teacher = Teacher::of(&service, request.headers()).await.ok().flatten();
+    let response = next.run(request).await;
+    let status = response.status();
+    let (Some(teacher), Some(word)) = (teacher, word) else { return response };
+    let detail = response.extensions().get::<Detail>();
+    if status.is_client_error() || status.is_server_error() || (detail.is_none() && is_of_everybody(&route)) {
+        return response;
+    }
+    let detail = detail.cloned().unwrap_or_default();
+    let is_of_course = OF_COURSE.contains(&word.as_str());
+    let only = || service.only().filter(|_| !is_of_course).map(|state| state.assignment.id.clone());
+    let act = Act {
+        at: service.clock.now(),
+        staff_id: teacher.staff().map(|member| member.id.clone()),
+        way: teacher.way().to_owned(),
+        act: word,
+        assignment: detail
+            .assignment
+            .or(assignment.filter(|_| !is_of_course))
+            .or_else(|| teacher.homework().map(str::to_owned))
+            .or_else(only),
+        student_id: detail.student_id,
+        detail: detail.text,
+    };
+    if let Err(error) = service.store.note_act(&act).await {
+        tracing::error!(%error, act = act.act, "an act of a teacher could not be noted");
+    }
+    response
+}
+
+/// The homework whose page an address is.
+fn homework_in(path: &str) -> Option<String> {
+    Some(path.strip_prefix("/a/")?.split('/').next()?.to_owned())
+}

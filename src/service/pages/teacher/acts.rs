@@ -1,0 +1,95 @@
+//! The log of what teachers did, for lecturers to read.
+
+use super::super::datetime::Moment;
+use super::super::frame::Frame;
+use super::super::shown;
+use super::Tab;
+use super::table::Pager;
+use crate::service::Service;
+use crate::service::errors::Problem;
+use crate::service::identity::LecturerPage;
+use crate::service::store::NamedAct;
+use askama::Template;
+use axum::extract::{Query, State as Shared};
+use axum::response::Response;
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/acts.html")]
+struct ActsPage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    acts: Vec<Line>,
+    pager: Pager,
+}
+
+/// A line of the log.
+struct Line {
+    at: Moment,
+    who: String,
+    act: String,
+    homework: String,
+    student: String,
+    detail: String,
+}
+
+/// Which page.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Wished {
+    page: String,
+}
+
+/// What an act is called; one without a name by its own word.
+fn named(frame: &Frame, act: &str) -> String {
+    let known = match act {
+        "login" => frame.say("Logged in", "ログイン"),
+        "logout" => frame.say("Logged out", "ログアウト"),
+        "settings" => frame.say("Changed how handing in works", "提出の条件を変更"),
+        "course" => frame.say("Changed the course", "授業の設定を変更"),
+        "link" => frame.say("Made a new course link", "授業リンクを再発行"),
+        "roster" => frame.say("Imported a roster", "名簿を取り込み"),
+        "code" => frame.say("Replaced a personal code", "個人コードを再発行"),
+        "person-added" => frame.say("Let somebody in", "担当者を追加"),
+        "person" => frame.say("Changed an account", "アカウントを変更"),
+        "archive" => frame.say("Uploaded an archive", "アーカイブを採点"),
+        "download" => frame.say("Made a download", "ダウンロードを作成"),
+        "regrading" => frame.say("Had everything graded again", "再採点を開始"),
+        "adopted" => frame.say("Adopted new results", "再採点の結果を採用"),
+        "deleted" => frame.say("Deleted", "削除"),
+        "handed-in" => frame.say("Handed in for a student", "学生の代わりに提出"),
+        other => return other.to_owned(),
+    };
+    known.to_owned()
+}
+
+fn who(frame: &Frame, act: &NamedAct) -> String {
+    match (&act.login, act.act.way.as_str()) {
+        (Some(login), _) => login.clone(),
+        (None, "token") => frame.say("a program, by a token", "プログラム（トークン）").to_owned(),
+        (None, _) => frame.say("by a secret of the service", "サービス共通のパスワード").to_owned(),
+    }
+}
+
+/// `GET /teacher/log`.
+pub(in crate::service::pages) async fn page(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Query(Wished { page }): Query<Wished>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let total = service.store.count_acts(teacher.homework()).await?;
+    let pager = Pager::new(total, &page, |page| format!("?page={page}"));
+    let acts = service.store.acts(teacher.homework(), pager.from, pager.to - pager.from).await?;
+    let line = |act: NamedAct| Line {
+        at: frame.exact_moment(act.act.at),
+        who: who(&frame, &act),
+        act: named(&frame, &act.act.act),
+        homework: act.act.assignment.unwrap_or_default(),
+        student: act.number.unwrap_or_default(),
+        detail: act.act.detail,
+    };
+    let acts = acts.into_iter().map(line).collect();
+    shown(ActsPage { place: Tab::Acts, csrf: teacher.csrf(&service), acts, pager, frame }.render())
+}

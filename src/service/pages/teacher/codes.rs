@@ -1,0 +1,116 @@
+//! The students' personal codes: to be handed out, and replaced where one is lost.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::{Tab, public_address};
+use crate::batch::formats::plain::cell;
+use crate::service::Service;
+use crate::service::acts::Detail;
+use crate::service::download::attachment;
+use crate::service::errors::Problem;
+use crate::service::identity::{LecturerPage, course_secret, personal_code};
+use crate::service::store::Student;
+use askama::Template;
+use axum::Form;
+use axum::extract::{Query, State as Shared};
+use axum::http::{HeaderMap, header};
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/codes.html")]
+struct CodesPage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    has_roster: bool,
+    students: Vec<(Student, String)>,
+    /// Number of the student whose code was replaced.
+    renewed: String,
+}
+
+/// A code that is to be replaced.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Lost {
+    csrf: String,
+    student: String,
+}
+
+/// What has just been done.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Done {
+    renewed: String,
+}
+
+/// Everyone who has a code: the roster; without one, whoever gave a number.
+async fn students(service: &Service) -> Result<(bool, Vec<Student>), Problem> {
+    let mut students = service.store.students().await?;
+    let has_roster = students.iter().any(Student::is_on_roster);
+    students.retain(|student| !has_roster || student.is_on_roster());
+    Ok((has_roster, students))
+}
+
+/// `GET /teacher/codes`.
+pub(in crate::service::pages) async fn page(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Query(Done { renewed }): Query<Done>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    let (has_roster, students) = students(&service).await?;
+    let with_code = |student: Student| {
+        let code = personal_code(&service, &student);
+        (student, code)
+    };
+    let students = students.into_iter().map(with_code).collect();
+    let csrf = teacher.csrf(&service);
+    shown(CodesPage { frame, place: Tab::Codes, csrf, has_roster, students, renewed }.render())
+}
+
+/// `POST /teacher/codes`: replaces a student's code; browsers that are bound by the old one are theirs no more.
+pub(in crate::service::pages) async fn renew(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Form(lost): Form<Lost>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&service, &lost.csrf)?;
+    teacher.check_course()?;
+    let student = service.store.student_by_id(&lost.student).await?.ok_or_else(Problem::not_found)?;
+    service.store.renew_code(&student.id).await?;
+    let answer = Redirect::to(&format!("/teacher/codes?renewed={}", student.number)).into_response();
+    Ok(Detail::about(&student.id).on(answer))
+}
+
+/// `GET /teacher/codes/file`: a CSV file for mails and slips of paper. Each link fills in its student's number and code.
+pub(in crate::service::pages) async fn file(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    headers: HeaderMap,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    let join = format!("{}/join/{}", public_address(&service, &headers), course_secret(&service).await?);
+    let heading = match frame.tag() {
+        "ja" => ["学籍番号", "氏名", "個人コード", "リンク"],
+        _ => ["Student number", "Name", "Personal code", "Link"],
+    };
+    let mut csv = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
+    let failed = |error: csv::Error| Problem::internal(&error);
+    csv.write_record(heading).map_err(failed)?;
+    for student in students(&service).await?.1 {
+        let code = personal_code(&service, &student);
+        let link = format!("{join}?number={}&code={code}", student.number);
+        csv.write_record([&cell(&student.number), &cell(&student.name), &code, &link]).map_err(failed)?;
+    }
+    let csv = csv.into_inner().map_err(|error| Problem::internal(&error))?;
+    let headers = [
+        (header::CONTENT_TYPE, "text/csv; charset=utf-8".to_owned()),
+        (header::CACHE_CONTROL, "private, no-store".to_owned()),
+        (header::CONTENT_DISPOSITION, attachment("personal-codes.csv")),
+    ];
+    // With a byte-order mark, so that Excel opens it as it is.
+    Ok((headers, ["\u{feff}".as_bytes(), &csv].concat()).into_response())
+}

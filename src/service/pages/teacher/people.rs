@@ -1,0 +1,216 @@
+//! Who teaches: accounts, what they may do, and links by which they choose a password.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::{Tab, public_address, refused};
+use crate::service::Service;
+use crate::service::acts::Detail;
+use crate::service::errors::Problem;
+use crate::service::identity::{self, LecturerPage, Teacher, check_may_manage};
+use crate::service::store::{Role, StaffMember};
+use askama::Template;
+use axum::Form;
+use axum::extract::{Path, State as Shared};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/people.html")]
+struct PeoplePage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    people: Vec<Line>,
+    /// The roles that this teacher may give.
+    roles: Vec<(&'static str, &'static str)>,
+    /// Whether nobody has an account yet.
+    is_first: bool,
+    typed: NewMember,
+    problem: Option<String>,
+    /// A link that was just made: for whom, and the address.
+    link: Option<(String, String)>,
+}
+
+/// Somebody of the list.
+struct Line {
+    member: StaffMember,
+    role: &'static str,
+    standing: &'static str,
+    /// Whether this teacher may change anything of theirs.
+    may_change: bool,
+}
+
+/// The form of a new account.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct NewMember {
+    csrf: String,
+    login: String,
+    name: String,
+    role: String,
+}
+
+/// A change of an account: `link`, `close`, `open`, or the name of a role.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Change {
+    csrf: String,
+    change: String,
+}
+
+/// The role of a word in a form.
+fn role(word: &str) -> Option<Role> {
+    [Role::Administrator, Role::Lecturer, Role::Assistant].into_iter().find(|role| id(*role) == word)
+}
+
+fn id(role: Role) -> &'static str {
+    match role {
+        Role::Administrator => "administrator",
+        Role::Lecturer => "lecturer",
+        Role::Assistant => "assistant",
+    }
+}
+
+/// What a role is called.
+pub(super) fn role_name(frame: &Frame, role: Role) -> &'static str {
+    match role {
+        Role::Administrator => frame.say("Administrator", "管理者"),
+        Role::Lecturer => frame.say("Lecturer", "担当教員"),
+        Role::Assistant => frame.say("Assistant", "アシスタント"),
+    }
+}
+
+fn standing(frame: &Frame, member: &StaffMember) -> &'static str {
+    match (member.is_active, member.has_password) {
+        (false, _) => frame.say("closed", "停止中"),
+        (true, true) => frame.say("active", "有効"),
+        (true, false) => frame.say("has not chosen a password yet", "パスワード未設定"),
+    }
+}
+
+/// What the page says of a form that was sent.
+#[derive(Default)]
+struct Said {
+    typed: NewMember,
+    problem: Option<String>,
+    link: Option<(String, String)>,
+}
+
+async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    let people = service.store.staff().await?;
+    let may = |role: Role| check_may_manage(teacher, role).is_ok();
+    let offered = [Role::Assistant, Role::Lecturer, Role::Administrator].into_iter().filter(|role| may(*role));
+    let is_first = !service.store.has_administrator().await?;
+    shown(
+        PeoplePage {
+            place: Tab::People,
+            csrf: teacher.csrf(service),
+            roles: offered
+                .filter(|role| !is_first || *role == Role::Administrator)
+                .map(|role| (id(role), role_name(&frame, role)))
+                .collect(),
+            people: people
+                .into_iter()
+                .map(|member| Line {
+                    role: role_name(&frame, member.role),
+                    standing: standing(&frame, &member),
+                    may_change: may(member.role),
+                    member,
+                })
+                .collect(),
+            is_first,
+            typed: said.typed,
+            problem: said.problem,
+            link: said.link,
+            frame,
+        }
+        .render(),
+    )
+}
+
+/// `GET /teacher/people`.
+pub(in crate::service::pages) async fn page(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    view(&service, frame, &teacher, Said::default()).await
+}
+
+/// `POST /teacher/people`: a new account. The first one's owner goes on to choose a password; of another one the page shows
+/// the link.
+pub(in crate::service::pages) async fn add(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    headers: HeaderMap,
+    frame: Frame,
+    Form(typed): Form<NewMember>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&service, &typed.csrf)?;
+    let role = role(&typed.role).unwrap_or(Role::Assistant);
+    check_may_manage(&teacher, role)?;
+    let is_first = !service.store.has_administrator().await?;
+    match identity::add_staff(&service, &typed.login, &typed.name, role).await {
+        Ok(member) => {
+            let secret = identity::invite(&service, &member).await?;
+            let detail = Detail::of(format!("{} {}", member.login, id(role)));
+            if is_first && teacher.is_shared() {
+                return Ok(detail.on(Redirect::to(&format!("/teacher/welcome/{secret}")).into_response()));
+            }
+            let link = Some((member.login, welcome(&service, &headers, &secret)));
+            Ok(detail.on(view(&service, frame, &teacher, Said { link, ..Said::default() }).await?))
+        }
+        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+            let detail = Some(problem.detail.get(frame.language).replace('`', ""));
+            let page = view(&service, frame, &teacher, Said { typed, problem: detail, link: None }).await?;
+            Ok(refused(page, problem.status))
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+/// The address at which somebody chooses a password.
+fn welcome(service: &Service, headers: &HeaderMap, secret: &str) -> String {
+    format!("{}/teacher/welcome/{secret}", public_address(service, headers))
+}
+
+/// `POST /teacher/people/{id}`: another link, another role, closing and opening an account.
+pub(in crate::service::pages) async fn change(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Path(member): Path<String>,
+    headers: HeaderMap,
+    frame: Frame,
+    Form(change): Form<Change>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&service, &change.csrf)?;
+    let member = service.store.staff_member(&member).await?.ok_or_else(Problem::not_found)?;
+    check_may_manage(&teacher, member.role)?;
+    let detail = Detail::of(format!("{} {}", member.login, change.change));
+    let done = match (change.change.as_str(), role(&change.change)) {
+        ("link", _) => {
+            let secret = identity::invite(&service, &member).await?;
+            let link = Some((member.login, welcome(&service, &headers, &secret)));
+            let page = view(&service, frame, &teacher, Said { link, ..Said::default() }).await?;
+            return Ok(detail.on(page));
+        }
+        ("close", _) => identity::set_staff(&service, &member, member.role, false).await,
+        ("open", _) => identity::set_staff(&service, &member, member.role, true).await,
+        (_, Some(role)) => {
+            check_may_manage(&teacher, role)?;
+            identity::set_staff(&service, &member, role, member.is_active).await
+        }
+        (_, None) => Err(Problem::unprocessable("There is no such change.", "その操作はありません。")),
+    };
+    match done {
+        Ok(()) => Ok(detail.on(Redirect::to("/teacher/people").into_response())),
+        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+            let detail = Some(problem.detail.get(frame.language).to_owned());
+            let page = view(&service, frame, &teacher, Said { problem: detail, ..Said::default() }).await?;
+            Ok(refused(page, problem.status))
+        }
+        Err(problem) => Err(problem),
+    }
+}

@@ -1,0 +1,89 @@
+//! Where somebody who was let in chooses a password.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::people::role_name;
+use super::refused;
+use crate::service::Service;
+use crate::service::errors::Problem;
+use crate::service::identity::{self, Visitor};
+use crate::service::limits::Client;
+use askama::Template;
+use axum::Form;
+use axum::extract::{Path, State as Shared};
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/welcome.html")]
+struct WelcomePage {
+    frame: Frame,
+    csrf: String,
+    action: String,
+    login: String,
+    role: &'static str,
+    shortest: usize,
+    problem: Option<String>,
+}
+
+/// The form of the page.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Chosen {
+    csrf: String,
+    password: String,
+}
+
+async fn view(
+    service: &Service,
+    frame: Frame,
+    visitor: &Visitor,
+    secret: &str,
+    problem: Option<String>,
+) -> Result<Response, Problem> {
+    let member = identity::invited(service, secret).await?;
+    shown(
+        WelcomePage {
+            csrf: visitor.csrf(service),
+            action: format!("/teacher/welcome/{secret}"),
+            login: member.login,
+            role: role_name(&frame, member.role),
+            shortest: identity::SHORTEST_PASSWORD,
+            problem,
+            frame,
+        }
+        .render(),
+    )
+}
+
+/// `GET /teacher/welcome/{secret}`.
+pub(in crate::service::pages) async fn page(
+    Shared(service): Shared<Service>,
+    Path(secret): Path<String>,
+    frame: Frame,
+    visitor: Visitor,
+) -> Result<Response, Problem> {
+    view(&service, frame, &visitor, &secret, None).await
+}
+
+/// `POST /teacher/welcome/{secret}`: sets the password, and logs in.
+pub(in crate::service::pages) async fn choose(
+    Shared(service): Shared<Service>,
+    Path(secret): Path<String>,
+    frame: Frame,
+    visitor: Visitor,
+    client: Client,
+    Form(chosen): Form<Chosen>,
+) -> Result<Response, Problem> {
+    visitor.check_csrf(&service, &chosen.csrf)?;
+    service.limits.login(&client)?;
+    match identity::choose_password(&service, &secret, &chosen.password).await {
+        Ok(member) => identity::open_for(&service, member).await,
+        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+            let detail = Some(problem.detail.get(frame.language).to_owned());
+            Ok(refused(view(&service, frame, &visitor, &secret, detail).await?, problem.status))
+        }
+        Err(problem) => Err(problem),
+    }
+}

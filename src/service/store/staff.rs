@@ -1,0 +1,223 @@
+//! Who teaches, their sessions and the links by which they choose a password. Secrets are stored as hashes only.
+
+use super::rows::{from_word, word};
+use super::{Result, Store, on};
+use crate::service::clock::Millis;
+use serde::{Deserialize, Serialize};
+
+/// What somebody may do; each may do what those before may.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// Sees the class and its reports.
+    Assistant,
+    /// Sets the homework, keeps the roster, deletes, grades again, lets assistants in.
+    Lecturer,
+    /// Lets everybody in.
+    Administrator,
+}
+
+/// Somebody who teaches.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StaffMember {
+    /// Id.
+    pub id: String,
+    /// The name by which they log in, in small letters.
+    pub login: String,
+    /// Their name.
+    pub name: String,
+    /// What they may do.
+    pub role: Role,
+    /// Whether they have chosen a password.
+    pub has_password: bool,
+    /// Whether they may log in.
+    pub is_active: bool,
+}
+
+/// An open session of a teacher.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Session {
+    /// The homework whose class it opens; none: all.
+    pub assignment: Option<String>,
+    /// Whose it is; none: of who logged in with a secret of the whole service.
+    pub staff: Option<StaffMember>,
+}
+
+type Row = (String, String, String, String, i64, i64);
+
+impl StaffMember {
+    fn of((id, login, name, role, has_password, is_active): Row) -> Result<Self> {
+        let role = from_word(role)?;
+        Ok(Self { id, login, name, role, has_password: has_password != 0, is_active: is_active != 0 })
+    }
+}
+
+/// Selects a [`Row`].
+macro_rules! select {
+    ($rest:literal) => {
+        concat!(
+            "SELECT id, login, name, role, CAST(CASE WHEN password_hash IS NULL THEN 0 ELSE 1 END AS BIGINT), is_active \
+             FROM staff ",
+            $rest
+        )
+    };
+}
+
+impl Store {
+    /// Everybody, by the name by which they log in.
+    pub async fn staff(&self) -> Result<Vec<StaffMember>> {
+        const SQL: &str = select!("ORDER BY login");
+        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
+        rows.into_iter().map(StaffMember::of).collect()
+    }
+
+    /// The one with this id.
+    pub async fn staff_member(&self, id: &str) -> Result<Option<StaffMember>> {
+        const SQL: &str = select!("WHERE id = $1");
+        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        row.map(StaffMember::of).transpose()
+    }
+
+    /// The one whose link this is, while it holds.
+    pub async fn invited(&self, invitation_hash: &str, now: Millis) -> Result<Option<StaffMember>> {
+        const SQL: &str = select!("WHERE invitation_hash = $1 AND invited_until > $2 AND is_active = 1");
+        let row: Option<Row> =
+            on!(&self.read, db => sqlx::query_as(SQL).bind(invitation_hash).bind(now).fetch_optional(db).await?);
+        row.map(StaffMember::of).transpose()
+    }
+
+    /// Who logs in by this name, and the hash of their password.
+    pub async fn staff_login(&self, login: &str) -> Result<Option<(StaffMember, String)>> {
+        const ID: &str = "SELECT id, password_hash FROM staff WHERE login = $1 AND is_active = 1 \
+                          AND password_hash IS NOT NULL";
+        let found: Option<(String, String)> =
+            on!(&self.read, db => sqlx::query_as(ID).bind(login).fetch_optional(db).await?);
+        let Some((id, hash)) = found else { return Ok(None) };
+        Ok(self.staff_member(&id).await?.map(|member| (member, hash)))
+    }
+
+    /// Whether somebody can log in as an administrator.
+    pub async fn has_administrator(&self) -> Result<bool> {
+        const SQL: &str = "SELECT count(*) FROM staff WHERE role = 'administrator' AND is_active = 1 \
+                           AND password_hash IS NOT NULL";
+        let count: i64 = on!(&self.read, db => sqlx::query_scalar(SQL).fetch_one(db).await?);
+        Ok(count > 0)
+    }
+
+    /// Adds somebody; false where the name by which they would log in is taken.
+    pub async fn add_staff(&self, member: &StaffMember, now: Millis) -> Result<bool> {
+        const SQL: &str = "INSERT INTO staff (id, login, name, role, is_active, created_at) \
+                           VALUES ($1, $2, $3, $4, 1, $5) ON CONFLICT (login) DO NOTHING";
+        let added = on!(&self.write, db => {
+            sqlx::query(SQL)
+                .bind(&member.id)
+                .bind(&member.login)
+                .bind(&member.name)
+                .bind(word(&member.role))
+                .bind(now)
+                .execute(db)
+                .await?
+                .rows_affected()
+        });
+        Ok(added > 0)
+    }
+
+    /// Gives somebody a link by which they choose a password; an earlier one opens nothing any more.
+    pub async fn invite(&self, id: &str, invitation_hash: &str, until: Millis) -> Result<()> {
+        const SQL: &str = "UPDATE staff SET invitation_hash = $2, invited_until = $3 WHERE id = $1";
+        on!(&self.write, db => { sqlx::query(SQL).bind(id).bind(invitation_hash).bind(until).execute(db).await?; });
+        Ok(())
+    }
+
+    /// Sets a password, and ends the link and every session of theirs.
+    pub async fn set_staff_password(&self, id: &str, hash: &str) -> Result<()> {
+        const SET: &str = "UPDATE staff SET password_hash = $2, invitation_hash = NULL, invited_until = NULL \
+                           WHERE id = $1";
+        const SESSIONS: &str = "DELETE FROM teacher_sessions WHERE staff_id = $1";
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            sqlx::query(SET).bind(id).bind(hash).execute(&mut *transaction).await?;
+            sqlx::query(SESSIONS).bind(id).execute(&mut *transaction).await?;
+            transaction.commit().await?;
+        });
+        Ok(())
+    }
+
+    /// Sets what somebody may do, and whether they may log in; who may not has no session and no link any more.
+    pub async fn set_staff(&self, id: &str, role: Role, is_active: bool) -> Result<()> {
+        const SET: &str = "UPDATE staff SET role = $2, is_active = $3 WHERE id = $1";
+        const SESSIONS: &str = "DELETE FROM teacher_sessions WHERE staff_id = $1";
+        const LINK: &str = "UPDATE staff SET invitation_hash = NULL, invited_until = NULL WHERE id = $1";
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            sqlx::query(SET).bind(id).bind(word(&role)).bind(i64::from(is_active)).execute(&mut *transaction).await?;
+            if !is_active {
+                for sql in [SESSIONS, LINK] {
+                    sqlx::query(sql).bind(id).execute(&mut *transaction).await?;
+                }
+            }
+            transaction.commit().await?;
+        });
+        Ok(())
+    }
+
+    /// Keeps a teacher's session, and forgets those that are over.
+    pub async fn open_session(
+        &self,
+        token_hash: &str,
+        session: &Session,
+        now: Millis,
+        expires_at: Millis,
+    ) -> Result<()> {
+        const CLEAR: &str = "DELETE FROM teacher_sessions WHERE expires_at <= $1";
+        const SQL: &str = "INSERT INTO teacher_sessions (token_hash, created_at, expires_at, assignment, staff_id) \
+                           VALUES ($1, $2, $3, $4, $5)";
+        on!(&self.write, db => {
+            sqlx::query(CLEAR).bind(now).execute(db).await?;
+            sqlx::query(SQL)
+                .bind(token_hash)
+                .bind(now)
+                .bind(expires_at)
+                .bind(&session.assignment)
+                .bind(session.staff.as_ref().map(|member| &member.id))
+                .execute(db)
+                .await?;
+        });
+        Ok(())
+    }
+
+    /// The session of a cookie, while it is open.
+    pub async fn session(&self, token_hash: &str, now: Millis) -> Result<Option<Session>> {
+        const SQL: &str = "SELECT assignment, staff_id FROM teacher_sessions WHERE token_hash = $1 AND expires_at > $2";
+        let row: Option<(Option<String>, Option<String>)> =
+            on!(&self.read, db => sqlx::query_as(SQL).bind(token_hash).bind(now).fetch_optional(db).await?);
+        let Some((assignment, staff_id)) = row else { return Ok(None) };
+        let Some(staff_id) = staff_id else { return Ok(Some(Session { assignment, staff: None })) };
+        let member = self.staff_member(&staff_id).await?.filter(|member| member.is_active);
+        Ok(member.map(|member| Session { assignment, staff: Some(member) }))
+    }
+
+    /// Ends one session; none: all.
+    pub async fn close_session(&self, token_hash: Option<&str>) -> Result<()> {
+        const ONE: &str = "DELETE FROM teacher_sessions WHERE token_hash = $1";
+        const ALL: &str = "DELETE FROM teacher_sessions";
+        on!(&self.write, db => match token_hash {
+            Some(hash) => { sqlx::query(ONE).bind(hash).execute(db).await?; }
+            None => { sqlx::query(ALL).execute(db).await?; }
+        });
+        Ok(())
+    }
+
+    /// Ends the sessions of who logged in with a secret of the whole service, and that secret where it is kept here.
+    pub async fn close_shared_way(&self, setting: &str) -> Result<()> {
+        const SESSIONS: &str = "DELETE FROM teacher_sessions WHERE staff_id IS NULL";
+        const SECRET: &str = "DELETE FROM settings WHERE name = $1";
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            sqlx::query(SESSIONS).execute(&mut *transaction).await?;
+            sqlx::query(SECRET).bind(setting).execute(&mut *transaction).await?;
+            transaction.commit().await?;
+        });
+        Ok(())
+    }
+}
