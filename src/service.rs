@@ -10,6 +10,7 @@
 //! | `/r/{id}/terms/{term}-yours.png`, `…-expected.png` | one term of the equation on its own |
 //! | `/r/{id}/source` | the file as handed in, to be saved |
 //! | `/join/{secret}` | the course link |
+//! | `/lti/…` | launches from learning platforms, and the keys with which this service signs |
 //! | `/teacher/…` | the teacher's pages; of each of several homeworks `/a/{assignment}/teacher/…`; `/teacher/login`, `/teacher/logout` |
 //! | `/api/v1/…` | the API; `/api/v1/openapi.json`, to be read at `/api/docs` |
 //! | `/assets/…` | styles and scripts |
@@ -35,6 +36,7 @@ pub mod idempotency;
 pub mod identity;
 pub mod language;
 pub mod limits;
+pub mod lti;
 pub(crate) mod metrics;
 pub mod pages;
 pub mod preview;
@@ -58,7 +60,7 @@ use tower_http::set_header::SetResponseHeaderLayer;
 
 /// The whole service as a router.
 pub fn app(service: Service) -> Router {
-    let routes = Router::new().merge(pages::router(&service)).merge(api::router());
+    let routes = Router::new().merge(pages::router(&service)).merge(lti::router()).merge(api::router());
     layered(service, routes)
 }
 

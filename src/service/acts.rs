@@ -51,6 +51,7 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/teacher/codes") => "code",
         ("POST", "/teacher/people") => "person-added",
         ("POST", "/teacher/people/{id}") => "person",
+        ("POST", "/teacher/platforms") => "platform",
         ("POST", "/teacher/batches" | "/api/v1/batches") => "archive",
         ("POST", "/teacher/downloads" | "/teacher/batches/{id}/worksheet") => "download",
         ("POST", "/api/v1/batches/{id}/files/{format}") => "download",
@@ -64,7 +65,7 @@ fn act(method: &Method, route: &str) -> Option<String> {
 }
 
 /// Acts that are about the course, on whatever page they are done.
-const OF_COURSE: [&str; 7] = ["course", "link", "roster", "code", "person-added", "person", "logout"];
+const OF_COURSE: [&str; 8] = ["platform", "course", "link", "roster", "code", "person-added", "person", "logout"];
 
 /// Routes that students use as well: what a teacher does there is an act where the handler says so.
 fn is_of_everybody(route: &str) -> bool {

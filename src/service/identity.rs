@@ -16,8 +16,10 @@ mod teacher;
 mod visitor;
 
 pub use codes::{code_needed, personal_code};
-pub use cookies::{STUDENT_COOKIE, TEACHER_COOKIE};
+pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
+pub(super) use cookies::{has_launch, set_launch};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
+pub(super) use join::become_student;
 pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code};
 pub use login::{LoginForm, login, logout, open_for};
 pub use secrets::{hash_password, new_id, new_token, token_hash};

@@ -1,7 +1,7 @@
 //! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
 //! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one, [`mod@form`] what it sends, [`student`] what that page says, [`result`] the page of a report
-//! and its pictures, [`join`] the course link, [`teacher`] everything behind the login. [`frame`] is around each page,
+//! and its pictures, [`join`] the course link, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
@@ -11,6 +11,7 @@ mod frame;
 mod hand_in;
 mod homeworks;
 mod join;
+mod lti;
 mod preview;
 mod problem;
 mod receipt;
@@ -23,6 +24,7 @@ mod terms;
 
 pub use assets::warm;
 pub use frame::Frame;
+pub(super) use lti::{launch_lost, shown_choice};
 pub use preview::broken_folder;
 pub use problem::problem;
 
@@ -59,6 +61,7 @@ pub fn router(service: &Service) -> Router<Service> {
     }
     routes
         .layer(from_fn(keep_language))
+        .layer(from_fn_with_state(service.clone(), lti::embeddable))
         .layer(from_fn_with_state(service.clone(), visit))
         .merge(Router::new().route("/assets/{name}", get(assets::serve)).layer(CompressionLayer::new()))
 }
@@ -75,7 +78,9 @@ fn of_service() -> Router<Service> {
         .route("/r/{id}/frames/{picture}", get(result::frame))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))
+        .route("/lti/register/{secret}", get(lti::register))
         .merge(teacher::of_course())
+        .merge(super::lti::launches())
 }
 
 /// A year, in seconds.

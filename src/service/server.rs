@@ -9,7 +9,7 @@ use super::clock::Clock;
 use super::grading::Graders;
 use super::identity::new_token;
 use super::store::{Store, StoreError};
-use super::{Config, Service, app, metrics, upkeep};
+use super::{Config, Service, app, lti, metrics, upkeep};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{Pool, Settings};
@@ -51,6 +51,7 @@ pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Res
     let service = Service::serving(assignments, config, store, Arc::new(pool), Clock::system()).await?;
     let graders = Graders::start(&service).await.map_err(|error| database(&error))?;
     tokio::spawn(upkeep::run(service.clone()));
+    tokio::spawn(lti::scores::run(service.clone()));
     Ok(Started { address, service, one_time_token, listener, graders })
 }
 

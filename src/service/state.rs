@@ -8,6 +8,7 @@ use super::gallery::{Gallery, RightPictures};
 use super::grading::{CrossChecks, Judge, Queue};
 use super::identity::{new_id, new_token};
 use super::limits::{Limits, Proxies};
+use super::lti::Connections;
 use super::preview::FolderVersion;
 use super::store::{Store, Stored, Submission};
 use crate::fault::Fault;
@@ -67,6 +68,8 @@ pub struct Shared {
     pub downloads: Jobs,
     /// Rates.
     pub limits: Limits,
+    /// What is kept of learning platforms between requests.
+    pub lti: Connections,
     /// The homeworks that are served, each with its right pictures.
     homeworks: Vec<(Arc<Assignment>, Arc<RightPictures>)>,
     /// The teacher's token, where there is one.
@@ -104,6 +107,7 @@ impl Service {
         };
         Ok(Self(Arc::new(Shared {
             limits: Limits::new(&config, &clock),
+            lti: Connections::default(),
             preview: OnceLock::new(),
             proxies: Proxies::parse(&config.trusted_proxies)?,
             queue: Queue::new(config.queue),

@@ -15,6 +15,7 @@ mod idempotency;
 mod identity;
 mod killed;
 mod limits;
+mod lti;
 mod places;
 mod process;
 mod roster;

@@ -1,4 +1,5 @@
-//! Cookies: HttpOnly, SameSite=Lax, and behind https Secure and bound to the host.
+//! Cookies: HttpOnly, SameSite=Lax, and behind https Secure and bound to the host. Inside a page of a learning platform they
+//! are SameSite=None, and Partitioned: that platform's pages have them and no other site's.
 
 use super::secrets::TOKEN_LENGTH;
 use crate::service::Service;
@@ -43,9 +44,53 @@ pub(super) fn is_set(service: &Service, headers: &HeaderMap, base: &str) -> bool
     headers.get_all(header::SET_COOKIE).iter().any(|value| value.as_bytes().starts_with(start.as_bytes()))
 }
 
+/// Where a cookie is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Jar {
+    /// With those of this service's own pages.
+    Own,
+    /// With those of this service inside the pages of one other site.
+    Embedded,
+}
+
+impl Jar {
+    /// The one of a request: browsers say whether a page is for a frame.
+    pub fn of(headers: &HeaderMap) -> Self {
+        let place = headers.get("sec-fetch-dest").and_then(|value| value.to_str().ok());
+        if matches!(place, Some("iframe" | "frame")) { Self::Embedded } else { Self::Own }
+    }
+}
+
 /// A `Set-Cookie` of one of our secrets, which are hexadecimal; 0 seconds removes it.
-pub(super) fn set(service: &Service, base: &str, value: &str, seconds: u64) -> Option<HeaderValue> {
-    let secure = if service.config.is_secure() { "; Secure" } else { "" };
+pub(super) fn set(service: &Service, base: &str, value: &str, seconds: u64, jar: Jar) -> Option<HeaderValue> {
+    let rest = match (service.config.is_secure(), jar) {
+        (true, Jar::Embedded) => "SameSite=None; Secure; Partitioned",
+        (true, Jar::Own) => "SameSite=Lax; Secure",
+        (false, _) => "SameSite=Lax",
+    };
     let name = name(service, base);
-    format!("{name}={value}; Path=/; Max-Age={seconds}; HttpOnly; SameSite=Lax{secure}").parse().ok()
+    format!("{name}={value}; Path=/; Max-Age={seconds}; HttpOnly; {rest}").parse().ok()
+}
+
+/// Base name of the cookie that binds a launch to its browser; each launch has its own.
+const LAUNCH_COOKIE: &str = "ggrade_launch_";
+
+/// A launch is begun in one tab while another one is under way: this much of its state tells their cookies apart.
+fn of_launch(state: &str) -> String {
+    format!("{LAUNCH_COOKIE}{}", state.get(..16).unwrap_or_default())
+}
+
+/// A `Set-Cookie` by which a launch is known to come back to the browser in which it began. The answer of the platform is
+/// a form of another site, so that it comes with no cookie that is `Lax`.
+pub(in crate::service) fn set_launch(service: &Service, state: &str, seconds: u64, jar: Jar) -> Option<HeaderValue> {
+    let cookie = set(service, &of_launch(state), state, seconds, jar)?;
+    if !service.config.is_secure() || jar == Jar::Embedded {
+        return Some(cookie);
+    }
+    cookie.to_str().ok()?.replace("SameSite=Lax", "SameSite=None").parse().ok()
+}
+
+/// Whether a request comes from the browser in which a launch began.
+pub(in crate::service) fn has_launch(service: &Service, headers: &HeaderMap, state: &str) -> bool {
+    read(service, headers, &of_launch(state)).is_some_and(|value| super::same(&value, state))
 }

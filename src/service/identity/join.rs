@@ -76,7 +76,7 @@ pub async fn join(
 }
 
 /// Makes a browser, or another one in its place, that of a student.
-async fn become_student(
+pub(in crate::service) async fn become_student(
     service: &Service,
     visitor: Visitor,
     student: Student,

@@ -1,6 +1,6 @@
 //! Logging in and out.
 
-use super::cookies::{TEACHER_COOKIE, set};
+use super::cookies::{Jar, TEACHER_COOKIE, set};
 use super::secrets::{hash_password, password_matches};
 use super::staff::{LONGEST_PASSWORD, PASSWORD_SETTING, normal_login};
 use super::teacher::of_token;
@@ -54,15 +54,15 @@ pub async fn login(
         ));
     };
     tracing::info!(address = %client.address, "teacher logged in");
-    open(service, session).await
+    open(service, session, "/teacher", Jar::Own).await
 }
 
 /// Opens the session of somebody who is known.
-pub async fn open_for(service: &Service, member: StaffMember) -> Result<Response, Problem> {
-    open(service, Session { assignment: None, staff: Some(member) }).await
+pub async fn open_for(service: &Service, member: StaffMember, page: &str, jar: Jar) -> Result<Response, Problem> {
+    open(service, Session { assignment: None, staff: Some(member) }, page, jar).await
 }
 
-async fn open(service: &Service, session: Session) -> Result<Response, Problem> {
+async fn open(service: &Service, session: Session, page: &str, jar: Jar) -> Result<Response, Problem> {
     let token = new_token();
     let now = service.clock.now();
     service.store.open_session(&token_hash(&token), &session, now, now + millis(SESSION)).await?;
@@ -76,7 +76,7 @@ async fn open(service: &Service, session: Session) -> Result<Response, Problem> 
         detail: String::new(),
     };
     service.store.note_act(&act).await?;
-    Ok(to_page_with_cookie(service, "/teacher", &token, SESSION.as_secs()))
+    Ok(to_page_with_cookie(service, page, (&token, SESSION.as_secs()), jar))
 }
 
 /// Ends a session: the answer goes to `/` and removes the cookie.
@@ -85,12 +85,17 @@ pub async fn logout(service: &Service, teacher: &Teacher, csrf: &str) -> Result<
     if let Some(session) = teacher.session() {
         service.store.close_session(Some(&token_hash(session))).await?;
     }
-    Ok(to_page_with_cookie(service, "/", "", 0))
+    let mut response = to_page_with_cookie(service, "/", ("", 0), Jar::Own);
+    // The session may be one of a frame.
+    if let Some(cookie) = set(service, TEACHER_COOKIE, "", 0, Jar::Embedded) {
+        response.headers_mut().append(header::SET_COOKIE, cookie);
+    }
+    Ok(response)
 }
 
-fn to_page_with_cookie(service: &Service, page: &str, value: &str, seconds: u64) -> Response {
+fn to_page_with_cookie(service: &Service, page: &str, (value, seconds): (&str, u64), jar: Jar) -> Response {
     let mut response = Redirect::to(page).into_response();
-    if let Some(cookie) = set(service, TEACHER_COOKIE, value, seconds) {
+    if let Some(cookie) = set(service, TEACHER_COOKIE, value, seconds, jar) {
         response.headers_mut().append(header::SET_COOKIE, cookie);
     }
     response

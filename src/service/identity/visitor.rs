@@ -1,6 +1,6 @@
 //! The browser that a page is for.
 
-use super::cookies::{STUDENT_COOKIE, is_set, read, set};
+use super::cookies::{Jar, STUDENT_COOKIE, is_set, read, set};
 use super::{Identity, csrf, new_token, token_hash};
 use crate::service::errors::Problem;
 use crate::service::{Scope, Service};
@@ -69,13 +69,18 @@ impl Visitor {
     }
 
     /// Another browser in the place of this one, for a student who sits down where another one sat.
-    pub(super) fn replaced() -> Self {
+    pub(in crate::service) fn replaced() -> Self {
         Self::unknown()
     }
 
     /// Makes a response set this browser's cookie.
     pub fn set_cookie(&self, service: &Service, response: &mut Response) {
-        if let Some(cookie) = set(service, STUDENT_COOKIE, &self.token, COOKIE_LIFE) {
+        self.set_cookie_in(service, response, Jar::Own);
+    }
+
+    /// The same in a jar of one's choice.
+    pub(in crate::service) fn set_cookie_in(&self, service: &Service, response: &mut Response, jar: Jar) {
+        if let Some(cookie) = set(service, STUDENT_COOKIE, &self.token, COOKIE_LIFE, jar) {
             response.headers_mut().append(header::SET_COOKIE, cookie);
         }
     }
@@ -84,11 +89,12 @@ impl Visitor {
 /// The layer around pages: gives each browser its cookie.
 pub async fn visit(Shared(service): Shared<Service>, mut request: Request, next: Next) -> Result<Response, Problem> {
     let visitor = Visitor::of(&service, request.headers()).await?;
+    let jar = Jar::of(request.headers());
     request.extensions_mut().insert(visitor.clone());
     let mut response = next.run(request).await;
     // A handler may have put another browser in its place.
     if visitor.is_new && !is_set(&service, response.headers(), STUDENT_COOKIE) {
-        visitor.set_cookie(&service, &mut response);
+        visitor.set_cookie_in(&service, &mut response, jar);
     }
     Ok(response)
 }

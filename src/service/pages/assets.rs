@@ -56,6 +56,7 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("picker.js", include_str!("assets/picker.js")),
         Asset::text("connection.js", include_str!("assets/connection.js")),
         Asset::text("grading.js", include_str!("assets/grading.js")),
+        Asset::text("registered.js", include_str!("assets/registered.js")),
         Asset::text("standing.js", include_str!("assets/standing.js")),
         Asset::text("permalink.js", include_str!("assets/permalink.js")),
         Asset::text("receipt.js", include_str!("assets/receipt.js")),

@@ -4,7 +4,8 @@
 //! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
-//! they choose a password, [`codes`] the students' personal codes, [`acts`] the log of what was done.
+//! they choose a password, [`codes`] the students' personal codes, [`platforms`] learning
+//! platforms, [`acts`] the log of what was done.
 
 mod acts;
 mod batches;
@@ -17,6 +18,7 @@ mod live;
 pub(super) mod login;
 mod people;
 mod person;
+mod platforms;
 mod regradings;
 mod roster;
 mod settings;
@@ -67,6 +69,7 @@ pub(super) fn of_course() -> Router<Service> {
         .route("/teacher/people/{id}", post(people::change))
         .route("/teacher/codes", get(codes::page).post(codes::renew))
         .route("/teacher/codes/file", get(codes::file))
+        .route("/teacher/platforms", get(platforms::page).post(platforms::change))
         .route("/teacher/log", get(acts::page))
 }
 

@@ -26,6 +26,8 @@ pub enum Proof {
     First,
     /// By the student's personal code.
     Code,
+    /// By the word of a learning platform.
+    Platform,
 }
 
 type Row = (String, Option<String>, String, i64);

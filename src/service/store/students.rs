@@ -120,6 +120,28 @@ impl Store {
         Ok(())
     }
 
+    /// The student with a number, whom a learning platform has. Where there is a roster, they stand on it from now on.
+    pub async fn enrol(&self, line: &RosterLine, now: Millis) -> Result<Student> {
+        const SQL: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
+                           VALUES ($1, $2, $3, CAST($4 AS BIGINT), $5) ON CONFLICT (number) DO UPDATE SET \
+                           name = CASE WHEN students.name = '' THEN excluded.name ELSE students.name END, \
+                           on_roster = CASE WHEN excluded.on_roster = 1 THEN 1 ELSE students.on_roster END";
+        const SELECT: &str =
+            "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE number = $1";
+        let on_roster = i64::from(self.has_roster().await?);
+        Ok(on!(&self.write, db => {
+            sqlx::query(SQL)
+                .bind(super::super::identity::new_id())
+                .bind(&line.number)
+                .bind(&line.name)
+                .bind(on_roster)
+                .bind(now)
+                .execute(db)
+                .await?;
+            sqlx::query_as(SELECT).bind(&line.number).fetch_one(db).await?
+        }))
+    }
+
     /// Makes another personal code count for a student: browsers that are bound by an earlier one are theirs no more.
     pub async fn renew_code(&self, student_id: &str) -> Result<()> {
         const SQL: &str = "UPDATE students SET code_generation = code_generation + 1 WHERE id = $1";

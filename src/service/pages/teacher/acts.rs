@@ -53,6 +53,7 @@ fn named(frame: &Frame, act: &str) -> String {
         "code" => frame.say("Replaced a personal code", "個人コードを再発行"),
         "person-added" => frame.say("Let somebody in", "担当者を追加"),
         "person" => frame.say("Changed an account", "アカウントを変更"),
+        "platform" => frame.say("Changed a learning platform", "学習プラットフォームを変更"),
         "archive" => frame.say("Uploaded an archive", "アーカイブを採点"),
         "download" => frame.say("Made a download", "ダウンロードを作成"),
         "regrading" => frame.say("Had everything graded again", "再採点を開始"),

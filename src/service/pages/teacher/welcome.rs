@@ -6,7 +6,7 @@ use super::people::role_name;
 use super::refused;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::identity::{self, Visitor};
+use crate::service::identity::{self, Jar, Visitor};
 use crate::service::limits::Client;
 use askama::Template;
 use axum::Form;
@@ -79,7 +79,7 @@ pub(in crate::service::pages) async fn choose(
     visitor.check_csrf(&service, &chosen.csrf)?;
     service.limits.login(&client)?;
     match identity::choose_password(&service, &secret, &chosen.password).await {
-        Ok(member) => identity::open_for(&service, member).await,
+        Ok(member) => identity::open_for(&service, member, "/teacher", Jar::Own).await,
         Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
             let detail = Some(problem.detail.get(frame.language).to_owned());
             Ok(refused(view(&service, frame, &visitor, &secret, detail).await?, problem.status))

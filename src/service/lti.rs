@@ -1,0 +1,47 @@
+//! LTI 1.3 and its services (Advantage): a learning platform vouches for who comes, and grades go home.
+//!
+//! [`login`] begins a launch and [`launch`] takes what the platform vouches for ([`claims`]); [`people`] says who that is
+//! here. [`deep_linking`] lets a lecturer choose a homework, [`registration`] makes a platform and this service known to each
+//! other, [`scores`] sends grades, [`memberships`] fetches the roster, [`keys`] are those with which this service signs,
+//! [`platform`] asks a platform.
+
+mod claims;
+pub mod deep_linking;
+mod keys;
+mod launch;
+mod login;
+pub mod memberships;
+mod people;
+mod platform;
+pub mod registration;
+pub mod scores;
+
+pub use platform::Connections;
+
+use super::Service;
+use super::errors::Problem;
+use axum::Router;
+use axum::routing::{get, post};
+
+/// The routes of launches, which are among the pages.
+pub fn launches() -> Router<Service> {
+    Router::new()
+        .route("/lti/login", get(login::by_link).post(login::by_form))
+        .route("/lti/launch", post(launch::launch))
+}
+
+/// What platforms themselves ask for.
+pub fn router() -> Router<Service> {
+    Router::new().route("/lti/jwks.json", get(keys::published))
+}
+
+/// Where platforms find this service.
+pub fn address(service: &Service) -> String {
+    let own = || format!("http://{}", service.config.listen);
+    service.config.public_url.clone().unwrap_or_else(own).trim_end_matches('/').to_owned()
+}
+
+/// A refusal of what a platform sent, which says what is wrong with it.
+fn refused(en: impl Into<String>, ja: impl Into<String>) -> Problem {
+    Problem::new(axum::http::StatusCode::FORBIDDEN, "lti", en, ja)
+}

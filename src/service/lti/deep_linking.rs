@@ -1,0 +1,71 @@
+//! A lecturer chooses in the platform's course which homework a link is for.
+
+use super::super::Service;
+use super::super::identity::new_id;
+use super::super::pages::Frame;
+use super::super::store::Platform;
+use super::claims::Claims;
+use super::keys::sign;
+use super::launch::HOMEWORK;
+use super::platform::checked;
+use super::{address, refused};
+use crate::service::errors::Problem;
+use serde_json::json;
+
+/// How long a choice holds, in seconds.
+const HOUR: i64 = 3600;
+
+/// The homeworks to choose from.
+#[derive(Debug)]
+pub struct Choice {
+    /// Where the choice goes.
+    pub action: String,
+    /// The site of that, for the policy of the page.
+    pub origin: String,
+    /// Title, and the signed answer that chooses it.
+    pub homeworks: Vec<(String, String)>,
+}
+
+/// What is offered to somebody who teaches.
+pub(super) async fn offer(
+    service: &Service,
+    platform: &Platform,
+    claims: &Claims,
+    frame: &Frame,
+) -> Result<Choice, Problem> {
+    if !claims.is_staff() || claims.is_assistant() {
+        return Err(refused("Only lecturers choose a homework.", "課題を選択できるのは担当教員だけです。"));
+    }
+    let wanted = claims.deep_linking.clone().ok_or_else(|| {
+        refused("The platform does not say where the choice goes.", "選択結果の送信先が示されていません。")
+    })?;
+    let action = checked(&wanted.deep_link_return_url).map_err(|failure| refused(failure.clone(), failure))?;
+    let now = service.clock.now() / 1000;
+    let mut homeworks = Vec::new();
+    for state in service.homeworks() {
+        let title = frame.language.of(&state.assignment.title).to_owned();
+        let item = json!({
+            "type": "ltiResourceLink",
+            "title": title,
+            "url": format!("{}{}", address(service), state.page()),
+            "custom": { HOMEWORK: state.assignment.id },
+            "lineItem": { "scoreMaximum": 100, "label": title, "resourceId": state.assignment.id },
+        });
+        let mut answer = json!({
+            "iss": platform.client_id,
+            "aud": platform.issuer,
+            "iat": now,
+            "exp": now + HOUR,
+            "nonce": new_id(),
+            "https://purl.imsglobal.org/spec/lti/claim/message_type": "LtiDeepLinkingResponse",
+            "https://purl.imsglobal.org/spec/lti/claim/version": "1.3.0",
+            "https://purl.imsglobal.org/spec/lti/claim/deployment_id": claims.deployment_id,
+            "https://purl.imsglobal.org/spec/lti-dl/claim/content_items": [item],
+        });
+        if let Some(data) = &wanted.data {
+            answer["https://purl.imsglobal.org/spec/lti-dl/claim/data"] = json!(data);
+        }
+        homeworks.push((title, sign(service, &answer).await?));
+    }
+    Ok(Choice { origin: action.origin().ascii_serialization(), action: action.to_string(), homeworks })
+}

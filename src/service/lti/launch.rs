@@ -1,0 +1,184 @@
+//! A launch: the platform sends the browser back with its word on who that is.
+
+use super::super::identity::{Jar, Visitor, become_student, has_launch, open_for, token_hash};
+use super::super::pages::{Frame, launch_lost, shown_choice};
+use super::super::store::{Link, Platform, Proof, Role};
+use super::super::{Service, State};
+use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
+use super::people::{Described, staff, student};
+use super::{deep_linking, refused};
+use crate::service::errors::Problem;
+use axum::Form;
+use axum::extract::State as Shared;
+use axum::http::HeaderMap;
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+use serde_json::Value;
+
+/// The form that a platform lets the browser send.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Answer {
+    id_token: String,
+    state: String,
+    error: String,
+    error_description: String,
+}
+
+/// The claim of a link that says which homework it is for; a platform's own link may have it as well.
+pub(super) const HOMEWORK: &str = "assignment";
+
+/// `POST /lti/launch`.
+pub async fn launch(
+    Shared(service): Shared<Service>,
+    headers: HeaderMap,
+    frame: Frame,
+    Form(answer): Form<Answer>,
+) -> Result<Response, Problem> {
+    if !answer.error.is_empty() {
+        let said: String = format!("{} {}", answer.error, answer.error_description).chars().take(300).collect();
+        return Err(refused(
+            format!("The learning platform does not let you in: {said}"),
+            format!("学習プラットフォームで認証できませんでした: {said}"),
+        ));
+    }
+    let begun = service.store.take_launch(&token_hash(&answer.state), service.clock.now()).await?;
+    let begun = begun.ok_or_else(|| {
+        refused(
+            "This launch has been used, or took longer than ten minutes. Go back and open the homework again.",
+            "この起動はすでに使用されたか、10 分を過ぎています。戻って課題を開き直してください。",
+        )
+    })?;
+    if !has_launch(&service, &headers, &answer.state) {
+        return launch_lost(frame, &begun.begun_by);
+    }
+    let gone = || refused("The learning platform is not known any more.", "学習プラットフォームの登録がありません。");
+    let platform = service.store.platform(&begun.platform_id).await?.filter(|found| found.is_active == 1);
+    let platform = platform.ok_or_else(gone)?;
+    let claims = Claims::read(&service, &platform, &answer.id_token).await?;
+    if claims.nonce.as_deref() != Some(begun.nonce.as_str()) {
+        return Err(refused(
+            "The learning platform's message is not the answer to this launch (nonce). Open the homework again.",
+            "学習プラットフォームからの情報がこの起動に対するものではありません (nonce)。課題を開き直してください。",
+        ));
+    }
+    check_deployment(&service, &platform, claims.deployment_id.as_deref().unwrap_or_default()).await?;
+    let jar = Jar::of(&headers);
+    match claims.message_type.as_deref() {
+        Some(RESOURCE_LINK) => open(&service, &platform, &claims, jar).await,
+        Some(DEEP_LINKING) => {
+            let choice = deep_linking::offer(&service, &platform, &claims, &frame).await?;
+            shown_choice(frame, choice)
+        }
+        _ => Err(refused(
+            "This kind of LTI message is not known here.",
+            "この種類の LTI メッセージには対応していません。",
+        )),
+    }
+}
+
+/// Lets launches of approved deployments pass; another one is noted for an administrator to approve.
+async fn check_deployment(service: &Service, platform: &Platform, id: &str) -> Result<(), Problem> {
+    let deployments = service.store.deployments().await?;
+    let known = deployments.iter().find(|found| found.platform_id == platform.id && found.deployment_id == id);
+    if known.is_some_and(|found| found.is_approved == 1) {
+        return Ok(());
+    }
+    if known.is_none() && !id.is_empty() && id.len() <= 255 {
+        service.store.note_deployment(&platform.id, id, false).await?;
+    }
+    let id: String = id.chars().filter(|c| !c.is_control()).take(80).collect();
+    Err(refused(
+        format!(
+            "The deployment `{id}` of {} is not approved here. An administrator approves it under Learning platforms.",
+            platform.name
+        ),
+        format!(
+            "{} のデプロイメント「{id}」は承認されていません。管理者が「学習プラットフォーム」で承認してください。",
+            platform.name
+        ),
+    ))
+}
+
+/// What the claims say of the person.
+fn described(claims: &Claims) -> Result<Described, Problem> {
+    let subject = claims.sub.clone().filter(|sub| !sub.is_empty() && sub.len() <= 255).ok_or_else(|| {
+        refused(
+            "The learning platform does not say who you are. Its administrator lets it share the user's id with this tool.",
+            "学習プラットフォームから利用者の情報が送られていません。プラットフォームの管理者に設定を依頼してください。",
+        )
+    })?;
+    let numbers = [
+        claims.lis.as_ref().and_then(|lis| lis.person_sourcedid.clone()),
+        claims.ext.as_ref().and_then(|ext| ext.user_username.clone()),
+    ];
+    let numbers = numbers.into_iter().flatten().filter(|number| !number.is_empty()).collect();
+    Ok(Described { subject, name: claims.full_name(), numbers })
+}
+
+/// Opens the homework for a student, or its class for who teaches.
+async fn open(service: &Service, platform: &Platform, claims: &Claims, jar: Jar) -> Result<Response, Problem> {
+    let link =
+        claims.resource_link.as_ref().map(|link| link.id.clone()).filter(|id| !id.is_empty()).ok_or_else(|| {
+            refused("The launch is of no link (resource_link).", "起動元のリンク (resource_link) が示されていません。")
+        })?;
+    let who = described(claims)?;
+    let state = homework(service, platform, claims, &link).await?;
+    if let Some(state) = &state {
+        note_link(service, platform, claims, (&link, state)).await?;
+    }
+    if claims.is_staff() {
+        let role = if claims.is_assistant() { Role::Assistant } else { Role::Lecturer };
+        let member = staff(service, platform, &who, role).await?;
+        let page = state.map_or_else(|| "/teacher".to_owned(), |state| format!("{}/teacher", state.base()));
+        return open_for(service, member, &page, jar).await;
+    }
+    let Some(state) = state else {
+        return Err(refused(
+            "Your teacher has not yet chosen the homework of this link.",
+            "このリンクの課題がまだ選択されていません。担当教員に連絡してください。",
+        ));
+    };
+    let student = student(service, platform, &who).await?;
+    service.store.expect_score(&platform.id, &link, &who.subject).await?;
+    let visitor = become_student(service, Visitor::replaced(), student, Proof::Platform).await?;
+    let mut response = Redirect::to(&state.page()).into_response();
+    visitor.set_cookie_in(service, &mut response, jar);
+    Ok(response)
+}
+
+/// The homework that a link is for: what the link itself says, where it leads, what it was before, or the only one.
+async fn homework(
+    service: &Service,
+    platform: &Platform,
+    claims: &Claims,
+    link: &str,
+) -> Result<Option<State>, Problem> {
+    let said = claims.custom.as_ref().and_then(|custom| custom.get(HOMEWORK)).and_then(Value::as_str);
+    let led = claims.target_link_uri.as_deref().and_then(|address| Some(address.split_once("/a/")?.1));
+    let led = led.and_then(|rest| rest.split(['/', '?', '#']).next());
+    if let Some(state) = said.or(led).and_then(|id| service.homework(id)) {
+        return Ok(Some(state));
+    }
+    let links = service.store.links().await?;
+    let before = links.into_iter().find(|found| found.platform_id == platform.id && found.link_id == link);
+    Ok(before.and_then(|link| service.homework(&link.assignment)).or_else(|| service.only()))
+}
+
+async fn note_link(
+    service: &Service,
+    platform: &Platform,
+    claims: &Claims,
+    (link, state): (&str, &State),
+) -> Result<(), Problem> {
+    let grades = claims.grades.as_ref().filter(|grades| grades.scope.iter().any(|scope| scope == super::scores::SCOPE));
+    let link = Link {
+        platform_id: platform.id.clone(),
+        link_id: link.to_owned(),
+        assignment: state.assignment.id.clone(),
+        context: claims.context.as_ref().map(|context| context.id.clone()).unwrap_or_default(),
+        line_item: grades.and_then(|grades| grades.lineitem.clone()),
+        memberships: claims.names.as_ref().and_then(|names| names.context_memberships_url.clone()),
+    };
+    Ok(service.store.note_link(&link).await?)
+}

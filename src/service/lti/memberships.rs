@@ -1,0 +1,114 @@
+//! The roster of a platform's course.
+
+use super::super::Service;
+use super::super::errors::Problem;
+use super::super::identity::normal_number;
+use super::super::roster;
+use super::super::store::{Link, Platform, RosterLine, Student};
+use super::people::{Described, student};
+use super::platform::{Connections, Failure, parsed};
+use super::refused;
+use reqwest::Method;
+use reqwest::header::LINK;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// What this service may read of people.
+pub(super) const SCOPE: &str = "https://purl.imsglobal.org/spec/lti-nrps/scope/contextmembership.readonly";
+const KIND: &str = "application/vnd.ims.lti-nrps.v2.membershipcontainer+json";
+
+/// Most pages of a list that are read.
+const MOST_PAGES: usize = 100;
+
+#[derive(Deserialize)]
+struct Container {
+    #[serde(default)]
+    members: Vec<Member>,
+}
+
+#[derive(Deserialize)]
+struct Member {
+    user_id: String,
+    #[serde(default)]
+    roles: Vec<String>,
+    status: Option<String>,
+    name: Option<String>,
+    given_name: Option<String>,
+    family_name: Option<String>,
+    lis_person_sourcedid: Option<String>,
+    ext_user_username: Option<String>,
+}
+
+impl Member {
+    fn is_student(&self) -> bool {
+        let is_learner = |role: &String| role.rsplit(['#', '/']).next() == Some("Learner");
+        self.roles.iter().any(is_learner) && self.status.as_deref().is_none_or(|status| status == "Active")
+    }
+
+    fn described(self) -> Described {
+        let parts = [self.family_name, self.given_name];
+        let joined = || parts.iter().flatten().map(String::as_str).collect::<Vec<_>>().join(" ");
+        Described {
+            name: self.name.clone().unwrap_or_else(joined),
+            numbers: [self.lis_person_sourcedid, self.ext_user_username].into_iter().flatten().collect(),
+            subject: self.user_id,
+        }
+    }
+}
+
+/// Takes everybody who is a student in a platform's course onto the roster; who stands there already stays. How many they
+/// are.
+pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Result<usize, Problem> {
+    let failed = |failure: Failure| {
+        tracing::warn!(failure, "the roster of a platform");
+        refused(
+            format!("The learning platform did not give its roster: {failure}. The roster was not changed."),
+            format!("学習プラットフォームから名簿を取得できませんでした: {failure}。名簿は変更していません。"),
+        )
+    };
+    let address = link.memberships.clone().ok_or_else(|| failed("the link has none".to_owned()))?;
+    let members = fetched(service, platform, address).await.map_err(failed)?;
+    let students: Vec<Described> = members.into_iter().filter(Member::is_student).map(Member::described).collect();
+    if students.is_empty() {
+        return Err(failed("it has no students".to_owned()));
+    }
+    let before = service.store.roster().await?;
+    let mut lines: BTreeMap<String, RosterLine> =
+        before.into_iter().map(|student| (student.number.clone(), line(student))).collect();
+    for who in &students {
+        // Whoever has a number is matched by it; the others get one that is made of the platform's id.
+        let student = student(service, platform, who).await?;
+        let is_own = who.numbers.iter().filter_map(|number| normal_number(number)).any(|n| n == student.number);
+        let name = if student.name.is_empty() || is_own { who.name.clone() } else { student.name.clone() };
+        lines.insert(student.number.clone(), RosterLine { name, ..line(student) });
+    }
+    let lines: Vec<RosterLine> = lines.into_values().collect();
+    roster::import(service, &lines).await?;
+    Ok(students.len())
+}
+
+fn line(student: Student) -> RosterLine {
+    RosterLine { number: student.number, name: student.name, moodle: student.moodle.map(i64::unsigned_abs) }
+}
+
+/// Every page of the list.
+async fn fetched(service: &Service, platform: &Platform, first: String) -> Result<Vec<Member>, Failure> {
+    let mut members = Vec::new();
+    let mut next = Some(first);
+    for _ in 0..MOST_PAGES {
+        let Some(address) = next else { break };
+        let response = Connections::call(service, platform, SCOPE, (Method::GET, &address, KIND), None).await?;
+        let links = response.headers().get_all(LINK).iter().filter_map(|value| value.to_str().ok());
+        next = links.flat_map(|value| value.split(',')).find_map(following);
+        let container: Container = parsed(&address, response).await?;
+        members.extend(container.members);
+    }
+    Ok(members)
+}
+
+/// The address of a `Link: <…>; rel="next"`.
+fn following(link: &str) -> Option<String> {
+    let (address, rest) = link.trim().strip_prefix('<')?.split_once('>')?;
+    let is_next = rest.split(';').any(|part| matches!(part.trim(), "rel=\"next\"" | "rel=next"));
+    is_next.then(|| address.to_owned())
+}

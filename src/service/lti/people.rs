@@ -1,0 +1,105 @@
+//! Who somebody of a platform is here: a student by their number, or a lecturer with an account.
+
+use super::super::Service;
+use super::super::errors::Problem;
+use super::super::identity::{new_id, normal_number, token_hash};
+use super::super::store::{Platform, PlatformPerson, Role, RosterLine, StaffMember, Student};
+
+/// What a platform says of one person.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Described {
+    /// The platform's id of them.
+    pub subject: String,
+    /// Their name.
+    pub name: String,
+    /// What may be their student number, the likeliest first.
+    pub numbers: Vec<String>,
+}
+
+/// The student that somebody is: the one they were before, else the one with their number. Of a number that is somebody else's of
+/// the same platform they get none, but one that is made of the platform's id.
+pub(super) async fn student(service: &Service, platform: &Platform, who: &Described) -> Result<Student, Problem> {
+    let store = &service.store;
+    let known = store.platform_person(&platform.id, &who.subject).await?;
+    if let Some(id) = known.and_then(|person| person.student_id)
+        && let Some(student) = store.student_by_id(&id).await?
+    {
+        return Ok(student);
+    }
+    let own = format!("LTI-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..10]).to_uppercase();
+    let mut numbers: Vec<String> = who.numbers.iter().filter_map(|number| normal_number(number)).collect();
+    numbers.push(own);
+    // Whoever stands on the roster goes before who has only a likely number.
+    let mut chosen = None;
+    for number in &numbers {
+        if let Some(student) = store.student_by_number(number).await?.filter(Student::is_on_roster) {
+            chosen = Some(student);
+            break;
+        }
+    }
+    if let Some(student) = &chosen
+        && store.is_taken(&platform.id, &who.subject, &student.id).await?
+    {
+        chosen = None;
+        numbers.drain(..numbers.len() - 1);
+    }
+    let student = match chosen {
+        Some(student) => student,
+        None => enrolled(service, platform, who, &numbers).await?,
+    };
+    let person = PlatformPerson { student_id: Some(student.id.clone()), staff_id: None };
+    store.note_person(&platform.id, &who.subject, &person).await?;
+    Ok(student)
+}
+
+/// A student whom the platform has and the roster has not. The platform knows its courses: where there is a roster, they
+/// stand on it from now on.
+async fn enrolled(
+    service: &Service,
+    platform: &Platform,
+    who: &Described,
+    numbers: &[String],
+) -> Result<Student, Problem> {
+    let store = &service.store;
+    for number in numbers {
+        let line = RosterLine { number: number.clone(), name: who.name.clone(), moodle: None };
+        let student = store.enrol(&line, service.clock.now()).await?;
+        if store.is_taken(&platform.id, &who.subject, &student.id).await? {
+            continue;
+        }
+        // A browser that was only the first to give the number has it no more.
+        store.renew_code(&student.id).await?;
+        return Ok(store.student_by_id(&student.id).await?.unwrap_or(student));
+    }
+    Err(Problem::internal(&"no student number is free"))
+}
+
+/// The account of somebody who teaches in the platform. It has no password: they come by the platform.
+pub(super) async fn staff(
+    service: &Service,
+    platform: &Platform,
+    who: &Described,
+    role: Role,
+) -> Result<StaffMember, Problem> {
+    let store = &service.store;
+    let known = store.platform_person(&platform.id, &who.subject).await?;
+    if let Some(id) = known.and_then(|person| person.staff_id)
+        && let Some(member) = store.staff_member(&id).await?
+    {
+        return if member.is_active { Ok(member) } else { Err(closed()) };
+    }
+    let login = format!("lti-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..12]);
+    let name: String = who.name.chars().filter(|c| !c.is_control()).take(100).collect();
+    let member = StaffMember { id: new_id(), login, name, role, has_password: false, is_active: true };
+    store.add_staff(&member, service.clock.now()).await?;
+    let person = PlatformPerson { student_id: None, staff_id: Some(member.id.clone()) };
+    store.note_person(&platform.id, &who.subject, &person).await?;
+    Ok(member)
+}
+
+fn closed() -> Problem {
+    super::refused(
+        "Your account here is closed. Ask an administrator.",
+        "このサービスでのアカウントは停止されています。管理者に問い合わせてください。",
+    )
+}

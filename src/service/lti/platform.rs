@@ -1,0 +1,195 @@
+//! Asking a platform: its keys, a token for its services, and these.
+
+use super::super::Service;
+use super::super::identity::new_id;
+use super::super::store::Platform;
+use super::keys::sign;
+use jsonwebtoken::jwk::{Jwk, JwkSet};
+use reqwest::{Method, Response, StatusCode, Url};
+use serde::Deserialize;
+use serde_json::json;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long a platform may take to answer, and the longest answer, in bytes.
+const PATIENCE: Duration = Duration::from_secs(10);
+const LONGEST: usize = 4 << 20;
+
+/// How soon keys are fetched again for one that is not among them.
+const REFETCH: Duration = Duration::from_secs(10);
+
+/// Seconds for which a request for a token holds, and before the end of which a token is not used any more.
+const ASSERTION: i64 = 60;
+const MARGIN: u64 = 30;
+
+/// What is kept of platforms between requests.
+#[derive(Debug)]
+pub struct Connections {
+    client: reqwest::Client,
+    /// Keys by their address.
+    keys: Mutex<HashMap<String, (Instant, Arc<JwkSet>)>>,
+    /// Tokens by platform and scope.
+    tokens: Mutex<HashMap<(String, String), (Instant, String)>>,
+}
+
+impl Default for Connections {
+    fn default() -> Self {
+        let client = reqwest::Client::builder().timeout(PATIENCE).redirect(reqwest::redirect::Policy::none());
+        Self { client: client.build().unwrap_or_default(), keys: Mutex::default(), tokens: Mutex::default() }
+    }
+}
+
+/// What a platform did not do: for the log and for its administrator.
+pub type Failure = String;
+
+/// An address of a platform's: https, or this very machine.
+pub(super) fn checked(address: &str) -> Result<Url, Failure> {
+    let url = Url::parse(address).map_err(|error| format!("{address}: {error}"))?;
+    let is_here = matches!(url.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"));
+    if url.scheme() == "https" || (url.scheme() == "http" && is_here) {
+        Ok(url)
+    } else {
+        Err(format!("{address} is no https address"))
+    }
+}
+
+impl Connections {
+    fn request(&self, method: Method, address: &str) -> Result<reqwest::RequestBuilder, Failure> {
+        Ok(self.client.request(method, checked(address)?))
+    }
+
+    /// The JSON at an address.
+    pub(super) async fn json(&self, address: &str) -> Result<serde_json::Value, Failure> {
+        let response = answered(address, self.request(Method::GET, address)?).await?;
+        parsed(address, response).await
+    }
+
+    /// Sends JSON, and reads what comes back; `token` is that of a registration.
+    pub(super) async fn register(
+        &self,
+        address: &str,
+        token: Option<&str>,
+        body: &serde_json::Value,
+    ) -> Result<serde_json::Value, Failure> {
+        let mut request = self.request(Method::POST, address)?.json(body);
+        if let Some(token) = token {
+            request = request.bearer_auth(token);
+        }
+        parsed(address, answered(address, request).await?).await
+    }
+
+    /// The public key of a platform with this id.
+    pub(super) async fn key(&self, platform: &Platform, id: &str) -> Result<Jwk, Failure> {
+        let address = &platform.keys_url;
+        let kept = lock(&self.keys).get(address).cloned();
+        if let Some((since, keys)) = kept {
+            if let Some(key) = keys.find(id) {
+                return Ok(key.clone());
+            }
+            if since.elapsed() < REFETCH {
+                return Err(format!("{address} has no key `{id}`"));
+            }
+        }
+        let keys: JwkSet = serde_json::from_value(self.json(address).await?).map_err(|e| format!("{address}: {e}"))?;
+        let found = keys.find(id).cloned();
+        lock(&self.keys).insert(address.clone(), (Instant::now(), Arc::new(keys)));
+        found.ok_or_else(|| format!("{address} has no key `{id}`"))
+    }
+
+    /// Asks a service of a platform for something, or sends it something.
+    pub(super) async fn call(
+        service: &Service,
+        platform: &Platform,
+        scope: &str,
+        (method, address, kind): (Method, &str, &str),
+        body: Option<&serde_json::Value>,
+    ) -> Result<Response, Failure> {
+        let connections = &service.lti;
+        let token = connections.token(service, platform, scope).await?;
+        let mut request = connections.request(method, address)?.bearer_auth(token);
+        request = match body {
+            Some(body) => request.header("content-type", kind).body(body.to_string()),
+            None => request.header("accept", kind),
+        };
+        let response = request.send().await.map_err(|error| format!("{address}: {error}"))?;
+        if response.status() == StatusCode::UNAUTHORIZED {
+            lock(&connections.tokens).remove(&(platform.id.clone(), scope.to_owned()));
+        }
+        succeeded(address, response).await
+    }
+
+    /// A token for a scope, kept until it is about to end.
+    async fn token(&self, service: &Service, platform: &Platform, scope: &str) -> Result<String, Failure> {
+        let key = (platform.id.clone(), scope.to_owned());
+        if let Some((until, token)) = lock(&self.tokens).get(&key)
+            && *until > Instant::now()
+        {
+            return Ok(token.clone());
+        }
+        let now = service.clock.now() / 1000;
+        let address = &platform.token_url;
+        let claims = json!({
+            "iss": platform.client_id,
+            "sub": platform.client_id,
+            "aud": platform.token_audience.as_ref().unwrap_or(address),
+            "iat": now,
+            "exp": now + ASSERTION,
+            "jti": new_id(),
+        });
+        let assertion = sign(service, &claims).await.map_err(|problem| problem.detail.en)?;
+        let form = [
+            ("grant_type", "client_credentials"),
+            ("client_assertion_type", "urn:ietf:params:oauth:client-assertion-type:jwt-bearer"),
+            ("client_assertion", &assertion),
+            ("scope", scope),
+        ];
+        let response = answered(address, self.request(Method::POST, address)?.form(&form)).await?;
+        let Token { access_token, expires_in } = parsed(address, response).await?;
+        let life = Duration::from_secs(expires_in.unwrap_or(ASSERTION as u64).saturating_sub(MARGIN));
+        lock(&self.tokens).insert(key, (Instant::now() + life, access_token.clone()));
+        Ok(access_token)
+    }
+}
+
+#[derive(Deserialize)]
+struct Token {
+    access_token: String,
+    expires_in: Option<u64>,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+async fn answered(address: &str, request: reqwest::RequestBuilder) -> Result<Response, Failure> {
+    let response = request.send().await.map_err(|error| format!("{address}: {error}"))?;
+    succeeded(address, response).await
+}
+
+/// An answer of success; another one with the beginning of what it says.
+async fn succeeded(address: &str, response: Response) -> Result<Response, Failure> {
+    let status = response.status();
+    if status.is_success() {
+        return Ok(response);
+    }
+    let said = bytes(response).await.unwrap_or_default();
+    let said: String = String::from_utf8_lossy(&said).chars().filter(|c| !c.is_control()).take(200).collect();
+    Err(format!("{address} answered {status}: {said}"))
+}
+
+async fn bytes(mut response: Response) -> Option<Vec<u8>> {
+    let mut all = Vec::new();
+    while let Some(chunk) = response.chunk().await.ok()? {
+        all.extend_from_slice(&chunk);
+        if all.len() > LONGEST {
+            return None;
+        }
+    }
+    Some(all)
+}
+
+pub(super) async fn parsed<T: serde::de::DeserializeOwned>(address: &str, response: Response) -> Result<T, Failure> {
+    let bytes = bytes(response).await.ok_or_else(|| format!("{address}: the answer breaks off, or is too long"))?;
+    serde_json::from_slice(&bytes).map_err(|error| format!("{address}: {error}"))
+}

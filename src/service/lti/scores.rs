@@ -1,0 +1,140 @@
+//! Grades go home: the best attempt of each student, until the platform has it.
+//!
+//! What the platform has is compared with what stands here again and again, so that whatever changes a score is sent (an attempt, a
+//! regrading), and a platform that does not answer gets it later. What is sent is always what stands now; so no older score
+//! comes after a newer one.
+
+use super::super::Service;
+use super::super::clock::Millis;
+use super::super::store::{DueScore, Platform};
+use super::address;
+use super::platform::{Connections, Failure};
+use crate::language::Language;
+use crate::report::Report;
+use crate::report::labels::Labels;
+use crate::report::text::number;
+use reqwest::{Method, Url};
+use serde_json::{Value, json};
+use std::time::Duration;
+
+/// What this service may do to scores.
+pub(super) const SCOPE: &str = "https://purl.imsglobal.org/spec/lti-ags/scope/score";
+
+/// How often it is looked whether something is due.
+const TICK: Duration = Duration::from_secs(5);
+
+/// The first pause after a failure, and the longest, in milliseconds.
+const FIRST_PAUSE: Millis = 5_000;
+const LONGEST_PAUSE: Millis = 3_600_000;
+
+/// Runs until the service is told to end.
+pub async fn run(service: Service) {
+    loop {
+        send_due(&service).await;
+        tokio::select! {
+            () = tokio::time::sleep(TICK) => {}
+            () = service.ended() => return,
+        }
+    }
+}
+
+/// Sends what is due now.
+pub async fn send_due(service: &Service) {
+    let due = match service.store.due_scores(service.clock.now()).await {
+        Ok(due) => due,
+        Err(error) => return tracing::error!(%error, "scores for learning platforms"),
+    };
+    for due in due {
+        if service.is_ending() {
+            return;
+        }
+        let at = service.clock.now().max(due.sent_at + 1);
+        let noted = match send(service, &due, at).await {
+            Ok(()) => service.store.score_sent(&due, at).await,
+            Err(failure) => {
+                tracing::warn!(failure, "a learning platform did not take a score");
+                let pause = FIRST_PAUSE.saturating_mul(1 << due.tries.clamp(0, 16)).min(LONGEST_PAUSE);
+                service.store.score_failed(&due, &failure, service.clock.now() + pause).await
+            }
+        };
+        if let Err(error) = noted {
+            return tracing::error!(%error, "scores for learning platforms");
+        }
+    }
+}
+
+async fn send(service: &Service, due: &DueScore, at: Millis) -> Result<(), Failure> {
+    let failed = |error: &dyn std::fmt::Display| error.to_string();
+    let platform: Platform = service
+        .store
+        .platform(&due.platform_id)
+        .await
+        .map_err(|error| failed(&error))?
+        .ok_or_else(|| "the platform is gone".to_owned())?;
+    let stored = service.store.stored(&due.submission_id).await.map_err(|error| failed(&error))?;
+    let report = stored.and_then(|stored| stored.report).ok_or_else(|| "the report is gone".to_owned())?;
+    let language = service.store.course().await.map_err(|error| failed(&error))?.language;
+    let body = body(service, due, &report, language, at);
+    let address = scores_of(&due.line_item)?;
+    let kind = "application/vnd.ims.lis.v1.score+json";
+    Connections::call(service, &platform, SCOPE, (Method::POST, &address, kind), Some(&body)).await?;
+    Ok(())
+}
+
+/// Where scores of a line item go: below its path, before its query.
+fn scores_of(line_item: &str) -> Result<String, Failure> {
+    let mut url = Url::parse(line_item).map_err(|error| format!("{line_item}: {error}"))?;
+    let path = format!("{}/scores", url.path().trim_end_matches('/'));
+    url.set_path(&path);
+    Ok(url.to_string())
+}
+
+fn body(service: &Service, due: &DueScore, report: &Report, language: Language, at: Millis) -> Value {
+    let page = format!("{}/r/{}", address(service), due.submission_id);
+    json!({
+        "userId": due.subject,
+        "scoreGiven": report.score,
+        "scoreMaximum": report.max_score,
+        "comment": comment(report, language, &page),
+        "timestamp": jiff::Timestamp::from_millisecond(at).map(|at| format!("{at:.3}")).unwrap_or_default(),
+        "activityProgress": "Submitted",
+        "gradingProgress": "FullyGraded",
+    })
+}
+
+/// What the gradebook says beside a score, as plain text: each rubric line, what costs points, and where the report is.
+fn comment(report: &Report, language: Language, page: &str) -> String {
+    let mut lines = vec![format!(
+        "{} {} / {}",
+        Labels::of(language).headline(report.verdict),
+        number(report.score),
+        number(report.max_score)
+    )];
+    for line in &report.rubric {
+        lines.push(format!("{} {} / {}", line.label.get(language), number(line.points), number(line.max_points)));
+        if line.points < line.max_points {
+            lines.push(line.message.get(language).replace('`', ""));
+        }
+    }
+    lines.push(page.to_owned());
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scores_go_below_the_path_of_a_line_item() {
+        let at = |line_item: &str| scores_of(line_item).expect("an address");
+        assert_eq!(
+            at("https://lms.example/2/lineitems/7/lineitem"),
+            "https://lms.example/2/lineitems/7/lineitem/scores"
+        );
+        assert_eq!(
+            at("https://lms.example/lineitem?type_id=3&x=%2F"),
+            "https://lms.example/lineitem/scores?type_id=3&x=%2F"
+        );
+        assert!(scores_of("no address").is_err());
+    }
+}

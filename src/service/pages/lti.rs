@@ -1,0 +1,89 @@
+//! What people see of learning platforms: the choice of a homework, a launch that lost its cookie, a registration.
+
+use super::frame::Frame;
+use super::shown;
+use crate::service::Service;
+use crate::service::errors::Problem;
+use crate::service::lti::deep_linking::Choice;
+use crate::service::lti::registration::{self, Asked};
+use askama::Template;
+use axum::extract::{Path, Query, Request, State as Shared};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::Response;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/lti_choice.html")]
+struct ChoicePage {
+    frame: Frame,
+    choice: Choice,
+}
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/lti_lost.html")]
+struct LostPage {
+    frame: Frame,
+    again: String,
+}
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/lti_registered.html")]
+struct RegisteredPage {
+    frame: Frame,
+    name: String,
+}
+
+/// The page on which a lecturer chooses a homework; its forms go to the platform.
+pub(in crate::service) fn shown_choice(frame: Frame, choice: Choice) -> Result<Response, Problem> {
+    let origin = choice.origin.clone();
+    let mut response = shown(ChoicePage { frame, choice }.render())?;
+    let policy = crate::service::CSP
+        .replace("form-action 'self'", &format!("form-action {origin}"))
+        .replace("frame-ancestors 'none'", &format!("frame-ancestors {origin}"));
+    if let Ok(policy) = HeaderValue::from_str(&policy) {
+        response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, policy);
+    }
+    Ok(response)
+}
+
+/// The page of a launch that comes back without the cookie with which it began: the browser keeps none in a frame. In a
+/// window of its own it does.
+pub(in crate::service) fn launch_lost(frame: Frame, begun_by: &str) -> Result<Response, Problem> {
+    let again = format!("/lti/login?{begun_by}");
+    let mut page = shown(LostPage { frame, again }.render())?;
+    *page.status_mut() = StatusCode::FORBIDDEN;
+    Ok(page)
+}
+
+/// `GET /lti/register/{secret}`: the platform opens it for its administrator.
+pub(super) async fn register(
+    Shared(service): Shared<Service>,
+    Path(secret): Path<String>,
+    Query(asked): Query<Asked>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let platform = registration::register(&service, &secret, &asked).await?;
+    shown(RegisteredPage { frame, name: platform.name }.render())
+}
+
+/// The layer around pages: lets the learning platforms that are known, and nobody else, show them in a frame.
+pub(super) async fn embeddable(Shared(service): Shared<Service>, request: Request, next: Next) -> Response {
+    let is_framed = crate::service::identity::Jar::of(request.headers()) == crate::service::identity::Jar::Embedded;
+    let mut response = next.run(request).await;
+    if !is_framed || response.headers().contains_key(header::CONTENT_SECURITY_POLICY) {
+        return response;
+    }
+    let platforms = service.store.platforms().await.unwrap_or_default();
+    let active = platforms.iter().filter(|platform| platform.is_active == 1);
+    let origin = |address: &str| Some(reqwest::Url::parse(address).ok()?.origin().ascii_serialization());
+    let origins: Vec<String> = active.filter_map(|platform| origin(&platform.auth_url)).collect();
+    if !origins.is_empty() {
+        let policy = format!("frame-ancestors 'self' {}", origins.join(" "));
+        let policy = crate::service::CSP.replace("frame-ancestors 'none'", &policy);
+        if let Ok(policy) = HeaderValue::from_str(&policy) {
+            // Browsers that know this pass over X-Frame-Options.
+            response.headers_mut().insert(header::CONTENT_SECURITY_POLICY, policy);
+        }
+    }
+    response
+}

@@ -1,0 +1,187 @@
+//! Learning platforms: which ones launch homeworks here, and their rosters.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::{Tab, refused};
+use crate::service::Service;
+use crate::service::acts::Detail;
+use crate::service::errors::Problem;
+use crate::service::identity::{LecturerPage, Teacher, new_id};
+use crate::service::lti::{self, memberships, registration};
+use crate::service::store::{Deployment, Link, Platform, Role};
+use askama::Template;
+use axum::Form;
+use axum::extract::State as Shared;
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/platforms.html")]
+struct PlatformsPage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    platforms: Vec<Line>,
+    /// Whether this teacher may add and change platforms.
+    may_change: bool,
+    /// A registration link that was just made.
+    link: Option<String>,
+    problem: Option<String>,
+    notice: Option<String>,
+    /// The address of this service.
+    own: String,
+    typed: Wish,
+}
+
+/// A platform of the list.
+struct Line {
+    platform: Platform,
+    deployments: Vec<Deployment>,
+    /// Links by which rosters are fetched, one of each course.
+    courses: Vec<Link>,
+    /// How many scores did not arrive, and why.
+    stuck: Option<(i64, String)>,
+}
+
+/// A form of the page. `wish` says which.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Wish {
+    csrf: String,
+    wish: String,
+    platform: String,
+    deployment: String,
+    link: String,
+    name: String,
+    issuer: String,
+    client_id: String,
+    auth_url: String,
+    token_url: String,
+    keys_url: String,
+}
+
+/// What the page says of a form that was sent.
+#[derive(Default)]
+struct Said {
+    link: Option<String>,
+    problem: Option<String>,
+    notice: Option<String>,
+    typed: Wish,
+}
+
+async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    let (deployments, links) = (service.store.deployments().await?, service.store.links().await?);
+    let stuck = service.store.stuck_scores().await?;
+    let line = |platform: Platform| {
+        let mut courses: Vec<Link> = Vec::new();
+        for link in links.iter().filter(|link| link.platform_id == platform.id && link.memberships.is_some()) {
+            if !courses.iter().any(|known| known.context == link.context) {
+                courses.push(link.clone());
+            }
+        }
+        Line {
+            deployments: deployments.iter().filter(|found| found.platform_id == platform.id).cloned().collect(),
+            courses,
+            stuck: stuck
+                .iter()
+                .find(|(id, ..)| *id == platform.id)
+                .map(|(_, count, problem)| (*count, problem.clone().unwrap_or_default())),
+            platform,
+        }
+    };
+    let platforms = service.store.platforms().await?.into_iter().map(line).collect();
+    shown(
+        PlatformsPage {
+            place: Tab::People,
+            csrf: teacher.csrf(service),
+            platforms,
+            may_change: teacher.role() == Role::Administrator,
+            link: said.link,
+            problem: said.problem,
+            notice: said.notice,
+            own: lti::address(service),
+            typed: said.typed,
+            frame,
+        }
+        .render(),
+    )
+}
+
+/// `GET /teacher/platforms`.
+pub(in crate::service::pages) async fn page(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    view(&service, frame, &teacher, Said::default()).await
+}
+
+/// `POST /teacher/platforms`.
+pub(in crate::service::pages) async fn change(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+    Form(wish): Form<Wish>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&service, &wish.csrf)?;
+    teacher.check_course()?;
+    let detail = Detail::of(format!("{} {} {}", wish.wish, wish.issuer, wish.deployment).trim().to_owned());
+    match carried_out(&service, &teacher, &wish, &frame).await {
+        Ok(Some(said)) => Ok(detail.on(view(&service, frame, &teacher, said).await?)),
+        Ok(None) => Ok(detail.on(Redirect::to("/teacher/platforms").into_response())),
+        Err(problem) if problem.status.is_client_error() && problem.kind != "role" => {
+            let said = Some(problem.detail.get(frame.language).replace('`', ""));
+            let page = view(&service, frame, &teacher, Said { problem: said, typed: wish, ..Said::default() }).await?;
+            Ok(refused(page, problem.status))
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+async fn carried_out(
+    service: &Service,
+    teacher: &Teacher,
+    wish: &Wish,
+    frame: &Frame,
+) -> Result<Option<Said>, Problem> {
+    let platform = async || service.store.platform(&wish.platform).await?.ok_or_else(Problem::not_found);
+    if wish.wish == "roster" {
+        let platform = platform().await?;
+        let links = service.store.links().await?;
+        let link = links.into_iter().find(|link| link.platform_id == platform.id && link.link_id == wish.link);
+        let count = memberships::import(service, &platform, &link.ok_or_else(Problem::not_found)?).await?;
+        let notice = match frame.tag() {
+            "ja" => format!("学生 {count} 人を名簿に取り込みました。"),
+            _ => format!("{count} students are on the roster now."),
+        };
+        return Ok(Some(Said { notice: Some(notice), ..Said::default() }));
+    }
+    teacher.check_role(Role::Administrator)?;
+    match wish.wish.as_str() {
+        "link" => {
+            let link = format!("{}/lti/register/{}", lti::address(service), registration::new_link(service).await?);
+            return Ok(Some(Said { link: Some(link), ..Said::default() }));
+        }
+        "approve" => service.store.note_deployment(&platform().await?.id, &wish.deployment, true).await?,
+        "off" => service.store.set_platform_active(&platform().await?.id, false).await?,
+        "on" => service.store.set_platform_active(&platform().await?.id, true).await?,
+        "add" => {
+            let text = |text: &String| text.trim().to_owned();
+            let platform = Platform {
+                id: new_id(),
+                issuer: text(&wish.issuer),
+                client_id: text(&wish.client_id),
+                name: if wish.name.trim().is_empty() { text(&wish.issuer) } else { text(&wish.name) },
+                auth_url: text(&wish.auth_url),
+                token_url: text(&wish.token_url),
+                keys_url: text(&wish.keys_url),
+                token_audience: None,
+                is_active: 1,
+            };
+            registration::keep(service, platform, Some(wish.deployment.trim())).await?;
+        }
+        _ => return Err(Problem::unprocessable("There is no such change.", "その操作はありません。")),
+    }
+    Ok(None)
+}

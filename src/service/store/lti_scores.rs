@@ -1,0 +1,101 @@
+//! Which scores learning platforms have, and which ones they have still to get.
+
+use super::{Result, Store, on};
+use crate::service::clock::Millis;
+
+/// A score that a platform has still to get: the best of a student, where that is not what was sent last.
+#[derive(Clone, Debug, PartialEq, sqlx::FromRow)]
+pub struct DueScore {
+    /// Id of the platform.
+    pub platform_id: String,
+    /// The platform's id of the link.
+    pub link_id: String,
+    /// The platform's id of the student.
+    pub subject: String,
+    /// Where it goes.
+    pub line_item: String,
+    /// The submission.
+    pub submission_id: String,
+    /// Its points.
+    pub score: f64,
+    /// When the last one was sent; 0: none was.
+    pub sent_at: Millis,
+    /// How often sending has failed since.
+    pub tries: i64,
+}
+
+/// How many scores a platform has still to get after a failure, and what it said last.
+pub type Stuck = (String, i64, Option<String>);
+
+impl Store {
+    /// Says that a link takes somebody's score.
+    pub async fn expect_score(&self, platform_id: &str, link_id: &str, subject: &str) -> Result<()> {
+        const SQL: &str = "INSERT INTO lti_scores (platform_id, link_id, subject, sent_at, tries, next_at) \
+                           VALUES ($1, $2, $3, 0, 0, 0) ON CONFLICT (platform_id, link_id, subject) DO NOTHING";
+        on!(&self.write, db => {
+            sqlx::query(SQL).bind(platform_id).bind(link_id).bind(subject).execute(db).await?;
+        });
+        Ok(())
+    }
+
+    /// Scores that are due at `now`, as many as are sent in one go. The best attempt counts, of equals the first.
+    pub async fn due_scores(&self, now: Millis) -> Result<Vec<DueScore>> {
+        const SQL: &str = "SELECT platform_id, link_id, subject, line_item, submission_id, score, sent_at, tries FROM \
+                           (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, r.score, \
+                           k.sent_at, k.tries, k.submission_id AS sent_id, k.score AS sent_score, \
+                           ROW_NUMBER() OVER (PARTITION BY k.platform_id, k.link_id, k.subject \
+                           ORDER BY r.score DESC, s.received_at, s.id) AS place \
+                           FROM lti_scores k \
+                           JOIN lti_links l ON l.platform_id = k.platform_id AND l.link_id = k.link_id \
+                           JOIN lti_platforms f ON f.id = k.platform_id AND f.is_active = 1 \
+                           JOIN lti_people p ON p.platform_id = k.platform_id AND p.subject = k.subject \
+                           JOIN submissions s ON s.student_id = p.student_id AND s.assignment = l.assignment \
+                           AND s.via <> 'editor' JOIN reports r ON r.submission_id = s.id \
+                           WHERE k.next_at <= $1 AND l.line_item IS NOT NULL) AS best \
+                           WHERE place = 1 AND (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score) \
+                           ORDER BY tries, platform_id, link_id, subject LIMIT 50";
+        Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?))
+    }
+
+    /// Notes that a score has arrived, with the time that it was given.
+    pub async fn score_sent(&self, due: &DueScore, at: Millis) -> Result<()> {
+        const SQL: &str = "UPDATE lti_scores SET submission_id = $4, score = $5, sent_at = $6, tries = 0, next_at = 0, \
+                           problem = NULL WHERE platform_id = $1 AND link_id = $2 AND subject = $3";
+        on!(&self.write, db => {
+            sqlx::query(SQL)
+                .bind(&due.platform_id)
+                .bind(&due.link_id)
+                .bind(&due.subject)
+                .bind(&due.submission_id)
+                .bind(due.score)
+                .bind(at)
+                .execute(db)
+                .await?;
+        });
+        Ok(())
+    }
+
+    /// Notes that a score did not arrive, why, and when it is tried again.
+    pub async fn score_failed(&self, due: &DueScore, problem: &str, next_at: Millis) -> Result<()> {
+        const SQL: &str = "UPDATE lti_scores SET tries = tries + 1, next_at = $4, problem = $5 \
+                           WHERE platform_id = $1 AND link_id = $2 AND subject = $3";
+        on!(&self.write, db => {
+            sqlx::query(SQL)
+                .bind(&due.platform_id)
+                .bind(&due.link_id)
+                .bind(&due.subject)
+                .bind(next_at)
+                .bind(problem)
+                .execute(db)
+                .await?;
+        });
+        Ok(())
+    }
+
+    /// Platforms that did not take scores: how many, and one of the problems.
+    pub async fn stuck_scores(&self) -> Result<Vec<Stuck>> {
+        const SQL: &str = "SELECT platform_id, count(*), max(problem) FROM lti_scores WHERE problem IS NOT NULL \
+                           GROUP BY platform_id";
+        Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))
+    }
+}

@@ -1,0 +1,407 @@
+//! Learning platforms: registration, launches and every refusal of one, choosing a homework, scores, the roster.
+
+mod platform;
+
+use crate::bench::{Bench, Reply, config};
+use crate::cluster::Database;
+use crate::roster::{form, get};
+use crate::{on_both, right, sample};
+use axum::body::Body;
+use axum::http::{Request, StatusCode, header};
+use ggrade::service::Config;
+use ggrade::service::clock::Clock;
+use ggrade::service::lti::scores::send_due;
+use jsonwebtoken::{Algorithm, EncodingKey, Header};
+use platform::{CLIENT, DEPLOYMENT, Platform};
+use serde_json::{Value, json};
+use std::time::Duration;
+
+on_both!(
+    a_platform_is_registered_and_a_homework_chosen,
+    whoever_launches_is_who_the_platform_says,
+    scores_go_home_until_they_arrive,
+    the_roster_is_the_platforms,
+    every_forged_launch_is_refused,
+);
+
+const WRONG: &str = "wrong/specular-half-unnormalized--average.vert";
+
+fn encoded(text: &str) -> String {
+    percent_encoding::utf8_percent_encode(text, percent_encoding::NON_ALPHANUMERIC).to_string()
+}
+
+async fn bench(database: Database, clock: Clock) -> (Bench, Platform) {
+    let config = Config { public_url: Some("http://ggrade.example".into()), ..config() };
+    let bench = Bench::with(database, config, crate::pool(), clock).await;
+    let platform = Platform::start().await;
+    (bench, platform)
+}
+
+/// Registers the two with each other as an administrator does.
+async fn registered(bench: &Bench, platform: &Platform) -> Reply {
+    let page = form(bench, "/teacher/platforms", "wish=link").await;
+    let link = page.all(".link code")[0].clone();
+    let path = link.strip_prefix("http://ggrade.example").expect("an address of the service").to_owned();
+    let configuration = encoded(&format!("{}/openid-configuration", platform.issuer));
+    let address = format!("{path}?openid_configuration={configuration}&registration_token=one-time&lang=en");
+    let reply = bench.get(&address).await;
+    assert_eq!(bench.get(&address).await.status, StatusCode::FORBIDDEN, "a link works once");
+    let keys = bench.get("/lti/jwks.json").await;
+    platform.seen().tools_keys = Some(serde_json::from_slice(&keys.body).expect("keys"));
+    reply
+}
+
+/// A launch under way: what the platform is asked, and the browser's cookie.
+struct Begun {
+    query: std::collections::HashMap<String, String>,
+    cookie: String,
+    cookie_line: String,
+}
+
+async fn begin(bench: &Bench, platform: &Platform, framed: bool) -> Begun {
+    let address = format!(
+        "/lti/login?iss={}&login_hint=42&client_id={CLIENT}&lti_message_hint=hint&target_link_uri=x",
+        encoded(&platform.issuer)
+    );
+    let dest = if framed { "iframe" } else { "document" };
+    let request = Request::get(address).header("sec-fetch-dest", dest).body(Body::empty());
+    let reply = bench.send(request.expect("a request")).await;
+    assert_eq!(reply.status, StatusCode::SEE_OTHER, "{reply:?}");
+    let next = reqwest::Url::parse(reply.header("location")).expect("an address");
+    assert_eq!(next.path(), "/auth");
+    let lines = reply.headers.get_all(header::SET_COOKIE).iter().map(|line| line.to_str().expect("text"));
+    let line = lines.into_iter().find(|line| line.contains("ggrade_launch_")).expect("a cookie").to_owned();
+    Begun {
+        query: next.query_pairs().into_owned().collect(),
+        cookie: line.split(';').next().expect("a cookie").to_owned(),
+        cookie_line: line,
+    }
+}
+
+/// The platform's answer, sent by the browser.
+async fn answer(bench: &Bench, begun: &Begun, token: &str) -> Reply {
+    let body = format!("id_token={}&state={}", encoded(token), begun.query["state"]);
+    let request = Request::post("/lti/launch")
+        .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
+        .header(header::ACCEPT, "text/html")
+        .header(header::ACCEPT_LANGUAGE, "en")
+        .header(header::COOKIE, &begun.cookie);
+    bench.send(request.body(Body::from(body)).expect("a request")).await
+}
+
+async fn launch(bench: &Bench, platform: &Platform, subject: &str, role: &str) -> Reply {
+    let begun = begin(bench, platform, false).await;
+    let claims = platform.claims(&begun.query["nonce"], subject, role);
+    answer(bench, &begun, &platform.sign(&claims)).await
+}
+
+fn cookie(reply: &Reply, name: &str) -> String {
+    let lines = reply.headers.get_all(header::SET_COOKIE).iter().map(|line| line.to_str().expect("text"));
+    let mut found =
+        lines.filter_map(|line| line.split(';').next()).filter(|pair| pair.starts_with(&format!("{name}=")));
+    found.next_back().unwrap_or_else(|| panic!("no {name} in {reply:?}")).to_owned()
+}
+
+async fn with_cookie(bench: &Bench, address: &str, cookie: &str) -> Reply {
+    let request = Request::get(address).header(header::COOKIE, cookie).header(header::ACCEPT_LANGUAGE, "en");
+    bench.send(request.header(header::ACCEPT, "text/html").body(Body::empty()).expect("a request")).await
+}
+
+async fn hand_in(bench: &Bench, cookie: &str, bytes: Vec<u8>) -> Reply {
+    let request = Request::post("/api/v1/submissions").header(header::COOKIE, cookie);
+    let request = request.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
+    bench.send(request.body(Body::from(bytes)).expect("a request")).await
+}
+
+async fn a_platform_is_registered_and_a_homework_chosen(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    let unknown = bench.get(&format!("/lti/login?iss={}&login_hint=1", encoded(&platform.issuer))).await;
+    assert_eq!(unknown.problem(), "lti");
+    let page = registered(&bench, &platform).await;
+    assert_eq!(page.all("h1"), ["Registered"], "{}", page.text());
+    let asked = platform.seen().registration.clone();
+    assert_eq!(asked["initiate_login_uri"], "http://ggrade.example/lti/login");
+    assert_eq!(asked["redirect_uris"], json!(["http://ggrade.example/lti/launch"]));
+    assert_eq!(asked["token_endpoint_auth_method"], "private_key_jwt");
+    assert!(asked["scope"].as_str().expect("scopes").contains("lti-ags/scope/score"));
+
+    let begun = begin(&bench, &platform, false).await;
+    for (name, value) in [
+        ("response_type", "id_token"),
+        ("response_mode", "form_post"),
+        ("scope", "openid"),
+        ("prompt", "none"),
+        ("client_id", CLIENT),
+        ("login_hint", "42"),
+        ("lti_message_hint", "hint"),
+        ("redirect_uri", "http://ggrade.example/lti/launch"),
+    ] {
+        assert_eq!(begun.query[name], value, "{name}");
+    }
+    let mut claims = platform.claims(&begun.query["nonce"], "teacher", "Instructor");
+    claims["https://purl.imsglobal.org/spec/lti/claim/message_type"] = json!("LtiDeepLinkingRequest");
+    claims["https://purl.imsglobal.org/spec/lti-dl/claim/deep_linking_settings"] =
+        json!({ "deep_link_return_url": format!("{}/return?id=1", platform.issuer), "data": "opaque" });
+    let choice = answer(&bench, &begun, &platform.sign(&claims)).await;
+    assert_eq!(choice.status, StatusCode::OK, "{}", choice.text());
+    assert_eq!(choice.all("main button"), ["Gouraud shading"]);
+    let policy = choice.header("content-security-policy");
+    assert!(policy.contains(&format!("form-action {0};", platform.issuer)), "{policy}");
+    let text = choice.text();
+    assert!(text.contains(&format!("action=\"{}/return?id=1\"", platform.issuer)));
+    let token = text.split("name=\"JWT\" value=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a token");
+    let chosen = platform.checked(token, &platform.issuer);
+    assert_eq!(chosen["https://purl.imsglobal.org/spec/lti-dl/claim/data"], "opaque");
+    assert_eq!(chosen["https://purl.imsglobal.org/spec/lti/claim/deployment_id"], DEPLOYMENT);
+    let item = &chosen["https://purl.imsglobal.org/spec/lti-dl/claim/content_items"][0];
+    assert_eq!((&item["type"], &item["custom"]["assignment"]), (&json!("ltiResourceLink"), &json!("ggsample06")));
+    assert_eq!(
+        (&item["url"], &item["lineItem"]["scoreMaximum"]),
+        (&json!("http://ggrade.example/a/ggsample06"), &json!(100))
+    );
+    bench.finish().await;
+}
+
+async fn whoever_launches_is_who_the_platform_says(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    let teacher = launch(&bench, &platform, "teacher", "Instructor").await;
+    assert_eq!((teacher.status, teacher.header("location")), (StatusCode::SEE_OTHER, "/teacher"), "{}", teacher.text());
+    let session = cookie(&teacher, "ggrade_teacher");
+    let page = with_cookie(&bench, "/teacher", &session).await;
+    assert_eq!((page.status, page.all("nav .who")), (StatusCode::OK, vec!["Logged in: Name of teacher".to_owned()]));
+    assert_eq!(with_cookie(&bench, "/teacher/settings", &session).await.status, StatusCode::OK);
+    let assistant = cookie(&launch(&bench, &platform, "ta", "TeachingAssistant").await, "ggrade_teacher");
+    assert_eq!(with_cookie(&bench, "/teacher/settings", &assistant).await.status, StatusCode::FORBIDDEN);
+
+    let student = launch(&bench, &platform, "s1", "Learner").await;
+    assert_eq!((student.status, student.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
+    let theirs = cookie(&student, "ggrade");
+    assert_eq!(with_cookie(&bench, "/teacher", &theirs).await.header("location"), "/teacher/login");
+    assert_eq!(hand_in(&bench, &theirs, right()).await.status, StatusCode::CREATED);
+    let class = get(&bench, "/teacher").await;
+    assert_eq!(class.all(".people tbody th"), ["S1 Name of s1"]);
+    // The same person in another browser has their history; somebody else who says the same number is not them.
+    let again = cookie(&launch(&bench, &platform, "s1", "Learner").await, "ggrade");
+    assert!(with_cookie(&bench, "/", &again).await.text().contains("100"));
+    let begun = begin(&bench, &platform, false).await;
+    let mut claims = platform.claims(&begun.query["nonce"], "mallory", "Learner");
+    claims["https://purl.imsglobal.org/spec/lti/claim/lis"]["person_sourcedid"] = json!("s1");
+    let other = cookie(&answer(&bench, &begun, &platform.sign(&claims)).await, "ggrade");
+    assert_eq!(hand_in(&bench, &other, sample(WRONG)).await.status, StatusCode::CREATED);
+    let rows = get(&bench, "/teacher").await.all(".people tbody th");
+    assert!(rows.len() == 2 && rows.iter().any(|row| row.starts_with("LTI-")), "{rows:?}");
+    bench.finish().await;
+}
+
+async fn scores_go_home_until_they_arrive(database: Database) {
+    let now = i64::try_from(jsonwebtoken::get_current_timestamp()).expect("a time") * 1000;
+    let clock = Clock::fixed(now);
+    let (bench, platform) = bench(database, clock.clone()).await;
+    registered(&bench, &platform).await;
+    let student = cookie(&launch(&bench, &platform, "s1", "Learner").await, "ggrade");
+    send_due(&bench.state).await;
+    assert!(platform.seen().scores.is_empty(), "nothing is handed in");
+    assert_eq!(hand_in(&bench, &student, sample(WRONG)).await.status, StatusCode::CREATED);
+    // The platform is down for a while.
+    platform.seen().failing = Some(StatusCode::SERVICE_UNAVAILABLE);
+    send_due(&bench.state).await;
+    let page = get(&bench, "/teacher/platforms").await;
+    assert!(page.text().contains("1 scores have not arrived") && page.text().contains("503"), "{}", page.text());
+    platform.seen().failing = None;
+    send_due(&bench.state).await;
+    assert!(platform.seen().scores.is_empty(), "it is not asked again at once");
+    clock.advance(Duration::from_secs(6));
+    send_due(&bench.state).await;
+    let first = platform.seen().scores.last().cloned().expect("a score");
+    assert_eq!(
+        (&first["userId"], &first["scoreGiven"], &first["scoreMaximum"]),
+        (&json!("s1"), &json!(80.0), &json!(100.0))
+    );
+    assert_eq!((&first["activityProgress"], &first["gradingProgress"]), (&json!("Submitted"), &json!("FullyGraded")));
+    let comment = first["comment"].as_str().expect("a comment");
+    assert!(comment.contains("鏡面反射光 20 / 40") && comment.contains("http://ggrade.example/r/"), "{comment}");
+    assert!(!comment.contains('<') && !comment.contains('`'), "plain text: {comment}");
+    assert!(get(&bench, "/teacher/platforms").await.all(".panel .notice").is_empty());
+
+    // What is worse changes nothing; what is better comes with a later time, even within one tick of the clock.
+    hand_in(&bench, &student, sample("rejected/brace-missing-at-end.vert")).await;
+    send_due(&bench.state).await;
+    assert_eq!(platform.seen().scores.len(), 1);
+    hand_in(&bench, &student, right()).await;
+    send_due(&bench.state).await;
+    send_due(&bench.state).await;
+    let scores = platform.seen().scores.clone();
+    assert_eq!((scores.len(), &scores[1]["scoreGiven"]), (2, &json!(100.0)));
+    assert!(scores[1]["timestamp"].as_str() > scores[0]["timestamp"].as_str(), "{scores:?}");
+    // A platform that is switched off gets nothing, and launches from it are refused.
+    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
+    assert_eq!(
+        form(&bench, "/teacher/platforms", &format!("wish=off&platform={id}")).await.status,
+        StatusCode::SEE_OTHER
+    );
+    let refused = bench.get(&format!("/lti/login?iss={}&login_hint=1", encoded(&platform.issuer))).await;
+    assert_eq!(refused.problem(), "lti");
+    bench.finish().await;
+}
+
+async fn the_roster_is_the_platforms(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    launch(&bench, &platform, "teacher", "Instructor").await;
+    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
+    let page = form(&bench, "/teacher/platforms", &format!("wish=roster&platform={id}&link=3")).await;
+    assert!(page.text().contains("2 students are on the roster now."), "{}", page.text());
+    let roster = bench.state.store.roster().await.expect("a roster");
+    let lines: Vec<(&str, &str)> = roster.iter().map(|who| (who.number.as_str(), who.name.as_str())).collect();
+    assert_eq!(lines, [("S1", "Name of s1"), ("S2", "Name of s2")]);
+    // Who comes later is the one of the roster, and is let in without a code.
+    let student = cookie(&launch(&bench, &platform, "s2", "Learner").await, "ggrade");
+    assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);
+    assert_eq!(get(&bench, "/teacher").await.all(".overview .lead"), ["1 of 2 have handed in"]);
+    bench.finish().await;
+}
+
+async fn every_forged_launch_is_refused(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    let now = jsonwebtoken::get_current_timestamp();
+    let deployment = "https://purl.imsglobal.org/spec/lti/claim/deployment_id";
+    let version = "https://purl.imsglobal.org/spec/lti/claim/version";
+    let kind = "https://purl.imsglobal.org/spec/lti/claim/message_type";
+    let changes: [(&str, Value, &str); 12] = [
+        ("iss", json!("https://evil.example"), "another platform"),
+        ("aud", json!("another-client"), "another tool"),
+        ("aud", json!([CLIENT, "another-client"]), "another tool"),
+        ("azp", json!("another-client"), "another tool"),
+        ("nonce", json!("another nonce"), "not the answer to this launch"),
+        ("nonce", Value::Null, "not the answer to this launch"),
+        ("exp", json!(now - 120), "too old"),
+        ("iat", json!(now + 3600), "of the future"),
+        (version, json!("1.1"), "not of LTI 1.3.0"),
+        (kind, json!("LtiSubmissionReviewRequest"), "kind of LTI message"),
+        (deployment, json!("foreign"), "not approved"),
+        ("sub", Value::Null, "does not say who you are"),
+    ];
+    for (claim, value, said) in changes {
+        let begun = begin(&bench, &platform, false).await;
+        let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
+        claims[claim] = value.clone();
+        let reply = answer(&bench, &begun, &platform.sign(&claims)).await;
+        assert_eq!(reply.status, StatusCode::FORBIDDEN, "{claim}: {value}: {}", reply.text());
+        assert!(reply.text().contains(said), "{claim}: {value}: {}", reply.text());
+        assert!(
+            reply
+                .headers
+                .get_all(header::SET_COOKIE)
+                .iter()
+                .all(|line| !line.as_bytes().starts_with(b"ggrade_teacher"))
+        );
+    }
+    // Tokens that are not what they say: unsigned, of another key, with the public key as a secret.
+    let begun = begin(&bench, &platform, false).await;
+    let claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
+    let part = |json: &Value| {
+        use base64::Engine;
+        base64::prelude::BASE64_URL_SAFE_NO_PAD.encode(json.to_string())
+    };
+    let honest = platform.sign(&claims);
+    let body = honest.split('.').nth(1).expect("a body").to_owned();
+    let header = |alg: &str| json!({ "alg": alg, "typ": "JWT", "kid": "platform-key" });
+    let by = |alg, key: &EncodingKey, id: &str| {
+        let header = Header { kid: Some(id.to_owned()), ..Header::new(alg) };
+        jsonwebtoken::encode(&header, &claims, key).expect("a token")
+    };
+    let confused = EncodingKey::from_secret(platform.public_modulus().as_bytes());
+    let forged = [
+        (format!("{}.{body}.", part(&header("none"))), "no signed token"),
+        (
+            format!("{}.{body}.{}", part(&header("none")), honest.rsplit('.').next().expect("a signature")),
+            "no signed token",
+        ),
+        (format!("{}.{body}.", part(&header("RS256"))), "signature is wrong"),
+        (by(Algorithm::HS256, &confused, "platform-key"), "not signed with RS256"),
+        (by(Algorithm::RS256, &platform::key(), "platform-key"), "signature is wrong"),
+        (by(Algorithm::RS256, &platform::key(), "unknown-key"), "no key"),
+        ("nonsense".to_owned(), "no signed token"),
+        (String::new(), "no signed token"),
+    ];
+    for (token, said) in forged {
+        let begun = Begun { cookie_line: String::new(), ..begin(&bench, &platform, false).await };
+        let reply = answer(&bench, &begun, &token).await;
+        assert_eq!(reply.status, StatusCode::FORBIDDEN, "{token}");
+        assert!(reply.text().contains(said), "{token}: {}", reply.text());
+    }
+    // Several audiences are right where it says which of them is meant; a list of one is as good as its member.
+    for (aud, azp) in [(json!([CLIENT]), Value::Null), (json!([CLIENT, "another"]), json!(CLIENT))] {
+        let begun = begin(&bench, &platform, false).await;
+        let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
+        (claims["aud"], claims["azp"]) = (aud, azp);
+        let token = platform.sign(&claims);
+        assert_eq!(answer(&bench, &begun, &token).await.status, StatusCode::SEE_OTHER);
+        // The same again, and the same with the state of another launch: its nonce was used.
+        assert!(answer(&bench, &begun, &token).await.text().contains("has been used"));
+        let other = begin(&bench, &platform, false).await;
+        assert!(answer(&bench, &other, &token).await.text().contains("not the answer to this launch"));
+    }
+    // Another browser brings the answer: it is told to open a window of its own, and is nobody.
+    let begun = begin(&bench, &platform, false).await;
+    let token = platform.sign(&platform.claims(&begun.query["nonce"], "s1", "Learner"));
+    let stolen = Begun { cookie: "ggrade_launch_x=y".to_owned(), ..begun };
+    let lost = answer(&bench, &stolen, &token).await;
+    assert_eq!(lost.status, StatusCode::FORBIDDEN);
+    assert!(lost.text().contains("target=\"_blank\"") && lost.text().contains("/lti/login?iss="), "{}", lost.text());
+    // The foreign deployment waits for an administrator, who approves it.
+    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
+    let page = get(&bench, "/teacher/platforms").await;
+    assert!(page.all(".panel li").iter().any(|line| line.contains("foreign") && line.contains("Approve")));
+    let wish = format!("wish=approve&platform={id}&deployment=foreign");
+    assert_eq!(form(&bench, "/teacher/platforms", &wish).await.status, StatusCode::SEE_OTHER);
+    let begun = begin(&bench, &platform, false).await;
+    let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
+    claims[deployment] = json!("foreign");
+    assert_eq!(answer(&bench, &begun, &platform.sign(&claims)).await.status, StatusCode::SEE_OTHER);
+    bench.finish().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn inside_a_platforms_page_cookies_are_its_own_and_nobody_else_shows_pages() {
+    let config = Config { public_url: Some("https://ggrade.example".into()), ..config() };
+    let bench = Bench::with(Database::sqlite(), config, crate::pool(), Clock::system()).await;
+    let platform = Platform::start().await;
+    let (issuer, at) = (encoded(&platform.issuer), |path: &str| encoded(&format!("{}/{path}", platform.issuer)));
+    let wish = format!(
+        "wish=add&name=M&issuer={issuer}&client_id={CLIENT}&deployment={DEPLOYMENT}&auth_url={}&token_url={}&keys_url={}",
+        at("auth"),
+        at("token"),
+        at("jwks")
+    );
+    assert_eq!(form(&bench, "/teacher/platforms", &wish).await.status, StatusCode::SEE_OTHER);
+    let insecure = wish.replace(&at("token"), "http%3A%2F%2Flms.example%2Ftoken");
+    assert_eq!(form(&bench, "/teacher/platforms", &insecure).await.status, StatusCode::UNPROCESSABLE_ENTITY);
+    for (framed, rest) in [(true, "SameSite=None; Secure; Partitioned"), (false, "SameSite=None; Secure")] {
+        let begun = begin(&bench, &platform, framed).await;
+        assert!(
+            begun.cookie_line.starts_with("__Host-ggrade_launch_") && begun.cookie_line.ends_with(rest),
+            "{}",
+            begun.cookie_line
+        );
+        let token = platform.sign(&platform.claims(&begun.query["nonce"], "s1", "Learner"));
+        let body = format!("id_token={}&state={}", encoded(&token), begun.query["state"]);
+        let request = Request::post("/lti/launch")
+            .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
+            .header("sec-fetch-dest", if framed { "iframe" } else { "document" })
+            .header(header::COOKIE, &begun.cookie);
+        let reply = bench.send(request.body(Body::from(body)).expect("a request")).await;
+        assert_eq!(reply.status, StatusCode::SEE_OTHER, "{reply:?}");
+        let lines: Vec<&str> =
+            reply.headers.get_all(header::SET_COOKIE).iter().map(|line| line.to_str().expect("text")).collect();
+        let ends = if framed { "SameSite=None; Secure; Partitioned" } else { "SameSite=Lax; Secure" };
+        assert!(lines.iter().any(|line| line.starts_with("__Host-ggrade=") && line.ends_with(ends)), "{lines:?}");
+    }
+    let framed = Request::get("/").header("sec-fetch-dest", "iframe").body(Body::empty()).expect("a request");
+    let policy = bench.send(framed).await.header("content-security-policy").to_owned();
+    assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "{policy}");
+    assert!(bench.get("/").await.header("content-security-policy").contains("frame-ancestors 'none'"));
+    bench.finish().await;
+}
