@@ -57,6 +57,7 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/api/v1/batches/{id}/files/{format}") => "download",
         ("POST", "/teacher/regradings") => "regrading",
         ("POST", "/teacher/regradings/{id}") => "adopted",
+        ("POST", "/teacher/extension") => "extension",
         ("POST", "/teacher/delete") | ("DELETE", _) => "deleted",
         ("POST", "/api/v1/submissions") => "handed-in",
         (method, route) => return Some(format!("{method} {route}")),

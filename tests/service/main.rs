@@ -7,6 +7,7 @@ mod cluster;
 mod codes;
 mod cross_checks;
 mod deletions;
+mod extensions;
 mod gallery;
 mod handing_in;
 mod hints;

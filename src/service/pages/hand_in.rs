@@ -50,8 +50,8 @@ pub(super) async fn desk(
     visitor: Visitor,
 ) -> Result<Response, Problem> {
     let id = &state.assignment.id;
-    let settings = state.store.assignment(id).await?;
     let identity = &visitor.identity;
+    let settings = state.store.assignment_for(id, identity.student_id()).await?;
     let (mut history, mut used) = (Vec::new(), 0);
     if let Some(owner) = identity.owner_id() {
         history = state.store.history(id, owner, identity.student_id(), LISTED).await?;

@@ -81,8 +81,8 @@ async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) 
 /// Dates, attempts, and the best of what this browser has handed in.
 async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fact>, Problem> {
     let id = &state.assignment.id;
-    let settings = state.store.assignment(id).await?;
     let identity = &visitor.identity;
+    let settings = state.store.assignment_for(id, identity.student_id()).await?;
     let (mut history, mut used) = (Vec::new(), 0);
     if let Some(owner) = identity.owner_id() {
         history = state.store.history(id, owner, identity.student_id(), student::LISTED).await?;

@@ -89,6 +89,10 @@ impl StudentStanding<'_> {
             }
             _ => {}
         }
+        if self.settings.has_own_deadline && !self.is_closed() {
+            facts
+                .push(Fact::plain("", say("extended for you".to_owned(), "あなたの締切は延長されています".to_owned())));
+        }
         if let (Some(most), Some(left), false) = (self.settings.attempts, self.attempts_left(), self.is_closed()) {
             let kind = if left <= 1 { "urgent" } else { "" };
             let text = say(format!("{left} of {most} attempts left"), format!("提出できる回数 残り {left} / {most}"));

@@ -42,6 +42,7 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher", get(class::page))
         .route("/teacher/events", get(live::events))
         .route("/teacher/person", get(person::page))
+        .route("/teacher/extension", post(person::extend))
         .route("/teacher/delete", get(delete::page).post(delete::delete))
         .route("/teacher/downloads", post(downloads::start))
         .route("/teacher/downloads/{id}", get(downloads::page))

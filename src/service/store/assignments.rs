@@ -37,6 +37,8 @@ pub struct Assignment {
     pub audience: Audience,
     /// Whether what is typed is still graded after the end.
     pub practice: bool,
+    /// Whether the end is one student's own.
+    pub has_own_deadline: bool,
 }
 
 type Row = (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String, i64);
@@ -52,6 +54,7 @@ impl Assignment {
             attempts: attempts.map(i64::unsigned_abs),
             audience: from_word(audience)?,
             practice: practice != 0,
+            has_own_deadline: false,
         })
     }
 

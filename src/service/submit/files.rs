@@ -24,7 +24,7 @@ pub(super) async fn checked(state: &State, upload: &Upload) -> Result<(store::As
         .retry_after(10));
     }
     let hand_in = asked_for(state, upload.hand_in.clone()).await?;
-    let assignment = state.store.assignment(&state.assignment.id).await?;
+    let assignment = state.store.assignment_for(&state.assignment.id, upload.identity.student_id()).await?;
     may_hand_in(state, &assignment, upload).await?;
     Ok((assignment, hand_in))
 }

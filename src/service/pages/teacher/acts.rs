@@ -54,6 +54,7 @@ fn named(frame: &Frame, act: &str) -> String {
         "person-added" => frame.say("Let somebody in", "担当者を追加"),
         "person" => frame.say("Changed an account", "アカウントを変更"),
         "platform" => frame.say("Changed a learning platform", "学習プラットフォームを変更"),
+        "extension" => frame.say("Set a student's own deadline", "学生の締切を変更"),
         "archive" => frame.say("Uploaded an archive", "アーカイブを採点"),
         "download" => frame.say("Made a download", "ダウンロードを作成"),
         "regrading" => frame.say("Had everything graded again", "再採点を開始"),

@@ -1,0 +1,95 @@
+//! A student's own deadline.
+
+use crate::bench::{Bench, Fake, Reply, config};
+use crate::cluster::Database;
+use crate::on_both;
+use crate::roster::{file, form, get, request};
+use axum::body::Body;
+use axum::http::{Request, StatusCode, header};
+use ggrade::service::clock::Clock;
+use ggrade::service::identity::{course_secret, personal_code};
+use scraper::{Html, Selector};
+use std::sync::Arc;
+use std::time::Duration;
+
+on_both!(a_student_has_a_deadline_of_their_own);
+
+/// 2023-11-15 07:13:20 in Tokyo.
+const NOW: i64 = 1_700_000_000_000;
+const HOUR: Duration = Duration::from_secs(3600);
+
+async fn hand_in(bench: &Bench, number: &str) -> Reply {
+    let address = format!("/api/v1/submissions?student={number}");
+    bench.send(request("POST", &address, "text/plain", format!("of {number}"))).await
+}
+
+/// The desk of a student who has joined.
+async fn desk(bench: &Bench, number: &str) -> Reply {
+    let address = format!("/join/{}", course_secret(&bench.state).await.expect("a secret"));
+    let page = bench.get(&address).await;
+    let cookie = page.header("set-cookie").split(';').next().expect("a cookie").to_owned();
+    let html = Html::parse_document(&page.text());
+    let field = Selector::parse("[name=csrf]").expect("a selector");
+    let csrf = html.select(&field).next().and_then(|field| field.value().attr("value")).expect("a token").to_owned();
+    let student = bench.state.store.student_by_number(number).await.expect("a store").expect("a student");
+    let body = format!("csrf={csrf}&number={number}&code={}", personal_code(&bench.state, &student));
+    let request = Request::post(&address).header(header::COOKIE, &cookie);
+    let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
+    let joined = bench.send(request.body(Body::from(body)).expect("a request")).await;
+    assert_eq!(joined.status, StatusCode::SEE_OTHER);
+    let request = Request::get("/").header(header::COOKIE, &cookie).header(header::ACCEPT_LANGUAGE, "en");
+    bench.send(request.body(Body::empty()).expect("a request")).await
+}
+
+async fn a_student_has_a_deadline_of_their_own(database: Database) {
+    let clock = Clock::fixed(NOW);
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), clock.clone()).await;
+    file(&bench, "/teacher/roster", "roster", "r.csv", "S1,和田 花子\nS2,B\n".as_bytes()).await;
+    let rules = "closes=2023-11-15T08%3A00&hints=full&audience=open";
+    assert_eq!(form(&bench, "/teacher/settings", rules).await.status, StatusCode::SEE_OTHER);
+    let id = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student").id;
+    let extend = async |closes: &str| {
+        form(&bench, "/teacher/extension", &format!("student={id}&closes={closes}&reason=%E7%97%85%E6%B0%97")).await
+    };
+    // One that ends before the class's does is none.
+    let wrong = extend("2023-11-15T07%3A59").await;
+    assert_eq!(wrong.status, StatusCode::UNPROCESSABLE_ENTITY);
+    assert!(wrong.all("[role=alert]")[0].contains("after the deadline of the class"));
+    assert!(
+        wrong.text().contains("value=\"2023-11-15T07:59\"") && wrong.text().contains("病気"),
+        "what was typed stays"
+    );
+    let set = extend("2023-11-15T10%3A00").await;
+    let person = get(&bench, set.header("location")).await;
+    assert!(
+        person.text().contains("value=\"2023-11-15T10:00\"") && person.text().contains("病気"),
+        "{}",
+        person.text()
+    );
+
+    clock.advance(HOUR);
+    assert_eq!(hand_in(&bench, "S2").await.problem(), "closed");
+    assert_eq!(hand_in(&bench, "S1").await.status, StatusCode::CREATED);
+    let facts = desk(&bench, "S1").await.all(".terms-of-hand-in li").concat();
+    assert!(facts.contains("Due 15 Nov 2023, 10:00") && facts.contains("extended for you"), "{facts}");
+    let facts = desk(&bench, "S2").await.all(".terms-of-hand-in li").concat();
+    assert!(facts.contains("Closed since 15 Nov 2023, 08:00") && !facts.contains("extended"), "{facts}");
+    // The class's deadline moves behind it: the later one counts.
+    let rules = "closes=2023-11-15T12%3A00&hints=full&audience=open";
+    assert_eq!(form(&bench, "/teacher/settings", rules).await.status, StatusCode::SEE_OTHER);
+    assert!(!desk(&bench, "S1").await.text().contains("extended for you"));
+    clock.advance(HOUR * 2);
+    assert_eq!(hand_in(&bench, "S1").await.status, StatusCode::CREATED);
+    clock.advance(HOUR * 2);
+    assert_eq!(hand_in(&bench, "S1").await.problem(), "closed");
+    // It is taken away again; the log has both.
+    assert_eq!(extend("2023-11-15T23%3A00").await.status, StatusCode::SEE_OTHER);
+    assert_eq!(hand_in(&bench, "S1").await.status, StatusCode::CREATED);
+    assert_eq!(extend("").await.status, StatusCode::SEE_OTHER);
+    assert_eq!(hand_in(&bench, "S1").await.problem(), "closed");
+    let log = get(&bench, "/teacher/log").await.all(".people tbody tr");
+    let own: Vec<&String> = log.iter().filter(|row| row.contains("own deadline")).collect();
+    let has = |text: &str| own.iter().any(|row| row.contains("S1") && row.contains(text));
+    assert!(own.len() == 3 && has("– 病気") && has("2023-11-15T23:00") && has("2023-11-15T10:00"), "{log:?}");
+    bench.finish().await;
+}
