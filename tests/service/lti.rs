@@ -4,7 +4,7 @@ mod platform;
 
 use crate::bench::{Bench, Reply, config};
 use crate::cluster::Database;
-use crate::roster::{form, get};
+use crate::roster::{form, get, request};
 use crate::{on_both, right, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
@@ -234,6 +234,13 @@ async fn scores_go_home_until_they_arrive(database: Database) {
     let scores = platform.seen().scores.clone();
     assert_eq!((scores.len(), &scores[1]["scoreGiven"]), (2, &json!(100.0)));
     assert!(scores[1]["timestamp"].as_str() > scores[0]["timestamp"].as_str(), "{scores:?}");
+    // What is deleted is not replaced by something lower: the gradebook keeps what it has.
+    let best = bench.state.store.class("ggsample06", None).await.expect("a class");
+    let best = best.iter().find(|row| row.row.score == Some(100.0)).expect("the best").row.submission.id.clone();
+    let deleted = request("DELETE", &format!("/api/v1/submissions/{best}"), "", Body::empty());
+    assert_eq!(bench.send(deleted).await.status, StatusCode::OK);
+    send_due(&bench.state).await;
+    assert_eq!(platform.seen().scores.len(), 2);
     // A platform that is switched off gets nothing, and launches from it are refused.
     let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
     assert_eq!(

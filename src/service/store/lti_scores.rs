@@ -38,7 +38,8 @@ impl Store {
         Ok(())
     }
 
-    /// Scores that are due at `now`, as many as are sent in one go. The best attempt counts, of equals the first.
+    /// Scores that are due at `now`, as many as are sent in one go. The best attempt counts, of equals the first. Where the one
+    /// that was sent is deleted, no lower one takes its place: what is too old to be kept costs nobody a point.
     pub async fn due_scores(&self, now: Millis) -> Result<Vec<DueScore>> {
         const SQL: &str = "SELECT platform_id, link_id, subject, line_item, submission_id, score, sent_at, tries FROM \
                            (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, r.score, \
@@ -53,6 +54,8 @@ impl Store {
                            AND s.via <> 'editor' JOIN reports r ON r.submission_id = s.id \
                            WHERE k.next_at <= $1 AND l.line_item IS NOT NULL) AS best \
                            WHERE place = 1 AND (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score) \
+                           AND (sent_id IS NULL OR score >= sent_score \
+                           OR EXISTS (SELECT 1 FROM submissions g WHERE g.id = sent_id)) \
                            ORDER BY tries, platform_id, link_id, subject LIMIT 50";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?))
     }
