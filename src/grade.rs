@@ -1,5 +1,6 @@
 //! The pipeline: the only module that knows all the stages.
 
+mod extended;
 mod programs;
 mod unfinished;
 
@@ -83,6 +84,9 @@ struct Judged<'a> {
     /// The text that messages point into.
     source: &'a Source,
     sources: &'a [(translate::Stage, &'a Source)],
+    /// The homework, and the probes that judge, with what the files add to it.
+    assignment: &'a Assignment,
+    probes: &'a ProbeSet,
     fresh: &'a ProbeSet,
     rendering: &'a Rendering,
     interpreter: Option<&'a Interpreter>,
@@ -105,6 +109,7 @@ impl Grader {
             None => Some(translate::fixed_stage(&interface, &assignment.files[0].starter)?),
         };
         let renderer = Renderer::new(device, fixed.as_ref())?;
+        renderer.prepare(&assignment.textures);
         let mut expected = expected;
         let mut others = expected.split_off(assignment.scene.all_poses().len().min(expected.len()));
         let poses = expected.len();
@@ -192,6 +197,8 @@ impl Grader {
         let judged = Judged {
             source: &source,
             sources: &sources_given,
+            assignment: &self.assignment,
+            probes: &self.probes,
             fresh,
             rendering: &rendering,
             interpreter: interpreter.as_ref(),
@@ -252,20 +259,20 @@ impl Grader {
 
     /// The report but for what was handed in.
     fn report(&self, judged: Judged<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
-        let Judged { source, sources, fresh, rendering, interpreter } = judged;
+        let Judged { source, sources, assignment, probes, fresh, rendering, interpreter } = judged;
         let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
             let frames = expected.iter().zip(0..);
             frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
         };
         let mut frames = compared(&self.expected);
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let (samples, fresh_samples) = samples.split_at(self.probes.probes.len().min(samples.len()));
+        let (samples, fresh_samples) = samples.split_at(probes.probes.len().min(samples.len()));
         let evidence = Evidence {
-            assignment: &self.assignment,
+            assignment,
             source,
             sources,
             frames: &frames,
-            probes: &self.probes,
+            probes,
             samples,
             fresh: Fresh { probes: fresh, samples: fresh_samples },
             undefined: rendering.undefined,
@@ -278,8 +285,8 @@ impl Grader {
             // Advice and the explanation are about the solution, which this answer is not.
             let accepted = self.accepted.iter().filter_map(|(answer, expected)| {
                 let frames = compared(expected);
-                let probes = self.assignment.probes_of(answer, &self.probes);
-                let of_answer = self.assignment.probes_of(answer, fresh);
+                let probes = assignment.probes_of(answer, probes);
+                let of_answer = assignment.probes_of(answer, fresh);
                 let fresh = Fresh { probes: &of_answer, samples: fresh_samples };
                 let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], ..evidence };
                 let reading = answer.reading.as_deref();

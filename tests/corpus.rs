@@ -25,6 +25,7 @@ const SAMPLES: [(&str, usize); 25] = [
     ("flat", 142),
     ("fog", 10),
     ("ggsample06", 1465),
+    ("ggsample11-map", 63),
     ("gouraud-point-light", 175),
     ("interpolation", 62),
     ("lambert", 131),

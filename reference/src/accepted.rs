@@ -66,7 +66,8 @@ impl Assignment {
 
     /// The picture that an answer draws at a pose.
     pub fn frame_of(&self, answer: &AcceptedAnswer, pose: &Pose) -> Frame {
-        self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.pipeline.vertex))
+        let right = self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.pipeline.vertex));
+        self.without_unjudged(pose, right)
     }
 
     /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.

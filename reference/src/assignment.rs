@@ -9,6 +9,7 @@ use crate::derived::{Derived, is_derived};
 use crate::equation::{Equation, Reads, Variant};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
+use crate::free::Free;
 use crate::interpreter::{Texture, Type};
 pub use crate::manifest::{RubricLine, Stage, Task};
 use crate::mistake::{Form, FoundMistake, Mistake};
@@ -46,6 +47,12 @@ pub struct Assignment {
     pub textures: Arc<[Texture]>,
     /// The right program.
     pub pipeline: Pipeline,
+    /// What uniforms may be that students add, the likeliest first.
+    pub free: Vec<Free>,
+    /// The solution, changed: what these show otherwise is not judged.
+    pub(crate) unjudged: Vec<AcceptedAnswer>,
+    /// The solution, changed: some probes lie where these show something else.
+    pub(crate) revealed: Vec<AcceptedAnswer>,
     /// What the handed-out file defines.
     pub constants: Vec<Constant>,
     /// What is drawn.

@@ -24,6 +24,13 @@ pub enum Feed {
     Expression(Expression),
     /// It is a sampler of the texture with this number.
     Texture(usize),
+    /// It is a sampler of the texture that is drawn before each picture.
+    Drawn {
+        /// The texture of the first picture; those of the others follow.
+        first: usize,
+        /// The texture of probes.
+        at_probes: usize,
+    },
 }
 
 /// What the camera and the model give.
@@ -104,6 +111,10 @@ impl Feed {
             Self::Constant(value) => Some(value.clone()),
             Self::Expression(expression) => expression.value(moment),
             Self::Texture(number) => Value::new(kind.clone(), vec![*number as f64]),
+            Self::Drawn { first, at_probes } => {
+                let number = moment.picture.map_or(*at_probes, |picture| first + picture);
+                Value::new(kind.clone(), vec![number as f64])
+            }
         }
     }
 }
@@ -125,6 +136,8 @@ pub enum Attribute {
     Position,
     /// Normal in object space, w = 1.
     Normal,
+    /// Normal in object space, as the vector that it is: w = 0.
+    NormalVector,
     /// Texture coordinates; z = 0, w = 1.
     TextureCoordinates,
     /// Tangent in object space; w is the sign of the bitangent.
@@ -139,6 +152,7 @@ impl Attribute {
         match self {
             Self::Position => vertex.position,
             Self::Normal => vertex.normal,
+            Self::NormalVector => vertex.normal.truncate().extend(0.0),
             Self::TextureCoordinates => vertex.texture_coordinates.extend(0.0).extend(1.0),
             Self::Tangent => vertex.tangent,
             Self::Number => DVec4::new(f64::from(vertex.number), 0.0, 0.0, 1.0),

@@ -27,7 +27,8 @@ impl Assignment {
         match self.equation.reads {
             Reads::Attributes => self.frame(pose, &self.equation.right()),
             Reads::Varyings | Reads::Outputs => {
-                self.picture(pose, &self.pipeline, VertexStage::Program(&self.pipeline.vertex))
+                let right = self.picture(pose, &self.pipeline, VertexStage::Program(&self.pipeline.vertex));
+                self.without_unjudged(pose, right)
             }
         }
     }

@@ -61,7 +61,7 @@ pub use nature::{Copied, Nature};
 pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Prepared, Run, Stopped, Undefined};
 pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
 pub use syntax::Binary;
-pub use texture::{Compare, Filter, Level, Lookup, Texels, Texture, Wrap};
+pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 
 use std::collections::HashSet;

@@ -35,6 +35,7 @@ pub mod feed;
 pub mod fit;
 mod folder;
 pub mod frames;
+pub mod free;
 pub mod interpreter;
 pub mod manifest;
 pub mod mistake;
@@ -49,6 +50,7 @@ mod text;
 pub mod texture;
 pub mod traced;
 pub mod typeset;
+mod unjudged;
 mod value;
 
 /// Names the code of this crate: what other code computed has another name.

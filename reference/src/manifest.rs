@@ -3,14 +3,16 @@
 mod interface;
 mod layers;
 mod mistake;
+mod pass;
 mod scene;
 mod texture;
 mod toml_error;
 mod variant;
 
-pub use interface::{Input, Uniform};
+pub use interface::{Free, Input, Uniform};
 pub use layers::{Layers, extended, line_of_extends, name_of_base};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
+pub use pass::Pass;
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 pub use texture::{Format, Texture, Wraps};
 pub use variant::Variant;
@@ -52,6 +54,16 @@ pub struct Manifest {
     /// What samplers read.
     #[serde(default)]
     pub texture: Vec<Texture>,
+    /// What is drawn into a texture before each picture.
+    #[serde(default)]
+    pub pass: Vec<Pass>,
+    /// Uniforms that students add and name.
+    #[serde(default)]
+    pub free: Vec<Free>,
+    /// The solution, changed: what that shows otherwise is not judged.
+    #[schemars(with = "Vec<Variant>")]
+    #[serde(default)]
+    pub unjudged: Vec<Spanned<Variant>>,
     /// What the handed-out file defines, as the solution does.
     #[serde(default)]
     pub constant: Vec<Constant>,
@@ -306,12 +318,15 @@ pub struct Probes {
     pub power: String,
     /// What the vertices of a group show, one after the other.
     pub design: Vec<Design>,
+    /// The solution, changed: some fragments lie where one of these shows something else.
+    #[schemars(with = "Vec<Variant>")]
+    pub reveal: Vec<Spanned<Variant>>,
 }
 
 impl Default for Probes {
     fn default() -> Self {
         let [axis, lobe, power] = Default::default();
-        Self { groups: 28, per_group: 20, axis, lobe, power, design: Vec::new() }
+        Self { groups: 28, per_group: 20, axis, lobe, power, design: Vec::new(), reveal: Vec::new() }
     }
 }
 

@@ -1,5 +1,6 @@
 //! A vertex and a fragment stage, linked: what is handed from one to the other, and what is seen of it.
 
+use crate::assignment::Interface;
 use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, Run, Texture, Variable};
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
@@ -141,12 +142,18 @@ pub(crate) fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
     columns.iter().map(Vec::as_slice).collect()
 }
 
-impl Assignment {
-    /// A run with uniforms in the interface's order, as far as the program has them, and the textures.
-    pub(crate) fn fed<'a>(&'a self, program: &'a Program, samples: usize, uniforms: &[Value]) -> Option<Run<'a>> {
-        let mut run = program.run(samples).textures(&self.textures);
-        for (uniform, value) in self.interface.uniforms.iter().zip(uniforms) {
-            if program.uniforms().iter().any(|own| own.name == uniform.path) {
+impl Interface {
+    /// A run with uniforms in the interface's order, as far as the program has them, and textures.
+    fn fed<'a>(
+        &self,
+        program: &'a Program,
+        samples: usize,
+        uniforms: &[Value],
+        textures: &'a [Texture],
+    ) -> Option<Run<'a>> {
+        let mut run = program.run(samples).textures(textures);
+        for (uniform, value) in self.uniforms.iter().zip(uniforms) {
+            if program.uniforms().iter().any(|own| own.name == uniform.path && own.kind == uniform.kind) {
                 run = run.uniform(&uniform.path, value.numbers()).ok()?;
             }
         }
@@ -154,11 +161,17 @@ impl Assignment {
     }
 
     /// Runs a vertex stage on all vertices of a mesh.
-    pub(crate) fn run_vertices(&self, program: &Program, uniforms: &[Value], vertices: &[Vertex]) -> Option<Outputs> {
+    pub(crate) fn run_vertices(
+        &self,
+        program: &Program,
+        uniforms: &[Value],
+        vertices: &[Vertex],
+        textures: &[Texture],
+    ) -> Option<Outputs> {
         let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
         for input in program.inputs() {
             let numbers = || vertices.iter().map(|vertex| f64::from(vertex.number)).collect();
-            let own = self.interface.inputs.iter().find(|own| own.name == input.name);
+            let own = self.inputs.iter().find(|own| own.name == input.name);
             let columns = match own {
                 Some(own) => {
                     let values: Vec<Value> = vertices.iter().map(|v| own.stream.value(&own.kind, v)).collect();
@@ -170,11 +183,23 @@ impl Assignment {
             given.push((&input.name, columns));
         }
         let columns: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
-        let mut run = self.fed(program, vertices.len(), uniforms)?;
+        let mut run = self.fed(program, vertices.len(), uniforms, textures)?;
         for (name, columns) in &columns {
             run = run.input(name, columns).ok()?;
         }
         run.outputs().ok()
+    }
+}
+
+impl Assignment {
+    /// A run with uniforms in the interface's order, as far as the program has them, and the textures.
+    pub(crate) fn fed<'a>(&'a self, program: &'a Program, samples: usize, uniforms: &[Value]) -> Option<Run<'a>> {
+        self.interface.fed(program, samples, uniforms, &self.textures)
+    }
+
+    /// Runs a vertex stage on all vertices of a mesh.
+    pub(crate) fn run_vertices(&self, program: &Program, uniforms: &[Value], vertices: &[Vertex]) -> Option<Outputs> {
+        self.interface.run_vertices(program, uniforms, vertices, &self.textures)
     }
 }
 

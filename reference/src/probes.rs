@@ -5,6 +5,7 @@
 //! space.
 
 mod design;
+mod light;
 mod nearby;
 mod spots;
 
@@ -86,6 +87,8 @@ pub struct Group {
     pub t: f64,
     /// The uniforms in the interface's order.
     pub uniforms: Vec<Value>,
+    /// View and projection of the pass, where there is one.
+    pub pass: [DMat4; 2],
 }
 
 /// Probes under several cameras.
@@ -241,12 +244,15 @@ impl Assignment {
         if uniforms.iter().any(|uniform| is_of_the_world(&uniform.feed)) {
             matrices = self.in_the_world(random, t, &matrices);
         }
-        let moment = self.scene.moment(t, matrices);
+        let mut moment = self.scene.moment(t, matrices);
+        if self.scene.pass.is_some() {
+            moment.pass = self.random_pass(random, &matrices.model);
+        }
         let value = |uniform: &Uniform| match &uniform.probe {
             Some(bounds) => bounds.draw(|| random.between(0.0, 1.0)),
             None => uniform.value(&moment),
         };
-        Group { matrices, t, uniforms: uniforms.iter().map(value).collect() }
+        Group { matrices, t, uniforms: uniforms.iter().map(value).collect(), pass: moment.pass }
     }
 
     /// The camera in front of the homework's own model, turned and shifted: where that is stretched, so is this.

@@ -10,7 +10,7 @@ mod setup;
 mod visible;
 
 pub use setup::{Ramp, Setup};
-pub use visible::{Surface, Visible};
+pub use visible::{Surface, Visible, depth_map};
 
 use glam::{DVec3, DVec4};
 

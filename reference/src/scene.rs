@@ -4,10 +4,12 @@
 
 mod matrices;
 mod mesh;
+mod pass;
 mod vertex;
 
 pub use matrices::{Matrices, look_at, normal_matrix, perspective, rotate_y};
 pub use mesh::{Mesh, MeshError, Shape};
+pub use pass::{DepthPass, Pass};
 pub use vertex::Vertex;
 
 use crate::Value;
@@ -30,6 +32,8 @@ pub struct Scene {
     pub cycle: f64,
     /// What is shown: the first is the course's own, others reveal what that one hides.
     pub views: Vec<View>,
+    /// What is drawn into a texture before each picture.
+    pub pass: Option<Pass>,
 }
 
 /// Some things in front of a camera.
@@ -65,6 +69,8 @@ pub enum Point {
 /// A mesh, where it stands, and what decides which of its pixels are seen.
 #[derive(Clone, Debug)]
 pub struct Draw {
+    /// Its name, by which a pass speaks of it.
+    pub name: Option<String>,
     /// Its vertices and triangles, in object space.
     pub mesh: Arc<Mesh>,
     /// From object space to world space.
@@ -127,6 +133,12 @@ pub struct Moment {
     pub t: f64,
     /// The number of what is drawn, through all draws of a view.
     pub i: u32,
+    /// Which view.
+    pub scene: u32,
+    /// Which picture, among those of all poses; none at probes.
+    pub picture: Option<usize>,
+    /// View and projection of the pass; the identity where there is none.
+    pub pass: [DMat4; 2],
     /// Width and height of the window, in pixels.
     pub resolution: [f64; 2],
     /// The matrices.
@@ -170,9 +182,10 @@ impl Scene {
         self.instances_at(pose.view, pose.t)
     }
 
-    fn instances_at(&self, view: usize, t: f64) -> Vec<Instance<'_>> {
-        let Some(view) = self.views.get(view) else { return Vec::new() };
-        let mut moment = self.moment(t, Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY));
+    fn instances_at(&self, number: usize, t: f64) -> Vec<Instance<'_>> {
+        let Some(view) = self.views.get(number) else { return Vec::new() };
+        let mut moment = self.moment_of(number, t, Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY));
+        moment.picture = self.picture_at(number, t);
         let eye = view.eye.at(&moment);
         let seen = look_at(eye, view.target.at(&moment), view.up);
         let aspect = f64::from(self.width) / f64::from(self.height);
@@ -197,7 +210,23 @@ impl Scene {
 
     /// A moment of this window, of what is drawn first.
     pub fn moment(&self, t: f64, matrices: Matrices) -> Moment {
-        Moment { t, i: 0, resolution: [f64::from(self.width), f64::from(self.height)], matrices }
+        self.moment_of(0, t, matrices)
+    }
+
+    fn moment_of(&self, view: usize, t: f64, matrices: Matrices) -> Moment {
+        let resolution = [f64::from(self.width), f64::from(self.height)];
+        let pass = [DMat4::IDENTITY; 2];
+        let moment = Moment { t, i: 0, scene: view as u32, picture: None, pass, resolution, matrices };
+        let pass = self.pass.as_ref().map_or(pass, |pass| pass.matrices(&moment));
+        Moment { pass, ..moment }
+    }
+
+    /// The number of the picture of a view that is nearest to a time.
+    fn picture_at(&self, view: usize, t: f64) -> Option<usize> {
+        let before: usize = self.views[..view].iter().map(|view| view.times.len()).sum();
+        let far = |time: &f64| (time - t).abs();
+        let times = self.views[view].times.iter().enumerate();
+        times.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b))).map(|(place, _)| before + place)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Homework of which a fragment stage is handed in, or several files: they are linked and run as one program.
 
+use super::extended::Extended;
 use super::{Graded, Grader, Judged, Order};
 use crate::cross_check;
 use crate::diagnose::UNEXPLAINED;
@@ -63,7 +64,9 @@ impl Grader {
         let notes = || sources.iter().flat_map(|(_, source)| in_file(&source.facts.name, source.notes.clone()));
         let given: Vec<_> = sources.iter().map(|(stage, source)| (*stage, source)).collect();
         let Some(programs) = &self.programs else { return Err(no_program()) };
-        let linked = match programs.program.translate(&given) {
+        let extended = Extended::of(&self.assignment, &self.probes, &given)?;
+        let program = extended.as_ref().map_or(&programs.program, |extended| &extended.program);
+        let linked = match program.translate(&given) {
             Ok(linked) => linked,
             Err(ProgramRefusal { refusal: Refusal::Fault(fault), .. }) => return Err(fault),
             Err(ProgramRefusal { stage, refusal: Refusal::Rejected(diagnostics) }) => {
@@ -78,7 +81,12 @@ impl Grader {
         let warnings = linked.diagnostics.iter().flat_map(|(stage, one)| in_file(name(*stage), vec![one.clone()]));
         let mut diagnostics: Vec<Diagnostic> = warnings.chain(notes()).collect();
         let probing = self.probing(order.seed);
-        let rendering = self.render_linked(&linked, &probing.scene)?;
+        let own_fresh = extended.as_ref().map(|extended| extended.probes_of(&probing.fresh));
+        let own_scene = extended
+            .as_ref()
+            .zip(own_fresh.as_ref())
+            .map(|(extended, fresh)| Scene::of(&extended.assignment, &[&extended.probes, fresh]));
+        let rendering = self.render_linked(&linked, own_scene.as_ref().unwrap_or(&probing.scene))?;
         let stages = [(&linked.vertex, rendering.ran_out), (&linked.fragment, rendering.of_fragments.ran_out)];
         if let Some((shader, ran_out)) = stages.into_iter().find_map(|(shader, out)| Some((shader, out?))) {
             let error = Diagnostic { file: Some(name(shader.stage).to_owned()), ..shader.out_of_fuel(ran_out) };
@@ -91,14 +99,18 @@ impl Grader {
         let steps = linked.steps.last().filter(|_| self.assignment.equation.reads() == Reads::Varyings);
         let interpreter = steps.and_then(|steps| steps.interpreter(source));
         let interpreter = interpreter.as_ref();
-        let judged = Judged { source, sources: &given, fresh: &probing.fresh, rendering: &rendering, interpreter };
+        let own = extended.as_ref();
+        let (assignment, probes) = own.map_or((&*self.assignment, &self.probes), |own| (&own.assignment, &own.probes));
+        let fresh = own_fresh.as_ref().unwrap_or(&probing.fresh);
+        let judged = Judged { source, sources: &given, assignment, probes, fresh, rendering: &rendering, interpreter };
         let mut report = self.report(judged, diagnostics, order.hints);
+        report.advice.extend(own.into_iter().flat_map(|own| own.notes(&given)));
         if report.mistakes.iter().any(|id| id == UNEXPLAINED) {
-            report.diagnostics.extend(overlooked(&self.assignment, &given, &linked));
+            report.diagnostics.extend(overlooked(assignment, &given, &linked));
         }
         report.cross_check = order.cross_check.then(|| {
             let samples = rendering.probe_samples.concat();
-            cross_check::check_program(&self.assignment, &given, &self.probes, &samples)
+            cross_check::check_program(assignment, &given, probes, &samples)
         });
         report.sources = infos;
         Ok(Graded { report, frames: Some(rendering.frames) })

@@ -12,6 +12,7 @@ use super::tiles::{Area, Tiles};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Linked, Shader};
+use reference::interpreter::Texture;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -61,6 +62,13 @@ impl Renderer {
     /// The device.
     pub fn device(&self) -> &Device {
         &self.device
+    }
+
+    /// Makes the textures of an assignment ready, which takes longer than a submission may: depths are drawn for it.
+    pub fn prepare(&self, textures: &Arc<[Texture]>) {
+        if !textures.is_empty() {
+            self.textures.borrow_mut().buffer(&self.device.device, textures);
+        }
     }
 
     /// Draws the scene with the shader and the fixed fragment stage. An error is ours: the shader was found valid before.

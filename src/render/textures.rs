@@ -10,6 +10,7 @@ const DESCRIPTION: usize = 16;
 const MAGNIFY_LINEAR: u32 = 1;
 const MINIFY_LINEAR: u32 = 2;
 const BYTES: u32 = 1 << 12;
+const DEPTHS: u32 = 1 << 13;
 const CLAMPS_REFERENCE: u32 = 1 << 20;
 
 /// The textures of the last scene, which many submissions are drawn with.
@@ -45,6 +46,7 @@ fn words(textures: &[Texture]) -> Vec<u32> {
         words[1 + DESCRIPTION * number..][..own.len()].copy_from_slice(&own);
         match &level.texels {
             Texels::Bytes(texels) => words.extend(texels.iter().map(|texel| u32::from_le_bytes(*texel))),
+            Texels::Depths(depths) => words.extend(depths.drawn().iter().map(|depth| depth.to_bits())),
             texels => {
                 let texels = (0..texels.count()).map(|place| texels.at(place));
                 words.extend(texels.flatten().map(|number| (number as f32).to_bits()));
@@ -78,6 +80,7 @@ fn describe(texture: &Texture, level: &Level, first: u32) -> [u32; 9] {
         | wrap(1) << 6
         | wrap(2) << 8
         | bit(matches!(level.texels, Texels::Bytes(_)), BYTES)
+        | bit(matches!(level.texels, Texels::Depths(_)), DEPTHS)
         | compare << 16
         | bit(texture.clamps_reference, CLAMPS_REFERENCE);
     let [width, height, depth] = level.size.map(|side| side as u32);

@@ -44,15 +44,16 @@ impl Interface {
             |name: &str, kind: &reference::interpreter::Type| Variable { name: name.into(), ty: kind.to_string() };
         let fixed = assignment.fixed.iter().find(|fixed| fixed.stage == assignment::Stage::Fragment);
         let fixed = fixed.map_or("", |fixed| fixed.text.as_str());
+        // Of two with one name the last counts: it is the student's own.
+        let all = &assignment.interface.uniforms;
+        let is_last = |(place, uniform): &(usize, &assignment::Uniform)| {
+            all[place + 1..].iter().all(|other| other.path != uniform.path)
+        };
+        let uniforms = all.iter().enumerate().filter(is_last);
         let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
         Ok(Self {
             inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
-            uniforms: assignment
-                .interface
-                .uniforms
-                .iter()
-                .map(|uniform| variable(&uniform.path, &uniform.kind))
-                .collect(),
+            uniforms: uniforms.map(|(_, uniform)| variable(&uniform.path, &uniform.kind)).collect(),
             output: variable(&output.name, &output.kind),
             constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
             version: assignment

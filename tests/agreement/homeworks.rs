@@ -4,7 +4,7 @@ use super::opengl::{Draw, Kind, OpenGl, Rejection, Version, Window};
 use ggrade::render::{AdapterKind, Batch, Device, Renderer, Scene};
 use ggrade::source;
 use ggrade::translate::{Interface, Program, Stage};
-use reference::interpreter::{Scalar, Texels, Texture, Type};
+use reference::interpreter::{Program as Compiled, Scalar, Stage as InterpreterStage, Texels, Texture, Type};
 use reference::rasteriser::{Coverage, Frame};
 use reference::scene::{Cull, DepthTest};
 use reference::{Assignment, Folder, Value, assignment};
@@ -78,7 +78,14 @@ fn by_opengl(
     let (width, height) = (scene.width as usize, scene.height as usize);
     let background = scene.background.map(|channel| f32::from(channel) / 255.0);
     let window = Window { width, height, background, is_float: false };
-    let textures: Vec<(&str, Texture)> = assignment.textures.iter().map(|texture| ("", texture.clone())).collect();
+    // A host program compares with the depths for a sampler that does, and for no other.
+    let compares = scene.frames[frame]
+        .iter()
+        .flat_map(|batch| &batch.uniforms)
+        .any(|(_, value)| matches!(value.kind(), Type::Sampler(sampler) if sampler.shadow));
+    let texture =
+        |texture: &Texture| ("", Texture { compare: texture.compare.filter(|_| compares), ..texture.clone() });
+    let textures: Vec<(&str, Texture)> = assignment.textures.iter().map(texture).collect();
     let draws: Vec<Draw> = scene.frames[frame].iter().map(draw).collect();
     let drawn = gl.scene(texts, &draws, &textures, window, 1);
     let drawn = drawn?.remove(0);
@@ -190,8 +197,11 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
                 }
             }
             count += 1;
+            let extended = extended(assignment, [vertex, fragment]);
+            let extended_scene = extended.as_ref().map(|extended| Scene::of(extended, &[]));
+            let scene = extended_scene.as_ref().unwrap_or(&scene);
             for (index, right) in &frames {
-                let drawn = match by_opengl(&gl, assignment, &scene, [vertex, fragment], *index) {
+                let drawn = match by_opengl(&gl, assignment, scene, [vertex, fragment], *index) {
                     Ok(drawn) => drawn,
                     Err(rejection) => {
                         wrong.push(format!("{}: {rejection:?}", sample.display()));
@@ -207,6 +217,22 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
     }
     assert!(count > 150, "{count} samples");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The homework with the uniforms that a student adds, where there are such; of two with one name only the student's.
+fn extended(assignment: &Assignment, texts: [&str; 2]) -> Option<Assignment> {
+    if assignment.free.is_empty() {
+        return None;
+    }
+    let stages = [InterpreterStage::Vertex, InterpreterStage::Fragment];
+    let compiled = |at: usize| Compiled::compile(texts[at], stages[at]).map(Arc::new).expect("a text");
+    let taken = assignment.taken(&compiled(0), &compiled(1), &assignment.judging_probes());
+    let mut extended = assignment.with(&taken);
+    let all = extended.interface.uniforms.clone();
+    let is_last = |place: usize| all[place + 1..].iter().all(|other| other.path != all[place].path);
+    let mut place = 0..;
+    extended.interface.uniforms.retain(|_| place.next().is_some_and(is_last));
+    Some(extended)
 }
 
 /// The samples of a folder: files, and folders that have their expectation beside them.

@@ -4,7 +4,7 @@
 use super::driver::Driver;
 use super::fragments::Texels;
 use glow::HasContext;
-use reference::interpreter::{Dimension, Filter, Texels as Kept, Texture, Wrap};
+use reference::interpreter::{Compare, Dimension, Filter, Texels as Kept, Texture, Wrap};
 
 /// What can be bound to a unit.
 pub trait Upload {
@@ -33,7 +33,11 @@ impl Upload for Texture {
                 floats = texels.iter().map(|texel| texel.map(|number| number as f32)).collect();
                 (glow::RGBA32F, glow::FLOAT, bytemuck::cast_slice(&floats))
             }
+            // The same depths, bit for bit: those of fixed point are clamped by who reads them here, and that is where they lie.
+            Kept::Depths(depths) => (glow::DEPTH_COMPONENT32F, glow::FLOAT, bytemuck::cast_slice(depths.drawn())),
         };
+        let is_depth = matches!(level.texels, Kept::Depths(_));
+        let channels = if is_depth { glow::DEPTH_COMPONENT } else { glow::RGBA };
         let faces = if is_cube { 6 } else { 1 };
         assert_eq!(texels.len() % faces, 0);
         let wrap = |wrap: Wrap| match wrap {
@@ -50,7 +54,13 @@ impl Upload for Texture {
             for (face, texels) in (0..).zip(texels.chunks_exact(texels.len() / faces)) {
                 let target = if is_cube { glow::TEXTURE_CUBE_MAP_POSITIVE_X + face } else { target };
                 let texels = glow::PixelUnpackData::Slice(Some(texels));
-                gl.tex_image_2d(target, 0, format.cast_signed(), width, height, 0, glow::RGBA, kind, texels);
+                gl.tex_image_2d(target, 0, format.cast_signed(), width, height, 0, channels, kind, texels);
+            }
+            if self.compare.is_some() {
+                assert_eq!(self.compare, Some(Compare::LessOrEqual), "another comparison is in no homework");
+                let mode = glow::COMPARE_REF_TO_TEXTURE.cast_signed();
+                gl.tex_parameter_i32(target, glow::TEXTURE_COMPARE_MODE, mode);
+                gl.tex_parameter_i32(target, glow::TEXTURE_COMPARE_FUNC, glow::LEQUAL.cast_signed());
             }
             let [s, t, r] = self.wrap.map(wrap);
             let parameters = [

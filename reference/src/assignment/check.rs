@@ -7,6 +7,7 @@ mod features;
 mod interface;
 mod meshes;
 mod mistakes;
+mod passes;
 mod probing;
 mod scene;
 mod solution;
@@ -17,6 +18,7 @@ mod variants;
 
 use super::{Assignment, AssignmentError, FixedStage, HandedIn, MANIFEST, both, error};
 use crate::Folder;
+use crate::accepted::AcceptedAnswer;
 use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use solution::Solution;
@@ -44,8 +46,11 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
         file.accepted = stages.accepted(file.stage, &entry.accepted, &read)?;
     }
     let mut solution = Solution::read(&files, &pipeline, &m.constant)?;
-    let textures = textures::textures(&m.texture, folder, place_at)?;
+    let mut scene = scene::scene(&m.scene, folder, place_at)?;
+    let textures = textures::textures(&m.texture, scene.all_poses().len(), folder, place_at)?;
     let interface = interface::interface(&m, &textures, &stages, &solution, place_at)?;
+    let free = interface::free(&m, &textures, &stages, place_at)?;
+    passes::pass(&m, &textures, &mut scene, &interface, &read, place_at)?;
     let constants = constants::constants(&files, std::mem::take(&mut m.constant))?;
     let lines = rubric(&mut m.rubric, &solution)?;
     for constant in &constants {
@@ -53,6 +58,8 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     }
     let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, place_at)).transpose()?;
     let variants = Variants { files: &files, stages: &stages, read: &read };
+    let unjudged = programs(&m.unjudged, "unjudged", &variants, place_at)?;
+    let revealed = programs(&m.probes.reveal, "`reveal`", &variants, place_at)?;
     let terms = features::terms(&m, &mut solution)?;
     let features = features::features(&m, &terms, &variants, place_at)?;
     let mistakes = std::mem::take(&mut m.mistake);
@@ -68,7 +75,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     let textures: Arc<[Texture]> = textures.into();
     let equation = solution.finish(&m, &interface, &pipeline, &constants, Arc::clone(&textures))?;
     let assignment = Assignment {
-        scene: scene::scene(&m.scene, folder, place_at)?,
+        scene,
         files,
         id: m.id,
         digest: String::new(),
@@ -80,6 +87,9 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
         textures,
         pipeline,
         interface,
+        free,
+        unjudged,
+        revealed,
         constants,
         equation,
         rubric: m.rubric,
@@ -120,6 +130,19 @@ fn files(files: &[manifest::File], read: &dyn Fn(&str) -> Checked<String>) -> Ch
 fn fixed(m: &Manifest, read: &dyn Fn(&str) -> Checked<String>) -> Checked<Vec<FixedStage>> {
     let all = m.fixed.iter().chain(m.file.iter().flat_map(|file| &file.fixed));
     all.map(|one| Ok(FixedStage { stage: one.stage, name: one.file.clone(), text: read(&one.file)? })).collect()
+}
+
+/// The programs of variants that a key lists.
+fn programs(
+    listed: &[toml::Spanned<manifest::Variant>],
+    key: &str,
+    variants: &Variants<'_>,
+    place_at: &dyn Fn(usize) -> String,
+) -> Checked<Vec<AcceptedAnswer>> {
+    let program = |entry: &toml::Spanned<manifest::Variant>| {
+        variants.program(entry.get_ref(), &format!("{}, {key}", place_at(entry.span().start)))
+    };
+    listed.iter().map(program).collect()
 }
 
 fn rubric(lines: &mut [manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {

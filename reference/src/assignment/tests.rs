@@ -3,6 +3,7 @@ use crate::built_in::{assignment, assignments, names};
 use std::path::Path;
 
 mod meshes;
+mod passes;
 mod textures;
 
 /// The assignment with a change in one of its files.

@@ -11,7 +11,7 @@ const FUEL: u64 = 10_000_000;
 
 /// What an expression may use. Angles are in radians; `turn` is one turn in a cycle.
 const PRELUDE: &str = "#version 460
-in float t; in int i; in vec2 resolution; in mat4 model, view, projection; in vec3 eye;
+in float t; in int i, scene; in vec2 resolution; in mat4 model, view, projection, pass_view, pass_projection; in vec3 eye;
 #define pi 3.141592653589793
 #define turn (6.283185307179586 * t)
 mat4 translate(vec3 by) { return mat4(1,0,0,0, 0,1,0,0, 0,0,1,0, by,1); }
@@ -22,6 +22,12 @@ mat4 scale(float by) { return scale(vec3(by)); }
 mat4 rotate_x(float a) { float c = cos(a), s = sin(a); return mat4(1,0,0,0, 0,c,s,0, 0,-s,c,0, 0,0,0,1); }
 mat4 rotate_y(float a) { float c = cos(a), s = sin(a); return mat4(c,0,-s,0, 0,1,0,0, s,0,c,0, 0,0,0,1); }
 mat4 rotate_z(float a) { float c = cos(a), s = sin(a); return mat4(c,s,0,0, -s,c,0,0, 0,0,1,0, 0,0,0,1); }
+mat4 perspective(float fovy, float aspect, float near, float far) {
+  float f = 1.0 / tan(fovy / 2.0), d = far - near;
+  return mat4(f / aspect,0,0,0, 0,f,0,0, 0,0,-(far + near) / d,-1, 0,0,-2.0 * far * near / d,0); }
+mat4 look_at(vec3 eye, vec3 target, vec3 up) {
+  vec3 z = normalize(eye - target), x = normalize(cross(up, z)), y = cross(z, x);
+  return mat4(x.x,y.x,z.x,0, x.y,y.y,z.y,0, x.z,y.z,z.z,0, -dot(x, eye),-dot(y, eye),-dot(z, eye),1); }
 ";
 
 /// An expression of the folder, compiled.
@@ -46,10 +52,13 @@ impl Expression {
 
     /// Its value, as a uniform holds it; `None` where GLSL leaves it undefined, or it is no number.
     pub fn value(&self, moment: &Moment) -> Option<Value> {
-        let Moment { t, i, resolution, matrices } = moment;
+        let Moment { t, i, scene, resolution, matrices, pass: [pass_view, pass_projection], .. } = moment;
         let given = |name: &str| match name {
             "t" => vec![*t],
             "i" => vec![f64::from(*i)],
+            "scene" => vec![f64::from(*scene)],
+            "pass_view" => pass_view.to_cols_array().to_vec(),
+            "pass_projection" => pass_projection.to_cols_array().to_vec(),
             "resolution" => resolution.to_vec(),
             "model" => matrices.model.to_cols_array().to_vec(),
             "view" => matrices.view.to_cols_array().to_vec(),
@@ -76,10 +85,13 @@ impl Expression {
 mod tests {
     use super::*;
     use crate::scene::Matrices;
-    use glam::DMat4;
+    use crate::scene::{look_at, perspective};
+    use glam::{DMat4, DVec3};
 
     fn moment(t: f64, i: u32) -> Moment {
-        Moment { t, i, resolution: [640.0, 480.0], matrices: Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY) }
+        let matrices = Matrices::new(DMat4::IDENTITY, DMat4::IDENTITY);
+        let pass = [DMat4::from_scale(DVec3::splat(2.0)), DMat4::from_scale(DVec3::splat(3.0))];
+        Moment { t, i, scene: 1, picture: None, pass, resolution: [640.0, 480.0], matrices }
     }
 
     fn value(text: &str, kind: &Type, moment: &Moment) -> Vec<f64> {
@@ -98,6 +110,25 @@ mod tests {
             value("scale(2.0) * translate(1.0, 2.0, 3.0)", &Type::MAT4, &moment(0.0, 0))[12..],
             [2.0, 4.0, 6.0, 1.0]
         );
+    }
+
+    #[test]
+    fn an_expression_knows_scene_and_pass() {
+        assert_eq!(value("scene == 1 ? 3 : 4", &Type::INT, &moment(0.0, 0)), [3.0]);
+        let matrix = value("pass_projection * pass_view", &Type::MAT4, &moment(0.0, 0));
+        assert_eq!([matrix[0], matrix[5], matrix[10], matrix[15]], [6.0, 6.0, 6.0, 1.0]);
+    }
+
+    #[test]
+    fn cameras_of_expressions_are_those_of_scenes() {
+        let near = |text: &str, matrix: DMat4| {
+            let found = value(text, &Type::MAT4, &moment(0.0, 0));
+            let off = found.iter().zip(matrix.to_cols_array()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-6, "{text}: {found:?}");
+        };
+        let (eye, target) = (DVec3::new(2.0, 3.2, 1.2), DVec3::new(-0.3, 0.0, -0.2));
+        near("look_at(vec3(2.0, 3.2, 1.2), vec3(-0.3, 0.0, -0.2), vec3(0, 1, 0))", look_at(eye, target, DVec3::Y));
+        near("perspective(1.9, 0.75, 0.5, 9.0)", perspective(1.9, 0.75, 0.5, 9.0));
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! Textures and how OpenGL reads them (OpenGL 4.1 core, sections 3.8.8 to 3.8.18).
 
 mod cube;
+mod depths;
 mod sample;
 
+pub use depths::Depths;
 pub use sample::Lookup;
 
 use super::code::Slot;
@@ -38,7 +40,8 @@ pub enum Wrap {
 }
 
 /// How a reference value is compared with a texel: `reference OP texel`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 #[allow(missing_docs, reason = "they are what they are called in OpenGL")]
 pub enum Compare {
     Never,
@@ -69,6 +72,8 @@ pub enum Texels {
     Srgb(Vec<[u8; 4]>),
     /// As they are.
     Numbers(Vec<[f64; 4]>),
+    /// Depths, which are red; green and blue are 0, alpha is 1.
+    Depths(Depths),
 }
 
 impl Texels {
@@ -77,6 +82,7 @@ impl Texels {
         match self {
             Self::Bytes(texels) | Self::Srgb(texels) => texels.len(),
             Self::Numbers(texels) => texels.len(),
+            Self::Depths(depths) => depths.count(),
         }
     }
 
@@ -90,6 +96,7 @@ impl Texels {
                 [red, green, blue, f64::from(alpha) / 255.0]
             }
             Self::Numbers(texels) => texels[place],
+            Self::Depths(depths) => [f64::from(depths.drawn()[place]), 0.0, 0.0, 1.0],
         }
     }
 }
@@ -164,11 +171,12 @@ impl Texture {
         Self { dimension: Dimension::Cube, levels, wrap: [Wrap::ClampToEdge; 3], ..flat }
     }
 
-    /// Whether a sampler of this kind may read it.
+    /// Whether a sampler of this kind may read it. A texture with a comparison is read without it by a sampler that makes none:
+    /// a host program switches the comparison on for the one and off for the other.
     pub fn fits(&self, sampler: Sampler) -> bool {
         self.dimension == sampler.dimension
             && self.array == sampler.array
-            && sampler.shadow == self.compare.is_some()
+            && (self.compare.is_some() || !sampler.shadow)
             && !self.levels.is_empty()
             && self
                 .levels

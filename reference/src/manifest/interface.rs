@@ -1,5 +1,6 @@
 //! What a program is given, as `assignment.toml` has it.
 
+use crate::Text;
 use crate::feed::{Attribute, Role};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -46,4 +47,26 @@ pub struct Uniform {
     /// What probes may draw at random: `{ within = [least, greatest] }`, or a table of members.
     #[schemars(with = "Option<crate::schema::AnyBounds>")]
     pub probe: Option<Value>,
+}
+
+/// What a uniform may be that a student adds under a name of their own: it is what `carries`, `is` or `texture` says.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Free {
+    /// Its id in reports, among the advice.
+    #[schemars(with = "String")]
+    pub id: Spanned<String>,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// What of camera and model it holds.
+    pub carries: Option<Role>,
+    /// Its value as an expression.
+    #[schemars(with = "Option<String>")]
+    pub is: Option<Spanned<String>>,
+    /// The name of the texture that a sampler reads.
+    #[schemars(with = "Option<String>")]
+    pub texture: Option<Value>,
+    /// What is said of an answer in which a uniform is this.
+    pub note: Option<Text>,
 }

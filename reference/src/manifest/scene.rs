@@ -79,6 +79,8 @@ pub struct Scene {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Draw {
+    /// Its name, for passes that draw it.
+    pub name: Option<String>,
     /// Its vertices and triangles.
     #[schemars(with = "Shape")]
     pub mesh: Spanned<Shape>,

@@ -1,12 +1,12 @@
 //! Textures, as `assignment.toml` has them.
 
-use crate::interpreter::{Filter, Wrap};
+use crate::interpreter::{Compare, Filter, Wrap};
 use crate::texture::{Colour, Generator};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// A texture: its picture is that of `file`, of `cube` or of `generate`.
+/// A texture: its picture is that of `file`, of `cube` or of `generate`, or depths that a pass draws.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Texture {
@@ -19,7 +19,7 @@ pub struct Texture {
     pub cube: Option<[String; 6]>,
     /// A picture that is computed.
     pub generate: Option<Generator>,
-    /// Width and height of a picture that is computed.
+    /// Width and height of a picture that is computed or drawn.
     pub size: Option<[u32; 2]>,
     /// How the texels of a picture that is computed are kept.
     pub format: Option<Format>,
@@ -31,6 +31,8 @@ pub struct Texture {
     pub wrap: Option<Wraps>,
     /// What lies beyond the picture with `clamp-to-border`.
     pub border: Option<Colour>,
+    /// What a shadow sampler compares: `reference OP texel`. Only of depths.
+    pub compare: Option<Compare>,
     /// Whether red, green and blue are decoded from sRGB.
     #[serde(default)]
     pub srgb: bool,
@@ -45,6 +47,17 @@ pub enum Format {
     Rgba8,
     /// Four floats.
     Rgba32f,
+    /// Depths in 24 bits of fixed point, which a pass draws.
+    Depth24,
+    /// Depths as floats, which a pass draws.
+    Depth32f,
+}
+
+impl Format {
+    /// Whether it holds depths.
+    pub fn is_depth(self) -> bool {
+        matches!(self, Self::Depth24 | Self::Depth32f)
+    }
 }
 
 /// Beyond the picture along both coordinates, or along each.

@@ -26,6 +26,16 @@ const APART: f64 = 0.25;
 const ROUNDS: usize = 4;
 const CAMERAS: usize = 40;
 
+/// So many cameras look for fragments that reveal a variant, each among so many fragments, and each keeps so many of them. Another
+/// depth by 0.005 shows at one of five hundred fragments: some six are found.
+const REVEALING_GROUPS: usize = 8;
+const REVEALING_ROUNDS: usize = 8;
+const TRIANGLES_TO_REVEAL: usize = 60;
+const MOST_REVEALED: usize = 3;
+
+/// A colour that differs by so much is seen to be another one: ten times what is tolerated.
+const REVEALED: f64 = 2e-2;
+
 /// A fragment within a triangle.
 #[derive(Clone, Debug)]
 pub struct Spot {
@@ -83,11 +93,37 @@ impl Assignment {
             }
         }
         let (drawn, mut probes) = best;
+        self.reveal(random, group, &drawn, &mut probes);
         // Each camera has as many: the last ones are the first again.
         let own = probes.len();
         (own..wanted).for_each(|place| probes.extend(probes.get(place % own.max(1)).cloned()));
         probes.truncate(wanted);
         (drawn, probes)
+    }
+
+    /// Puts probes at which a variant that is to be revealed shows something else in the place of the last ones.
+    fn reveal(&self, random: &mut Random, group: usize, drawn: &Group, probes: &mut Vec<Probe>) {
+        if group >= REVEALING_GROUPS {
+            return;
+        }
+        let count = probes.len();
+        for other in &self.revealed {
+            let mut found = Vec::new();
+            for _ in 0..REVEALING_ROUNDS {
+                let some = (0..TRIANGLES_TO_REVEAL).map(|_| self.triangle(random)).collect();
+                let some = self.probed(group, drawn, some, true).unwrap_or_default();
+                let Some(shown) = self.shown_of_group(&other.pipeline, &drawn.uniforms, &some) else { continue };
+                let differs =
+                    |(probe, shown): &(Probe, Shown)| (probe.colour - shown.colour).abs().max_element() > REVEALED;
+                found.extend(some.into_iter().zip(shown).filter(differs).map(|(probe, _)| probe));
+                if found.len() >= MOST_REVEALED {
+                    break;
+                }
+            }
+            found.truncate(MOST_REVEALED);
+            probes.truncate(count.saturating_sub(found.len()));
+            probes.splice(0..0, found);
+        }
     }
 
     /// A triangle of what is drawn, moved and turned, a share for each corner, and which triangles are left out.
@@ -175,7 +211,8 @@ impl Assignment {
                 spot: Some(Box::new(spot)),
             })
         };
-        Some(spots.into_iter().enumerate().zip(positions).zip(colours).filter_map(probe).collect())
+        let known = spots.into_iter().enumerate().zip(positions).zip(colours).filter_map(probe).collect();
+        Some(self.judged(&drawn.uniforms, known))
     }
 
     /// What the equation reads at a fragment.

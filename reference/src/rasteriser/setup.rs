@@ -29,6 +29,9 @@ pub struct Setup {
     pub(super) slack: f64,
 }
 
+/// The least step between depths of 24 bits, and of f32 from 0.5 to 1.
+const LEAST_STEP: f64 = 1.0 / 16_777_216.0;
+
 /// Depths of 24 bits or of f32, on the way from clip space: a few roundings of 2⁻²⁴.
 const DEPTH_ROUNDING: f64 = 4e-7;
 
@@ -61,6 +64,13 @@ impl Setup {
             depth,
             slack: slope * SILHOUETTE_DISTANCE + DEPTH_ROUNDING,
         }
+    }
+
+    /// Moves its depths as `glPolygonOffset` does (OpenGL 4.1 core, 3.6.4): by a factor of the greater slope in a pixel, and by so many
+    /// of the least steps that tell depths apart, each 2⁻²⁴.
+    pub(super) fn offset(&mut self, [factor, units]: [f64; 2], size: [f64; 2]) {
+        let slope = (self.depth.x * 2.0 / size[0]).abs().max((self.depth.y * 2.0 / size[1]).abs());
+        self.depth.z += factor * slope + units * LEAST_STEP;
     }
 
     /// The depth at a place of the picture: 0 at the near plane, 1 at the far plane.

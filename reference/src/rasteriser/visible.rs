@@ -41,6 +41,32 @@ pub struct Visible {
     pub(super) tests: Vec<Option<DepthTest>>,
 }
 
+/// The depths of surfaces, each moved by a polygon offset (factor and units), row by row, the lowest first; 1 where nothing is drawn.
+pub fn depth_map(size: [u32; 2], surfaces: &[Surface<'_>], offset: [f64; 2]) -> Vec<f64> {
+    let [width, height] = size;
+    let mut depths = vec![1.0_f64; width as usize * height as usize];
+    let mut window = Visible::new(width, height);
+    for surface in surfaces {
+        window.tests.push(surface.depth_test);
+        for triangle in 0..surface.triangles.len() {
+            let Some(mut setup) = window.setup(surface, triangle) else { continue };
+            setup.offset(offset, size.map(f64::from));
+            window.each_pixel(&setup.outline, |_, pixel, x, y| {
+                let (depth, there) = (setup.depth(x, y).clamp(0.0, 1.0), &mut depths[pixel]);
+                let is_kept = match surface.depth_test {
+                    Some(DepthTest::Less) => depth < *there,
+                    Some(DepthTest::LessEqual) => depth <= *there,
+                    None => true,
+                };
+                if is_kept {
+                    *there = depth;
+                }
+            });
+        }
+    }
+    depths.chunks_exact(width.max(1) as usize).rev().flatten().copied().collect()
+}
+
 impl Visible {
     /// A window that shows nothing yet.
     pub fn new(width: u32, height: u32) -> Self {

@@ -186,7 +186,7 @@ fn fed(uniform: &Uniform) -> String {
             numbers.join(" ")
         }
         Feed::Expression(_) => "an expression".to_owned(),
-        Feed::Texture(number) => format!("texture {}", number + 1),
+        Feed::Drawn { at_probes: number, .. } | Feed::Texture(number) => format!("texture {}", number + 1),
     };
     format!("{given}{probe}")
 }

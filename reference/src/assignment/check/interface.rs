@@ -10,6 +10,7 @@ use super::stages::{Compiled, Stages};
 use crate::Text;
 use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, both, error};
 use crate::feed::{Feed, Role, Stream};
+use crate::free::Free;
 use crate::interpreter::{Stage, Texture, Type, Variable};
 use crate::manifest::{self, Manifest};
 use samplers::Samplers;
@@ -76,6 +77,39 @@ pub(super) fn interface(
         }
     }
     Ok(Interface { inputs, uniforms, outputs: solution.outputs() })
+}
+
+/// What uniforms may be that students add.
+pub(super) fn free(
+    m: &Manifest,
+    textures: &[Texture],
+    stages: &Stages,
+    place_at: &dyn Fn(usize) -> String,
+) -> Checked<Vec<Free>> {
+    let samplers = Samplers { entries: &m.texture, textures, place_at };
+    let reader = InterfaceReader { programs: &stages.0, samplers, place_at };
+    let mut all: Vec<Free> = Vec::new();
+    for entry in &m.free {
+        let (id, at) = (entry.id.get_ref().clone(), entry.id.span().start);
+        let place = format!("free `{id}`");
+        if all.iter().any(|known| known.id == id) {
+            let message = both("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください");
+            return Err(reader.wrong(at, &place, message));
+        }
+        let kind = reader.named(&entry.kind, at, &place)?;
+        let uniform = manifest::Uniform {
+            name: entry.id.clone(),
+            kind: None,
+            carries: entry.carries,
+            value: None,
+            is: entry.is.clone(),
+            texture: entry.texture.clone(),
+            probe: None,
+        };
+        let feed = reader.feed(&uniform, "", &id, &kind, &place)?;
+        all.push(Free { id, kind, feed, note: entry.note.clone() });
+    }
+    Ok(all)
 }
 
 struct InterfaceReader<'a> {
@@ -195,8 +229,8 @@ impl InterfaceReader<'_> {
     fn feed(&self, entry: &manifest::Uniform, rest: &str, leaf: &str, kind: &Type, place: &str) -> Checked<Feed> {
         let at = entry.name.span().start;
         if let Type::Sampler(sampler) = kind {
-            let number = self.samplers.number(entry, rest, *sampler);
-            return number.map(Feed::Texture).map_err(|message| self.wrong(at, place, message));
+            let feed = self.samplers.feed(entry, rest, *sampler);
+            return feed.map_err(|message| self.wrong(at, place, message));
         }
         if entry.texture.is_some() {
             let message = both(

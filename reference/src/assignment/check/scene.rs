@@ -64,6 +64,8 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, place_at: &dyn F
         background: first.background.map(|[r, g, b, _]| [r, g, b, 0]).ok_or_else(|| missing("background"))?,
         cycle: first.cycle.unwrap_or(5.0),
         views,
+        // It is read when it is known what its program may be given.
+        pass: None,
     };
     let sum: usize = scene.views.iter().map(|view| view.times.len()).sum();
     if sum > MOST_POSES {
@@ -234,6 +236,7 @@ impl SceneReader<'_> {
         let said = |scene: &manifest::Scene| scene.depth_test;
         let depth = said(self.own).or_else(|| said(self.first)).or(depth);
         Ok(Draw {
+            name: None,
             mesh,
             model: self.model(None, None)?,
             instances: self.own.instances.or(self.first.instances).unwrap_or(1),
@@ -245,6 +248,7 @@ impl SceneReader<'_> {
     fn draw(&self, draw: &manifest::Draw) -> Checked<Draw> {
         let like = self.with(self.meshes.mesh(&draw.mesh)?, Some(Depth::Less))?;
         Ok(Draw {
+            name: draw.name.clone(),
             model: self.model(draw.model.as_ref(), draw.turn)?,
             instances: draw.instances.unwrap_or(like.instances),
             depth_test: draw.depth_test.map_or(like.depth_test, Depth::test),
@@ -291,8 +295,8 @@ pub(super) fn expression(
     let wrong = |what: &str| -> AssignmentError {
         let line = place_at(text.span().start);
         let message = both(
-            format!("{what}: write an expression of type {kind} with `t`, `i`, `resolution`, `turn` and `pi`"),
-            format!("{what}: `t`、`i`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください"),
+            format!("{what}: write an expression of type {kind} with `t`, `i`, `scene`, `resolution`, `turn` and `pi`"),
+            format!("{what}: `t`、`i`、`scene`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください"),
         );
         error(format!("{line}, {place}"), message)
     };

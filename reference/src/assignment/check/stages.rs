@@ -95,7 +95,7 @@ impl Stages {
     }
 }
 
-fn compiled(name: &str, stage: Stage, text: &str) -> Checked<Compiled> {
+pub(super) fn compiled(name: &str, stage: Stage, text: &str) -> Checked<Compiled> {
     let program = Program::compile(text, stage).map_err(|refusal| solution::refused(name, &refusal))?;
     Ok(Compiled { name: name.to_owned(), stage, program: Arc::new(program) })
 }

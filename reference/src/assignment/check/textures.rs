@@ -1,9 +1,9 @@
 //! The textures of an assignment.
 
-use super::Checked;
+use super::{Checked, passes};
 use crate::Folder;
 use crate::assignment::{AssignmentError, both, error};
-use crate::interpreter::{Filter, Texels, Texture, Wrap};
+use crate::interpreter::{Compare, Depths, Filter, Texels, Texture, Wrap};
 use crate::manifest::{self, Format};
 use crate::texture::{BrokenPicture, Generator, Picture, read};
 
@@ -14,12 +14,16 @@ const LONGEST_SIDE: usize = 8_192;
 /// More texels in all textures than this are refused: four pictures of 1024 × 1024 pixels. Each worker holds them, and they
 /// fit into one buffer of the GPU.
 const MOST_TEXELS: usize = 1 << 22;
+/// More texels of depths than this, in the maps of all pictures, are refused: 64 MiB, which each worker holds twice.
+const MOST_DEPTHS: usize = 1 << 24;
 /// A texel of four floats counts as so many of four bytes.
 const FLOATS: usize = 4;
 
-/// The textures, in the order of the manifest. `place_at`: where a byte of the manifest stands.
+/// The textures, in the order of the manifest. Depths that a pass draws are those of probes there; those of so many `pictures` stand
+/// behind all others. `place_at`: where a byte of the manifest stands.
 pub(super) fn textures(
     entries: &[manifest::Texture],
+    pictures: usize,
     folder: &Folder,
     place_at: &dyn Fn(usize) -> String,
 ) -> Checked<Vec<Texture>> {
@@ -42,11 +46,26 @@ pub(super) fn textures(
                 reader.wrong("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください")
             );
         }
+        if reader.format().is_depth() {
+            let map = reader.depths(pictures)?;
+            all.push(map);
+            continue;
+        }
         let texture = reader.texture(room)?;
         let texels = &texture.levels[0].texels;
         let is_float = matches!(texels, Texels::Numbers(_));
         room -= texels.count() * if is_float { FLOATS } else { 1 };
         all.push(texture);
+    }
+    let maps: Vec<&Texture> =
+        all.iter().filter(|texture| matches!(texture.levels[0].texels, Texels::Depths(_))).collect();
+    if let [map] = maps[..] {
+        let mut map = map.clone();
+        let count = map.levels[0].texels.count();
+        for _ in 0..pictures {
+            map.levels[0].texels = Texels::Depths(Depths::later(count));
+            all.push(map.clone());
+        }
     }
     Ok(all)
 }
@@ -88,6 +107,12 @@ impl TextureReader<'_> {
     /// The texture, of at most so many texels.
     fn texture(&self, room: usize) -> Checked<Texture> {
         let entry = self.entry;
+        if entry.compare.is_some() {
+            return Err(self.wrong(
+                "`compare` belongs to depths: remove it, or write `format = \"depth24\"`",
+                "`compare` は深度のためのものです。取り除くか、`format = \"depth24\"` と書いてください",
+            ));
+        }
         let Pictures { faces, width, height, texels } = match (&entry.file, &entry.cube, &entry.generate) {
             (Some(file), None, None) => self.files(&[file], room)?,
             (None, Some(files), None) => self.files(&files.each_ref().map(String::as_str), room)?,
@@ -104,6 +129,44 @@ impl TextureReader<'_> {
         let filter = entry.filter.unwrap_or(Filter::Linear);
         let wrap = self.wrap(is_cube)?;
         Ok(Texture { magnify: filter, minify: filter, wrap, border: self.border(wrap)?, ..bare })
+    }
+
+    /// Depths that a pass draws, as probes read them.
+    fn depths(&self, pictures: usize) -> Checked<Texture> {
+        let entry = self.entry;
+        let is_picture = entry.file.is_some() || entry.cube.is_some() || entry.generate.is_some();
+        if is_picture || entry.flip.is_some() || entry.srgb {
+            return Err(self.wrong(
+                "depths are drawn by a [[pass]]: remove `file`, `cube`, `generate`, `flip` and `srgb`",
+                "深度は [[pass]] が描きます。`file`、`cube`、`generate`、`flip`、`srgb` を取り除いてください",
+            ));
+        }
+        let [width, height] = entry.size.unwrap_or([256; 2]).map(|side| side as usize);
+        let is_small = width.max(height) <= LONGEST_SIDE && width * height * (pictures + 1) <= MOST_DEPTHS;
+        if width * height == 0 || !is_small {
+            return Err(self.wrong(
+                format!(
+                    "{width} × {height} texels for each of {pictures} pictures are too many, or none: a side has 1 to {LONGEST_SIDE}, and all \
+                     maps together have at most {MOST_DEPTHS}"
+                ),
+                format!(
+                    "{pictures} 枚の画像それぞれに {width} × {height} 画素は大きすぎるか、0 です。一辺は 1 から {LONGEST_SIDE}、\
+                     全部の合計は {MOST_DEPTHS} 画素以下にしてください"
+                ),
+            ));
+        }
+        let wrap = self.wrap(false)?;
+        let filter = entry.filter.unwrap_or(Filter::Nearest);
+        let texels = Texels::Depths(Depths::known(passes::depths_of_probes([width, height])));
+        Ok(Texture {
+            magnify: filter,
+            minify: filter,
+            wrap,
+            border: self.border(wrap)?,
+            compare: Some(entry.compare.unwrap_or(Compare::LessOrEqual)),
+            clamps_reference: self.format() == Format::Depth24,
+            ..Texture::two_dimensional(width, height, texels)
+        })
     }
 
     /// The picture of a file, or those of six.

@@ -179,6 +179,16 @@ impl Assignment {
         self.shown(pipeline, probes, 1)
     }
 
+    /// What a program shows at probes with the same uniforms.
+    pub(crate) fn shown_of_group(
+        &self,
+        pipeline: &Pipeline,
+        uniforms: &[Value],
+        probes: &[Probe],
+    ) -> Option<Vec<Shown>> {
+        self.shown_in(pipeline, uniforms, probes, 1)
+    }
+
     fn shown(&self, pipeline: &Pipeline, probes: &ProbeSet, ways: usize) -> Option<Vec<Shown>> {
         let of_group =
             |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group), ways);

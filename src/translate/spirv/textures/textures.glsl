@@ -6,7 +6,7 @@ layout(location = 0) in vec4 given;
 layout(location = 0) out vec4 result;
 
 const int WIDTH = 0, HEIGHT = 1, DEPTH = 2, FIRST = 3, FLAGS = 4, BORDER = 5;
-const uint MAGNIFY_LINEAR = 1u, MINIFY_LINEAR = 2u, BYTES = 4096u, CLAMPS_REFERENCE = 1048576u;
+const uint MAGNIFY_LINEAR = 1u, MINIFY_LINEAR = 2u, BYTES = 4096u, DEPTHS = 8192u, CLAMPS_REFERENCE = 1048576u;
 // A lookup's mode: how many axes, and bits.
 const int AXES = 3, LAYERS = 4, CUBE = 8, COMPARES = 16, RECTANGLE = 32;
 
@@ -32,6 +32,9 @@ vec4 texel_at(const uint unit, const ivec3 at) {
     uint first = described(unit, FIRST);
     if ((described(unit, FLAGS) & BYTES) != 0u) {
         return unpackUnorm4x8(words[first + place]);
+    }
+    if ((described(unit, FLAGS) & DEPTHS) != 0u) {
+        return vec4(uintBitsToFloat(words[first + place]), 0.0, 0.0, 1.0);
     }
     uint word = first + place * 4u;
     return uintBitsToFloat(uvec4(words[word], words[word + 1u], words[word + 2u], words[word + 3u]));

@@ -8,7 +8,7 @@ use super::values::part;
 use crate::Text;
 use crate::assignment::{MANIFEST, Uniform, both, error};
 use crate::feed::Feed;
-use crate::interpreter::{Dimension, Sampler, Scalar, Texture, Type};
+use crate::interpreter::{Dimension, Sampler, Scalar, Texels, Texture, Type};
 use crate::manifest;
 
 /// The textures of a folder, for samplers.
@@ -22,8 +22,8 @@ pub(super) struct Samplers<'a> {
 }
 
 impl Samplers<'_> {
-    /// The number of the texture that a uniform's sampler reads. `rest`: the path from the entry's name to the sampler.
-    pub fn number(&self, entry: &manifest::Uniform, rest: &str, sampler: Sampler) -> Result<usize, Text> {
+    /// The texture that a uniform's sampler reads. `rest`: the path from the entry's name to the sampler.
+    pub fn feed(&self, entry: &manifest::Uniform, rest: &str, sampler: Sampler) -> Result<Feed, Text> {
         let kind = Type::Sampler(sampler);
         let alone = entry.texture.as_ref().filter(|_| {
             entry.carries.is_none() && entry.value.is_none() && entry.is.is_none() && entry.probe.is_none()
@@ -52,9 +52,16 @@ impl Samplers<'_> {
         })?;
         let texture = &self.textures[number];
         if texture.fits(sampler) && sampler.texel == Scalar::Float {
-            return Ok(number);
+            return Ok(match texture.levels[0].texels {
+                Texels::Depths(_) => Feed::Drawn { first: self.entries.len(), at_probes: number },
+                _ => Feed::Texture(number),
+            });
         }
-        let fitting = if texture.dimension == Dimension::Cube { "samplerCube" } else { "sampler2D" };
+        let fitting = match (texture.dimension, texture.compare) {
+            (Dimension::Cube, _) => "samplerCube",
+            (_, Some(_)) => "sampler2DShadow",
+            (_, None) => "sampler2D",
+        };
         Err(both(
             format!(
                 "it is a {kind} in the shader, and `{name}` is read by a {fitting}: declare that, or take another texture"
@@ -83,9 +90,12 @@ impl Samplers<'_> {
                 return Err(error(solution::place(name, sampler.line), message));
             }
         }
-        let is_read =
-            |number: usize| uniforms.iter().any(|uniform| matches!(uniform.feed, Feed::Texture(own) if own == number));
-        match (0..self.textures.len()).find(|number| !is_read(*number)) {
+        let reads = |feed: &Feed, number: usize| match feed {
+            Feed::Texture(own) | Feed::Drawn { at_probes: own, .. } => *own == number,
+            _ => false,
+        };
+        let is_read = |number: usize| uniforms.iter().any(|uniform| reads(&uniform.feed, number));
+        match (0..self.entries.len()).find(|number| !is_read(*number)) {
             None => Ok(()),
             Some(number) => {
                 let entry = &self.entries[number];

@@ -1,0 +1,44 @@
+//! What is a matter of taste: where a right answer may show this or that, nothing is judged.
+
+use crate::frames::VertexStage;
+use crate::probes::Probe;
+use crate::rasteriser::{Coverage, Frame};
+use crate::scene::Pose;
+use crate::{Assignment, Value};
+
+/// A pixel that changes by more than this, in 1/255, is not judged: a byte's own rounding is less.
+const PIXEL: u8 = 1;
+
+/// The same of a probe's colour: a tenth of the tolerance with which probes are judged.
+const COLOUR: f64 = 2e-4;
+
+impl Assignment {
+    /// The picture, but what one of the programs that are not judged shows otherwise is left to the rasteriser.
+    pub(crate) fn without_unjudged(&self, pose: &Pose, mut right: Frame) -> Frame {
+        for other in &self.unjudged {
+            let other = self.picture(pose, &other.pipeline, VertexStage::Program(&other.pipeline.vertex));
+            let pairs = right.pixels.iter().zip(&other.pixels).zip(&mut right.coverage);
+            for ((own, other), coverage) in pairs {
+                if (0..3).any(|channel| own[channel].abs_diff(other[channel]) > PIXEL) {
+                    *coverage = Coverage::Silhouette;
+                }
+            }
+        }
+        right
+    }
+
+    /// The probes that all those programs agree on.
+    pub(crate) fn judged(&self, uniforms: &[Value], mut probes: Vec<Probe>) -> Vec<Probe> {
+        for other in &self.unjudged {
+            let Some(shown) = self.shown_of_group(&other.pipeline, uniforms, &probes) else { continue };
+            let mut agrees = probes
+                .iter()
+                .zip(&shown)
+                .map(|(probe, shown)| (probe.colour - shown.colour).abs().max_element() <= COLOUR)
+                .collect::<Vec<_>>()
+                .into_iter();
+            probes.retain(|_| agrees.next() == Some(true));
+        }
+        probes
+    }
+}

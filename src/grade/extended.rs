@@ -1,0 +1,82 @@
+//! The homework with what a student's files add to it: uniforms under names of their own.
+
+use crate::fault::Fault;
+use crate::language::Text;
+use crate::report::Advice;
+use crate::source::Source;
+use crate::translate::{Interface, Program, Stage};
+use reference::free::Taken;
+use reference::probes::ProbeSet;
+use reference::{Assignment, interpreter};
+use std::sync::Arc;
+
+/// A homework whose program sets a student's own uniforms as well.
+pub(super) struct Extended {
+    /// The homework.
+    pub assignment: Assignment,
+    /// Its program.
+    pub program: Program,
+    /// The probes that judge.
+    pub probes: ProbeSet,
+    /// How many uniforms are added.
+    count: usize,
+    /// By name of a uniform: the id of what it is taken for, and what is said of that.
+    notes: Vec<(String, String, Text)>,
+}
+
+impl Extended {
+    /// None where the files add nothing, or where it is not known what they do.
+    pub fn of(assignment: &Assignment, probes: &ProbeSet, sources: &[(Stage, &Source)]) -> Result<Option<Self>, Fault> {
+        if assignment.free.is_empty() {
+            return Ok(None);
+        }
+        let [mut vertex, mut fragment] = [&assignment.pipeline.vertex, &assignment.pipeline.fragment].map(Arc::clone);
+        for (stage, source) in sources {
+            let Ok(program) = interpreter::Program::compile(&source.text, *stage) else { return Ok(None) };
+            let own = match stage {
+                Stage::Vertex => &mut vertex,
+                Stage::Fragment => &mut fragment,
+            };
+            *own = Arc::new(program);
+        }
+        let taken = assignment.taken(&vertex, &fragment, probes);
+        if taken.is_empty() {
+            return Ok(None);
+        }
+        let extended = assignment.with(&taken);
+        let own = extended.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
+        let note = |taken: &Taken<'_>| {
+            let note = taken.as_what.note.as_ref()?;
+            Some((taken.name.clone(), taken.as_what.id.clone(), Text::new(&*note.en, &*note.ja)))
+        };
+        Ok(Some(Self {
+            program: Program::new(Interface::of(&extended)?, own)?,
+            probes: extended.probes_with(probes, taken.len()),
+            count: taken.len(),
+            notes: taken.iter().filter_map(note).collect(),
+            assignment: extended,
+        }))
+    }
+
+    /// Probes of the homework, with what the added uniforms are there.
+    pub fn probes_of(&self, probes: &ProbeSet) -> ProbeSet {
+        self.assignment.probes_with(probes, self.count)
+    }
+
+    /// What is said of what the uniforms are taken for, each where it is declared.
+    pub fn notes(&self, sources: &[(Stage, &Source)]) -> impl Iterator<Item = Advice> {
+        let advice = |(name, id, message): &(String, String, Text)| {
+            let line = |source: &Source| {
+                let is_it = |line: &u32| {
+                    let code = source.code_line(*line);
+                    code.contains("uniform") && code.contains(name.as_str())
+                };
+                (1..=source.line_count()).find(is_it)
+            };
+            let found = sources.iter().find_map(|(_, source)| Some((source.facts.name.clone(), line(source)?)));
+            let (file, line) = found.map_or((String::new(), None), |(file, line)| (file, Some(line)));
+            Advice { id: id.clone(), message: message.clone(), file, line }
+        };
+        self.notes.iter().map(advice).collect::<Vec<_>>().into_iter()
+    }
+}
