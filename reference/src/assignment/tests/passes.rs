@@ -101,12 +101,9 @@ fn an_offset_moves_depths_by_slope_and_units() {
 fn what_a_little_less_depth_changes_is_not_judged() {
     let poses = |assignment: &Assignment| assignment.scene.all_poses()[0];
     let judged = assignment("ggsample11-map").expect("built in");
-    let all = changed(
-        shadows(),
-        MANIFEST,
-        "[[unjudged]]\nreplace = [[\"* 0.5 + 0.5;\", \"* 0.5 + 0.5 - vec3(0.0, 0.0, 0.005);\"]]\n",
-        "",
-    );
+    let unjudged = "replace = [[\"* 0.5 + 0.5;\", \"* 0.5 + 0.5 - vec3(0.0, 0.0, 0.005);\"]]";
+    let nothing = "replace = [[\"* 0.5 + 0.5;\", \"* 0.5 + (0.5);\"]]";
+    let all = changed(shadows(), MANIFEST, unjudged, nothing);
     let all = Assignment::load(all).expect("an assignment");
     let open = |assignment: &Assignment| {
         let frame = assignment.right_frame(&poses(assignment));
@@ -182,7 +179,7 @@ fn a_pass_that_draws_nothing_is_named_with_what_to_try() {
             "depths are drawn by a [[pass]]",
             "[[pass]] が描きます",
         ),
-        ("size = [800, 800]", "size = [4000, 4000]", "for each of 8 pictures are too many", "大きすぎるか"),
+        ("size = [800, 800]", "size = [4000, 4000]", "for each of 6 pictures are too many", "大きすぎるか"),
         ("size = [800, 800]", "size = [0, 8]", "or none", "0 です"),
         ("polygon_offset = [1, 1]", "polygon_offset = [nan, 1]", "two numbers", "2 つの数"),
         ("id = \"view-of-the-light\"", "id = \"matrix-of-the-model\"", "stands twice", "2 回"),

@@ -1,0 +1,14 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    fc = iamb + idiff + ispec;
+}

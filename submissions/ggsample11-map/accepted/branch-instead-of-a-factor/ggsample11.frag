@@ -1,0 +1,22 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2DShadow depth;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    vec4 q = ps / ps.w;
+    q = q * 0.5 + 0.5;
+    fc = iamb;
+    if (texture(depth, q.xyz) > 0.5) {
+        fc += idiff + ispec;
+    }
+}

@@ -1,0 +1,20 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2D depth;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    vec3 q = ps.xyz / ps.w * 0.5 + 0.5;
+    float closest = texture(depth, q.xy).r;
+    float lit = q.z > closest ? 0.0 : 1.0;
+    fc = iamb + (idiff + ispec) * lit;
+}

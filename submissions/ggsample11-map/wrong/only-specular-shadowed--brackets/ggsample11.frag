@@ -1,0 +1,18 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2DShadow depth;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    float s = texture(depth, ps.xyz / ps.w * 0.5 + 0.5);
+    fc = iamb + idiff + ispec * s;
+}
