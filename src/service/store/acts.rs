@@ -41,7 +41,8 @@ impl Store {
                            VALUES ($1, $2, $3, $4, $5, $6, (SELECT id FROM students WHERE id = $7), $8)";
         on!(&self.write, db => {
             sqlx::query(SQL)
-                .bind(super::super::identity::new_id())
+                // Of acts in one millisecond, the order is kept as well.
+                .bind(uuid::Uuid::now_v7().to_string())
                 .bind(act.at)
                 .bind(&act.staff_id)
                 .bind(&act.way)
@@ -68,7 +69,7 @@ impl Store {
         const SQL: &str = "SELECT a.at, a.staff_id, a.way, a.act, a.assignment, a.student_id, a.detail, s.login, t.number \
                            FROM acts a LEFT JOIN staff s ON s.id = a.staff_id \
                            LEFT JOIN students t ON t.id = a.student_id \
-                           WHERE $1 = '' OR a.assignment = $1 ORDER BY a.at DESC, a.id LIMIT $2 OFFSET $3";
+                           WHERE $1 = '' OR a.assignment = $1 ORDER BY a.at DESC, a.id DESC LIMIT $2 OFFSET $3";
         Ok(on!(&self.read, db => {
             sqlx::query_as(SQL)
                 .bind(assignment.unwrap_or_default())
