@@ -406,6 +406,12 @@ async fn inside_a_platforms_page_cookies_are_its_own_and_nobody_else_shows_pages
         let ends = if framed { "SameSite=None; Secure; Partitioned" } else { "SameSite=Lax; Secure" };
         assert!(lines.iter().any(|line| line.starts_with("__Host-ggrade=") && line.ends_with(ends)), "{lines:?}");
     }
+    // Who does not know its own address makes no link.
+    let nameless = Bench::with(Database::sqlite(), crate::bench::config(), crate::pool(), Clock::system()).await;
+    let refused = form(&nameless, "/teacher/platforms", "wish=link").await;
+    assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+    assert!(refused.all("[role=alert]")[0].contains("--public-url"), "{}", refused.text());
+    nameless.finish().await;
     let framed = Request::get("/").header("sec-fetch-dest", "iframe").body(Body::empty()).expect("a request");
     let policy = bench.send(framed).await.header("content-security-policy").to_owned();
     assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "{policy}");

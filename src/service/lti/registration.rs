@@ -34,8 +34,15 @@ pub struct Asked {
     registration_token: Option<String>,
 }
 
-/// A new link: its last part. It works once, for a day.
+/// A new link: its last part. It works once, for a day. Without a public address a platform would not find this service.
 pub async fn new_link(service: &Service) -> Result<String, Problem> {
+    if service.config.public_url.is_none() {
+        return Err(Problem::unprocessable(
+            "The service does not know by which address platforms reach it. Start it with --public-url (public_url in the \
+             configuration), and make the link then.",
+            "このサービスの公開アドレスが設定されていません。--public-url（設定ファイルでは public_url）を指定して起動してから、リンクを作成してください。",
+        ));
+    }
     let secret = new_token()[..32].to_owned();
     let kept = Kept { hash: token_hash(&secret), until: service.clock.now() + millis(HOLDS) };
     let json = serde_json::to_string(&kept).map_err(|error| Problem::internal(&error))?;
