@@ -2,6 +2,7 @@
 
 use crate::assignment::Interface;
 use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, Run, Texture, Variable};
+use crate::probes::at_pixel;
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
 use glam::DVec4;
@@ -93,6 +94,12 @@ impl Pipeline {
             texture.mipmap.is_some() && texture.levels.len() > 1 || texture.magnify != texture.minify
         };
         self.nature.derivatives || self.nature.implicit_levels && textures.iter().any(by_neighbours)
+    }
+
+    /// What a pixel `at` so many pixels to the right and above is given, where it is known here and at the two pixels `beside`.
+    /// Without derivatives nobody sees it.
+    pub(crate) fn at_pixel(&self, here: f64, beside: [f64; 2], at: [f64; 2]) -> f64 {
+        if self.nature.derivatives { at_pixel(here, beside, at) } else { here }
     }
 
     /// How many scalars are handed from stage to stage.

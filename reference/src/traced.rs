@@ -193,15 +193,22 @@ impl<'p> Bench<'p> {
             let written = scalars(outputs, varying.output);
             let input = &pipeline.fragment.inputs()[varying.input];
             let is_flat = is_flat(&pipeline.vertex.outputs()[varying.output]);
-            let at = |column: &Vec<f64>, (probe, spot): (usize, &Option<&Spot>)| match spot {
+            let mixed = |column: &Vec<f64>, probe: usize, weights: [f64; 3]| {
+                (0..3).map(|corner| weights[corner] * column[3 * probe + corner]).sum::<f64>()
+            };
+            let around = |column: &Vec<f64>, (probe, spot): (usize, &Option<&Spot>)| match spot {
                 Some(spot) if !is_flat => {
-                    (0..3).map(|corner| spot.weights[corner] * column[3 * probe + corner]).sum::<f64>()
+                    let beside = spot.weights_beside.map(|weights| mixed(column, probe, weights));
+                    (mixed(column, probe, spot.weights), beside)
                 }
-                _ => column[3 * probe + 2],
+                _ => (column[3 * probe + 2], [column[3 * probe + 2]; 2]),
             };
             let of_column = |column: &Vec<f64>| {
-                let values = self.spots.iter().enumerate().map(|place| at(column, place));
-                values.flat_map(|value| std::iter::repeat_n(value, self.each)).collect()
+                let values = self.spots.iter().enumerate().map(|place| around(column, place));
+                let in_quad = |(here, beside): (f64, [f64; 2])| {
+                    QUAD[..self.each].iter().map(move |at| pipeline.at_pixel(here, beside, *at))
+                };
+                values.flat_map(in_quad).collect()
             };
             let columns: Vec<Vec<f64>> = written.iter().map(of_column).collect();
             fragment.feed(&input.name, &columns).ok()?;
@@ -233,12 +240,22 @@ impl<'p> Bench<'p> {
                         continue;
                     };
                     let output = &pipeline.vertex.outputs()[varying.output].name;
-                    let value = |(spot, _): &(&'p Spot, [f64; 2])| -> Option<&'p Value> {
-                        spot.varyings.iter().find(|(name, _)| name == output).map(|(_, value)| value)
+                    let value = |(spot, at): &(&'p Spot, [f64; 2])| -> Option<Value> {
+                        let own = |all: &'p [(String, Value)]| all.iter().find(|(name, _)| name == output);
+                        let [right, above] = &spot.varyings_beside;
+                        let (here, right, above) = (own(&spot.varyings)?, own(right)?, own(above)?);
+                        if is_flat(&pipeline.vertex.outputs()[varying.output]) {
+                            return Some(here.1.clone());
+                        }
+                        let beside = right.1.numbers().iter().zip(above.1.numbers());
+                        let numbers = here.1.numbers().iter().zip(beside);
+                        let numbers =
+                            numbers.map(|(here, (right, above))| pipeline.at_pixel(*here, [*right, *above], *at));
+                        Value::new(here.1.kind().clone(), numbers.collect())
                     };
-                    let values: Option<Vec<&Value>> = lanes.iter().map(value).collect();
+                    let values: Option<Vec<Value>> = lanes.iter().map(value).collect();
                     match values {
-                        Some(values) => columns(input, values.into_iter()),
+                        Some(values) => columns(input, values.iter()),
                         // The vertex stage hands it over later.
                         None => vec![vec![0.0; lanes.len()]; input.kind.slots().unwrap_or(0)],
                     }

@@ -35,6 +35,8 @@ pub(super) struct FragmentStage {
     pub writes_depth: bool,
     is_fixed: bool,
     pub reads_textures: bool,
+    /// Whether it takes derivatives.
+    pub has_derivatives: bool,
     pipelines: Vec<(Key, wgpu::RenderPipeline)>,
 }
 
@@ -82,6 +84,7 @@ impl FragmentStage {
             writes_depth: shader.writes_depth(),
             is_fixed: shader.is_fixed,
             reads_textures: shader.reads_textures,
+            has_derivatives: has_derivatives(&shader.module),
             pipelines: Vec::new(),
         }
     }
@@ -235,7 +238,7 @@ impl FragmentData {
     }
 }
 
-fn is_flat(input: &Attribute) -> bool {
+pub(super) fn is_flat(input: &Attribute) -> bool {
     input.qualifiers.interpolation == Interpolation::Flat || input.kind != Some(ScalarKind::Float)
 }
 
@@ -255,6 +258,14 @@ fn format(input: &Attribute) -> wgpu::VertexFormat {
         (_, 3) => F::Float32x3,
         (_, _) => F::Float32x4,
     }
+}
+
+/// Whether some function takes derivatives.
+fn has_derivatives(module: &naga::Module) -> bool {
+    let own = module.entry_points.iter().map(|entry| &entry.function);
+    let all = own.chain(module.functions.iter().map(|(_, function)| function));
+    let mut expressions = all.flat_map(|function| function.expressions.iter());
+    expressions.any(|(_, expression)| matches!(expression, naga::Expression::Derivative { .. }))
 }
 
 /// A vertex stage in WGSL that passes on a record: OpenGL's clip range of z, [−w, w], becomes wgpu's [0, w], and up

@@ -1,7 +1,7 @@
 //! A fragment stage on its own: one pixel of a target of floats for each probe, whose inputs are given.
 
 use super::device::Device;
-use super::fragments::{DEPTH, FragmentData, FragmentStage, Key};
+use super::fragments::{DEPTH, FragmentData, FragmentStage, Key, is_flat};
 use super::scene::{Batch, Scene, State};
 use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation};
 use naga::ScalarKind;
@@ -198,7 +198,7 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribut
     let frames: u32 = scene.frames.iter().flatten().map(Batch::drawn).sum();
     let mut first = frames as usize;
     let batches = scene.pixels.iter().zip(&scene.probes).zip(&scene.shares);
-    let of_batch = |((pixels, probes), shares): ((&Batch, &Batch), &Vec<[f64; 3]>)| {
+    let of_batch = |((pixels, probes), shares): ((&Batch, &Batch), &Vec<[[f64; 3]; 3]>)| {
         let own = first;
         first += probes.drawn() as usize;
         // The first slot is the position.
@@ -207,13 +207,8 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribut
             records.get(at..).and_then(|rest| rest.first_chunk()).map_or(0, |bytes| u32::from_le_bytes(*bytes))
         };
         let w = |vertex: usize| f64::from(f32::from_bits(word(vertex, 0, 3)));
-        let linear: Vec<[f64; 3]> = (0..)
-            .zip(shares)
-            .map(|(pixel, shares)| {
-                reference::probes::linear(*shares, std::array::from_fn(|corner| w(3 * pixel + corner)))
-            })
-            .collect();
-        let column = |(slot, output): (usize, &Attribute)| {
+        // Of the pixel itself, and of those beside.
+        let column = |place: usize, slot: usize, output: &Attribute| {
             let number = |vertex: usize, axis: usize| match output.kind {
                 Some(ScalarKind::Sint) => f64::from(word(vertex, slot + 1, axis).cast_signed()),
                 Some(ScalarKind::Uint) => f64::from(word(vertex, slot + 1, axis)),
@@ -224,17 +219,27 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribut
                 Some(ScalarKind::Float) => input.qualifiers.interpolation,
                 _ => Interpolation::Flat,
             };
-            let shares = if interpolation == Interpolation::NoPerspective { &linear } else { shares };
-            let between = |(pixel, shares): (usize, &[f64; 3]), axis: usize| match interpolation {
-                Interpolation::Flat => number(3 * pixel + 2, axis),
-                _ => (0..3).map(|corner| shares[corner] * number(3 * pixel + corner, axis)).sum(),
+            let weights = |pixel: usize| match interpolation {
+                Interpolation::NoPerspective => {
+                    reference::probes::linear(shares[pixel][place], [0, 1, 2].map(|corner| w(3 * pixel + corner)))
+                }
+                _ => shares[pixel][place],
             };
-            let pixels = shares.iter().enumerate();
-            let numbers = pixels.flat_map(|pixel| (0..4).map(move |axis| between(pixel, axis))).collect();
-            (output.name.clone(), Values { kind: Type::VEC4, numbers })
+            let between = |pixel: usize| -> [f64; 4] {
+                let weights = weights(pixel);
+                [0, 1, 2, 3].map(|axis| match interpolation {
+                    Interpolation::Flat => number(3 * pixel + 2, axis),
+                    _ => (0..3).map(|corner| weights[corner] * number(3 * pixel + corner, axis)).sum(),
+                })
+            };
+            (output.name.clone(), Values { kind: Type::VEC4, numbers: (0..shares.len()).flat_map(between).collect() })
         };
-        let handed = outputs.iter().enumerate().map(column);
-        Batch { attributes: pixels.attributes.iter().cloned().chain(handed).collect(), ..pixels.clone() }
+        let handed = |place: usize| outputs.iter().enumerate().map(move |(slot, output)| column(place, slot, output));
+        Batch {
+            attributes: pixels.attributes.iter().cloned().chain(handed(0)).collect(),
+            beside: [handed(1).collect(), handed(2).collect()],
+            ..pixels.clone()
+        }
     };
     batches.map(of_batch).collect()
 }
@@ -245,7 +250,15 @@ fn corners(stage: &FragmentStage, batches: &[Batch], rows: u32) -> [Vec<u8>; 2] 
     let mut number = 0;
     for batch in batches {
         let column = |name: &str| batch.attributes.iter().find(|(own, _)| own == name).map(|(_, column)| column);
-        let inputs: Vec<_> = stage.inputs.iter().map(|input| (input, column(&input.name))).collect();
+        let beside = |pixel: usize, input: &Attribute| {
+            let is_mixed = stage.has_derivatives && !is_flat(input);
+            batch.beside[pixel].iter().find(|(own, _)| is_mixed && *own == input.name).map(|(_, column)| column)
+        };
+        let inputs: Vec<_> = stage
+            .inputs
+            .iter()
+            .map(|input| (input, column(&input.name), beside(0, input).zip(beside(1, input))))
+            .collect();
         let (place, facing) = (column(PLACE), column(FACING));
         for vertex in 0..batch.vertices() as usize {
             let middle = [number % SIDE, number / SIDE].map(|at| f64::from(at) + 0.5);
@@ -266,9 +279,15 @@ fn corners(stage: &FragmentStage, batches: &[Batch], rows: u32) -> [Vec<u8>; 2] 
                 let x = (middle[0] + dx) / f64::from(SIDE) * 2.0 - 1.0;
                 let y = (middle[1] + dy) / f64::from(rows) * 2.0 - 1.0;
                 records.extend([x * w, y * w, z * w, w].map(|number| (number as f32).to_bits()));
-                for (input, column) in &inputs {
+                for (input, column, beside) in &inputs {
                     let numbers = column.and_then(|column| column.iter().nth(vertex)).unwrap_or_default();
-                    let number = |axis: usize| numbers.get(axis).copied().unwrap_or(if axis == 3 { 1.0 } else { 0.0 });
+                    let beside =
+                        beside.and_then(|(right, above)| right.iter().nth(vertex).zip(above.iter().nth(vertex)));
+                    let number = |axis: usize| {
+                        let here = numbers.get(axis).copied().unwrap_or(if axis == 3 { 1.0 } else { 0.0 });
+                        let beside = beside.and_then(|(right, above)| Some([*right.get(axis)?, *above.get(axis)?]));
+                        beside.map_or(here, |beside| reference::probes::at_pixel(here, beside, [dx, dy]))
+                    };
                     records.extend([0, 1, 2, 3].map(number).map(|number| match input.kind {
                         Some(ScalarKind::Sint) => (number as i32).cast_unsigned(),
                         Some(ScalarKind::Uint) => number as u32,

@@ -25,6 +25,8 @@ pub struct Batch {
     pub attributes: Vec<(String, Values)>,
     /// The corners of the triangles, as numbers of vertices; three after three vertices where there are none.
     pub triangles: Vec<[u32; 3]>,
+    /// Of pixels, what of the attributes is another number at the pixel to the right and at the one above.
+    pub beside: [Vec<(String, Values)>; 2],
     /// How its fragments are kept.
     pub state: State,
 }
@@ -73,7 +75,7 @@ pub struct Scene {
     pub pixels: Vec<Batch>,
     /// Where a vertex stage that is handed in feeds the fragments that are probed: for each batch of pixels the shares of three
     /// vertices in each, which stand one after the other in the batch of probes with the same number.
-    pub shares: Vec<Vec<[f64; 3]>>,
+    pub shares: Vec<Vec<[[f64; 3]; 3]>>,
     /// The textures; a sampler's value is the number of one.
     pub textures: Arc<[Texture]>,
 }

@@ -45,6 +45,7 @@ fn batch(draw: &Draw) -> Batch {
         uniforms: draw.uniforms.iter().map(uniform).collect(),
         attributes: draw.attributes.iter().map(attribute).collect(),
         triangles: draw.triangles.clone(),
+        beside: Default::default(),
         state: State {
             depth_test: draw.tests_depth.then_some(DepthTest::Less),
             cull: if draw.culls_back { Cull::Back } else { Cull::None },

@@ -23,6 +23,7 @@ uniform mat4 mc;
 uniform mat4 mg;
 
 flat out vec4 vc;
+out vec4 point;
 
 void main()
 {
@@ -49,6 +50,7 @@ void main()
     // What is written out.
     vec4 colour = total;
     vec4 position = mc * pv;
+    point = p;
     vc = colour;
     gl_Position = position;
 }

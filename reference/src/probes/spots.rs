@@ -43,12 +43,23 @@ pub struct Spot {
     pub corners: [Vertex; 3],
     /// The share of each corner in what is interpolated; the last one's values are those of `flat` variables.
     pub weights: [f64; 3],
+    /// The same at the pixel to the right and at the one above.
+    pub weights_beside: [[f64; 3]; 2],
     /// `gl_FragCoord`.
     pub place: [f64; 4],
     /// `gl_FrontFacing`.
     pub is_front: bool,
     /// What the right vertex stage hands over there, exact in f32: for each of its outputs.
     pub varyings: Vec<(String, Value)>,
+    /// The same at the pixel to the right and at the one above.
+    pub varyings_beside: [Vec<(String, Value)>; 2],
+}
+
+/// A number `at` so many pixels to the right and above, where it is known here and at the two pixels `beside`. What a driver
+/// interpolates within 2 × 2 pixels is as good as linear.
+pub fn at_pixel(here: f64, beside: [f64; 2], at: [f64; 2]) -> f64 {
+    let moved = here + (beside[0] - here) * at[0] + (beside[1] - here) * at[1];
+    if moved.is_finite() { moved } else { here }
 }
 
 impl Assignment {
@@ -175,28 +186,43 @@ impl Assignment {
         for (number, (corners, weights, cull)) in some.into_iter().enumerate() {
             let ends = [0, 1, 2].map(|corner| positions[3 * number + corner]);
             let Some((weights, place, is_front)) = self.seen_at(ends, weights) else { continue };
+            let [x, y, ..] = place;
+            // A triangle without an area has no fragments, and one that begins here has no neighbours before the eye.
+            let beside = [[x, y], [x + 1.0, y], [x, y + 1.0]].map(|at| self.weights_at(ends, at));
+            let [Some(_), Some(right), Some(above)] = beside else { continue };
+            let weights_beside = [right, above];
             let is_left_out = matches!((cull, is_front), (Cull::Back, false) | (Cull::Front, true));
             if is_left_out || (is_outside && cull == Cull::None && !is_front) {
                 continue;
             }
-            shares.push((number, weights));
-            spots.push((Spot { corners, weights, place, is_front, varyings: Vec::new() }, ends[0]));
+            shares.push((number, [weights, weights_beside[0], weights_beside[1]]));
+            let (varyings, varyings_beside) = Default::default();
+            let spot = Spot { corners, weights, weights_beside, place, is_front, varyings, varyings_beside };
+            spots.push((spot, ends[0]));
         }
-        let mut handed = mixed(pipeline, &written, &positions, &shares);
-        handed.iter_mut().flatten().flatten().for_each(|number| *number = f64::from(*number as f32));
+        let mut handed = [0, 1, 2].map(|pixel| {
+            let shares: Vec<_> = shares.iter().map(|(number, weights)| (*number, weights[pixel])).collect();
+            mixed(pipeline, &written, &positions, &shares)
+        });
+        let numbers = handed.iter_mut().flatten().flatten().flatten();
+        numbers.for_each(|number| *number = f64::from(*number as f32));
         for (at, (spot, _)) in spots.iter_mut().enumerate() {
-            let value = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {
-                let numbers = columns.iter().map(|column| column[at]).collect();
-                Some((output.name.clone(), Value::new(output.kind.clone(), numbers)?))
+            let [here, right, above] = &handed;
+            let values = |handed: &Handed| -> Vec<(String, Value)> {
+                let value = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {
+                    let numbers = columns.iter().map(|column| column[at]).collect();
+                    Some((output.name.clone(), Value::new(output.kind.clone(), numbers)?))
+                };
+                pipeline.vertex.outputs().iter().zip(handed).filter_map(value).collect()
             };
-            spot.varyings = pipeline.vertex.outputs().iter().zip(&handed).filter_map(value).collect();
+            (spot.varyings, spot.varyings_beside) = (values(here), [values(right), values(above)]);
         }
         let (spots, positions): (Vec<Spot>, Vec<DVec4>) = spots.into_iter().unzip();
         let colours = self.colours(pipeline, &drawn.uniforms, &spots, &handed, WAYS)?;
         let right = self.equation.right();
         let probe = |(((at, spot), position), colour): (((usize, Spot), DVec4), (DVec3, bool))| {
             let (shown, is_steady) = colour;
-            let attributes = self.read_at(at, &handed, shown, position);
+            let attributes = self.read_at(at, &handed[0], shown, position);
             let outcome: Evaluation<'_> = right.evaluate(&drawn.uniforms, &attributes);
             let region = right.first_region(&self.regions);
             let colour = outcome.colour();
@@ -234,6 +260,16 @@ impl Assignment {
         }
     }
 
+    /// The share of each end of a triangle at a place in the window, in pixels; none where it is not before the eye.
+    fn weights_at(&self, ends: [DVec4; 3], place: [f64; 2]) -> Option<[f64; 3]> {
+        let size = DVec2::new(f64::from(self.scene.width), f64::from(self.scene.height));
+        let [x, y] = (DVec2::from(place) / size * 2.0 - 1.0).to_array();
+        let rows = ends.map(|end| DVec3::new(end.x - x * end.w, end.y - y * end.w, 1.0));
+        let shares = DMat3::from_cols(rows[0], rows[1], rows[2]).inverse() * DVec3::Z;
+        let w = shares.dot(DVec3::from(ends.map(|end| end.w)));
+        (shares.is_finite() && w > 0.0).then(|| shares.to_array())
+    }
+
     /// Where a fragment lies: the shares moved so that it is in the middle of a pixel, `gl_FragCoord`, and whether it is of the
     /// front. None where a corner is not before the eye, or where it is cut off by the near or far plane.
     fn seen_at(&self, ends: [DVec4; 3], weights: [f64; 3]) -> Option<([f64; 3], [f64; 4], bool)> {
@@ -244,13 +280,11 @@ impl Assignment {
         let at = |weights: [f64; 3]| ends.iter().zip(weights).map(|(end, weight)| *end * weight).sum::<DVec4>();
         let window = |p: DVec4| (p.truncate().truncate() / p.w + 1.0) / 2.0 * size;
         let middle = window(at(weights)).floor() + 0.5;
-        let [x, y] = (middle / size * 2.0 - 1.0).to_array();
-        let rows = ends.map(|end| DVec3::new(end.x - x * end.w, end.y - y * end.w, 1.0));
-        let solved = DMat3::from_cols(rows[0], rows[1], rows[2]).inverse() * DVec3::Z;
-        let is_within = solved.is_finite() && solved.min_element() >= 0.0;
-        let weights = if is_within { solved.to_array() } else { weights };
+        let within =
+            self.weights_at(ends, middle.to_array()).filter(|weights| weights.iter().all(|share| *share >= 0.0));
+        let place = within.map_or_else(|| window(at(weights)), |_| middle);
+        let weights = within.unwrap_or(weights);
         let p = at(weights);
-        let place = if is_within { middle } else { window(p) };
         let [a, b, c] = ends.map(|end| end.truncate().truncate() / end.w);
         let is_front = (b - a).perp_dot(c - a) > 0.0;
         let depth = (p.z / p.w + 1.0) / 2.0;

@@ -43,13 +43,20 @@ fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> Scene {
         if feeds_fragments {
             let corners: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
             scene.probes.push(Batch::of(assignment, uniforms, &corners));
-            scene.shares.push(spots.iter().map(|spot| spot.weights).collect());
+            scene.shares.push(spots.iter().map(|spot| weights_around(spot)).collect());
         } else {
-            pixels.attributes.extend(varyings(&spots));
+            pixels.attributes.extend(varyings(&spots, &|spot| &spot.varyings));
+            pixels.beside = [0, 1].map(|pixel| varyings(&spots, &|spot| &spot.varyings_beside[pixel]));
         }
         scene.pixels.push(pixels);
     }
     scene
+}
+
+/// The shares of the corners at a spot, at the pixel to the right, and at the one above.
+fn weights_around(spot: &Spot) -> [[f64; 3]; 3] {
+    let [right, above] = spot.weights_beside;
+    [spot.weights, right, above]
 }
 
 /// Where fragments lie, as the fragment stage is told.
@@ -63,14 +70,14 @@ fn places(spots: &[&Spot]) -> Vec<(String, Values)> {
 }
 
 /// What the fixed vertex stage hands over, each scalar and vector by its path.
-fn varyings(spots: &[&Spot]) -> Vec<(String, Values)> {
+fn varyings(spots: &[&Spot], of: &dyn Fn(&Spot) -> &[(String, Value)]) -> Vec<(String, Values)> {
     let Some(first) = spots.first() else { return Vec::new() };
     let mut columns = Vec::new();
-    for (number, (name, value)) in first.varyings.iter().enumerate() {
+    for (number, (name, value)) in of(first).iter().enumerate() {
         let mut offset = 0;
         for (path, kind) in value.kind().parts(name) {
             let width = kind.slots().unwrap_or(0);
-            let numbers = |spot: &&Spot| spot.varyings[number].1.numbers()[offset..offset + width].to_vec();
+            let numbers = |spot: &&Spot| of(spot)[number].1.numbers()[offset..offset + width].to_vec();
             let numbers = spots.iter().flat_map(numbers).collect();
             columns.push((path, Values { kind, numbers }));
             offset += width;

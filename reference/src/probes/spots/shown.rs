@@ -20,6 +20,9 @@ const SUDDEN: f64 = 2e-3;
 /// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
 pub(super) type Handed = Vec<Vec<Vec<f64>>>;
 
+/// The same there, at the pixels to the right, and at those above.
+pub(super) type HandedAround = [Handed; 3];
+
 /// A run of the fragment stage at a spot.
 #[derive(Clone, Copy)]
 struct Lane {
@@ -82,7 +85,7 @@ impl Assignment {
         pipeline: &Pipeline,
         uniforms: &[Value],
         spots: &[Spot],
-        handed: &Handed,
+        handed: &HandedAround,
         ways: usize,
     ) -> Option<Vec<(DVec3, bool)>> {
         let lane = |spot, way, beside| Lane { spot, way, beside };
@@ -117,7 +120,7 @@ impl Assignment {
         pipeline: &Pipeline,
         uniforms: &[Value],
         spots: &[Spot],
-        handed: &Handed,
+        handed: &HandedAround,
         lanes: &[Lane],
     ) -> Option<Vec<DVec3>> {
         let program = &pipeline.fragment;
@@ -139,12 +142,17 @@ impl Assignment {
                         continue;
                     };
                     let is_real = matches!(input.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None);
-                    let columns = handed[varying.output].iter().zip(varying.scalars.clone());
+                    let columns = varying.scalars.clone().enumerate();
                     columns
-                        .map(|(values, number)| {
-                            column(&|lane| match is_real {
-                                true => lane.moved(values[lane.spot], number),
-                                false => values[lane.spot],
+                        .map(|(scalar, number)| {
+                            let [here, right, above] = handed.each_ref().map(|handed| &handed[varying.output][scalar]);
+                            column(&|lane| {
+                                let spot = lane.spot;
+                                let beside = [right[spot], above[spot]];
+                                match is_real {
+                                    true => lane.moved(pipeline.at_pixel(here[spot], beside, lane.beside), number),
+                                    false => here[spot],
+                                }
                             })
                         })
                         .collect()
@@ -200,8 +208,12 @@ impl Assignment {
         let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
-        let shares: Vec<_> = spots.iter().map(|spot| spot.weights).enumerate().collect();
-        let handed = mixed(pipeline, &written, &positions, &shares);
+        let mixed = |weights: &dyn Fn(&Spot) -> [f64; 3]| {
+            let shares: Vec<_> = spots.iter().map(weights).enumerate().collect();
+            mixed(pipeline, &written, &positions, &shares)
+        };
+        let beside = |pixel: usize| mixed(&|spot| spot.weights_beside[pixel]);
+        let handed = [mixed(&|spot| spot.weights), beside(0), beside(1)];
         let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
             let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
