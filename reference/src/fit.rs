@@ -7,6 +7,7 @@ mod alternatives;
 mod columns;
 mod derived;
 mod digits;
+mod factor;
 mod features;
 mod parts;
 mod search;
@@ -16,7 +17,8 @@ mod views;
 
 pub use alternatives::Alternatives;
 pub use derived::explain_derived;
-pub use features::{FEWEST, Footprints, alike, judge_features, program_of};
+pub use factor::judge_factor;
+pub use features::{Cell, FEWEST, Footprints, Judged, alike, judge_features, program_of};
 pub use parts::{Part, Parts, explain_parts};
 pub use terms::{TermJudgement, Worst};
 
@@ -133,7 +135,7 @@ pub(crate) fn agrees(expected: DVec3, sample: DVec3, tolerance: f64) -> bool {
     (0..3).all(|channel| channel_agrees(expected[channel], sample[channel], tolerance))
 }
 
-fn channel_agrees(expected: f64, sample: f64, tolerance: f64) -> bool {
+pub(crate) fn channel_agrees(expected: f64, sample: f64, tolerance: f64) -> bool {
     if expected.is_nan() {
         !sample.is_finite()
     } else if expected.abs() > OVERFLOWING {

@@ -5,7 +5,7 @@ use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::{HandedIn, RubricLine};
 use crate::equation::Reads;
-use crate::fit::{Alternatives, Footprints, TOLERANCE, agrees};
+use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
 use crate::interpreter::{Operator, ProgramSlip, Stage, program_slips};
 use crate::mistake::{Condition, FoundMistake, Mistake};
 use crate::pipeline::Pipeline;
@@ -115,14 +115,16 @@ impl Derived {
         if self.assignment.judges_position(line) {
             return pairs().any(|(probe, (_, position))| (probe.position - *position).abs().max_element() > TOLERANCE);
         }
-        let is_right = |place: usize| agrees(probes.probes[place].colour, shown[place].0, TOLERANCE);
+        let is_right = |(at, channel): (usize, usize)| {
+            channel_agrees(probes.probes[at].colour[channel], shown[at].0[channel], TOLERANCE)
+        };
         let alternatives = Alternatives::new(&self.assignment, probes);
         let judged = Footprints::of(&alternatives, TOLERANCE).judged(&is_right);
         let rubric = self.assignment.rubric.iter().enumerate();
         let mut colours = rubric.filter(|(_, line)| !self.assignment.judges_position(line));
         let is_touched = |number: usize| {
-            let own = judged.iter().find(|(judged, _)| *judged == number);
-            own.is_none_or(|(_, places)| !places.iter().all(|place| is_right(*place)))
+            let own = judged.iter().find(|judged| judged.line == number);
+            own.is_none_or(|judged| !judged.is_right)
         };
         // Where every line is right by itself, it is what they have in common.
         let is_any = colours.clone().any(|(number, _)| is_touched(number));

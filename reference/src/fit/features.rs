@@ -1,11 +1,11 @@
 //! Whole programs in place of forms: what a mistake's program shows, and what shows of a feature by itself.
 
-use super::{Alternatives, TermJudgement, Worst, agrees};
+use super::{Alternatives, TermJudgement, Worst, agrees, channel_agrees};
 use crate::Assignment;
 use crate::accepted::Computed;
 use crate::equation::DISCARDED;
 use crate::mistake::FoundMistake;
-use crate::probes::ProbeSet;
+use crate::probes::{Probe, ProbeSet};
 use glam::{DVec3, DVec4};
 
 /// The first mistake whose program shows what the samples show, in colour and, as far as it is known, in place.
@@ -27,11 +27,37 @@ pub fn program_of(
     programs.find(|(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone())
 }
 
-/// Where the features of the rubric show: at which probes the solution without one differs from the solution.
+/// A channel at a probe: their places.
+pub type Cell = (usize, usize);
+
+/// Where the features of the rubric show: in which channels at which probes the solution without one differs from the solution.
 #[derive(Clone, Debug)]
 pub struct Footprints {
-    /// For each line of the rubric and each probe; none for a line without a feature.
-    shows: Vec<Option<Vec<bool>>>,
+    /// For each line of the rubric and each probe the channels; none for a line without a feature.
+    shows: Vec<Option<Vec<[bool; 3]>>>,
+}
+
+/// A line of the rubric, judged by what shows it beside nothing that may be wrong.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// Its place in the rubric.
+    pub line: usize,
+    /// Whether all agrees that it is judged by.
+    pub is_right: bool,
+    cells: Vec<Cell>,
+}
+
+impl Judged {
+    /// The probes that it is judged at.
+    pub fn probes(&self) -> Vec<usize> {
+        probes_of(&self.cells)
+    }
+}
+
+fn probes_of(cells: &[Cell]) -> Vec<usize> {
+    let mut probes: Vec<usize> = cells.iter().map(|(probe, _)| *probe).collect();
+    probes.dedup();
+    probes
 }
 
 impl Footprints {
@@ -39,7 +65,10 @@ impl Footprints {
     pub fn of(alternatives: &Alternatives<'_>, tolerance: f64) -> Self {
         let differs = |computed: &[Computed]| {
             let pairs = computed.iter().zip(alternatives.probes);
-            pairs.map(|((colour, _), probe)| !agrees(probe.colour, *colour, tolerance)).collect()
+            let differs = |channel, probe: &Probe, colour: DVec3| {
+                !channel_agrees(probe.colour[channel], colour[channel], tolerance)
+            };
+            pairs.map(|((colour, _), probe)| [0, 1, 2].map(|channel| differs(channel, probe, *colour))).collect()
         };
         let lines = 0..alternatives.assignment.features.len();
         Self { shows: lines.map(|line| alternatives.without(line).map(differs)).collect() }
@@ -52,36 +81,36 @@ impl Footprints {
 
     /// The probes at which a line's feature shows.
     pub fn of_line(&self, line: usize) -> Vec<usize> {
-        self.beside(line, &|_| true)
+        probes_of(&self.beside(line, &|_| true))
     }
 
-    /// The probes at which a line's feature shows beside no other than those that are known to be right.
-    fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<usize> {
+    /// Where a line's feature shows beside no other than those that are known to be right.
+    fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<Cell> {
         let Some(Some(own)) = self.shows.get(line) else { return Vec::new() };
-        let others: Vec<&Vec<bool>> = self
+        let others: Vec<&Vec<[bool; 3]>> = self
             .shows
             .iter()
             .enumerate()
             .filter_map(|(other, shows)| shows.as_ref().filter(|_| other != line && !is_right(other)))
             .collect();
-        (0..own.len()).filter(|place| own[*place] && !others.iter().any(|other| other[*place])).collect()
+        let cells = (0..own.len()).flat_map(|probe| (0..3).map(move |channel| (probe, channel)));
+        let is_alone =
+            |(probe, channel): &Cell| own[*probe][*channel] && !others.iter().any(|other| other[*probe][*channel]);
+        cells.filter(is_alone).collect()
     }
 
-    /// The lines that can be judged, in an order in which each shows by itself beside those before it, with the probes at
-    /// which it is judged. `agrees`: whether a probe shows what is right; what differs is beside no other line.
-    pub fn judged(&self, agrees: &dyn Fn(usize) -> bool) -> Vec<(usize, Vec<usize>)> {
-        let mut judged: Vec<(usize, Vec<usize>)> = Vec::new();
-        let mut right: Vec<usize> = Vec::new();
+    /// The lines that can be judged, in an order in which each shows by itself beside those before it. `agrees`: whether a
+    /// channel at a probe shows what is right; what differs is beside no other line.
+    pub fn judged(&self, agrees: &dyn Fn(Cell) -> bool) -> Vec<Judged> {
+        let mut judged: Vec<Judged> = Vec::new();
         loop {
-            let open = self.lines().filter(|line| !judged.iter().any(|(known, _)| known == line));
-            let places = open.map(|line| (line, self.beside(line, &|other| right.contains(&other))));
-            let Some((line, places)) = places.into_iter().find(|(_, places)| places.len() >= FEWEST) else {
+            let is_right = |line: usize| judged.iter().any(|known| known.line == line && known.is_right);
+            let open = self.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
+            let cells = open.map(|line| (line, self.beside(line, &is_right)));
+            let Some((line, cells)) = cells.into_iter().find(|(_, cells)| probes_of(cells).len() >= FEWEST) else {
                 return judged;
             };
-            if places.iter().all(|place| agrees(*place)) {
-                right.push(line);
-            }
-            judged.push((line, places));
+            judged.push(Judged { line, is_right: cells.iter().all(|cell| agrees(*cell)), cells });
         }
     }
 }
@@ -116,12 +145,15 @@ pub fn judge_features(alternatives: &Alternatives<'_>, samples: &[[f64; 3]], tol
     let Alternatives { assignment, probes, .. } = *alternatives;
     let samples = super::padded(probes, samples);
     let is_right = |place: usize| agrees(probes.probes[place].colour, samples[place], tolerance);
-    let judgement = |(line, places): (usize, Vec<usize>)| {
+    let agrees =
+        |(at, channel): Cell| channel_agrees(probes.probes[at].colour[channel], samples[at][channel], tolerance);
+    let judgement = |line: usize, cells: &[Cell]| {
+        let places = probes_of(cells);
         let apart = |place: &usize| {
             let apart = (samples[*place] - probes.probes[*place].colour).abs().max_element();
             if apart.is_finite() { apart } else { f64::INFINITY }
         };
-        let wrong: Vec<usize> = places.iter().filter(|place| !is_right(**place)).copied().collect();
+        let wrong = probes_of(&cells.iter().filter(|cell| !agrees(**cell)).copied().collect::<Vec<_>>());
         let shown = |probe: usize| Worst {
             probe,
             region: probes.probes[probe].region,
@@ -138,10 +170,10 @@ pub fn judge_features(alternatives: &Alternatives<'_>, samples: &[[f64; 3]], tol
         TermJudgement { line: assignment.rubric[line].id.clone(), judged, matched, worst }
     };
     let footprints = Footprints::of(alternatives, tolerance);
-    let judged = footprints.judged(&is_right);
-    let open = footprints.lines().filter(|line| !judged.iter().any(|(known, _)| known == line));
-    let open: Vec<_> = open.map(|line| (line, Vec::new())).collect();
-    judged.into_iter().chain(open).map(judgement).collect()
+    let judged = footprints.judged(&agrees);
+    let open = footprints.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
+    let open: Vec<TermJudgement> = open.map(|line| judgement(line, &[])).collect();
+    judged.iter().map(|judged| judgement(judged.line, &judged.cells)).chain(open).collect()
 }
 
 /// What is shown with these mistakes in it, where one of them is a whole program.

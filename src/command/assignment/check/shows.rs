@@ -39,7 +39,7 @@ fn say_features(
         let (id, shows) = (&assignment.rubric[line].id, footprints.of_line(line).len());
         let frames = assignment.features[line].as_ref().and_then(|feature| assignment.frames_without(feature));
         let place = place(probes, shows, frames.as_deref(), right);
-        let at = judged.iter().find(|(known, _)| *known == line).map_or(0, |(_, places)| places.len());
+        let at = judged.iter().find(|known| known.line == line).map_or(0, |known| known.probes().len());
         let text = Text::new(
             format!("rubric line `{id}`: shows {}; judged at {at} of the probes", place.en),
             format!("採点の行 `{id}`: {}。そのうち {at} 点で採点できる", place.ja),
