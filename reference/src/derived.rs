@@ -96,39 +96,54 @@ impl Derived {
         if form.is_none() {
             return self.program_touches(found, line);
         }
-        let touched = |line: &RubricLine| self.changes(found, line);
-        let touches = touched(line);
-        // What concerns none of them, such as a number that is added to the sum, is in all of them.
-        let is_position = assignment.judges_position(line);
-        touches || !is_position && !assignment.rubric.iter().any(touched)
+        let touched = |changes: fn(&Self, &FoundMistake, &RubricLine) -> bool| {
+            let is_touched = |line: &RubricLine| changes(self, found, line);
+            assignment.rubric.iter().any(is_touched).then(|| is_touched(line))
+        };
+        // What is another value by itself makes all the difference: terms behind a wrong factor are right. What concerns no
+        // line, such as a number that is added to the sum, is in all of them.
+        let touched = touched(Self::changes).or_else(|| touched(Self::uses_otherwise));
+        touched.unwrap_or_else(|| !assignment.judges_position(line))
     }
 
+    /// Whether what a line judges is another.
     fn changes(&self, found: &FoundMistake, line: &RubricLine) -> bool {
-        /// Relative to what is right; far above what computing in another order changes.
-        const RELATIVE: f64 = 1e-7;
+        let equation = &self.assignment.equation;
+        let Some(judged) = equation.index(&line.judges) else { return true };
+        let Some(wrong) = self.assignment.variant(std::slice::from_ref(found)) else { return true };
+        let right = equation.right();
+        self.places.iter().any(|(uniforms, attributes)| {
+            let [ours, theirs] = [&right, &wrong].map(|variant| variant.evaluate(uniforms, attributes));
+            let mut pairs = ours.numbers(judged).iter().zip(theirs.numbers(judged));
+            pairs.any(|(a, b)| differs(*a, *b))
+        })
+    }
+
+    /// Whether the colour moves otherwise with what a line judges.
+    fn uses_otherwise(&self, found: &FoundMistake, line: &RubricLine) -> bool {
         /// In a colour beyond this nothing is left of what moves it.
         const LARGE: f64 = 1e3;
         let equation = &self.assignment.equation;
         let Some(judged) = equation.index(&line.judges) else { return true };
         let Some(wrong) = self.assignment.variant(std::slice::from_ref(found)) else { return true };
         let right = equation.right();
-        let is_term = judged != equation.colour && equation.depends(equation.colour, judged);
-        let differs =
-            |a: f64, b: f64| (a - b).abs() > RELATIVE * a.abs().max(b.abs()).max(1e-3) || a.is_nan() != b.is_nan();
         let is_large = |value: &f64| value.is_nan() || value.abs() > LARGE;
-        self.places.iter().any(|(uniforms, attributes)| {
-            let [ours, theirs] = [&right, &wrong].map(|variant| variant.evaluate(uniforms, attributes));
-            let is_lost = theirs.numbers(equation.colour).iter().any(is_large);
-            let mut pairs = ours.numbers(judged).iter().zip(theirs.numbers(judged));
-            let is_another = pairs.any(|(a, b)| differs(*a, *b));
-            is_another
-                || is_term && !is_lost && {
-                    let [ours, theirs] =
-                        [&right, &wrong].map(|variant| variant.moves(uniforms, attributes, judged, [0.31, 0.37, 0.41]));
-                    (0..3).any(|channel| differs(ours[channel], theirs[channel]))
-                }
-        })
+        let is_term = judged != equation.colour && equation.depends(equation.colour, judged);
+        is_term
+            && self.places.iter().any(|(uniforms, attributes)| {
+                let colour = wrong.evaluate(uniforms, attributes);
+                let [ours, theirs] =
+                    [&right, &wrong].map(|variant| variant.moves(uniforms, attributes, judged, [0.31, 0.37, 0.41]));
+                !colour.numbers(equation.colour).iter().any(is_large)
+                    && (0..3).any(|channel| differs(ours[channel], theirs[channel]))
+            })
     }
+}
+
+/// Whether two numbers differ by far more than computing in another order makes.
+fn differs(a: f64, b: f64) -> bool {
+    const RELATIVE: f64 = 1e-7;
+    (a - b).abs() > RELATIVE * a.abs().max(b.abs()).max(1e-3) || a.is_nan() != b.is_nan()
 }
 
 impl Assignment {

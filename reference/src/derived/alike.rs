@@ -6,6 +6,7 @@ use crate::assignment::RubricLine;
 use crate::equation::Variant;
 use crate::mistake::{Alternative, Condition, Form};
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -23,6 +24,14 @@ struct Known<'a> {
     /// None for what is right.
     form: Option<&'a Form>,
     colours: Vec<DVec3>,
+    /// At all of them, once it was asked for: where little is lit, the first places tell little.
+    all: OnceCell<Vec<DVec3>>,
+}
+
+impl<'a> Known<'a> {
+    fn new(form: Option<&'a Form>, colours: Vec<DVec3>) -> Self {
+        Self { form, colours, all: OnceCell::new() }
+    }
 }
 
 impl Derived {
@@ -30,13 +39,13 @@ impl Derived {
     /// stays: another mistake beside it may be told only so.
     pub(super) fn leave_out_alike(&mut self) {
         let mut variant = self.assignment.equation.right();
-        let right = Known { form: None, colours: self.colours(&mut variant, None, self.few()) };
+        let right = Known::new(None, self.colours(&mut variant, None, self.few()));
         let mut known: HashMap<i64, Vec<Known<'_>>> = HashMap::new();
         let mut keep: Vec<Vec<bool>> = Vec::new();
         for mistake in &self.assignment.mistakes[self.first..] {
             let mut kept = Vec::new();
             for form in &mistake.forms {
-                let own = Known { form: Some(form), colours: self.colours(&mut variant, Some(form), self.few()) };
+                let own = Known::new(Some(form), self.colours(&mut variant, Some(form), self.few()));
                 let alike = known.entry(bucket(&own.colours)).or_default();
                 let mut others = std::iter::once(&right).chain(&*alike);
                 let is_new = !others.any(|other| self.is_alike(&mut variant, &own, other))
@@ -73,8 +82,12 @@ impl Derived {
         let is_free = |known: &Known<'_>| known.form.is_some_and(|form| form.free);
         let is_comparable = other.form.is_none() || is_free(own) == is_free(other);
         is_comparable && same(&own.colours, &other.colours) && {
-            let mut all = |known: &Known<'a>| self.colours(variant, known.form, 0..self.places.len());
-            same(&all(own), &all(other))
+            let mut computed = |known: &Known<'a>| {
+                let compute = || self.colours(variant, known.form, 0..self.places.len());
+                known.all.get_or_init(compute).len()
+            };
+            computed(own) == computed(other)
+                && own.all.get().zip(other.all.get()).is_some_and(|(own, other)| same(own, other))
         }
     }
 

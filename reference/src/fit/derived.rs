@@ -227,8 +227,7 @@ impl<'a> Pairs<'a> {
             let resolved = self.search.columns.derive(&self.right, &first.replaced);
             for second in free {
                 // A number makes nearly anything of what else is wrong in the same term.
-                let makes_up = second.is_of_all
-                    || second.lines == first.lines && second.free.is_some_and(|free| free.of.is_none());
+                let makes_up = second.is_of_all || second.lines & first.lines != 0;
                 if makes_up || !(self.is_derived(first) || self.is_derived(second)) || !fits(&chosen, second, true) {
                     continue;
                 }

@@ -11,7 +11,7 @@ use std::rc::Rc;
 
 /// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
 /// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need less than half.
-const MOST_COLOURS: u64 = 800_000;
+const MOST_COLOURS: u64 = 400_000;
 
 /// One form of one mistake.
 pub(super) struct Candidate<'a> {
@@ -77,9 +77,9 @@ pub(super) fn search(
 ) -> Option<Vec<FoundMistake>> {
     let (mut search, right) = Search::new(assignment, probes, samples, order, tolerance);
     for count in 1..=MOST_MISTAKES {
+        search.spent = 0;
         for free in 0..=count {
             search.count = count;
-            search.spent = 0;
             search.budget = if count == MOST_MISTAKES { MOST_COLOURS } else { u64::MAX };
             search.extend(&right, &mut Vec::new(), 0, count - free, free);
             if let Some((_, found)) = search.best {

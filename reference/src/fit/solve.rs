@@ -72,6 +72,7 @@ impl<'a> Search<'a> {
         let mut value = |x: f64| self.columns.colour_with(base, &candidate.with(x), probe)[channel];
         let target = self.samples[probe][channel];
         let rising = value(ends[0]) < value(ends[1]);
+        self.spent += HALVINGS as u64;
         let (mut low, mut high) = (ends[0].ln(), ends[1].ln());
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
