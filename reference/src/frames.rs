@@ -92,6 +92,36 @@ impl Assignment {
         Some(corners)
     }
 
+    /// Whether the right colour of some vertex jumps where one of its attributes differs by very little: rounding, or another
+    /// number of digits, then decides what the picture at `pose` shows.
+    pub fn has_a_step_at(&self, pose: &Pose) -> bool {
+        // A right answer that is written in other words is off by less. The steepest highlight changes by 0.06.
+        const NUDGE: f64 = 1e-3;
+        const JUMP: f64 = 0.1;
+        let right = self.equation.right();
+        self.scene.instances(pose).iter().any(|instance| {
+            let uniforms = self.uniform_values(&instance.moment);
+            instance.draw.mesh.vertices.iter().any(|vertex| {
+                let attributes = self.attribute_values(vertex);
+                let colour = right.evaluate(&uniforms, &attributes).colour();
+                let nudged = |at: usize, number: usize, by: f64| {
+                    let mut numbers = attributes[at].numbers().to_vec();
+                    numbers[number] += by * numbers[number].abs().max(1.0);
+                    let mut nudged = attributes.clone();
+                    nudged[at] = Value::of(attributes[at].kind().clone(), numbers);
+                    right.evaluate(&uniforms, &nudged).colour()
+                };
+                let places = attributes
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(at, value)| (0..value.numbers().len()).map(move |n| (at, n)));
+                places
+                    .flat_map(|place| [(place, NUDGE), (place, -NUDGE)])
+                    .any(|((at, number), by)| (nudged(at, number, by) - colour).abs().max_element() > JUMP)
+            })
+        })
+    }
+
     /// The picture that two stages draw.
     pub(crate) fn picture(&self, pose: &Pose, pipeline: &Pipeline, stage: VertexStage<'_>) -> Frame {
         let (width, height) = (self.scene.width, self.scene.height);

@@ -55,6 +55,19 @@ pub(super) fn credit(evidence: &Evidence<'_>, judged: Vec<TermJudgement>) -> Vec
     if credited.iter().all(TermJudgement::is_right) { judged } else { credited }
 }
 
+/// Whether the text computes some term that the rubric judges, right and not the same everywhere, whatever becomes of it.
+pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
+    let (Some(points), Some(interpreter)) = (points(evidence), evidence.interpreter) else { return false };
+    let search = Search { evidence, interpreter, points: &points, wanted: Vec::new() };
+    evidence.assignment.rubric.iter().any(|line| {
+        let terms: Vec<Vec<f64>> = points.iter().map(|point| right_term(evidence, point, line)).collect();
+        let varies = terms.iter().any(|term| !is_same(term, &terms[0]));
+        let Some(brightest) = brightest(&terms).filter(|_| varies) else { return false };
+        let is_it = |value: &Value| is_colour(value, &terms[brightest]);
+        search.candidates(brightest, &is_it).into_iter().any(|place| search.has(place, &terms))
+    })
+}
+
 /// Some of the probes. `None` where the interpreter does not compute what the driver computed.
 fn points<'a>(evidence: &Evidence<'a>) -> Option<Vec<Point<'a>>> {
     let interpreter = evidence.interpreter?;
@@ -110,19 +123,25 @@ fn finite(value: &Value) -> Option<Value> {
     Some(Value::of_floats(&floats.into_iter().map(|x| if is_usual(&x) { x } else { 0.0 }).collect::<Vec<_>>()))
 }
 
+/// What a line judges, as a right answer computes it at a point.
+fn right_term(evidence: &Evidence<'_>, point: &Point<'_>, line: &RubricLine) -> Vec<f64> {
+    let right = evidence.assignment.equation.right();
+    let outcome = right.evaluate(evidence.probes.uniforms(point.probe), &point.probe.attributes);
+    outcome.get(&line.judges).map(|value| value.numbers().to_vec()).unwrap_or_default()
+}
+
+/// The point at which a term is largest: where it is 0, many a value looks like it.
+fn brightest(terms: &[Vec<f64>]) -> Option<usize> {
+    let size = |term: &[f64]| term.iter().take(3).fold(0.0_f64, |most, x| most.max(x.abs()));
+    (0..terms.len()).max_by(|a, b| size(&terms[*a]).total_cmp(&size(&terms[*b])))
+}
+
 /// Whether the text has the line's right term as an addend of the colour.
 fn is_added(evidence: &Evidence<'_>, points: &[Point<'_>], line: &RubricLine) -> bool {
     let Some(interpreter) = evidence.interpreter else { return false };
     let right = evidence.assignment.equation.right();
-    let term = |point: &Point<'_>| -> Vec<f64> {
-        let outcome = right.evaluate(evidence.probes.uniforms(point.probe), &point.probe.attributes);
-        outcome.get(&line.judges).map(|value| value.numbers().to_vec()).unwrap_or_default()
-    };
-    let terms: Vec<Vec<f64>> = points.iter().map(term).collect();
-    let size = |term: &[f64]| term.iter().take(3).fold(0.0_f64, |most, x| most.max(x.abs()));
-    // Where the term is 0, many a value looks like it.
-    let brightest = (0..points.len()).max_by(|a, b| size(&terms[*a]).total_cmp(&size(&terms[*b])));
-    let Some(brightest) = brightest else { return false };
+    let terms: Vec<Vec<f64>> = points.iter().map(|point| right_term(evidence, point, line)).collect();
+    let Some(brightest) = brightest(&terms) else { return false };
     let Some(definition) = evidence.assignment.equation.index(&line.judges) else { return false };
     let wanted = |point: &Point<'_>| {
         let uniforms = evidence.probes.uniforms(point.probe);
@@ -154,6 +173,18 @@ impl Search<'_, '_> {
         };
         let ran = run(self.evidence, self.interpreter, &self.points[point].given, look).is_some();
         if ran { candidates } else { Vec::new() }
+    }
+
+    /// Whether a place has these values.
+    fn has(&self, candidate: Site, values: &[Vec<f64>]) -> bool {
+        self.points.iter().zip(values).all(|(point, wanted)| {
+            let mut is_wanted = false;
+            let look = &mut |place: Site, value: &Value| {
+                is_wanted |= place == candidate && is_colour(value, wanted);
+                None
+            };
+            run(self.evidence, self.interpreter, &point.given, look).is_some() && is_wanted
+        })
     }
 
     /// Whether a place has these values, and the colour moves as a right answer's does when something is added to them.

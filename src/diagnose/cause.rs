@@ -13,7 +13,7 @@ use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::{
     Alternatives, Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_derived, explain_parts, is_right,
-    judge_features, judge_terms, program_of,
+    judge_factor, judge_features, judge_terms, program_of,
 };
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
@@ -75,6 +75,8 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
         return match assignment.equation.reads() {
             _ if frames_agree || !shape => Cause::Right,
+            // What the last digits decide is not judged.
+            Reads::Attributes if hard_coded::are_at_steps(assignment, evidence.frames) => Cause::Right,
             Reads::Attributes => Cause::HardCoded,
             // Not all that a fragment stage reads is probed.
             Reads::Varyings | Reads::Outputs => Cause::Unexplained { terms: Vec::new(), findings: Vec::new() },
@@ -95,8 +97,11 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     // Without the normals the course's own poses can only be right if they are treated apart.
     let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
     match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
+        // What computes a right term has it multiplied by 0, or left out.
         Fit::Explained(found)
-            if is_lookup && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found) =>
+            if is_lookup
+                && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found)
+                && !addends::computes_a_term(evidence) =>
         {
             Cause::HardCoded
         }
@@ -119,17 +124,47 @@ fn unexplained(
     samples: &[[f64; 3]],
     mut terms: Vec<TermJudgement>,
 ) -> Cause {
+    let Evidence { assignment, probes, .. } = *evidence;
     if let Some(parts) = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
         return Cause::Parts(parts);
     }
     if let Some(cause) = derived(evidence, samples) {
         return cause;
     }
+    if let Some(terms) = judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
+        return Cause::Unexplained { terms, findings: inside::find(evidence) };
+    }
     for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
         terms.retain(|term| term.line != feature.line);
         terms.push(feature);
     }
-    Cause::Unexplained { terms: addends::credit(evidence, terms), findings: inside::find(evidence) }
+    let findings = inside::find(evidence);
+    Cause::Unexplained { terms: spared(evidence, addends::credit(evidence, terms), &findings), findings }
+}
+
+/// The judgements; right are also the terms that no place of a mistake has to do with: with the right values in these places,
+/// everything is right.
+fn spared(evidence: &Evidence<'_>, terms: Vec<TermJudgement>, findings: &[Finding]) -> Vec<TermJudgement> {
+    let rubric = &evidence.assignment.rubric;
+    let is_touched = |term: &TermJudgement| {
+        let line = rubric.iter().find(|line| line.id == term.line);
+        line.is_some_and(|line| findings.iter().any(|finding| finding.touches.contains(&line.judges)))
+    };
+    if !terms.iter().any(is_touched) {
+        return terms;
+    }
+    let judged = evidence.samples.len();
+    let worst = terms.iter().find_map(|term| term.worst);
+    let is_any_wrong = terms.iter().any(|term| is_touched(term) && !term.is_right());
+    let spared = terms.iter().map(|term| match is_touched(term) {
+        false => TermJudgement::right(&term.line, judged),
+        // What is wrong may not show where the term stands alone.
+        true if !is_any_wrong => {
+            TermJudgement { matched: judged.saturating_sub(1), worst, ..TermJudgement::right(&term.line, judged) }
+        }
+        true => term.clone(),
+    });
+    spared.collect()
 }
 
 /// The derived mistakes that explain the samples, also those that nobody knows beforehand; perhaps on top of changed constants.

@@ -2,6 +2,7 @@
 
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
+use crate::report::FrameResult;
 use crate::source::Source;
 use reference::Assignment;
 use reference::assignment::RubricLine;
@@ -65,6 +66,12 @@ pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sam
     let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
     found.iter().any(|found| found.parameter.is_some())
         || is_one_colour && colours.any(|line| leaves(line) && varies(assignment, probes, &line.judges))
+}
+
+/// Whether each frame that is wrong has a vertex at which the last digits decide what a right answer shows.
+pub fn are_at_steps(assignment: &Assignment, frames: &[FrameResult]) -> bool {
+    let poses = assignment.scene.all_poses();
+    poses.iter().zip(frames).filter(|(_, frame)| !frame.agrees()).all(|(pose, _)| assignment.has_a_step_at(pose))
 }
 
 /// Whether the mistakes leave nothing of the colour, so that they cannot draw a right picture.

@@ -116,8 +116,12 @@ impl Facts {
             if known.as_ref().is_some_and(|known| known.role != Role::Wrong) {
                 return known;
             }
-            let inside = || inside::find_one(evidence, &theirs, found, index);
-            let inside = only.clone().or_else(inside).map(|one| one.located());
+            let inside = only.clone().or_else(|| inside::find_one(evidence, &theirs, found, index));
+            // What goes out can always be mended: that is no place.
+            if let Some(one) = inside.as_ref().filter(|one| !one.is_telling()) {
+                return known.filter(|known| known.line != one.line);
+            }
+            let inside = inside.map(|one| one.located());
             let is_same = inside.as_ref().zip(known.as_ref()).is_none_or(|(inside, known)| inside.line == known.line);
             if is_same { known.or(inside) } else { inside }
         };

@@ -1,6 +1,6 @@
 //! Which value has to be another one for all that is seen to be right.
 
-use super::quantities::{Columns, fits, is_same};
+use super::quantities::{Columns, fits, is_constant, is_same};
 use super::walk::{Suspect, suspects};
 use super::*;
 use reference::interpreter::trace::{Change, Event};
@@ -69,14 +69,17 @@ impl Search<'_, '_> {
 
     pub fn findings(&mut self) -> Vec<Finding> {
         let mend = self.mend_but(None);
-        let is_telling = |mend: &Mend| !self.is_whole(mend) || self.missing_in(mend).is_some() || self.is_settled(mend);
+        let is_telling = |mend: &Mend| {
+            !self.is_whole(mend)
+                || self.missing_in(mend).is_some()
+                || self.is_settled(mend)
+                || self.is_own_statement(mend)
+        };
         if let Some(mend) = mend.as_ref().filter(|mend| is_telling(mend)) {
             return self.finding(mend).into_iter().collect();
         }
-        // What goes out can always be mended. Two places further back say more.
-        let mends = self.several();
-        let mends = if mends.is_empty() { mend.into_iter().collect() } else { mends };
-        mends.iter().filter_map(|mend| self.finding(mend)).collect()
+        // What goes out can always be mended: that is no place. Two places further back are.
+        self.several().iter().filter_map(|mend| self.finding(mend)).collect()
     }
 
     pub fn trace(&self, stage: Stage) -> Option<&Trace> {
@@ -177,6 +180,32 @@ impl Search<'_, '_> {
             open.extend(trace.events[event].from.iter().filter(is_end));
         }
         Some(found)
+    }
+
+    /// Whether the statement itself is to blame: all variables that it reads have right values.
+    pub fn is_own_statement(&self, mend: &Mend) -> bool {
+        let (Some(near), Some(trace)) = (self.operands(mend), self.trace(mend.stage)) else { return false };
+        let sites = self.theirs.stage(mend.stage).sites();
+        let mut reads = near.iter().map(|event| &trace.events[*event]);
+        reads.all(|event| {
+            !matches!(sites[event.site].what, What::Read(_))
+                || is_constant(&event.values)
+                || self.quantities.equal_to(mend.stage, event).is_some()
+        })
+    }
+
+    /// Whether a variable only begins there, with a number, and is given other values further on.
+    pub fn is_start(&self, mend: &Mend) -> bool {
+        let sites = self.theirs.stage(mend.stage).sites();
+        let (What::Assign { name, .. }, Some(near)) = (&sites[mend.suspect.site].what, self.operands(mend)) else {
+            return false;
+        };
+        let is_other = |(at, site): (usize, &Site)| {
+            at > mend.suspect.site && matches!(&site.what, What::Assign { name: own, .. } if own == name)
+        };
+        let Some(trace) = self.trace(mend.stage) else { return false };
+        let mut reads = near.iter().map(|event| &sites[trace.events[*event].site].what);
+        !reads.any(|what| matches!(what, What::Read(_))) && sites.iter().enumerate().any(is_other)
     }
 
     pub fn site(&self, stage: Stage, suspect: &Suspect) -> &Site {

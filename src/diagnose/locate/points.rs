@@ -27,7 +27,7 @@ pub(in crate::diagnose) struct Points<'a> {
     pub assignment: &'a Assignment,
     pub(super) output: &'a str,
     pub(super) points: Vec<Point<'a>>,
-    source: &'a Source,
+    pub(super) source: &'a Source,
     /// How many more instructions may be run.
     budget: Cell<u64>,
 }

@@ -276,8 +276,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// Where a term is that is 0 everywhere, or else the sum in which it does not appear.
     fn missing(&self) -> Option<Located> {
         let d = self.replaced[0];
-        if let Some(place) = self.mending(d).next() {
-            return self.located(place, Role::Zero);
+        let zero = self.mending(d).next().and_then(|place| self.located(place, Role::Zero));
+        // What is 0 at the points may be another term.
+        if let Some(zero) = zero.filter(|_| self.has_constants_of(d)) {
+            return Some(zero);
         }
         let role = if self.has_influence(d) { Role::Lost } else { Role::Absent };
         if let Some(sum) = self.sums(d).last() {
@@ -299,6 +301,13 @@ impl<'s, 'a> Search<'s, 'a> {
         let Some(name) = interpreter.variable(place) else { return false };
         let mut loads = self.values().filter(|(at, _)| at.operand == 0 && interpreter.is_load_of(*at, name));
         loads.next_back().is_some_and(|(_, value)| value.iter().take(3).any(|x| *x != 0.0))
+    }
+
+    /// Whether the text uses a constant that the definition is made of, or none is.
+    fn has_constants_of(&self, d: usize) -> bool {
+        let used = self.points.assignment.equation.constants_in(d);
+        let count = |name: &str| self.points.source.words().filter(|(_, word)| *word == name).count();
+        used.is_empty() || used.iter().any(|name| count(name) > 1)
     }
 
     /// Whether the colour changes with one of the constants that the definition is made of.
