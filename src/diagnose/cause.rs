@@ -145,12 +145,14 @@ fn unexplained(
 /// The judgements; right are also the terms that no place of a mistake has to do with: with the right values in these places,
 /// everything is right.
 fn spared(evidence: &Evidence<'_>, terms: Vec<TermJudgement>, findings: &[Finding]) -> Vec<TermJudgement> {
-    let rubric = &evidence.assignment.rubric;
+    let assignment = evidence.assignment;
     let is_touched = |term: &TermJudgement| {
-        let line = rubric.iter().find(|line| line.id == term.line);
+        let line = assignment.rubric.iter().find(|line| line.id == term.line);
         line.is_some_and(|line| findings.iter().any(|finding| finding.touches.contains(&line.judges)))
     };
-    if !terms.iter().any(is_touched) {
+    // Of a program of no definitions it is not known what a value has to do with. All that is seen has to do with everything.
+    let is_known = assignment.equation.reads() != Reads::Outputs && !findings.iter().any(|finding| finding.is_whole);
+    if !is_known || !terms.iter().any(is_touched) {
         return terms;
     }
     let judged = evidence.samples.len();

@@ -64,6 +64,8 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
     // What is known of the very place says more than advice for any file.
     let sentence = blanks.finding.filter(|_| is_full && is_general(&mistake.id));
     let sentence = sentence.map(|finding| finding.sentence(evidence.assignment));
+    // The sentence has a place of its own.
+    let worst = blanks.worst.filter(|_| sentence.is_none());
     if is_full && sentence.is_none() {
         parts.push(texts.look);
     }
@@ -74,7 +76,7 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
     };
     let mut text = Text::new(join(|text| &text.en, " "), join(|text| &text.ja, ""));
     let regions = &evidence.assignment.regions;
-    if let Some(place) = blanks.worst.and_then(|worst| Some(&regions.get(worst.region?)?.seen)) {
+    if let Some(place) = worst.and_then(|worst| Some(&regions.get(worst.region?)?.seen)) {
         text.en = format!("{} ({}.)", text.en, place.en);
         text.ja = format!("{}({})", text.ja, place.ja);
     }

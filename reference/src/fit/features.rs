@@ -1,9 +1,10 @@
 //! Whole programs in place of forms: what a mistake's program shows, and what shows of a feature by itself.
 
+use super::parts::FULL;
 use super::{Alternatives, TermJudgement, Worst, agrees, channel_agrees};
 use crate::Assignment;
 use crate::accepted::Computed;
-use crate::equation::DISCARDED;
+use crate::equation::{DISCARDED, Reads};
 use crate::mistake::FoundMistake;
 use crate::probes::{Probe, ProbeSet};
 use glam::{DVec3, DVec4};
@@ -63,10 +64,13 @@ fn probes_of(cells: &[Cell]) -> Vec<usize> {
 impl Footprints {
     /// Looks at all features of an assignment.
     pub fn of(alternatives: &Alternatives<'_>, tolerance: f64) -> Self {
+        // What is cut off at white is the same whatever is added to it.
+        let is_clamped = alternatives.assignment.equation.reads() != Reads::Attributes;
+        let tells = |channel: f64| !is_clamped || channel < FULL;
         let differs = |computed: &[Computed]| {
             let pairs = computed.iter().zip(alternatives.probes);
             let differs = |channel, probe: &Probe, colour: DVec3| {
-                !channel_agrees(probe.colour[channel], colour[channel], tolerance)
+                tells(probe.colour[channel]) && !channel_agrees(probe.colour[channel], colour[channel], tolerance)
             };
             pairs.map(|((colour, _), probe)| [0, 1, 2].map(|channel| differs(channel, probe, *colour))).collect()
         };

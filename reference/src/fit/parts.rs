@@ -13,7 +13,7 @@ use glam::{DVec3, DVec4};
 const MOST_FEATURES: usize = 8;
 
 /// A channel of a fragment that has this much is cut off by the window: what was added to it is not known.
-const FULL: f64 = 1.0 - 1e-6;
+pub(super) const FULL: f64 = 1.0 - 1e-6;
 
 /// What is wrong with a feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
