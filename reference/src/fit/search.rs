@@ -77,9 +77,9 @@ pub(super) fn search(
 ) -> Option<Vec<FoundMistake>> {
     let (mut search, right) = Search::new(assignment, probes, samples, order, tolerance);
     for count in 1..=MOST_MISTAKES {
-        search.spent = 0;
         for free in 0..=count {
             search.count = count;
+            search.spent = 0;
             search.budget = if count == MOST_MISTAKES { MOST_COLOURS } else { u64::MAX };
             search.extend(&right, &mut Vec::new(), 0, count - free, free);
             if let Some((_, found)) = search.best {
