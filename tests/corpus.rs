@@ -25,7 +25,7 @@ const SAMPLES: [(&str, usize); 26] = [
     ("flat", 143),
     ("fog", 10),
     ("ggsample06", 1465),
-    ("ggsample11-map", 63),
+    ("ggsample11-map", 62),
     ("gouraud-point-light", 176),
     ("interpolation", 63),
     ("lambert", 131),
