@@ -155,19 +155,27 @@ async fn a_teacher_walks_through_the_class() {
     browser.open(&server.at("/teacher/settings")).await;
     browser.check("phone-settings-ja").await;
 
-    // A student opens the course link, gives a number in full-width letters, and is known by it; a slip is told.
+    // A student opens the course link, gives a number in full-width letters and the personal code, and is known by them; a slip
+    // is told.
     let link = browser.js("return document.querySelector('.link a').href").await;
+    browser.open(&server.at("/teacher/codes")).await;
+    browser.check("phone-codes-ja").await;
+    let row = "[...document.querySelectorAll('.people tbody tr')].find(row => row.textContent.includes('S1006'))";
+    let code = browser.js(&format!("return {row}.querySelector('code').textContent")).await;
+    let code = code.as_str().expect("a code");
     browser.devtools("Network.clearBrowserCookies", serde_json::json!({})).await;
     browser.size(1280, 900).await;
     browser.open(link.as_str().expect("a link")).await;
     browser.check("join").await;
     browser.keys("#number", "山田").await;
+    browser.keys("#code", code).await;
     browser.click("main .primary").await;
     browser.until("document.querySelector('[role=alert]')").await;
     // A refused form is answered with 422, which the browser notes.
     browser.complaints().await;
-    browser.js("document.querySelector('#number').value = ''").await;
+    browser.js("document.querySelectorAll('#number, #code').forEach(field => field.value = '')").await;
     browser.keys("#number", "ｓ１００６").await;
+    browser.keys("#code", code).await;
     browser.click("main .primary").await;
     browser.until("location.pathname.startsWith('/a/')").await;
     assert!(browser.text(".who").await.contains("S1006"));
