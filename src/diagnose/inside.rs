@@ -57,10 +57,8 @@ pub(super) struct Finding {
     pub is_settled: bool,
     /// Whether it is all that is seen, which can always be mended.
     pub is_whole: bool,
-    /// Whether all variables are right that its statement reads.
-    pub is_own_statement: bool,
-    /// Whether it only begins there, and is given other values further on.
-    pub is_start: bool,
+    /// Whether the mistake stands there: it is not only what is seen of it, nor where a variable only begins.
+    pub is_telling: bool,
     /// Whether it moves the position.
     pub touches_position: bool,
     /// What is wrong with it.
@@ -117,12 +115,6 @@ pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<F
 }
 
 impl Finding {
-    /// Whether the mistake stands there, and not only what is seen of it.
-    pub fn is_telling(&self) -> bool {
-        let is_known = self.is_settled || self.is_own_statement || !matches!(self.flaw, Flaw::Value);
-        (!self.is_whole || is_known) && !self.is_start
-    }
-
     /// The place as others name it.
     pub fn located(&self) -> Located {
         Located { line: self.line, name: self.name.clone(), role: Role::Wrong, stage: Some(self.stage) }

@@ -120,7 +120,7 @@ impl Facts {
             }
             let inside = only.clone().or_else(|| inside::find_one(evidence, &theirs, found, index));
             // What goes out can always be mended: that is no place.
-            if let Some(one) = inside.as_ref().filter(|one| !one.is_telling()) {
+            if let Some(one) = inside.as_ref().filter(|one| !one.is_telling) {
                 return known.filter(|known| known.line != one.line);
             }
             let inside = inside.map(|one| one.located());

@@ -39,8 +39,7 @@ impl Search<'_, '_> {
             quantity: quantity.and_then(|quantity| quantity.names.first().cloned()),
             is_settled: self.is_settled(mend),
             is_whole: self.is_whole(mend),
-            is_own_statement: self.is_own_statement(mend),
-            is_start: self.is_start(mend),
+            is_telling: (self.is_telling(mend) || flaw != Flaw::Value) && !self.is_start(mend),
             touches_position: !self.is_in_place(self.own, self.count),
             is_use: matches!(site.what, What::Read(_)),
             touches: match missing {

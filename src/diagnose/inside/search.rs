@@ -69,13 +69,7 @@ impl Search<'_, '_> {
 
     pub fn findings(&mut self) -> Vec<Finding> {
         let mend = self.mend_but(None);
-        let is_telling = |mend: &Mend| {
-            !self.is_whole(mend)
-                || self.missing_in(mend).is_some()
-                || self.is_settled(mend)
-                || self.is_own_statement(mend)
-        };
-        if let Some(mend) = mend.as_ref().filter(|mend| is_telling(mend)) {
+        if let Some(mend) = mend.as_ref().filter(|mend| self.is_telling(mend)) {
             return self.finding(mend).into_iter().collect();
         }
         // What goes out can always be mended: that is no place. Two places further back are.
@@ -182,8 +176,13 @@ impl Search<'_, '_> {
         Some(found)
     }
 
+    /// Whether the mistake stands there, and not only what is seen of it.
+    pub fn is_telling(&self, mend: &Mend) -> bool {
+        !self.is_whole(mend) || self.missing_in(mend).is_some() || self.is_settled(mend) || self.is_own_statement(mend)
+    }
+
     /// Whether the statement itself is to blame: all variables that it reads have right values.
-    pub fn is_own_statement(&self, mend: &Mend) -> bool {
+    fn is_own_statement(&self, mend: &Mend) -> bool {
         let (Some(near), Some(trace)) = (self.operands(mend), self.trace(mend.stage)) else { return false };
         let sites = self.theirs.stage(mend.stage).sites();
         let mut reads = near.iter().map(|event| &trace.events[*event]);
