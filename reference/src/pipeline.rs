@@ -96,10 +96,15 @@ impl Pipeline {
         self.nature.derivatives || self.nature.implicit_levels && textures.iter().any(by_neighbours)
     }
 
+    /// Whether it takes derivatives, so that what the pixels beside are given is seen.
+    pub(crate) fn has_derivatives(&self) -> bool {
+        self.nature.derivatives
+    }
+
     /// What a pixel `at` so many pixels to the right and above is given, where it is known here and at the two pixels `beside`.
     /// Without derivatives nobody sees it.
     pub(crate) fn at_pixel(&self, here: f64, beside: [f64; 2], at: [f64; 2]) -> f64 {
-        if self.nature.derivatives { at_pixel(here, beside, at) } else { here }
+        if self.has_derivatives() { at_pixel(here, beside, at) } else { here }
     }
 
     /// How many scalars are handed from stage to stage.

@@ -84,7 +84,7 @@ impl FragmentStage {
             writes_depth: shader.writes_depth(),
             is_fixed: shader.is_fixed,
             reads_textures: shader.reads_textures,
-            has_derivatives: has_derivatives(&shader.module),
+            has_derivatives: shader.has_derivatives(),
             pipelines: Vec::new(),
         }
     }
@@ -258,14 +258,6 @@ fn format(input: &Attribute) -> wgpu::VertexFormat {
         (_, 3) => F::Float32x3,
         (_, _) => F::Float32x4,
     }
-}
-
-/// Whether some function takes derivatives.
-fn has_derivatives(module: &naga::Module) -> bool {
-    let own = module.entry_points.iter().map(|entry| &entry.function);
-    let all = own.chain(module.functions.iter().map(|(_, function)| function));
-    let mut expressions = all.flat_map(|function| function.expressions.iter());
-    expressions.any(|(_, expression)| matches!(expression, naga::Expression::Derivative { .. }))
 }
 
 /// A vertex stage in WGSL that passes on a record: OpenGL's clip range of z, [−w, w], becomes wgpu's [0, w], and up

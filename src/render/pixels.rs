@@ -3,7 +3,7 @@
 use super::device::Device;
 use super::fragments::{DEPTH, FragmentData, FragmentStage, Key, is_flat};
 use super::scene::{Batch, Scene, State};
-use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation};
+use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader};
 use naga::ScalarKind;
 use reference::Values;
 use reference::interpreter::Type;
@@ -191,12 +191,13 @@ pub(super) fn some_of(batches: &[Batch]) -> Option<Batch> {
 }
 
 /// The batches of a scene's pixels with what a vertex stage hands over to them, from its captured header and records.
-/// How that is interpolated is said by the `inputs` of the fragment stage.
-pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribute], scene: &Scene) -> Vec<Batch> {
+/// How that is interpolated is said by the `fragment` stage.
+pub(super) fn between(captured: &[u8], outputs: &[Attribute], fragment: &Shader, scene: &Scene) -> Vec<Batch> {
     let stride = (outputs.len() + 1) * CAPTURE_SLOT as usize;
     let records = captured.get(CAPTURE_HEADER as usize..).unwrap_or_default();
     let frames: u32 = scene.frames.iter().flatten().map(Batch::drawn).sum();
     let mut first = frames as usize;
+    let has_derivatives = fragment.has_derivatives();
     let batches = scene.pixels.iter().zip(&scene.probes).zip(&scene.shares);
     let of_batch = |((pixels, probes), shares): ((&Batch, &Batch), &Vec<[[f64; 3]; 3]>)| {
         let own = first;
@@ -214,7 +215,7 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribut
                 Some(ScalarKind::Uint) => f64::from(word(vertex, slot + 1, axis)),
                 _ => f64::from(f32::from_bits(word(vertex, slot + 1, axis))),
             };
-            let input = inputs.iter().find(|input| input.name == output.name).unwrap_or(output);
+            let input = fragment.inputs.iter().find(|input| input.name == output.name).unwrap_or(output);
             let interpolation = match output.kind {
                 Some(ScalarKind::Float) => input.qualifiers.interpolation,
                 _ => Interpolation::Flat,
@@ -237,7 +238,7 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], inputs: &[Attribut
         let handed = |place: usize| outputs.iter().enumerate().map(move |(slot, output)| column(place, slot, output));
         Batch {
             attributes: pixels.attributes.iter().cloned().chain(handed(0)).collect(),
-            beside: [handed(1).collect(), handed(2).collect()],
+            beside: [1, 2].map(|place| if has_derivatives { handed(place).collect() } else { Vec::new() }),
             ..pixels.clone()
         }
     };

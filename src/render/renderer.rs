@@ -106,7 +106,7 @@ impl Renderer {
         if rendering.ran_out.is_some() {
             return Ok(rendering.clone());
         }
-        let fed = handed.as_ref().map(|bytes| pixels::between(bytes, outputs, &fragment.inputs, scene));
+        let fed = handed.as_ref().map(|bytes| pixels::between(bytes, outputs, fragment, scene));
         let pixels = fed.as_deref().unwrap_or(&scene.pixels);
         let (mut stage, rendering) = self.run_pixels(fragment, scene, pixels, rendering.clone())?;
         if rendering.of_fragments.ran_out.is_some() {

@@ -112,6 +112,14 @@ impl Shader {
         })
     }
 
+    /// Whether a fragment stage takes derivatives.
+    pub fn has_derivatives(&self) -> bool {
+        let own = self.module.entry_points.iter().map(|entry| &entry.function);
+        let all = own.chain(self.module.functions.iter().map(|(_, function)| function));
+        let mut expressions = all.flat_map(|function| function.expressions.iter());
+        expressions.any(|(_, expression)| matches!(expression, naga::Expression::Derivative { .. }))
+    }
+
     /// Bytes of a captured vertex: its position and its outputs.
     pub fn record_stride(&self) -> u64 {
         (self.outputs.len() as u64 + 1) * CAPTURE_SLOT

@@ -20,7 +20,7 @@ const SUDDEN: f64 = 2e-3;
 /// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
 pub(super) type Handed = Vec<Vec<Vec<f64>>>;
 
-/// The same there, at the pixels to the right, and at those above.
+/// The same there, at the pixels to the right, and at those above; nothing of the last two where nobody looks at them.
 pub(super) type HandedAround = [Handed; 3];
 
 /// A run of the fragment stage at a spot.
@@ -145,7 +145,11 @@ impl Assignment {
                     let columns = varying.scalars.clone().enumerate();
                     columns
                         .map(|(scalar, number)| {
-                            let [here, right, above] = handed.each_ref().map(|handed| &handed[varying.output][scalar]);
+                            let here = &handed[0][varying.output][scalar];
+                            let beside = |pixel: usize| {
+                                handed[pixel].get(varying.output).map_or(here, |columns| &columns[scalar])
+                            };
+                            let [right, above] = [1, 2].map(beside);
                             column(&|lane| {
                                 let spot = lane.spot;
                                 let beside = [right[spot], above[spot]];
@@ -212,7 +216,10 @@ impl Assignment {
             let shares: Vec<_> = spots.iter().map(weights).enumerate().collect();
             mixed(pipeline, &written, &positions, &shares)
         };
-        let beside = |pixel: usize| mixed(&|spot| spot.weights_beside[pixel]);
+        let beside = |pixel: usize| match pipeline.has_derivatives() {
+            true => mixed(&|spot| spot.weights_beside[pixel]),
+            false => Handed::new(),
+        };
         let handed = [mixed(&|spot| spot.weights), beside(0), beside(1)];
         let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
