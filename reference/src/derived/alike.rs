@@ -82,13 +82,13 @@ impl Derived {
         let is_free = |known: &Known<'_>| known.form.is_some_and(|form| form.free);
         let is_comparable = other.form.is_none() || is_free(own) == is_free(other);
         is_comparable && same(&own.colours, &other.colours) && {
-            let mut computed = |known: &Known<'a>| {
-                let compute = || self.colours(variant, known.form, 0..self.places.len());
-                known.all.get_or_init(compute).len()
-            };
-            computed(own) == computed(other)
-                && own.all.get().zip(other.all.get()).is_some_and(|(own, other)| same(own, other))
+            let own = self.all_colours(variant, own);
+            same(own, self.all_colours(variant, other))
         }
+    }
+
+    fn all_colours<'a, 'k>(&'a self, variant: &mut Variant<'a>, known: &'k Known<'a>) -> &'k [DVec3] {
+        known.all.get_or_init(|| self.colours(variant, known.form, 0..self.places.len()))
     }
 
     /// Whether a form replaces what is the same everywhere by something else that is: nothing shows how it was made. Of what a line

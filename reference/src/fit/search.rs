@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::rc::Rc;
 
 /// How many colours are computed in search of three mistakes at once, before it is given up: some samples, such as those of
-/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need less than half.
+/// a shader that looks its colours up, agree with thousands of combinations at many probes. Usual searches need less.
 const MOST_COLOURS: u64 = 400_000;
 
 /// One form of one mistake.
