@@ -329,6 +329,7 @@ impl Grader {
             environment: self.environment.clone(),
             hints,
             elapsed_ms: 0.0,
+            lateness: None,
         }
     }
 }

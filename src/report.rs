@@ -15,7 +15,7 @@ pub(crate) mod wrap;
 use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
 use crate::hand_in;
-use crate::language::Text;
+use crate::language::{Language, Text};
 use reference::assignment::Stage;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
@@ -171,6 +171,15 @@ pub struct Environment {
     pub driver: String,
 }
 
+/// How late a hand-in came, and what that takes off its points.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+pub struct Lateness {
+    /// Milliseconds since the due date.
+    pub milliseconds: u64,
+    /// Points that go.
+    pub penalty: f64,
+}
+
 /// Everything that a grading found out, in both languages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -214,6 +223,9 @@ pub struct Report {
     pub hints: Hints,
     /// Milliseconds that the grading took.
     pub elapsed_ms: f64,
+    /// How late it was handed in, where a service knows; no part of what grading finds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lateness: Option<Lateness>,
 }
 
 impl Report {
@@ -242,6 +254,16 @@ impl Report {
     pub fn sha256(&self) -> String {
         let files: Vec<_> = self.sources.iter().map(|source| (source.name.as_str(), source.sha256.clone())).collect();
         hand_in::digest(&files)
+    }
+
+    /// The points that count: the score without what lateness takes off.
+    pub fn total(&self) -> f64 {
+        self.score - self.lateness.map_or(0.0, |lateness| lateness.penalty)
+    }
+
+    /// What lateness takes off and what is left, a line each; nothing where it is in time.
+    pub fn lateness_lines(&self, language: Language) -> Vec<String> {
+        self.lateness.map(|lateness| labels::lateness(lateness, self, language).into()).unwrap_or_default()
     }
 
     /// The names of all files, joined for a person.

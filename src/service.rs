@@ -16,7 +16,7 @@
 //! | `/assets/…` | styles and scripts |
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
-//! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`store`] keeps everything,
+//! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
 //! [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
@@ -26,10 +26,12 @@ pub mod api;
 pub mod classes;
 pub mod clock;
 pub mod config;
+pub mod counting;
 pub mod course;
 pub mod deletion;
 pub mod download;
 pub mod errors;
+pub mod extensions;
 pub mod gallery;
 pub mod grading;
 pub mod idempotency;

@@ -9,7 +9,7 @@ pub const BINS: usize = 10;
 
 /// The bin of a score, from 0 to [`BINS`].
 pub fn bin(report: &Report) -> usize {
-    let share = if report.max_score > 0.0 { report.score / report.max_score } else { 0.0 };
+    let share = if report.max_score > 0.0 { report.total() / report.max_score } else { 0.0 };
     // A tenth is no binary fraction: 0.7 * 10 must not fall below 7.
     (share * BINS as f64 + 1e-9).clamp(0.0, BINS as f64) as usize
 }
@@ -36,7 +36,7 @@ pub struct Averages {
 
 /// Mean and median of the scores; none where nobody was graded.
 pub fn averages(class: &Class) -> Option<Averages> {
-    let mut scores: Vec<f64> = class.entries.iter().filter_map(Entry::report).map(|report| report.score).collect();
+    let mut scores: Vec<f64> = class.entries.iter().filter_map(Entry::report).map(Report::total).collect();
     scores.sort_by(f64::total_cmp);
     let (count, middle) = (scores.len(), scores.len() / 2);
     let upper = *scores.get(middle)?;

@@ -54,6 +54,7 @@ pub fn unfinished(
         environment,
         hints: Hints::default(),
         elapsed_ms: 0.0,
+        lateness: None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
-use super::{Advice, Environment, FrameResult, Hints, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use super::{Advice, Environment, FrameResult, Hints, Lateness, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};
 use crate::language::Language;
@@ -38,6 +38,8 @@ pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
         verdict: report.verdict,
         score: Number(report.score),
         max_score: Number(report.max_score),
+        lateness: report.lateness,
+        total: report.lateness.map(|_| Number(report.total())),
         rubric: report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect(),
         mistakes: &report.mistakes,
         advice: report.advice.iter().map(|advice| Remark::of(advice, language)).collect(),
@@ -82,6 +84,12 @@ pub struct JsonReport<'a> {
     score: Number,
     #[schema(value_type = Option<f64>)]
     max_score: Number,
+    /// How late it was handed in, where a service knows; `total` is what is left of the score then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lateness: Option<Lateness>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<f64>)]
+    total: Option<Number>,
     rubric: Vec<Rubric<'a>>,
     mistakes: &'a [String],
     advice: Vec<Remark<'a>>,

@@ -1,9 +1,10 @@
 //! Every word of our own in the views, in one table.
 
-use super::Verdict;
+use super::text::number;
+use super::{Lateness, Report, Verdict};
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Severity, Stage};
-use crate::language::Language;
+use crate::language::{Language, span};
 use reference::Assignment;
 
 /// The title of a mistake, as lists name it; its id where the assignment does not know it, as in an old report.
@@ -21,6 +22,18 @@ pub(crate) fn rubric_label<'a>(assignment: &'a Assignment, id: &'a str, language
         Language::En => &line.label.en,
         Language::Ja => &line.label.ja,
     })
+}
+
+/// What lateness takes off, and what is left: `Late by 1 day 2 hours: −20`, `Counts: 60 / 100`.
+pub(crate) fn lateness(lateness: Lateness, report: &Report, language: Language) -> [String; 2] {
+    let late = span(lateness.milliseconds, language);
+    let penalty = number(lateness.penalty);
+    let penalty = if lateness.penalty > 0.0 { format!("−{penalty}") } else { penalty };
+    let (total, most) = (number(report.total()), number(report.max_score));
+    match language {
+        Language::En => [format!("Late by {late}: {penalty}"), format!("Counts: {total} / {most}")],
+        Language::Ja => [format!("遅延 {late}: {penalty}"), format!("成績に入る得点: {total} / {most}")],
+    }
 }
 
 /// The words of one language.

@@ -85,6 +85,7 @@ pub(crate) fn correct() -> Report {
         cross_check: None,
         hints: Hints::Full,
         elapsed_ms: 412.25,
+        lateness: None,
     }
 }
 

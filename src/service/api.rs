@@ -6,6 +6,7 @@ pub(super) mod batches;
 pub(super) mod body;
 mod deletions;
 mod docs;
+mod extensions;
 mod operations;
 pub(super) mod pictures;
 mod refusals;
@@ -57,6 +58,8 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(batches::events))
         .routes(routes!(batches::file, batches::filled))
         .routes(routes!(batches::class_file))
+        .routes(routes!(extensions::list, extensions::set))
+        .routes(routes!(extensions::choose))
         .routes(routes!(deletions::delete_submission))
         .routes(routes!(deletions::delete_batch))
         .routes(routes!(deletions::delete_student))

@@ -31,7 +31,7 @@ pub use teacher::{LecturerPage, Teacher, TeacherPage};
 pub(super) use teacher::{bearer, is_teachers_program};
 pub use visitor::{Visitor, visit};
 
-use super::store::{Owner, Student};
+use super::store::{Owner, Student, Submission};
 
 /// Who hands in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,6 +68,14 @@ impl Identity {
     /// Id of the student.
     pub fn student_id(&self) -> Option<&str> {
         self.student().map(|student| student.id.as_str())
+    }
+
+    /// Whether they handed this in: in this browser, or as the student who proved in it who they are.
+    pub fn has_handed_in(&self, submission: &Submission) -> bool {
+        let is_theirs = |own: Option<&str>, of: &Option<String>| own.is_some() && own == of.as_deref();
+        let is_students = submission.student_id.is_none() || submission.student_id.as_deref() == self.student_id();
+        is_theirs(self.student_id(), &submission.student_id)
+            || (is_students && is_theirs(self.owner_id(), &submission.owner_id))
     }
 
     /// The student whose number was given without a proof.

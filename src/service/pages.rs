@@ -1,10 +1,11 @@
 //! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
-//! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one, [`mod@form`] what it sends, [`student`] what that page says, [`result`] the page of a report
+//! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one, [`mod@form`] what it sends, [`student`] what that page says, [`attempts`] the cards of what was handed in, [`result`] the page of a report
 //! and its pictures, [`join`] the course link, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
+mod attempts;
 mod datetime;
 mod form;
 mod frame;

@@ -18,8 +18,8 @@ use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
-pub(super) use allowed::is_stranger;
 use allowed::may_hand_in;
+pub(super) use allowed::{closed, is_stranger};
 use axum::http::StatusCode;
 use files::checked;
 pub(super) use files::{check_text, for_slots};
@@ -84,7 +84,7 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
         return Ok(receipt);
     }
     let problem = match carry_out(state, upload, key.as_ref()).await {
-        Ok(Some(receipt)) => return Ok(receipt),
+        Ok(Some(receipt)) => return with_lateness(state, receipt).await,
         Ok(None) => None,
         Err(problem) => Some(problem),
     };
@@ -93,6 +93,16 @@ pub async fn submit(state: &State, upload: Upload) -> Result<Receipt, Problem> {
         Some(receipt) => Ok(receipt),
         None => Err(problem.unwrap_or_else(|| Problem::internal(&"a key is taken by nothing"))),
     }
+}
+
+/// The receipt with what lateness takes off, which grading does not know.
+async fn with_lateness(state: &State, mut receipt: Receipt) -> Result<Receipt, Problem> {
+    if let Some(GradingResult::Graded(report)) = &mut receipt.outcome
+        && let Some(lateness) = state.store.lateness(&receipt.submission.id).await?
+    {
+        Arc::make_mut(report).lateness = Some(lateness);
+    }
+    Ok(receipt)
 }
 
 /// The key of an upload: everything counts that makes another upload of it.

@@ -139,7 +139,8 @@ async fn hand_in(bench: &Bench, student: &str, bytes: Vec<u8>) -> Reply {
 
 async fn students_own_files_come_in_every_format(database: Database) {
     let bench = Bench::new(database).await;
-    let line = |number: &str, name: &str| RosterLine { number: number.into(), name: name.into(), moodle: None };
+    let line =
+        |number: &str, name: &str| RosterLine { number: number.into(), name: name.into(), ..RosterLine::default() };
     let roster = [line("S1", "山田 <太郎>"), line("S2", "=cmd()")];
     bench.state.store.set_roster(&roster, 0).await.expect("a roster");
     assert_eq!(hand_in(&bench, "s1", right()).await.json()["report"]["score"], 100);

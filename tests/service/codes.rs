@@ -17,14 +17,14 @@ on_both!(
 );
 
 /// A browser on the page of the course link.
-struct Guest {
-    address: String,
-    cookie: String,
-    csrf: String,
+pub struct Guest {
+    pub address: String,
+    pub cookie: String,
+    pub csrf: String,
 }
 
 impl Guest {
-    async fn new(bench: &Bench) -> Self {
+    pub async fn new(bench: &Bench) -> Self {
         let address = format!("/join/{}", course_secret(&bench.state).await.expect("a secret"));
         let page = bench.get(&address).await;
         let cookie = page.header("set-cookie").split(';').next().expect("a cookie").to_owned();
@@ -34,24 +34,24 @@ impl Guest {
         Self { address, cookie, csrf: csrf.to_owned() }
     }
 
-    fn request(&self, method: &str, address: &str) -> axum::http::request::Builder {
+    pub fn request(&self, method: &str, address: &str) -> axum::http::request::Builder {
         let request = Request::builder().method(method).uri(address).header(header::COOKIE, &self.cookie);
         request.header(header::ACCEPT_LANGUAGE, "en").header("sec-fetch-site", "same-origin")
     }
 
-    async fn join(&self, bench: &Bench, number: &str, code: &str) -> Reply {
+    pub async fn join(&self, bench: &Bench, number: &str, code: &str) -> Reply {
         let request = self.request("POST", &self.address).header(header::ACCEPT, "text/html");
         let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
         let body = format!("csrf={}&number={number}&code={code}", self.csrf);
         bench.send(request.body(Body::from(body)).expect("a request")).await
     }
 
-    async fn hand_in(&self, bench: &Bench, text: &'static str) -> Reply {
+    pub async fn hand_in(&self, bench: &Bench, text: &'static str) -> Reply {
         let request = self.request("POST", "/api/v1/submissions").header(header::CONTENT_TYPE, "text/plain");
         bench.send(request.body(Body::from(text)).expect("a request")).await
     }
 
-    async fn get(&self, bench: &Bench, address: &str) -> Reply {
+    pub async fn get(&self, bench: &Bench, address: &str) -> Reply {
         bench.send(self.request("GET", address).body(Body::empty()).expect("a request")).await
     }
 }

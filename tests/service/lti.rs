@@ -11,6 +11,7 @@ use axum::http::{Request, StatusCode, header};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::lti::scores::send_due;
+use ggrade::service::store::{Assignment, LateRules};
 use jsonwebtoken::{Algorithm, EncodingKey, Header};
 use platform::{CLIENT, DEPLOYMENT, Platform};
 use serde_json::{Value, json};
@@ -234,6 +235,18 @@ async fn scores_go_home_until_they_arrive(database: Database) {
     let scores = platform.seen().scores.clone();
     assert_eq!((scores.len(), &scores[1]["scoreGiven"]), (2, &json!(100.0)));
     assert!(scores[1]["timestamp"].as_str() > scores[0]["timestamp"].as_str(), "{scores:?}");
+    // What lateness takes off goes home as well, and is said.
+    let rules = bench.state.store.assignment("ggsample06").await.expect("rules");
+    let late = LateRules { until: Some(now + 86_400_000), percent: 15.0, ..LateRules::default() };
+    let strict = Assignment { closes_at: Some(now - 1000), late, ..rules.clone() };
+    bench.state.store.set_assignment(&strict).await.expect("set");
+    send_due(&bench.state).await;
+    let late = platform.seen().scores.pop().expect("a score");
+    assert_eq!(late["scoreGiven"], json!(85.0));
+    assert!(late["comment"].as_str().expect("a comment").contains("−15\n成績に入る得点: 85 / 100"), "{late}");
+    bench.state.store.set_assignment(&rules).await.expect("set");
+    send_due(&bench.state).await;
+    assert_eq!(platform.seen().scores.pop().expect("a score")["scoreGiven"], json!(100.0));
     // What is deleted is not replaced by something lower: the gradebook keeps what it has.
     let best = bench.state.store.class("ggsample06", None).await.expect("a class");
     let best = best.iter().find(|row| row.row.score == Some(100.0)).expect("the best").row.submission.id.clone();

@@ -15,6 +15,7 @@ mod hostile;
 mod idempotency;
 mod identity;
 mod killed;
+mod late;
 mod limits;
 mod lti;
 mod places;

@@ -128,7 +128,7 @@ async fn the_class_is_the_roster(database: Database) {
     let page = get(&bench, "/teacher").await;
     assert_eq!(page.all(".overview .lead"), ["1 of 1 have handed in"]);
     assert!(page.all(".aside")[0].starts_with("3 hand-ins of nobody in the class"));
-    assert_eq!(page.all(".overview .score"), ["Mean of the best scores 80 mean"]);
+    assert_eq!(page.all(".overview .score"), ["Mean of the points that count 80 mean"]);
 
     // The archive comes before the roster, with names in another order, width and case.
     let members = [
@@ -143,7 +143,7 @@ async fn the_class_is_the_roster(database: Database) {
     let page = get(&bench, "/teacher").await;
     assert_eq!(page.all(".overview .lead"), ["2 of 5 have handed in"]);
     assert!(page.all(".aside")[0].starts_with("4 hand-ins of nobody in the class"), "{:?}", page.all(".aside"));
-    assert_eq!(page.all(".overview .score"), ["Mean of the best scores 100 mean"]);
+    assert_eq!(page.all(".overview .score"), ["Mean of the points that count 100 mean"]);
     // What could not be graded stands first, then everyone by number.
     let students = page.all(".people tbody th");
     assert_eq!(students, ["S3 鈴木 一郎", "S1 和田 花子", "S2 Smith, John", "S4 山本 次郎", "S5 Nobody Yet"],);
@@ -317,7 +317,7 @@ async fn three_hundred_students_and_an_archive(database: Database) {
     assert_eq!(page.all(".pager a"), ["1", "2", "3", "4", "5", "6"]);
     assert_eq!(get(&bench, "/teacher?page=6").await.all(".people tbody tr").len(), 50);
     // Twenty each of 100, 80 and 0.
-    assert_eq!(page.all(".overview .score"), ["Mean of the best scores 60 mean"]);
+    assert_eq!(page.all(".overview .score"), ["Mean of the points that count 60 mean"]);
     let sorted = get(&bench, "/teacher?sort=-score").await;
     assert_eq!(sorted.all("th[aria-sort=descending]"), ["Score"]);
     assert_eq!(sorted.all(".people tbody tr:first-child th"), ["S000 学生 000"]);

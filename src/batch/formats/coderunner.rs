@@ -16,7 +16,7 @@ pub fn render(entry: &Entry, language: Language) -> String {
     let mut result = json!({ "prologuehtml": prologue(entry, language) });
     match &entry.outcome {
         Outcome::Graded(report) => {
-            result["fraction"] = json!((report.score / report.max_score).clamp(0.0, 1.0));
+            result["fraction"] = json!((report.total() / report.max_score).clamp(0.0, 1.0));
             result["testresults"] = table(&report.rubric, language);
             // The columns but for `iscorrect`: text, text, and HTML that is escaped here.
             result["columnformats"] = json!(["%s", "%s", "%h"]);
@@ -32,7 +32,7 @@ fn prologue(entry: &Entry, language: Language) -> String {
     let standing = Standing::of(&entry.outcome);
     let mut prologue = format!("<p><strong>{}</strong>", html(standing.word(language)));
     if let Some(report) = entry.report() {
-        prologue.push_str(&format!(" {}", html(&wording::points(report.score, report.max_score))));
+        prologue.push_str(&format!(" {}", html(&wording::result(report))));
     }
     prologue.push_str(&format!("</p><p>{}</p>", rich_html(&wording::explanation(entry, language))));
     if let Some(fault) = wording::fault(entry, language) {

@@ -86,6 +86,10 @@ fn graded(report: &Report, title: &str, language: Language) -> String {
     } else {
         out.push_str(&format!("<ul>{}</ul>", errors.concat()));
     }
+    let lateness: Vec<String> = report.lateness_lines(language).iter().map(|line| html(line)).collect();
+    if !lateness.is_empty() {
+        out.push_str(&format!("<p>{}</p>", lateness.join("<br>")));
+    }
     out
 }
 

@@ -56,7 +56,7 @@ pub fn log(class: &Class, token: &StopToken) -> String {
 
 fn line(entry: &Entry, class: &Class) -> String {
     let standing = Standing::of(&entry.outcome);
-    let score = entry.report().map(|report| format!(" {}", wording::points(report.score, report.max_score)));
+    let score = entry.report().map(|report| format!(" {}", wording::result(report)));
     let titles = |report: &Report| {
         let titles = report.mistakes.iter().map(|id| mistake_title(&class.assignment, id, class.language));
         titles.collect::<Vec<_>>().join(" · ")

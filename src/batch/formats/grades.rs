@@ -14,7 +14,17 @@ use csv::{QuoteStyle, Terminator, WriterBuilder};
 
 const BOM: &[u8] = b"\xef\xbb\xbf";
 const BEFORE_RUBRIC: [&str; 6] = ["key", "name", "moodle_id", "verdict", "score", "max_score"];
-const AFTER_RUBRIC: [&str; 6] = ["mistakes", "feedback", "shares_with", "file", "sha256", "mistake_titles"];
+const AFTER_RUBRIC: [&str; 9] = [
+    "mistakes",
+    "feedback",
+    "shares_with",
+    "file",
+    "sha256",
+    "mistake_titles",
+    "late_minutes",
+    "late_penalty",
+    "total",
+];
 
 /// The table: a row a student, in the order of the class. The column names are the same in both languages.
 pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
@@ -42,6 +52,7 @@ fn rubric_ids(class: &Class) -> Vec<&str> {
 
 fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
     let report = entry.report();
+    let lateness = report.and_then(|report| report.lateness);
     let student = &entry.student;
     let mut row = vec![
         cell(&student.key),
@@ -62,6 +73,9 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
         cell(&entry.path().unwrap_or_default()),
         report.map(|report| cell(&report.sha256())).unwrap_or_default(),
         report.map(|report| cell(&titles(report, class))).unwrap_or_default(),
+        lateness.map(|lateness| lateness.milliseconds.div_ceil(60_000).to_string()).unwrap_or_default(),
+        lateness.map(|lateness| exact(lateness.penalty)).unwrap_or_default(),
+        report.map(|report| exact(report.total())).unwrap_or_default(),
     ]);
     row
 }

@@ -26,7 +26,7 @@ pub fn render(entry: &Entry, expected: &[u8], language: Language) -> String {
     });
     match &entry.outcome {
         Outcome::Graded(report) => {
-            results["score"] = json!(report.score);
+            results["score"] = json!(report.total());
             results["execution_time"] = json!(seconds(report));
             results["tests"] = report.rubric.iter().zip(1..).map(|(line, n)| test(line, n, language)).collect();
         }

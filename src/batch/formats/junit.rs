@@ -56,6 +56,10 @@ fn properties(report: &Report) -> Vec<Property> {
         Property::new("file", one_line(&report.file_names())),
         Property::new("seed", report.probes.seed.to_string()),
     ];
+    if let Some(lateness) = report.lateness {
+        properties.push(Property::new("late_penalty", number(lateness.penalty)));
+        properties.push(Property::new("total", number(report.total())));
+    }
     properties.extend(report.mistakes.iter().map(|mistake| Property::new("mistake", one_line(mistake))));
     properties
 }

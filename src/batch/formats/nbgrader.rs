@@ -43,8 +43,9 @@ fn row(entry: &Entry, assignment: &str, max_score: Option<f64>) -> Vec<String> {
         Outcome::NotGraded(_) if entry.places.is_empty() => Some(0.0),
         Outcome::NotGraded(_) | Outcome::Fault(_) => None,
     };
-    let (score, max_score) = (float(score), float(entry.report().map(|report| report.max_score).or(max_score)));
-    let penalty = if score.is_empty() { String::new() } else { float(Some(0.0)) };
+    let penalty = entry.report().and_then(|report| report.lateness).map_or(0.0, |lateness| lateness.penalty);
+    let total = score.map(|score| score - penalty);
+    let max_score = float(entry.report().map(|report| report.max_score).or(max_score));
     vec![
         cell(assignment),
         String::new(),
@@ -53,9 +54,9 @@ fn row(entry: &Entry, assignment: &str, max_score: Option<f64>) -> Vec<String> {
         cell(&entry.student.name),
         String::new(),
         String::new(),
-        score.clone(),
-        penalty,
-        score,
+        float(score),
+        float(score.map(|_| penalty)),
+        float(total),
         max_score,
     ]
 }

@@ -25,7 +25,7 @@ use crate::language::{Language, Text};
 use crate::report::html::BASE_STYLE;
 use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
-use crate::report::{Environment, Verdict};
+use crate::report::{Environment, Report, Verdict};
 use askama::Template;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -237,8 +237,8 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
         sign: charts::sign(status, report.map_or(0.0, |report| report.score)),
         word: status.word(class.language),
         bin: report.map(|report| statistics::bin(report).to_string()).unwrap_or_default(),
-        exact: report.map(|report| report.score.to_string()).unwrap_or_default(),
-        score: report.map_or_else(|| "–".into(), |report| number(report.score)),
+        exact: report.map(|report| report.total().to_string()).unwrap_or_default(),
+        score: report.map_or_else(|| "–".into(), score),
         lines: lines.iter().map(points).collect(),
         mistakes: mistake_ids.join(" "),
         mistake_titles: mistake_ids.into_iter().map(titled).collect(),
@@ -246,6 +246,15 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
         group: shares.map(|(id, _)| id.to_string()).unwrap_or_default(),
         shared: shares.map(|(_, others)| Words::of(class.language).shared_with(others)).unwrap_or_default(),
         picture: portraits.class(entry.portrait.as_deref()),
+    }
+}
+
+/// The points that count, and of whoever was late those before.
+fn score(report: &Report) -> String {
+    let total = number(report.total());
+    match report.lateness {
+        Some(lateness) => format!("{total} ({} − {})", number(report.score), number(lateness.penalty)),
+        None => total,
     }
 }
 

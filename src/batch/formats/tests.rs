@@ -2,8 +2,9 @@
 
 use super::samples::{NASTY, class};
 use super::*;
-use crate::batch::class::Class;
+use crate::batch::class::{Class, Outcome};
 use crate::language::Language;
+use crate::report::Lateness;
 use std::collections::HashSet;
 use std::io::{Cursor, Read};
 
@@ -21,7 +22,7 @@ fn grades_open_in_a_spreadsheet_without_a_formula() {
         assert_eq!(
             table[0].join(","),
             "key,name,moodle_id,verdict,score,max_score,shape,ambient,diffuse,specular,mistakes,feedback,shares_with,\
-             file,sha256,mistake_titles"
+             file,sha256,mistake_titles,late_minutes,late_penalty,total"
         );
         assert_eq!(table.len(), 1 + NASTY.len());
         for cell in table.iter().flatten() {
@@ -39,6 +40,37 @@ fn grades_open_in_a_spreadsheet_without_a_formula() {
         let place = if language == Language::En { "line 11, column 12: Max" } else { "11 行目 12 文字目: Max" };
         assert!(table[3][11].starts_with(place), "{}", table[3][11]);
     }
+}
+
+/// A score of 80 that is a day and an hour late, for which 30 points go.
+fn late() -> Class {
+    let mut class = class(Language::En);
+    let Outcome::Graded(report) = &mut class.entries[1].outcome else { panic!("not graded") };
+    report.lateness = Some(Lateness { milliseconds: 25 * 3_600_000, penalty: 30.0 });
+    class
+}
+
+#[test]
+fn lateness_is_a_line_of_its_own_in_every_format() {
+    let class = late();
+    let entry = &class.entries[1];
+    let grades = table(grades::render(&class).expect("a table").strip_prefix(b"\xef\xbb\xbf").expect("a mark"));
+    assert_eq!((&*grades[2][4], &grades[2][16..]), ("80", &["1500", "30", "50"].map(str::to_owned)[..]));
+    assert_eq!(grades[1][16..], ["", "", "100"]);
+    let nbgrader = table(&nbgrader::render(&class).expect("a table"));
+    assert_eq!(nbgrader[2][7..], ["80.0", "30.0", "50.0", "100.0"]);
+    let vpl = vpl::render(entry, vpl::Scale::default(), Language::En);
+    assert!(vpl.contains("\nGrade :=>> 50\n"), "{vpl}");
+    let [gradescope, coderunner] =
+        [gradescope::render(entry, &[], Language::En), coderunner::render(entry, Language::En)];
+    assert!(gradescope.contains("\"score\": 50.0,") && coderunner.contains("\"fraction\":0.5,"), "{coderunner}");
+    let junit = junit::render(&class).expect("XML");
+    assert!(junit.contains("name=\"total\" value=\"50\""));
+    for said in [&vpl, &gradescope, &coderunner] {
+        assert!(said.contains("Late by 1 day 1 hour: −30") && said.contains("Counts: 50 / 100"), "{said}");
+    }
+    let page = page::render(&class).expect("a page");
+    assert!(String::from_utf8_lossy(&page).contains("50 (80 − 30)"), "the class page");
 }
 
 #[test]

@@ -58,7 +58,7 @@ pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
     }
     comment.close();
     let share = match &entry.outcome {
-        Outcome::Graded(report) => Some(report.score / report.max_score),
+        Outcome::Graded(report) => Some(report.total() / report.max_score),
         Outcome::NotGraded(_) => Some(0.0),
         Outcome::Fault(_) => None,
     };

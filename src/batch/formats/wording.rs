@@ -14,7 +14,8 @@ pub fn explanation(entry: &Entry, language: Language) -> String {
         Outcome::Graded(report) => {
             let advice = report.advice.iter().map(|advice| untrusted::visible(advice.message.get(language)));
             let headline = Labels::of(language).headline(report.verdict).to_owned();
-            std::iter::once(headline).chain(advice).collect::<Vec<_>>().join("\n")
+            let lateness = report.lateness_lines(language);
+            std::iter::once(headline).chain(advice).chain(lateness).collect::<Vec<_>>().join("\n")
         }
         Outcome::NotGraded(why) => untrusted::visible(why.get(language)),
         Outcome::Fault(_) => autograder_failed().get(language).to_owned(),
@@ -49,6 +50,15 @@ pub fn rubric_title(line: &RubricLine, language: Language) -> String {
 /// `20 / 40`.
 pub fn points(points: f64, max_points: f64) -> String {
     format!("{} / {}", number(points), number(max_points))
+}
+
+/// `60 / 100`, or with what lateness takes off `40 / 100 (60 − 20)`.
+pub fn result(report: &Report) -> String {
+    let total = points(report.total(), report.max_score);
+    match report.lateness {
+        Some(lateness) => format!("{total} ({} − {})", number(report.score), number(lateness.penalty)),
+        None => total,
+    }
 }
 
 /// `error · line 11, column 12`; without a line the stage that speaks.

@@ -149,7 +149,7 @@ impl<'a> Work<'a> {
             self.left.no_maximum.push(entry);
             return false;
         };
-        let share = if report.max_score > 0.0 { (report.score / report.max_score).clamp(0.0, 1.0) } else { 0.0 };
+        let share = if report.max_score > 0.0 { (report.total() / report.max_score).clamp(0.0, 1.0) } else { 0.0 };
         let new = Style::of(&limit).write(share * most);
         let old = self.sheet.text(row, grade).unwrap_or_default();
         if points::read(&old) != points::read(&new) {

@@ -257,6 +257,8 @@ pub(super) struct Body<'a> {
     pub report: &'a Report,
     pub score: String,
     pub max_score: String,
+    /// What lateness takes off, and what is left.
+    lateness: Vec<String>,
     level: u8,
     verdict: &'static str,
     headline: &'static str,
@@ -310,6 +312,7 @@ impl<'a> Body<'a> {
             is_drawn,
             score: number(report.score),
             max_score: number(report.max_score),
+            lateness: report.lateness_lines(language),
             next: labels.next_step(report, language),
             bar: bar(report),
             equation: typeset.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),

@@ -245,7 +245,7 @@ pub(super) async fn filled(
 #[into_params(parameter_in = Query)]
 pub(super) struct OfQuery {
     /// Id of the assignment; where the service has one only, it may be left out.
-    assignment: Option<String>,
+    pub(super) assignment: Option<String>,
 }
 
 /// Which submissions of students count.
@@ -253,7 +253,7 @@ pub(super) struct OfQuery {
 #[serde(default)]
 #[into_params(parameter_in = Query)]
 pub(super) struct PickQuery {
-    /// `best` or `latest`.
+    /// `counted` (by the rules of the homework), `best` or `latest`.
     #[param(inline)]
     pick: Pick,
 }

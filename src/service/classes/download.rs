@@ -22,7 +22,7 @@ use written::{disk, page, written};
 pub enum Whose {
     /// A batch.
     Batch(Batch),
-    /// Everyone of the class: the best of each, or the latest.
+    /// Everyone of the class, with one submission of each.
     Students(Pick),
 }
 
@@ -30,8 +30,10 @@ pub enum Whose {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Pick {
-    /// The one with most points; of equals the earliest.
+    /// The one that counts by the rules of the homework.
     #[default]
+    Counted,
+    /// The one with most points after what lateness takes off; of equals the earliest.
     Best,
     /// The one that came last.
     Latest,

@@ -1,10 +1,11 @@
-//! The class as people: what each has handed in, and the best of it.
+//! The class as people: what each has handed in, and what of it counts.
 
 use crate::batch::class::Participant;
 use crate::language::Text;
 use crate::report::Verdict;
 use crate::service::State;
 use crate::service::clock::Millis;
+use crate::service::counting::{Counting, counted};
 use crate::service::errors::Problem;
 use crate::service::store::{BatchEntry, ClassRow, State as Progress, Student};
 use std::collections::{HashMap, HashSet};
@@ -26,23 +27,29 @@ pub struct Person {
     pub note: Option<Text>,
     /// Whether nothing at all is known of them: a file that a program handed in for nobody.
     pub is_anonymous: bool,
+    /// Which of the attempts counts.
+    pub counting: Counting,
 }
 
 impl Person {
     fn new(key: String) -> Self {
-        let (number, name) = Default::default();
-        Self { key, number, name, rows: Vec::new(), moodle: None, note: None, is_anonymous: false }
+        let (number, name, counting) = Default::default();
+        Self { key, number, name, rows: Vec::new(), moodle: None, note: None, is_anonymous: false, counting }
+    }
+
+    /// The attempt that counts.
+    pub fn counted(&self) -> Option<&ClassRow> {
+        counted(&self.rows, self.counting, |row| &row.row)
     }
 
     /// The attempt with the most points; of equals the first.
     pub fn best(&self) -> Option<&ClassRow> {
-        let graded = self.rows.iter().rev().filter(|row| row.row.score.is_some());
-        graded.reduce(|best, next| if next.row.score > best.row.score { next } else { best })
+        counted(&self.rows, Counting::Best, |row| &row.row)
     }
 
     /// How they stand.
     pub fn standing(&self) -> PersonStanding {
-        match (self.best().and_then(|best| best.row.verdict), self.rows.first()) {
+        match (self.counted().and_then(|it| it.row.verdict), self.rows.first()) {
             (Some(verdict), _) => PersonStanding::Graded(verdict),
             (None, None) if self.note.is_some() => PersonStanding::Ungraded,
             (None, None) => PersonStanding::Nothing,
@@ -65,7 +72,7 @@ impl Person {
 /// How somebody stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PersonStanding {
-    /// By the verdict of the best attempt.
+    /// By the verdict of the attempt that counts.
     Graded(Verdict),
     /// Being graded.
     Queued,
@@ -135,7 +142,7 @@ impl People {
 pub async fn people(state: &State) -> Result<People, Problem> {
     let roster = state.store.roster().await?;
     let has_roster = !roster.is_empty();
-    let mut gathered = Gathered::default();
+    let mut gathered = Gathered::of(state).await?;
     for student in &roster {
         let Student { id, number, name, .. } = student.clone();
         gathered.add(Person { number, name, ..Person::new(id) });
@@ -154,7 +161,7 @@ pub async fn people(state: &State) -> Result<People, Problem> {
 
 /// Everyone of one archive, in its order.
 pub async fn of_batch(state: &State, id: &str) -> Result<Vec<Person>, Problem> {
-    let mut gathered = Gathered::default();
+    let mut gathered = Gathered::of(state).await?;
     gathered.batch(id, state.store.batch_entries(id).await?);
     gathered.files(state.store.class(&state.assignment.id, Some(id)).await?);
     // Who is on the roster stands there by number and name.
@@ -178,13 +185,19 @@ struct Gathered {
     places: HashMap<String, usize>,
     /// Keys of people by the submission that came for them in an archive.
     named: HashMap<String, String>,
+    counting: Counting,
 }
 
 impl Gathered {
+    async fn of(state: &State) -> Result<Self, Problem> {
+        let counting = state.store.assignment(&state.assignment.id).await?.counting;
+        Ok(Self { counting, ..Self::default() })
+    }
+
     fn add(&mut self, person: Person) -> &mut Person {
         let place = *self.places.entry(person.key.clone()).or_insert(self.people.len());
         if place == self.people.len() {
-            self.people.push(person);
+            self.people.push(Person { counting: self.counting, ..person });
         }
         &mut self.people[place]
     }
@@ -249,6 +262,8 @@ pub(in crate::service) mod samples {
                 verdict: Some(if *score >= 100.0 { Verdict::Correct } else { Verdict::Wrong }),
                 score: Some(*score),
                 max_score: Some(100.0),
+                lateness: None,
+                chosen_at: None,
             },
             mistakes: mistake.split_whitespace().map(str::to_owned).collect(),
             number: Some(key.to_owned()),
@@ -263,6 +278,27 @@ pub(in crate::service) mod samples {
 mod tests {
     use super::samples::person;
     use super::*;
+    use crate::report::Lateness;
+
+    #[test]
+    fn the_rule_says_which_attempt_counts() {
+        let late = |penalty| Some(Lateness { milliseconds: 1, penalty });
+        let mut one = person("a", &[(1, 70.0, ""), (2, 80.0, ""), (3, 60.0, ""), (4, 0.0, "")]);
+        // The newest stands first, and is still being graded.
+        one.rows[0].row.score = None;
+        let mut counts = |counting, change: &dyn Fn(&mut Vec<ClassRow>)| {
+            change(&mut one.rows);
+            one.counting = counting;
+            one.counted().map(|it| it.row.submission.received_at)
+        };
+        assert_eq!(counts(Counting::Best, &|_| ()), Some(2));
+        assert_eq!(counts(Counting::Best, &|rows| rows[2].row.lateness = late(10.0)), Some(1), "of equals the first");
+        assert_eq!(counts(Counting::Last, &|_| ()), Some(3));
+        assert_eq!(counts(Counting::Chosen, &|_| ()), Some(3), "nobody has chosen yet");
+        assert_eq!(counts(Counting::Chosen, &|rows| rows[3].row.chosen_at = Some(5)), Some(1));
+        assert_eq!(counts(Counting::Chosen, &|rows| rows[2].row.chosen_at = Some(6)), Some(2), "the latest choice");
+        assert_eq!(counts(Counting::Last, &|_| ()), Some(3));
+    }
 
     #[test]
     fn the_best_attempt_is_the_first_with_the_most_points() {

@@ -88,7 +88,12 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
 }
 
 fn line(student: Student) -> RosterLine {
-    RosterLine { number: student.number, name: student.name, moodle: student.moodle.map(i64::unsigned_abs) }
+    RosterLine {
+        number: student.number,
+        name: student.name,
+        moodle: student.moodle.map(i64::unsigned_abs),
+        group: student.group_name,
+    }
 }
 
 /// Every page of the list.

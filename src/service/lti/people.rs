@@ -62,7 +62,7 @@ async fn enrolled(
 ) -> Result<Student, Problem> {
     let store = &service.store;
     for number in numbers {
-        let line = RosterLine { number: number.clone(), name: who.name.clone(), moodle: None };
+        let line = RosterLine { number: number.clone(), name: who.name.clone(), ..RosterLine::default() };
         let student = store.enrol(&line, service.clock.now()).await?;
         if store.is_taken(&platform.id, &who.subject, &student.id).await? {
             continue;

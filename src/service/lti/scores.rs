@@ -1,4 +1,4 @@
-//! Grades go home: the best attempt of each student, until the platform has it.
+//! Grades go home: the attempt of each student that counts, until the platform has it.
 //!
 //! What the platform has is compared with what stands here again and again, so that whatever changes a score is sent (an attempt, a
 //! regrading), and a platform that does not answer gets it later. What is sent is always what stands now; so no older score
@@ -93,7 +93,7 @@ fn body(service: &Service, due: &DueScore, report: &Report, language: Language, 
     let page = format!("{}/r/{}", address(service), due.submission_id);
     json!({
         "userId": due.subject,
-        "scoreGiven": report.score,
+        "scoreGiven": report.total(),
         "scoreMaximum": report.max_score,
         "comment": comment(report, language, &page),
         "timestamp": jiff::Timestamp::from_millisecond(at).map(|at| format!("{at:.3}")).unwrap_or_default(),
@@ -116,6 +116,7 @@ fn comment(report: &Report, language: Language, page: &str) -> String {
             lines.push(line.message.get(language).replace('`', ""));
         }
     }
+    lines.extend(report.lateness_lines(language));
     lines.push(page.to_owned());
     lines.join("\n")
 }

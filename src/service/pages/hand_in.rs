@@ -7,6 +7,7 @@ use super::student::{Desk, LISTED};
 use super::{preview, result, shown};
 use crate::grade::handed_out;
 use crate::service::State;
+use crate::service::counting;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery;
@@ -15,7 +16,7 @@ use crate::service::identity::{Visitor, code_needed};
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, check_text, for_slots, is_stranger, submit};
+use crate::service::submit::{Receipt, Upload, check_text, closed, for_slots, is_stranger, submit};
 use crate::source;
 use axum::extract::{Multipart, Query, State as Shared};
 use axum::http::{HeaderMap, header};
@@ -37,6 +38,7 @@ pub(super) fn router() -> Router<State> {
     Router::new()
         .route("/", get(desk).post(hand_in))
         .route("/draft", post(draft))
+        .route("/choose", post(choose))
         .route("/read", post(read))
         .route("/starter", get(starter))
         .route("/goal.png", get(goal))
@@ -217,4 +219,31 @@ async fn take(
     let field = field.map(|field| format!("{field} {} {}", store::word(&via), hand_in.sha256()));
     let key = RequestKey::read(headers, field.as_deref(), &client)?;
     submit(state, Upload { hand_in, identity: visitor.identity, via, hints: None, key }).await
+}
+
+/// The form by which somebody chooses what counts.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Chosen {
+    csrf: String,
+    submission: String,
+}
+
+/// `POST /a/{assignment}/choose`: lets one of the attempts of whoever sits there count.
+async fn choose(
+    Shared(state): Shared<State>,
+    visitor: Visitor,
+    axum::Form(chosen): axum::Form<Chosen>,
+) -> Result<Response, Problem> {
+    visitor.check_csrf(&state, &chosen.csrf)?;
+    let (_, submission) = state.submission(&chosen.submission).await?;
+    if !visitor.identity.has_handed_in(&submission) {
+        return Err(Problem::not_found());
+    }
+    let settings = state.store.assignment_for(&state.assignment.id, visitor.identity.student_id()).await?;
+    if settings.is_closed(state.clock.now()) {
+        return Err(closed());
+    }
+    counting::choose(&state, &submission).await?;
+    Ok(Redirect::to(&format!("{}#attempts", state.page())).into_response())
 }

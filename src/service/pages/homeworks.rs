@@ -90,7 +90,7 @@ async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fa
     }
     let standing = StudentStanding { settings: &settings, now: state.clock.now(), may_hand_in: true, used };
     let mut facts = standing.facts(frame);
-    facts.extend(student::best_fact(frame, &history));
+    facts.extend(student::counted_fact(frame, &history, settings.counting));
     Ok(facts)
 }
 

@@ -1,10 +1,10 @@
 //! What a student may still hand in, and until when.
 
-use super::datetime;
 use super::frame::Frame;
-use crate::language::Language;
+use crate::language::{Language, span};
+use crate::report::text::number;
 use crate::service::clock::Millis;
-use crate::service::store::Assignment;
+use crate::service::store::{Assignment, LateSpan};
 
 /// Milliseconds before the deadline from which it is urgent.
 const URGENT: Millis = 24 * 3_600_000;
@@ -76,17 +76,7 @@ impl StudentStanding<'_> {
                 let over = frame.say("open now", "受付中");
                 facts.push(Fact { kind: "urgent", text, until: Some(self.until(frame, opens, template, over, false)) });
             }
-            (_, Some(closes)) if self.is_closed() => {
-                let text = say(format!("Closed since {}", moment(closes)), format!("受付終了 {}", moment(closes)));
-                facts.push(Fact::plain("urgent", text));
-            }
-            (_, Some(closes)) => {
-                let kind = if closes - self.now < URGENT { "urgent" } else { "" };
-                let text = say(format!("Due {}", moment(closes)), format!("締切 {}", moment(closes)));
-                let template = frame.say("% left", "残り %");
-                let over = frame.say("the deadline has passed", "締切を過ぎました");
-                facts.push(Fact { kind, text, until: Some(self.until(frame, closes, template, over, true)) });
-            }
+            (_, Some(due)) => facts.extend(self.dates(frame, due)),
             _ => {}
         }
         if self.settings.has_own_deadline && !self.is_closed() {
@@ -101,8 +91,50 @@ impl StudentStanding<'_> {
         facts
     }
 
+    /// What there is to say of a due date: when it is, or what comes after it.
+    fn dates(&self, frame: &Frame, due: Millis) -> Vec<Fact> {
+        let is_english = frame.language == Language::En;
+        let say = |en: String, ja: String| if is_english { en } else { ja };
+        let moment = |at| frame.deadline(at).text;
+        let late_from = self.settings.late_from().unwrap_or(due);
+        let ends = self.settings.ends_at().unwrap_or(due);
+        let late = (ends > late_from).then(|| Fact::plain("", late_rules(self.settings, frame, ends)));
+        let dated = |kind, text, at, left: (&'static str, &'static str), over: (&'static str, &'static str)| {
+            let (template, over) = (frame.say(left.0, left.1), frame.say(over.0, over.1));
+            Fact { kind, text, until: Some(self.until(frame, at, template, over, at == ends)) }
+        };
+        let left = ("% left", "残り %");
+        let passed = ("the deadline has passed", "締切を過ぎました");
+        let kind = |at: Millis| if at - self.now < URGENT { "urgent" } else { "" };
+        match self.now {
+            now if now < due => {
+                let text = say(format!("Due {}", moment(due)), format!("締切 {}", moment(due)));
+                std::iter::once(dated(kind(due), text, due, left, passed)).chain(late).collect()
+            }
+            now if now < late_from => {
+                let text = say(
+                    format!("Was due {}. Not late until {}", moment(due), moment(late_from)),
+                    format!("締切 {}。{} までは遅延になりません", moment(due), moment(late_from)),
+                );
+                std::iter::once(dated("urgent", text, late_from, left, passed)).chain(late).collect()
+            }
+            now if now < ends => {
+                let text = say(
+                    format!("Was due {}. Late hand-ins until {}", moment(due), moment(ends)),
+                    format!("締切 {}。遅延提出は {} まで", moment(due), moment(ends)),
+                );
+                let over = ("handing in has ended", "受付を終了しました");
+                std::iter::once(dated("urgent", text, ends, left, over)).chain(late).collect()
+            }
+            _ => {
+                let text = say(format!("Closed since {}", moment(ends)), format!("受付終了 {}", moment(ends)));
+                vec![Fact::plain("urgent", text)]
+            }
+        }
+    }
+
     fn until(&self, frame: &Frame, at: Millis, template: &'static str, over: &'static str, closes: bool) -> Until {
-        let text = template.replace('%', &datetime::span(at - self.now, frame.language));
+        let text = template.replace('%', &span((at - self.now).max(0).unsigned_abs(), frame.language));
         Until { at, template, text, over, closes }
     }
 
@@ -173,6 +205,29 @@ impl StudentStanding<'_> {
             frame.say("draft, not handed in", "下書き（未提出）")
         } else {
             frame.say("practice, not handed in", "練習（提出ではありません）")
+        }
+    }
+}
+
+/// Until when late hand-ins are taken, and what they lose.
+fn late_rules(settings: &Assignment, frame: &Frame, ends: Millis) -> String {
+    let (rules, ends) = (&settings.late, frame.moment(ends).text);
+    let (percent, floor) = (number(rules.percent), number(rules.floor));
+    let (en, ja) = match rules.span {
+        LateSpan::Day => ("day", "1 日"),
+        LateSpan::Hour => ("hour", "1 時間"),
+    };
+    let is_limited = rules.floor > 0.0;
+    match frame.language {
+        Language::En if rules.percent <= 0.0 => format!("Late hand-ins until {ends}, without a deduction"),
+        Language::En => {
+            let least = if is_limited { format!(", never below {floor} %") } else { String::new() };
+            format!("Late until {ends}: −{percent} % of the points for each {en} begun{least}")
+        }
+        Language::Ja if rules.percent <= 0.0 => format!("遅延提出は {ends} まで（減点なし）"),
+        Language::Ja => {
+            let least = if is_limited { format!("、下限 {floor} %") } else { String::new() };
+            format!("遅延提出は {ends} まで（{ja}ごとに満点の {percent} % を減点{least}）")
         }
     }
 }

@@ -1,18 +1,17 @@
 //! The page on which a student works: an editor, what came of it, and the attempts so far.
 
 use super::assets;
-use super::datetime::Moment;
+use super::attempts::{Attempt, Choice};
 use super::frame::Frame;
 use super::preview::PreviewPanel;
 use super::report_fragment;
 use super::standing::{Fact, StudentStanding};
 use crate::language::Language;
-use crate::report::Verdict;
-use crate::report::html::Mark;
 use crate::report::html::rich::{Piece, pieces};
 use crate::service::clock::Millis;
+use crate::service::counting::{Counting, counted};
 use crate::service::identity::new_id;
-use crate::service::store::{HistoryRow, State as Progress};
+use crate::service::store::HistoryRow;
 use crate::service::submit::{MAX_UPLOAD, too_large};
 use crate::slots::Slot;
 use askama::Template;
@@ -82,6 +81,9 @@ struct StudentPage<'a> {
     picture: &'a str,
     equation: Option<&'a Typeset>,
     attempts: Vec<Attempt>,
+    /// Where a form lets an attempt count, and whether attempts can be deleted here.
+    choose: String,
+    deletable: bool,
     preview: Option<PreviewPanel>,
 }
 
@@ -98,18 +100,6 @@ struct Sheet {
     /// The name of what is computed in it, by which the line to change is found.
     output: String,
     text: String,
-}
-
-/// One attempt.
-struct Attempt {
-    href: String,
-    mark: Option<&'static str>,
-    score: String,
-    max_score: String,
-    verdict: &'static str,
-    is_best: bool,
-    portrait: Option<String>,
-    at: Moment,
 }
 
 impl Desk<'_> {
@@ -136,6 +126,8 @@ impl Desk<'_> {
             can_hand_in: standing.can_hand_in(),
             grades_drafts: standing.grades_drafts(),
             attempts: self.attempts(),
+            choose: format!("/a/{id}/choose"),
+            deletable: false,
             notice: self.notice,
             preview: self.preview,
             who: self.who,
@@ -164,34 +156,17 @@ impl Desk<'_> {
 
     fn facts(&self) -> Vec<Fact> {
         let mut facts = self.standing.facts(&self.frame);
-        facts.extend(best_fact(&self.frame, self.history));
+        facts.extend(counted_fact(&self.frame, self.history, self.standing.settings.counting));
         facts
     }
 
     fn attempts(&self) -> Vec<Attempt> {
-        let best = best(self.history).map(|row| row.submission.id.as_str());
-        self.history.iter().map(|row| self.attempt(row, best)).collect()
-    }
-
-    fn attempt(&self, row: &HistoryRow, best: Option<&str>) -> Attempt {
-        let submission = &row.submission;
-        let verdict = match (row.verdict, submission.state) {
-            (Some(verdict), _) => report_fragment::verdict(&self.frame, verdict),
-            (None, Progress::Failed) => {
-                self.frame.say("Failed on our side; tried again soon", "サーバ側の障害。まもなく再採点します")
-            }
-            (None, _) => self.frame.say("Being graded", "採点中"),
-        };
-        Attempt {
-            href: format!("/r/{}", submission.id),
-            mark: row.verdict.map(|verdict| mark(verdict, row.score).id()),
-            score: report_fragment::points(row.score),
-            max_score: report_fragment::points(row.max_score),
-            verdict,
-            is_best: best == Some(submission.id.as_str()),
-            portrait: draws(row.verdict).then(|| self.frame.picture(&submission.id, "portrait")),
-            at: self.frame.moment(submission.received_at),
-        }
+        let settings = self.standing.settings;
+        let counting = settings.counting;
+        let counted = counted(self.history, counting, |row| row).map(|row| row.submission.id.as_str());
+        let may_choose = !settings.is_closed(self.standing.now);
+        let choice = Choice { counting, counted, may_choose };
+        self.history.iter().map(|row| Attempt::of(&self.frame, row, choice)).collect()
     }
 }
 
@@ -241,18 +216,15 @@ fn accepted(slots: &[Slot]) -> String {
     extensions.join(",")
 }
 
-/// The best of some attempts, the newest first; of equals the first that was made.
-fn best(history: &[HistoryRow]) -> Option<&HistoryRow> {
-    let graded = history.iter().rev().filter(|row| row.score.is_some());
-    graded.reduce(|best, next| if next.score > best.score { next } else { best })
-}
-
-/// What the best of some attempts got.
-pub(super) fn best_fact(frame: &Frame, history: &[HistoryRow]) -> Option<Fact> {
-    let best = best(history)?;
-    let (score, most) = (report_fragment::points(best.score), report_fragment::points(best.max_score));
-    let said = frame.say("Best so far", "これまでの最高");
-    Some(Fact::plain("", format!("{said} {score} / {most}")))
+/// What counts of some attempts, the newest first.
+pub(super) fn counted_fact(frame: &Frame, history: &[HistoryRow], counting: Counting) -> Option<Fact> {
+    let row = counted(history, counting, |row| row)?;
+    let (total, most) = (report_fragment::points(row.total()), report_fragment::points(row.max_score));
+    let said = match counting {
+        Counting::Best => frame.say("Best so far", "これまでの最高"),
+        Counting::Last | Counting::Chosen => frame.say("Counts so far", "現在の得点"),
+    };
+    Some(Fact::plain("", format!("{said} {total} / {most}")))
 }
 
 /// What there is to do.
@@ -281,18 +253,4 @@ pub(super) fn title(homework: &reference::Assignment, language: Language) -> Str
         Language::En => homework.title.en.clone(),
         Language::Ja => homework.title.ja.clone(),
     }
-}
-
-/// The sign of a result of which only verdict and points are known.
-pub(super) fn mark(verdict: Verdict, score: Option<f64>) -> Mark {
-    match verdict {
-        Verdict::Correct => Mark::Full,
-        Verdict::Wrong if score.unwrap_or(0.0) > 0.0 => Mark::Partial,
-        Verdict::Wrong | Verdict::Rejected | Verdict::Stopped => Mark::None,
-    }
-}
-
-/// Whether a file with this verdict has been drawn.
-pub(super) fn draws(verdict: Option<Verdict>) -> bool {
-    matches!(verdict, Some(Verdict::Correct | Verdict::Wrong))
 }

@@ -1,6 +1,6 @@
 //! The teacher's pages, behind the login.
 //!
-//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`batches`]
+//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`extensions`] later deadlines, [`batches`]
 //! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
@@ -14,6 +14,7 @@ mod class;
 mod codes;
 mod delete;
 mod downloads;
+mod extensions;
 mod live;
 pub(super) mod login;
 mod people;
@@ -42,7 +43,9 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher", get(class::page))
         .route("/teacher/events", get(live::events))
         .route("/teacher/person", get(person::page))
-        .route("/teacher/extension", post(person::extend))
+        .route("/teacher/extension", post(extensions::of_student))
+        .route("/teacher/extensions", get(extensions::page).post(extensions::set))
+        .route("/teacher/choice", post(person::choose))
         .route("/teacher/delete", get(delete::page).post(delete::delete))
         .route("/teacher/downloads", post(downloads::start))
         .route("/teacher/downloads/{id}", get(downloads::page))

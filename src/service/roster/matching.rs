@@ -133,6 +133,7 @@ mod tests {
             on_roster: 1,
             moodle,
             code_generation: 0,
+            group_name: String::new(),
         }
     }
 

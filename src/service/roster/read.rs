@@ -23,6 +23,7 @@ const NAME: [&str; 7] = ["氏名", "名前", "姓名", "フルネーム", "fulln
 const FAMILY: [&str; 5] = ["姓", "surname", "lastname", "familyname", "last"];
 const GIVEN: [&str; 5] = ["名", "firstname", "givenname", "forename", "first"];
 const MOODLE: [&str; 2] = ["識別子", "identifier"];
+const GROUP: [&str; 6] = ["グループ", "班", "クラス", "group", "groups", "section"];
 
 /// Mistakes that one message lists.
 const LISTED: usize = 5;
@@ -35,6 +36,7 @@ struct Heading {
     family: Option<usize>,
     given: Option<usize>,
     moodle: Option<usize>,
+    group: Option<usize>,
 }
 
 impl Heading {
@@ -53,6 +55,7 @@ impl Heading {
             family: find(&FAMILY),
             given: find(&GIVEN),
             moodle: find(&MOODLE),
+            group: find(&GROUP),
         })
     }
 }
@@ -127,7 +130,12 @@ fn by_heading(heading: &Heading, cells: &[&str]) -> Option<RosterLine> {
         "" => format!("{} {}", cell(heading.family), cell(heading.given)).trim().to_owned(),
         name => name.to_owned(),
     };
-    Some(RosterLine { number: normal_number(cell(heading.number))?, name, moodle: participant(cell(heading.moodle)) })
+    Some(RosterLine {
+        number: normal_number(cell(heading.number))?,
+        name,
+        moodle: participant(cell(heading.moodle)),
+        group: cell(heading.group).to_owned(),
+    })
 }
 
 fn by_shape(cells: &[&str]) -> Option<RosterLine> {
@@ -136,7 +144,7 @@ fn by_shape(cells: &[&str]) -> Option<RosterLine> {
     let moodle = cells.iter().find_map(|cell| participant(cell));
     let others = cells.iter().enumerate().filter(|(index, cell)| *index != place && !cell.is_empty());
     let name = others.map(|(_, cell)| *cell).find(|cell| participant(cell).is_none()).unwrap_or_default();
-    Some(RosterLine { number: number(cells[place])?, name: name.to_owned(), moodle })
+    Some(RosterLine { number: number(cells[place])?, name: name.to_owned(), moodle, group: String::new() })
 }
 
 /// The number in `Participant 1234`, as Moodle's worksheet writes it.
@@ -187,7 +195,7 @@ mod tests {
     }
 
     fn line(number: &str, name: &str) -> RosterLine {
-        RosterLine { number: number.to_owned(), name: name.to_owned(), moodle: None }
+        RosterLine { number: number.to_owned(), name: name.to_owned(), ..RosterLine::default() }
     }
 
     #[test]
@@ -209,6 +217,8 @@ mod tests {
             [of_moodle(Some(4711))]
         );
         assert_eq!(of("識別子,フルネーム,ユーザ名\n参加者 4711,和田 花子,s1\n"), [of_moodle(Some(4711))]);
+        let of_group = RosterLine { group: "火曜 B".to_owned(), ..line("S1", "和田 花子") };
+        assert_eq!(of("username,name,グループ\ns1,和田 花子,火曜 B\n"), [of_group]);
         // Whoever calls the number by its letters alone says so in a heading.
         assert_eq!(of("username,name\nhanako,和田 花子\n"), [line("HANAKO", "和田 花子")]);
     }

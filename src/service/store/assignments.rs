@@ -1,9 +1,10 @@
 //! What a teacher sets for an assignment.
 
 use super::rows::{from_word, word};
-use super::{Result, Store, on, signed};
+use super::{LateRules, LateSpan, Result, Store, on, signed};
 use crate::diagnose::Hints;
 use crate::service::clock::Millis;
+use crate::service::counting::Counting;
 use serde::{Deserialize, Serialize};
 
 /// Who may hand in.
@@ -18,7 +19,7 @@ pub enum Audience {
 }
 
 /// The settings of an assignment.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
     /// Its id.
     pub id: String,
@@ -29,7 +30,7 @@ pub struct Assignment {
     pub hints: Hints,
     /// When handing in begins.
     pub opens_at: Option<Millis>,
-    /// When handing in ends.
+    /// When it is due. Handing in ends then, where the rules for late hand-ins do not say more, see [`Self::ends_at`].
     pub closes_at: Option<Millis>,
     /// How often one student may hand in.
     pub attempts: Option<u64>,
@@ -39,12 +40,27 @@ pub struct Assignment {
     pub practice: bool,
     /// Whether the end is one student's own.
     pub has_own_deadline: bool,
+    /// What there is after the due date.
+    pub late: LateRules,
+    /// Which of somebody's hand-ins counts.
+    pub counting: Counting,
 }
 
-type Row = (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String, i64);
+type Row =
+    (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String, i64, i64, Option<i64>, f64, i64, f64, String);
+
+/// The columns of [`Row`].
+macro_rules! columns {
+    () => {
+        "id, seed, hints, opens_at, closes_at, attempts, audience, practice, grace, late_until, late_percent, late_span, \
+         late_floor, counting"
+    };
+}
 
 impl Assignment {
-    fn of((id, seed, hints, opens_at, closes_at, attempts, audience, practice): Row) -> Result<Self> {
+    fn of(row: Row) -> Result<Self> {
+        let (id, seed, hints, opens_at, closes_at, attempts, audience, practice, ..) = row;
+        let (.., grace, until, percent, span, floor, counting) = row;
         Ok(Self {
             id,
             seed: seed.unsigned_abs(),
@@ -55,6 +71,8 @@ impl Assignment {
             audience: from_word(audience)?,
             practice: practice != 0,
             has_own_deadline: false,
+            late: LateRules { grace, until, percent, span: LateSpan::of(span), floor },
+            counting: from_word(counting)?,
         })
     }
 
@@ -63,9 +81,21 @@ impl Assignment {
         self.opens_at.is_none_or(|opens| opens <= now) && !self.is_closed(now)
     }
 
+    /// When a hand-in is late: the due date and the grace after it.
+    pub fn late_from(&self) -> Option<Millis> {
+        Some(self.closes_at?.saturating_add(self.late.grace))
+    }
+
+    /// When handing in ends: with the grace, or with the last late hand-in that is taken. Whoever has a later due date
+    /// may hand in until then.
+    pub fn ends_at(&self) -> Option<Millis> {
+        let in_time = self.late_from()?;
+        Some(self.late.until.map_or(in_time, |until| until.max(in_time)))
+    }
+
     /// Whether handing in is over at `now`.
     pub fn is_closed(&self, now: Millis) -> bool {
-        self.closes_at.is_some_and(|closes| closes <= now)
+        self.ends_at().is_some_and(|ends| ends <= now)
     }
 
     /// Whether what is typed is graded at `now`: where attempts are counted only after the end, as practice.
@@ -77,8 +107,7 @@ impl Assignment {
 impl Store {
     /// The settings of an assignment; the usual ones, with a seed that nobody knows, when it is met first.
     pub async fn assignment(&self, id: &str) -> Result<Assignment> {
-        const SELECT: &str =
-            "SELECT id, seed, hints, opens_at, closes_at, attempts, audience, practice FROM assignments WHERE id = $1";
+        const SELECT: &str = concat!("SELECT ", columns!(), " FROM assignments WHERE id = $1");
         const INSERT: &str = "INSERT INTO assignments (id, seed, hints, audience) VALUES ($1, $2, $3, $4) \
                               ON CONFLICT (id) DO NOTHING";
         let found: Option<Row> = on!(&self.read, db => sqlx::query_as(SELECT).bind(id).fetch_optional(db).await?);
@@ -96,7 +125,8 @@ impl Store {
     /// Sets everything of an assignment.
     pub async fn set_assignment(&self, assignment: &Assignment) -> Result<()> {
         const SQL: &str = "UPDATE assignments SET seed = $2, hints = $3, opens_at = $4, closes_at = $5, \
-                           attempts = $6, audience = $7, practice = $8 WHERE id = $1";
+                           attempts = $6, audience = $7, practice = $8, grace = $9, late_until = $10, \
+                           late_percent = $11, late_span = $12, late_floor = $13, counting = $14 WHERE id = $1";
         on!(&self.write, db => {
             sqlx::query(SQL)
                 .bind(&assignment.id)
@@ -107,6 +137,12 @@ impl Store {
                 .bind(assignment.attempts.map(signed))
                 .bind(word(&assignment.audience))
                 .bind(i64::from(assignment.practice))
+                .bind(assignment.late.grace)
+                .bind(assignment.late.until)
+                .bind(assignment.late.percent)
+                .bind(assignment.late.span.millis())
+                .bind(assignment.late.floor)
+                .bind(word(&assignment.counting))
                 .execute(db)
                 .await?;
         });

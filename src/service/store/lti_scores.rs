@@ -3,7 +3,7 @@
 use super::{Result, Store, on};
 use crate::service::clock::Millis;
 
-/// A score that a platform has still to get: the best of a student, where that is not what was sent last.
+/// A score that a platform has still to get: the one that counts of a student, where that is not what was sent last.
 #[derive(Clone, Debug, PartialEq, sqlx::FromRow)]
 pub struct DueScore {
     /// Id of the platform.
@@ -16,7 +16,7 @@ pub struct DueScore {
     pub line_item: String,
     /// The submission.
     pub submission_id: String,
-    /// Its points.
+    /// Its points, without what lateness takes off.
     pub score: f64,
     /// When the last one was sent; 0: none was.
     pub sent_at: Millis,
@@ -38,20 +38,25 @@ impl Store {
         Ok(())
     }
 
-    /// Scores that are due at `now`, as many as are sent in one go. The best attempt counts, of equals the first. Where the one
-    /// that was sent is deleted, no lower one takes its place: what is too old to be kept costs nobody a point.
+    /// Scores that are due at `now`, as many as are sent in one go. The attempt counts that [`counted`](crate::service::counting::counted)
+    /// names. Where the one that was sent is deleted, no lower one takes its place: what is too old to be kept costs nobody a point.
     pub async fn due_scores(&self, now: Millis) -> Result<Vec<DueScore>> {
         const SQL: &str = "SELECT platform_id, link_id, subject, line_item, submission_id, score, sent_at, tries FROM \
-                           (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, r.score, \
+                           (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, \
+                           r.score - n.penalty AS score, \
                            k.sent_at, k.tries, k.submission_id AS sent_id, k.score AS sent_score, \
                            ROW_NUMBER() OVER (PARTITION BY k.platform_id, k.link_id, k.subject \
-                           ORDER BY r.score DESC, s.received_at, s.id) AS place \
+                           ORDER BY CASE WHEN a.counting = 'chosen' THEN coalesce(s.chosen_at, 0) ELSE 0 END DESC, \
+                           CASE WHEN a.counting = 'best' THEN r.score - n.penalty ELSE 0 END DESC, \
+                           CASE WHEN a.counting = 'best' THEN -s.received_at ELSE s.received_at END DESC, s.id) AS place \
                            FROM lti_scores k \
                            JOIN lti_links l ON l.platform_id = k.platform_id AND l.link_id = k.link_id \
                            JOIN lti_platforms f ON f.id = k.platform_id AND f.is_active = 1 \
                            JOIN lti_people p ON p.platform_id = k.platform_id AND p.subject = k.subject \
                            JOIN submissions s ON s.student_id = p.student_id AND s.assignment = l.assignment \
                            AND s.via <> 'editor' JOIN reports r ON r.submission_id = s.id \
+                           JOIN assignments a ON a.id = s.assignment \
+                           JOIN lateness n ON n.submission_id = s.id \
                            WHERE k.next_at <= $1 AND l.line_item IS NOT NULL) AS best \
                            WHERE place = 1 AND (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score) \
                            AND (sent_id IS NULL OR score >= sent_score \

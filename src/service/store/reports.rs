@@ -1,10 +1,11 @@
 //! Reports, and the lists that are made of them.
 
 use super::cross_checks::differs;
+use super::late::lateness;
 use super::rows::{from_word, submission_columns, word};
 use super::{Result, Store, Submission, on};
 use crate::cross_check::CrossCheck;
-use crate::report::{Report, Verdict};
+use crate::report::{Lateness, Report, Verdict};
 use crate::service::clock::Millis;
 
 /// A submission with its report, where it has one.
@@ -29,6 +30,17 @@ pub struct HistoryRow {
     pub score: Option<f64>,
     /// The possible points.
     pub max_score: Option<f64>,
+    /// How late it came, and what that takes off.
+    pub lateness: Option<Lateness>,
+    /// When somebody chose that it counts.
+    pub chosen_at: Option<Millis>,
+}
+
+impl HistoryRow {
+    /// The points without what lateness takes off; none where it is not graded.
+    pub fn total(&self) -> Option<f64> {
+        Some(self.score? - self.lateness.map_or(0.0, |lateness| lateness.penalty))
+    }
 }
 
 /// One submission as the class table has it.
@@ -96,6 +108,9 @@ where
     Submission: sqlx::FromRow<'r, R>,
     &'static str: sqlx::ColumnIndex<R>,
     Option<String>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
+    i64: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
+    Option<i64>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
+    f64: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
     Option<f64>: sqlx::Decode<'r, R::Database> + sqlx::Type<R::Database>,
 {
     fn from_row(row: &'r R) -> std::result::Result<Self, sqlx::Error> {
@@ -105,6 +120,8 @@ where
             verdict: verdict.map(from_word).transpose()?,
             score: row.try_get("score")?,
             max_score: row.try_get("max_score")?,
+            lateness: lateness(row.try_get("late")?, row.try_get("penalty")?),
+            chosen_at: row.try_get("chosen_at")?,
         })
     }
 }
@@ -139,6 +156,7 @@ impl Store {
         if let Some(report) = &mut report {
             // Reports of 0.1.0 do not say how much they help; their submissions do.
             report.hints = report.hints.min(submission.hints);
+            report.lateness = self.lateness(id).await?;
         }
         let cross_check = report.as_mut().and_then(|report| report.cross_check.take());
         Ok(Some(Stored { submission, report, cross_check }))
@@ -163,7 +181,8 @@ impl Store {
         const SQL: &str = concat!(
             "SELECT ",
             submission_columns!(),
-            ", r.verdict, r.score, r.max_score FROM submissions s LEFT JOIN reports r ON r.submission_id = s.id \
+            ", r.verdict, r.score, r.max_score, l.late, l.penalty, s.chosen_at FROM submissions s \
+             JOIN lateness l ON l.submission_id = s.id LEFT JOIN reports r ON r.submission_id = s.id \
              WHERE s.assignment = $1 AND (s.owner_id = $2 OR (s.student_id = $3 AND s.via <> 'batch')) \
              AND s.via <> 'editor' ORDER BY s.received_at DESC, s.id LIMIT $4"
         );
@@ -183,10 +202,11 @@ impl Store {
         const SQL: &str = concat!(
             "SELECT ",
             submission_columns!(),
-            ", r.verdict, r.score, r.max_score, r.mistakes, t.number, t.name AS student_name, CAST(CASE WHEN ",
+            ", r.verdict, r.score, r.max_score, l.late, l.penalty, s.chosen_at, r.mistakes, t.number, \
+             t.name AS student_name, CAST(CASE WHEN ",
             differs!("r.report"),
             " THEN 1 ELSE 0 END AS BIGINT) AS differs \
-             FROM submissions s LEFT JOIN reports r ON r.submission_id = s.id \
+             FROM submissions s JOIN lateness l ON l.submission_id = s.id LEFT JOIN reports r ON r.submission_id = s.id \
              LEFT JOIN students t ON t.id = s.student_id \
              WHERE s.assignment = $1 AND s.via <> 'editor' AND ($2 = '' OR s.batch_id = $2) \
              ORDER BY s.received_at DESC, s.id"

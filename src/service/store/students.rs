@@ -18,6 +18,8 @@ pub struct Student {
     pub moodle: Option<i64>,
     /// Which personal code of theirs counts, from 0.
     pub code_generation: i64,
+    /// The group of the course that they are in; empty where the roster says none.
+    pub group_name: String,
 }
 
 impl Student {
@@ -36,6 +38,8 @@ pub struct RosterLine {
     pub name: String,
     /// The number by which Moodle's files name them.
     pub moodle: Option<u64>,
+    /// Their group; empty where the roster has none.
+    pub group: String,
 }
 
 /// An entry of an archive, and who of the roster it is.
@@ -55,7 +59,7 @@ impl Store {
         const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
                               SELECT $1, $2, '', 0, $3 WHERE NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1) \
                               ON CONFLICT (number) DO NOTHING";
-        const SELECT: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE number = $1 \
+        const SELECT: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1 \
                               AND (on_roster = 1 OR NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1))";
         let found = on!(&self.read, db => sqlx::query_as(SELECT).bind(number).fetch_optional(db).await?);
         if found.is_some() {
@@ -68,25 +72,35 @@ impl Store {
 
     /// The student with this id.
     pub async fn student_by_id(&self, id: &str) -> Result<Option<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE id = $1";
+        const SQL: &str =
+            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE id = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?))
     }
 
     /// The student with this number, whether the roster has them or not.
     pub async fn student_by_number(&self, number: &str) -> Result<Option<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE number = $1";
+        const SQL: &str =
+            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(number).fetch_optional(db).await?))
     }
 
     /// Everyone, by number.
     pub async fn students(&self) -> Result<Vec<Student>> {
-        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation FROM students ORDER BY number";
+        const SQL: &str =
+            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students ORDER BY number";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))
     }
 
     /// The roster, by number; empty where there is none.
     pub async fn roster(&self) -> Result<Vec<Student>> {
         Ok(self.students().await?.into_iter().filter(Student::is_on_roster).collect())
+    }
+
+    /// The names of the groups of the roster.
+    pub async fn groups(&self) -> Result<Vec<String>> {
+        const SQL: &str =
+            "SELECT DISTINCT group_name FROM students WHERE on_roster = 1 AND group_name <> '' ORDER BY group_name";
+        Ok(on!(&self.read, db => sqlx::query_scalar(SQL).fetch_all(db).await?))
     }
 
     /// Whether there is a roster: then it is the class.
@@ -99,9 +113,10 @@ impl Store {
     /// Takes a roster in place of the last one; who is not on it any more keeps their files.
     pub async fn set_roster(&self, roster: &[RosterLine], now: Millis) -> Result<()> {
         const CLEAR: &str = "UPDATE students SET on_roster = 0";
-        const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at, moodle) \
-                              VALUES ($1, $2, $3, 1, $4, $5) ON CONFLICT (number) \
-                              DO UPDATE SET name = excluded.name, on_roster = 1, moodle = excluded.moodle";
+        const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at, moodle, group_name) \
+                              VALUES ($1, $2, $3, 1, $4, $5, $6) ON CONFLICT (number) DO UPDATE SET \
+                              name = excluded.name, on_roster = 1, moodle = excluded.moodle, \
+                              group_name = excluded.group_name";
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(CLEAR).execute(&mut *transaction).await?;
@@ -112,6 +127,7 @@ impl Store {
                     .bind(&line.name)
                     .bind(now)
                     .bind(line.moodle.map(signed))
+                    .bind(&line.group)
                     .execute(&mut *transaction)
                     .await?;
             }
@@ -127,7 +143,7 @@ impl Store {
                            name = CASE WHEN students.name = '' THEN excluded.name ELSE students.name END, \
                            on_roster = CASE WHEN excluded.on_roster = 1 THEN 1 ELSE students.on_roster END";
         const SELECT: &str =
-            "SELECT id, number, name, on_roster, moodle, code_generation FROM students WHERE number = $1";
+            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1";
         let on_roster = i64::from(self.has_roster().await?);
         Ok(on!(&self.write, db => {
             sqlx::query(SQL)

@@ -177,6 +177,13 @@ impl Store {
         Ok(count.unsigned_abs())
     }
 
+    /// Lets a submission count where those count that are chosen.
+    pub async fn choose(&self, id: &str, now: Millis) -> Result<()> {
+        const SQL: &str = "UPDATE submissions SET chosen_at = $2 WHERE id = $1";
+        on!(&self.write, db => { sqlx::query(SQL).bind(id).bind(now).execute(db).await?; });
+        Ok(())
+    }
+
     /// How many files wait to be graded, and how many failed.
     pub async fn waiting(&self) -> Result<(u64, u64)> {
         const SQL: &str = "SELECT count(*) FROM submissions WHERE state = $1";

@@ -16,7 +16,7 @@ pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, u
     }
     let is_draft = upload.via == Via::Editor;
     if assignment.is_closed(now) && !(is_draft && assignment.practice) {
-        return forbidden("closed", "Handing in is over.", "提出の受付は終了しました。");
+        return Err(closed());
     }
     // What somebody hands in under a number that they have not proved counts for nobody: they must learn that now.
     if !is_draft && let Some(student) = upload.identity.claimed() {
@@ -64,6 +64,11 @@ pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, u
         ));
     }
     Ok(())
+}
+
+/// The answer after the end.
+pub fn closed() -> Problem {
+    Problem::new(StatusCode::FORBIDDEN, "closed", "Handing in is over.", "提出の受付は終了しました。")
 }
 
 /// Whether there is a roster, and this student is not on it.

@@ -89,7 +89,7 @@ fn heading(language: Language) -> &'static str {
 fn row(entry: &Entry, class: &Class) -> String {
     let language = class.language;
     let report = entry.report();
-    let score = report.map(|report| wording::points(report.score, report.max_score)).unwrap_or_default();
+    let score = report.map(wording::result).unwrap_or_default();
     let detail = match report {
         Some(report) => match report.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
             Some(error) => {
@@ -115,7 +115,7 @@ fn row(entry: &Entry, class: &Class) -> String {
 fn single(entry: &Entry, language: Language) -> String {
     let mut out = format!("**{}**", Standing::of(&entry.outcome).word(language));
     if let Some(report) = entry.report() {
-        let _ = write!(out, " {}", wording::points(report.score, report.max_score));
+        let _ = write!(out, " {}", wording::result(report));
     }
     let _ = writeln!(out, "\n\n{}\n", rich(&wording::explanation(entry, language)));
     if let Some(fault) = wording::fault(entry, language) {

@@ -73,6 +73,7 @@ pub(super) fn student(
 pub(super) fn chosen(person: &Person, pick: Pick) -> Option<&ClassRow> {
     match pick {
         Pick::Latest => person.rows.iter().find(|row| row.row.score.is_some()),
+        Pick::Counted => person.counted(),
         Pick::Best => person.best(),
     }
 }

@@ -33,7 +33,7 @@ pub(super) struct Bar {
     pub height: f64,
 }
 
-/// The best scores of everyone who has one. The last bar is full marks alone.
+/// The points that count of everyone who has some. The last bar is full marks alone.
 pub(super) fn histogram(people: &[&Person]) -> Histogram {
     let scores: Vec<f64> = people.iter().filter_map(|person| share(person)).collect();
     let mut counts = [0; BARS + 1];
@@ -58,10 +58,10 @@ pub(super) fn histogram(people: &[&Person]) -> Histogram {
     Histogram { bars: counts.iter().enumerate().map(bar).collect(), mean: mean.map(|mean| mean.round()) }
 }
 
-/// The share of the points that somebody's best attempt earned.
+/// The share of the points that somebody's attempt that counts earned.
 fn share(person: &Person) -> Option<f64> {
-    let best = &person.best()?.row;
-    Some(best.score? / best.max_score.filter(|most| *most > 0.0)?)
+    let best = &person.counted()?.row;
+    Some(best.total()? / best.max_score.filter(|most| *most > 0.0)?)
 }
 
 /// Every submission by its time and its score.
@@ -125,7 +125,7 @@ pub(super) fn course(people: &[&Person]) -> Option<Course> {
     Some(Course { dots: events.iter().map(dot).collect(), line: line.join(" "), from, to })
 }
 
-/// A mistake: how many people's best attempt has it, and how often it was handed in over time.
+/// A mistake: how many people's attempt that counts has it, and how often it was handed in over time.
 pub(super) struct Trend {
     pub id: String,
     pub title: String,
@@ -139,7 +139,7 @@ pub(super) struct Trend {
 /// The mistakes, the most frequent first.
 pub(super) fn trends(frame: &Frame, people: &[&Person]) -> Vec<Trend> {
     let mut standing: HashMap<&str, usize> = HashMap::new();
-    for best in people.iter().filter_map(|person| person.best()) {
+    for best in people.iter().filter_map(|person| person.counted()) {
         for mistake in &best.mistakes {
             *standing.entry(mistake).or_default() += 1;
         }

@@ -1,7 +1,7 @@
 //! The class: everyone's picture and result, filters, charts.
 
 use super::super::frame::Frame;
-use super::super::{internal, shown, student};
+use super::super::{attempts, internal, shown, student};
 use super::charts::{self, Course, HEIGHT, Histogram, SPARK, Trend, WIDTH};
 use super::downloads::{Offer, formats};
 use super::table::{Filter, Table, titled};
@@ -77,7 +77,7 @@ pub(in crate::service::pages) async fn page(
     let listed = if filter.is_apart() { &strangers } else { &everyone };
     let id = &state.assignment.id;
     let mut mistakes: Vec<String> =
-        listed.iter().filter_map(|person| person.best()).flat_map(|best| best.mistakes.iter().cloned()).collect();
+        listed.iter().filter_map(|person| person.counted()).flat_map(|row| row.mistakes.iter().cloned()).collect();
     mistakes.sort_unstable();
     mistakes.dedup();
     let mut mistakes = titled(&frame, &mistakes);
@@ -130,7 +130,7 @@ fn tallies(frame: &Frame, all: &[&Person]) -> Vec<Tally> {
         let count = all.iter().filter(|person| person.standing() == standing).count();
         let width = 1000.0 * count as f64 / total;
         let mark = match standing {
-            PersonStanding::Graded(verdict) => Some(student::mark(verdict, Some(1.0)).id()),
+            PersonStanding::Graded(verdict) => Some(attempts::mark(verdict, Some(1.0)).id()),
             _ => None,
         };
         let tally = Tally { id: standing.id(), word: word(frame, standing), mark, count, x, width };

@@ -77,7 +77,7 @@ pub(in crate::service::pages) async fn start(
     teacher.check_csrf(&state, &wish.csrf)?;
     let format = named(&wish.format)?;
     let (whose, back) = match wish.batch.as_str() {
-        "" => (Whose::Students(Pick::Best), frame.teacher()),
+        "" => (Whose::Students(Pick::Counted), frame.teacher()),
         id => {
             let batch = batches::found(&state, id).await?;
             (Whose::Batch(batch), format!("{}/batches/{id}", frame.teacher()))

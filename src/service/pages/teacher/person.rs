@@ -1,21 +1,24 @@
 //! What one student has handed in.
 
+use super::super::attempts::{Attempt, Choice};
 use super::super::datetime::{self, Moment};
 use super::super::frame::Frame;
-use super::super::{report_fragment, shown, student};
+use super::super::shown;
+use super::Tab;
+use super::extensions::Asked;
 use super::table::titled;
-use super::{Tab, refused};
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::classes::people;
+use crate::service::counting;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, TeacherPage};
-use crate::service::store::{ClassRow, Extension};
+use crate::service::store::{Beneficiary, ClassRow};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
-use axum::http::StatusCode;
 use axum::response::{IntoResponse, Redirect, Response};
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Deserialize;
 
 /// Whom to show.
@@ -27,6 +30,13 @@ pub(in crate::service::pages) struct Whom {
     anonymous: String,
 }
 
+impl Whom {
+    /// The one with this key.
+    pub(super) fn of(key: String) -> Self {
+        Self { key, ..Self::default() }
+    }
+}
+
 #[derive(Template)]
 #[template(path = "service/pages/templates/person.html")]
 struct PersonPage {
@@ -35,7 +45,10 @@ struct PersonPage {
     csrf: String,
     number: String,
     name: String,
+    group: String,
     attempts: Vec<Attempt>,
+    choose: String,
+    deletable: bool,
     note: Option<String>,
     key: Option<String>,
     /// The deadline of a student; none where there is none that could be put off.
@@ -52,34 +65,6 @@ struct Deadline {
     problem: Option<String>,
 }
 
-/// The form of a student's own deadline; without a date it is taken away.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(in crate::service::pages) struct OwnDeadline {
-    csrf: String,
-    student: String,
-    closes: String,
-    reason: String,
-}
-
-/// Longest reason, in characters.
-const LONGEST_REASON: usize = 500;
-
-struct Attempt {
-    id: String,
-    mark: Option<&'static str>,
-    word: &'static str,
-    score: String,
-    max_score: String,
-    is_best: bool,
-    portrait: Option<String>,
-    /// Title and id.
-    mistakes: Vec<(String, String)>,
-    is_disputed: bool,
-    file: String,
-    at: Moment,
-}
-
 /// `GET /teacher/person?key=`.
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
@@ -90,37 +75,29 @@ pub(in crate::service::pages) async fn page(
     view(&state, &teacher, &whom, frame, None).await
 }
 
-/// `POST /teacher/extension`: a student's own deadline.
-pub(in crate::service::pages) async fn extend(
+/// The form by which an attempt is chosen.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Chosen {
+    csrf: String,
+    submission: String,
+}
+
+/// `POST /teacher/choice`: lets an attempt count.
+pub(in crate::service::pages) async fn choose(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
     frame: Frame,
-    Form(asked): Form<OwnDeadline>,
+    Form(chosen): Form<Chosen>,
 ) -> Result<Response, Problem> {
-    teacher.check_csrf(&state, &asked.csrf)?;
-    let id = &state.assignment.id;
-    let student = state.store.student_by_id(&asked.student).await?.ok_or_else(Problem::not_found)?;
-    let of_class = state.store.assignment(id).await?.closes_at;
-    let wrong = match datetime::parse(&asked.closes, frame.course.zone()) {
-        Ok(Some(own)) if of_class.is_none_or(|class| own <= class) => frame.say(
-            "An extension ends after the deadline of the class; without a date it is taken away.",
-            "延長後の締切は、クラスの締切より後にしてください。空欄にすると延長を取り消します。",
-        ),
-        Ok(own) => {
-            let reason: String = asked.reason.trim().chars().take(LONGEST_REASON).collect();
-            let own = own.map(|closes_at| Extension { closes_at, reason: reason.clone() });
-            state.store.set_extension(id, &student.id, own.as_ref()).await?;
-            let until = if own.is_some() { asked.closes.as_str() } else { "–" };
-            let answer = Redirect::to(&format!("{}/person?key={}", frame.teacher(), student.id)).into_response();
-            return Ok(Detail { text: format!("{until} {reason}"), ..Detail::about(&student.id) }.on(answer));
-        }
-        Err(_) => {
-            frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
-        }
-    };
-    let whom = Whom { key: student.id, ..Whom::default() };
-    let page = view(&state, &teacher, &whom, frame, Some((asked, wrong.to_owned()))).await?;
-    Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
+    teacher.check_csrf(&state, &chosen.csrf)?;
+    let (_, submission) = state.submission(&chosen.submission).await?;
+    teacher.check(&submission.assignment)?;
+    counting::choose(&state, &submission).await?;
+    let key = submission.student_id.clone().or(submission.owner_id).unwrap_or(submission.id);
+    let page = format!("{}/person?key={}", frame.teacher(), utf8_percent_encode(&key, NON_ALPHANUMERIC));
+    let detail = Detail { student_id: submission.student_id, ..Detail::default() };
+    Ok(detail.on(Redirect::to(&page).into_response()))
 }
 
 /// The deadline of somebody who is a student, with what was typed and is wrong.
@@ -128,13 +105,13 @@ async fn deadline(
     state: &State,
     frame: &Frame,
     key: &str,
-    typed: Option<(OwnDeadline, String)>,
+    typed: Option<(Asked, String)>,
 ) -> Result<Option<Deadline>, Problem> {
     let id = &state.assignment.id;
     let closes = state.store.assignment(id).await?.closes_at;
     let student = state.store.student_by_id(key).await?;
     let (Some(closes), Some(student)) = (closes, student) else { return Ok(None) };
-    let kept = state.store.extension(id, &student.id).await?;
+    let kept = state.store.extension(id, &Beneficiary::Student(student.id.clone())).await?;
     let (own, reason, problem) = match (typed, kept) {
         (Some((asked, wrong)), _) => (asked.closes, asked.reason, Some(wrong)),
         (None, Some(kept)) => (datetime::field(kept.closes_at, frame.course.zone()), kept.reason, None),
@@ -144,23 +121,28 @@ async fn deadline(
 }
 
 /// The page, with a form that was refused.
-async fn view(
+pub(super) async fn view(
     state: &State,
     teacher: &Teacher,
     whom: &Whom,
     frame: Frame,
-    typed: Option<(OwnDeadline, String)>,
+    typed: Option<(Asked, String)>,
 ) -> Result<Response, Problem> {
     let people = people(state).await?;
     let person = people.all().find(|person| person.key == whom.key).cloned().ok_or_else(Problem::not_found)?;
-    let best = person.best().map(|best| best.row.submission.id.clone());
+    let counted = person.counted().map(|row| row.row.submission.id.as_str());
     let hidden = whom.anonymous == "on";
+    let group = state.store.student_by_id(&person.key).await?.map(|student| student.group_name).unwrap_or_default();
+    let choice = Choice { counting: person.counting, counted, may_choose: frame.is_lecturers() && !hidden };
     shown(
         PersonPage {
             place: Tab::Class,
             deadline: if hidden { None } else { deadline(state, &frame, &person.key, typed).await? },
             csrf: teacher.csrf(state),
-            attempts: person.rows.iter().map(|row| attempt(&frame, row, best.as_deref(), hidden)).collect(),
+            attempts: person.rows.iter().map(|row| attempt(&frame, row, choice, hidden)).collect(),
+            choose: format!("{}/choice", frame.teacher()),
+            deletable: frame.is_lecturers() && !hidden,
+            group: if hidden { String::new() } else { group },
             note: person.note.as_ref().map(|note| note.get(frame.language).replace('`', "")),
             // A deletion shows who it is.
             key: (!hidden).then(|| person.key.clone()),
@@ -172,22 +154,11 @@ async fn view(
     )
 }
 
-fn attempt(frame: &Frame, row: &ClassRow, best: Option<&str>, hidden: bool) -> Attempt {
-    let submission = &row.row.submission;
+fn attempt(frame: &Frame, row: &ClassRow, choice: Choice<'_>, hidden: bool) -> Attempt {
     Attempt {
-        id: submission.id.clone(),
-        mark: row.row.verdict.map(|verdict| student::mark(verdict, row.row.score).id()),
-        word: row
-            .row
-            .verdict
-            .map_or_else(|| frame.say("Being graded", "採点中"), |verdict| report_fragment::verdict(frame, verdict)),
-        score: report_fragment::points(row.row.score),
-        max_score: report_fragment::points(row.row.max_score),
-        is_best: best == Some(submission.id.as_str()),
-        portrait: student::draws(row.row.verdict).then(|| frame.picture(&submission.id, "portrait")),
         mistakes: titled(frame, &row.mistakes),
         is_disputed: row.differs,
-        file: if hidden { String::new() } else { submission.name.clone() },
-        at: frame.moment(submission.received_at),
+        file: if hidden { String::new() } else { row.row.submission.name.clone() },
+        ..Attempt::of(frame, &row.row, choice)
     }
 }

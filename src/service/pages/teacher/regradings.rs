@@ -2,7 +2,7 @@
 
 use super::super::datetime::Moment;
 use super::super::frame::Frame;
-use super::super::{report_fragment, shown, student};
+use super::super::{attempts, report_fragment, shown};
 use super::Tab;
 use super::login::CsrfForm;
 use super::table::{Pager, titled};
@@ -159,7 +159,7 @@ fn changed(before: &Graded, after: &Graded) -> bool {
 
 fn line(frame: &Frame, row: &Compared) -> Row {
     let got = |(verdict, score, mistakes): &Graded| Earned {
-        mark: student::mark(*verdict, Some(*score)).id(),
+        mark: attempts::mark(*verdict, Some(*score)).id(),
         word: report_fragment::verdict(frame, *verdict),
         score: number(*score),
         mistakes: titled(frame, mistakes),

@@ -8,12 +8,15 @@ use super::login::CsrfForm;
 use super::{public_address, refused};
 use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::report::text::number;
 use crate::service::State;
 use crate::service::acts::Detail;
+use crate::service::clock::Millis;
+use crate::service::counting::Counting;
 use crate::service::course::{Course, zone_names};
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher};
-use crate::service::store::{Assignment, Audience};
+use crate::service::store::{Assignment, Audience, LateRules, LateSpan, word};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
@@ -50,6 +53,21 @@ pub(in crate::service::pages) struct Rules {
     audience: String,
     /// A box that is not ticked is not sent.
     practice: String,
+    #[serde(flatten)]
+    late: LateFields,
+    counting: String,
+}
+
+/// The part of the form of the rules that is about lateness.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct LateFields {
+    /// Minutes.
+    grace: String,
+    late_until: String,
+    late_percent: String,
+    late_span: String,
+    late_floor: String,
 }
 
 /// The form of the course.
@@ -88,20 +106,11 @@ pub(super) struct Typed {
     course: Option<CourseFields>,
 }
 
-fn hints_word(hints: Hints) -> &'static str {
-    match hints {
-        Hints::None => "none",
-        Hints::Gentle => "gentle",
-        Hints::Full => "full",
-    }
-}
+/// A minute.
+const MINUTE: Millis = 60_000;
 
-fn audience_word(audience: Audience) -> &'static str {
-    match audience {
-        Audience::Open => "open",
-        Audience::Number => "number",
-    }
-}
+/// Longest grace, in minutes: a week.
+const LONGEST_GRACE: f64 = 10_080.0;
 
 /// `GET /teacher/settings`.
 pub(in crate::service::pages) async fn page(
@@ -171,9 +180,17 @@ impl Rules {
             opens: date(settings.opens_at),
             closes: date(settings.closes_at),
             attempts: settings.attempts.map(|attempts| attempts.to_string()).unwrap_or_default(),
-            hints: hints_word(settings.hints).to_owned(),
-            audience: audience_word(settings.audience).to_owned(),
+            hints: word(&settings.hints),
+            audience: word(&settings.audience),
             practice: if settings.practice { "on".to_owned() } else { String::new() },
+            late: LateFields {
+                grace: number(settings.late.grace as f64 / MINUTE as f64),
+                late_until: date(settings.late.until),
+                late_percent: number(settings.late.percent),
+                late_span: word(&settings.late.span),
+                late_floor: number(settings.late.floor),
+            },
+            counting: word(&settings.counting),
         }
     }
 
@@ -186,6 +203,12 @@ impl Rules {
             ("hints", &before.hints, &self.hints),
             ("audience", &before.audience, &self.audience),
             ("practice", &before.practice, &self.practice),
+            ("grace", &before.late.grace, &self.late.grace),
+            ("late until", &before.late.late_until, &self.late.late_until),
+            ("late percent", &before.late.late_percent, &self.late.late_percent),
+            ("late span", &before.late.late_span, &self.late.late_span),
+            ("late floor", &before.late.late_floor, &self.late.late_floor),
+            ("counting", &before.counting, &self.counting),
         ];
         let shown = |text: &String| if text.trim().is_empty() { "–".to_owned() } else { text.trim().to_owned() };
         let changed = pairs.into_iter().filter(|(_, before, after)| before.trim() != after.trim());
@@ -215,7 +238,43 @@ impl Rules {
         }
         let (hints, audience) = (read_hints(&self.hints), read_audience(&self.audience));
         let practice = !self.practice.is_empty();
-        Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, ..before })
+        let late = self.late.read(frame, closes_at, date(&self.late.late_until)?)?;
+        let counting = match self.counting.as_str() {
+            "last" => Counting::Last,
+            "chosen" => Counting::Chosen,
+            _ => Counting::Best,
+        };
+        Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, late, counting, ..before })
+    }
+}
+
+impl LateFields {
+    fn read(&self, frame: &Frame, due: Option<Millis>, until: Option<Millis>) -> Result<LateRules, &'static str> {
+        let number = |field: &str, most: f64| match field.trim() {
+            "" => Some(0.0),
+            text => text.parse().ok().filter(|number: &f64| (0.0..=most).contains(number)),
+        };
+        let percent = |field: &str| {
+            number(field, 100.0)
+                .ok_or(frame.say("A share is a number from 0 to 100.", "割合は 0 から 100 の数で入力してください。"))
+        };
+        let grace = number(&self.grace, LONGEST_GRACE).ok_or(frame.say(
+            "The grace is a number of minutes, at most 10080 (a week).",
+            "猶予は 0 から 10080（1 週間）までの分数で入力してください。",
+        ))?;
+        if until.is_some_and(|until| due.is_none_or(|due| until <= due)) {
+            return Err(frame.say(
+                "Late hand-ins end after the due date: set that first, or leave the field empty.",
+                "遅延提出の終了日時は締切より後にしてください。締切がない場合は空欄にしてください。",
+            ));
+        }
+        Ok(LateRules {
+            grace: (grace * MINUTE as f64).round() as Millis,
+            until,
+            percent: percent(&self.late_percent)?,
+            span: if self.late_span == "hour" { LateSpan::Hour } else { LateSpan::Day },
+            floor: percent(&self.late_floor)?,
+        })
     }
 }
 

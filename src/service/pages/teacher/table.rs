@@ -2,8 +2,9 @@
 
 use super::super::datetime::Moment;
 use super::super::frame::Frame;
-use super::super::{report_fragment, student};
+use super::super::{attempts, report_fragment};
 use super::word;
+use crate::report::text::number;
 use crate::service::classes::Person;
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Deserialize;
@@ -45,12 +46,12 @@ impl Filter {
     }
 
     fn takes(&self, person: &Person) -> bool {
-        let best = person.best();
+        let counted = person.counted();
         let q = self.q.trim().to_lowercase();
         let has = |text: &str| text.to_lowercase().contains(&q);
         (self.verdict.is_empty() || person.standing().id() == self.verdict)
             && (!self.is_disputed() || person.is_disputed())
-            && (self.mistake.is_empty() || best.is_some_and(|best| best.mistakes.contains(&self.mistake)))
+            && (self.mistake.is_empty() || counted.is_some_and(|row| row.mistakes.contains(&self.mistake)))
             && (q.is_empty() || (!self.is_anonymous() && (has(&person.number) || has(&person.name))))
     }
 
@@ -120,10 +121,10 @@ impl Column {
     }
 
     fn compare(self, a: &Person, b: &Person) -> std::cmp::Ordering {
-        let score = |person: &Person| person.best().and_then(|best| best.row.score).unwrap_or(-1.0);
+        let score = |person: &Person| person.counted().and_then(|row| row.row.total()).unwrap_or(-1.0);
         // Who has none stands behind who has one.
         let mistakes = |person: &Person| {
-            let found = person.best().map(|best| best.mistakes.join(" ")).unwrap_or_default();
+            let found = person.counted().map(|row| row.mistakes.join(" ")).unwrap_or_default();
             (found.is_empty(), found)
         };
         match self {
@@ -196,6 +197,8 @@ pub(super) struct Row {
     pub word: &'static str,
     pub score: String,
     pub max_score: String,
+    /// The points before what lateness takes off, and that.
+    pub taken: Option<String>,
     /// Title and id.
     pub mistakes: Vec<(String, String)>,
     pub note: String,
@@ -249,25 +252,28 @@ pub(super) fn titled(frame: &Frame, ids: &[String]) -> Vec<(String, String)> {
 }
 
 fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
-    let best = person.best();
-    let shown = best.or(person.rows.first());
+    let counted = person.counted();
+    let shown = counted.or(person.rows.first());
     let anonymous = filter.is_anonymous();
     let pseudonym = || match frame.tag() {
         "ja" => format!("学生 {}", index + 1),
         _ => format!("Student {}", index + 1),
     };
-    let portrait = best.filter(|best| student::draws(best.row.verdict));
+    let portrait = counted.filter(|row| attempts::draws(row.row.verdict));
     let key = utf8_percent_encode(&person.key, NON_ALPHANUMERIC);
     let note = person.note.as_ref().filter(|_| shown.is_none());
     Row {
         href: format!("{}/person?key={key}{}", frame.teacher(), if anonymous { "&anonymous=on" } else { "" }),
         number: if anonymous { pseudonym() } else { person.number.clone() },
         name: if anonymous { String::new() } else { person.name.clone() },
-        portrait: portrait.map(|best| frame.picture(&best.row.submission.id, "portrait")),
-        mark: best.and_then(|best| Some(student::mark(best.row.verdict?, best.row.score).id())),
+        portrait: portrait.map(|row| frame.picture(&row.row.submission.id, "portrait")),
+        mark: counted.and_then(|row| Some(attempts::mark(row.row.verdict?, row.row.score).id())),
         word: word(frame, person.standing()),
-        score: report_fragment::points(best.and_then(|best| best.row.score)),
-        max_score: report_fragment::points(best.and_then(|best| best.row.max_score)),
+        score: report_fragment::points(counted.and_then(|row| row.row.total())),
+        taken: counted
+            .and_then(|row| Some((row.row.score?, row.row.lateness?.penalty)))
+            .map(|(score, penalty)| format!("{} − {}", number(score), number(penalty))),
+        max_score: report_fragment::points(counted.and_then(|row| row.row.max_score)),
         mistakes: shown.map(|row| titled(frame, &row.mistakes)).unwrap_or_default(),
         is_disputed: person.is_disputed(),
         note: note.map(|note| note.get(frame.language).replace('`', "")).unwrap_or_default(),

@@ -1,0 +1,158 @@
+//! Deadlines of students and groups: all of them on one page, and the form of one student's own.
+
+use super::super::datetime::{self, Moment};
+use super::super::frame::Frame;
+use super::super::shown;
+use super::person::{self, Whom};
+use super::{Tab, refused};
+use crate::service::State;
+use crate::service::acts::Detail;
+use crate::service::errors::Problem;
+use crate::service::extensions::{beneficiary, grant};
+use crate::service::identity::{LecturerPage, Teacher};
+use crate::service::store::Beneficiary;
+use askama::Template;
+use axum::Form;
+use axum::extract::State as Shared;
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/extensions.html")]
+struct ExtensionsPage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    /// The deadline of the class; none where there is none that could be put off.
+    of_class: Option<Moment>,
+    rows: Vec<Row>,
+    /// Groups and numbers to choose from.
+    known: Vec<String>,
+    typed: Asked,
+    problem: Option<String>,
+}
+
+/// One deadline.
+struct Row {
+    whose: String,
+    name: String,
+    is_group: bool,
+    until: Moment,
+    reason: String,
+}
+
+/// The form of a deadline; without a date it is taken away.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Asked {
+    csrf: String,
+    /// Id of the student, on their own page.
+    student: String,
+    /// Number of a student, or name of a group.
+    whose: String,
+    pub closes: String,
+    pub reason: String,
+}
+
+impl Asked {
+    /// The date that was typed.
+    fn date(&self, frame: &Frame) -> Result<Option<i64>, Problem> {
+        datetime::parse(&self.closes, frame.course.zone()).map_err(|_| {
+            Problem::unprocessable(
+                "A date has the form 2026-12-31T23:59.",
+                "日時は 2026-12-31T23:59 の形で入力してください。",
+            )
+        })
+    }
+
+    /// Does what the form asks for; what the log says of it.
+    async fn carry_out(&self, state: &State, frame: &Frame, to: &Beneficiary) -> Result<Detail, Problem> {
+        let closes_at = self.date(frame)?;
+        let reason = grant(state, to, closes_at, &self.reason).await?;
+        let until = if closes_at.is_some() { self.closes.as_str() } else { "–" };
+        Ok(match to {
+            Beneficiary::Student(id) => Detail { text: format!("{until} {reason}"), ..Detail::about(id) },
+            Beneficiary::Group(group) => Detail::of(format!("{group}: {until} {reason}")),
+        })
+    }
+}
+
+/// `GET /teacher/extensions`.
+pub(in crate::service::pages) async fn page(
+    Shared(state): Shared<State>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    view(&state, &teacher, frame, Asked::default(), None).await
+}
+
+/// `POST /teacher/extensions`: the deadline of a student or of a group.
+pub(in crate::service::pages) async fn set(
+    Shared(state): Shared<State>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+    Form(asked): Form<Asked>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &asked.csrf)?;
+    let done = match beneficiary(&state, &asked.whose).await {
+        Ok(to) => asked.carry_out(&state, &frame, &to).await,
+        Err(problem) => Err(problem),
+    };
+    match done {
+        Ok(detail) => Ok(detail.on(Redirect::to(&format!("{}/extensions", frame.teacher())).into_response())),
+        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+            let said = problem.detail.get(frame.language).replace('`', "");
+            Ok(refused(view(&state, &teacher, frame, asked, Some(said)).await?, StatusCode::UNPROCESSABLE_ENTITY))
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+/// `POST /teacher/extension`: a student's own deadline, from their page.
+pub(in crate::service::pages) async fn of_student(
+    Shared(state): Shared<State>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+    Form(asked): Form<Asked>,
+) -> Result<Response, Problem> {
+    teacher.check_csrf(&state, &asked.csrf)?;
+    let student = state.store.student_by_id(&asked.student).await?.ok_or_else(Problem::not_found)?;
+    match asked.carry_out(&state, &frame, &Beneficiary::Student(student.id.clone())).await {
+        Ok(detail) => {
+            let page = format!("{}/person?key={}", frame.teacher(), student.id);
+            Ok(detail.on(Redirect::to(&page).into_response()))
+        }
+        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
+            let wrong = problem.detail.get(frame.language).to_owned();
+            let page = person::view(&state, &teacher, &Whom::of(student.id), frame, Some((asked, wrong))).await?;
+            Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
+        }
+        Err(problem) => Err(problem),
+    }
+}
+
+async fn view(
+    state: &State,
+    teacher: &Teacher,
+    frame: Frame,
+    typed: Asked,
+    problem: Option<String>,
+) -> Result<Response, Problem> {
+    let id = &state.assignment.id;
+    let of_class = state.store.assignment(id).await?.closes_at.map(|at| frame.deadline(at));
+    let mut rows = Vec::new();
+    for extension in state.store.extensions(id).await? {
+        rows.push(Row {
+            is_group: extension.number.is_none(),
+            whose: extension.number.unwrap_or(extension.key),
+            name: extension.name,
+            until: frame.moment(extension.closes_at),
+            reason: extension.reason,
+        });
+    }
+    let mut known = state.store.groups().await?;
+    known.extend(state.store.roster().await?.into_iter().map(|student| student.number));
+    let csrf = teacher.csrf(state);
+    shown(ExtensionsPage { place: Tab::Settings, csrf, of_class, rows, known, typed, problem, frame }.render())
+}
