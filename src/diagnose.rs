@@ -205,5 +205,6 @@ fn judge(
         message: told.text,
         file: told.file,
         line: told.line,
+        graded: None,
     }
 }

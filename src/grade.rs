@@ -330,6 +330,7 @@ impl Grader {
             hints,
             elapsed_ms: 0.0,
             lateness: None,
+            comments: Vec::new(),
         }
     }
 }

@@ -73,6 +73,22 @@ pub struct RubricLine {
     pub file: Option<String>,
     /// The line of that file to look at, from 1.
     pub line: Option<u32>,
+    /// The points that the grading gave, where somebody who teaches gave others in their place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub graded: Option<f64>,
+}
+
+/// What somebody who teaches says about a line of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+pub struct Comment {
+    /// Name of the file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// What is said, in the words of who says it.
+    pub text: String,
+    /// Who says it; none where only the course is known.
+    pub author: Option<String>,
 }
 
 /// A known mistake in the form in which it explains what the shader computes.
@@ -226,6 +242,9 @@ pub struct Report {
     /// How late it was handed in, where a service knows; no part of what grading finds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lateness: Option<Lateness>,
+    /// What people say about lines of the files, where a service knows; no part of what grading finds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub comments: Vec<Comment>,
 }
 
 impl Report {
@@ -264,6 +283,15 @@ impl Report {
     /// What lateness takes off and what is left, a line each; nothing where it is in time.
     pub fn lateness_lines(&self, language: Language) -> Vec<String> {
         self.lateness.map(|lateness| labels::lateness(lateness, self, language).into()).unwrap_or_default()
+    }
+
+    /// What people say about lines of the files, a line each: `ggsample06.vert, line 12: …`.
+    pub fn comment_lines(&self, language: Language) -> Vec<String> {
+        let labels = labels::Labels::of(language);
+        let said = |comment: &Comment| {
+            format!("{}: {}", labels.place(Some(&comment.file), comment.line, None), comment.text.replace('\n', " "))
+        };
+        self.comments.iter().map(said).collect()
     }
 
     /// The names of all files, joined for a person.

@@ -9,6 +9,7 @@
 //! | `/r/{id}/frames/{n}.png`, `animation.png` | its pictures; `?view=yours`, `expected`, `difference`, `all` |
 //! | `/r/{id}/terms/{term}-yours.png`, `…-expected.png` | one term of the equation on its own |
 //! | `/r/{id}/source` | the file as handed in, to be saved |
+//! | `/r/{id}/override`, `comments`, `appeal` | POST: what people judge, and what a student asks |
 //! | `/join/{secret}` | the course link |
 //! | `/lti/…` | launches from learning platforms, and the keys with which this service signs |
 //! | `/teacher/…` | the teacher's pages; of each of several homeworks `/a/{assignment}/teacher/…`; `/teacher/login`, `/teacher/logout` |
@@ -17,7 +18,7 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
-//! [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
+//! [`judgement`] what people judge beside it, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
 
@@ -36,6 +37,7 @@ pub mod gallery;
 pub mod grading;
 pub mod idempotency;
 pub mod identity;
+pub mod judgement;
 pub mod language;
 pub mod limits;
 pub mod lti;

@@ -34,6 +34,7 @@ pub fn unfinished(
             message: message.clone(),
             file: None,
             line: None,
+            graded: None,
         })
         .collect();
     Report {
@@ -55,6 +56,7 @@ pub fn unfinished(
         hints: Hints::default(),
         elapsed_ms: 0.0,
         lateness: None,
+        comments: Vec::new(),
     }
 }
 

@@ -1,6 +1,8 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
-use super::{Advice, Environment, FrameResult, Hints, Lateness, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use super::{
+    Advice, Comment, Environment, FrameResult, Hints, Lateness, ProbeResult, Report, RubricLine, SourceInfo, Verdict,
+};
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};
 use crate::language::Language;
@@ -41,6 +43,7 @@ pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
         lateness: report.lateness,
         total: report.lateness.map(|_| Number(report.total())),
         rubric: report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect(),
+        comments: &report.comments,
         mistakes: &report.mistakes,
         advice: report.advice.iter().map(|advice| Remark::of(advice, language)).collect(),
         diagnostics: report.diagnostics.iter().map(|d| Message::of(report, d, language)).collect(),
@@ -91,6 +94,9 @@ pub struct JsonReport<'a> {
     #[schema(value_type = Option<f64>)]
     total: Option<Number>,
     rubric: Vec<Rubric<'a>>,
+    /// What people say about lines of the files.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    comments: &'a [Comment],
     mistakes: &'a [String],
     advice: Vec<Remark<'a>>,
     diagnostics: Vec<Message<'a>>,
@@ -135,6 +141,10 @@ struct Rubric<'a> {
     points: Number,
     #[schema(value_type = Option<f64>)]
     max_points: Number,
+    /// What the grading gave, where somebody who teaches gave other points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<f64>)]
+    graded_points: Option<Number>,
     mistake: Option<&'a str>,
     message: &'a str,
     label: &'a str,
@@ -148,6 +158,7 @@ impl<'a> Rubric<'a> {
             id: &line.id,
             points: Number(line.points),
             max_points: Number(line.max_points),
+            graded_points: line.graded.map(Number),
             mistake: line.mistake.as_deref(),
             message: line.message.get(language),
             label: line.label.get(language),

@@ -92,6 +92,7 @@ pub(crate) struct Labels {
     pub renderer: &'static str,
     pub driver: &'static str,
     pub file: &'static str,
+    pub comment: &'static str,
 }
 
 pub(crate) const EN: Labels = Labels {
@@ -151,6 +152,7 @@ pub(crate) const EN: Labels = Labels {
     renderer: "Renderer",
     driver: "Driver",
     file: "File",
+    comment: "Comment",
 };
 
 pub(crate) const JA: Labels = Labels {
@@ -210,6 +212,7 @@ pub(crate) const JA: Labels = Labels {
     renderer: "レンダラー",
     driver: "ドライバ",
     file: "ファイル",
+    comment: "コメント",
 };
 
 impl Labels {

@@ -51,6 +51,7 @@ pub(crate) fn correct() -> Report {
         message: fine(),
         file: None,
         line: None,
+        graded: None,
     };
     Report {
         assignment: "ggsample06".into(),
@@ -86,6 +87,7 @@ pub(crate) fn correct() -> Report {
         hints: Hints::Full,
         elapsed_ms: 412.25,
         lateness: None,
+        comments: Vec::new(),
     }
 }
 

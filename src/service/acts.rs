@@ -59,6 +59,10 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/teacher/regradings/{id}") => "adopted",
         ("POST", "/teacher/extension" | "/teacher/extensions") | ("PUT", "/api/v1/extensions") => "extension",
         ("POST", "/teacher/choice" | "/api/v1/submissions/{id}/choice") => "choice",
+        ("POST", "/r/{id}/override") | ("PUT" | "DELETE", "/api/v1/submissions/{id}/rubric/{line}") => "override",
+        ("POST", "/r/{id}/comments" | "/api/v1/submissions/{id}/comments")
+        | ("DELETE", "/api/v1/submissions/{id}/comments/{comment}") => "comment",
+        ("POST", "/teacher/appeals/{id}") | ("PUT", "/api/v1/appeals/{id}/answer") => "appeal",
         ("POST", "/teacher/delete") | ("DELETE", _) => "deleted",
         ("POST", "/api/v1/submissions") => "handed-in",
         (method, route) => return Some(format!("{method} {route}")),

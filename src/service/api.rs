@@ -7,6 +7,7 @@ pub(super) mod body;
 mod deletions;
 mod docs;
 mod extensions;
+mod judgements;
 mod operations;
 pub(super) mod pictures;
 mod refusals;
@@ -60,6 +61,11 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(batches::class_file))
         .routes(routes!(extensions::list, extensions::set))
         .routes(routes!(extensions::choose))
+        .routes(routes!(judgements::override_line, judgements::clear_override))
+        .routes(routes!(judgements::add_comment))
+        .routes(routes!(judgements::remove_comment))
+        .routes(routes!(judgements::appeals))
+        .routes(routes!(judgements::answer))
         .routes(routes!(deletions::delete_submission))
         .routes(routes!(deletions::delete_batch))
         .routes(routes!(deletions::delete_student))

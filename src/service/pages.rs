@@ -1,7 +1,7 @@
 //! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
 //! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one, [`mod@form`] what it sends, [`student`] what that page says, [`attempts`] the cards of what was handed in, [`result`] the page of a report
-//! and its pictures, [`join`] the course link, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
+//! and its pictures, [`judgement`] what people judge there, [`join`] the course link, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
@@ -12,6 +12,7 @@ mod frame;
 mod hand_in;
 mod homeworks;
 mod join;
+mod judgement;
 mod lti;
 mod preview;
 mod problem;
@@ -77,6 +78,10 @@ fn of_service() -> Router<Service> {
         .route("/r/{id}/{picture}", get(result::picture))
         .route("/r/{id}/terms/{picture}", get(terms::picture))
         .route("/r/{id}/frames/{picture}", get(result::frame))
+        .route("/r/{id}/override", post(judgement::override_line))
+        .route("/r/{id}/comments", post(judgement::comment))
+        .route("/r/{id}/appeal", post(judgement::ask))
+        .route("/teacher/appeals/{id}", post(judgement::handled))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))
         .route("/lti/register/{secret}", get(lti::register))

@@ -5,11 +5,13 @@
 //! writer at a time, and a pool of one connection queues for it without ever being told that the file is busy.
 
 mod acts;
+mod appeals;
 mod assignments;
 mod batches;
 mod cross_checks;
 mod deletions;
 mod extensions;
+mod judgements;
 mod keys;
 mod late;
 mod lti;
@@ -27,10 +29,12 @@ mod students;
 mod submissions;
 
 pub use acts::{Act, NamedAct};
+pub use appeals::Appeal;
 pub use assignments::{Assignment, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
 pub use deletions::{Counts, Deletion, DeletionTarget};
 pub use extensions::{Beneficiary, Extension, NamedExtension};
+pub use judgements::{OverriddenAgain, Override, StoredComment};
 pub use keys::{Key, KeyResult};
 pub use late::{LateRules, LateSpan};
 pub use lti::{Deployment, Launch, Link, Platform, PlatformPerson};

@@ -5,6 +5,7 @@
 
 #[path = "../chromium/mod.rs"]
 mod chromium;
+mod course;
 mod drafts;
 mod editor;
 mod offline;

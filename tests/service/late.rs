@@ -8,6 +8,7 @@ use crate::roster::{file, form, get, request};
 use axum::body::Body;
 use axum::http::{StatusCode, header};
 use ggrade::fault::Fault;
+use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, Verdict};
 use ggrade::sandbox::{GradedSubmission, Submission};
 use ggrade::service::clock::Clock;
@@ -24,26 +25,35 @@ on_both!(
     the_last_or_the_chosen_one_counts,
 );
 
-/// Gives the points that stand in the file's first line, line by line of the rubric.
+/// Gives the points that stand in the file's first line.
 #[derive(Debug)]
-pub struct Points;
+struct Points;
 
 impl Judge for Points {
     fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
-        let assignment = reference::assignment("ggsample06").expect("built in");
-        let text = String::from_utf8_lossy(&submission.hand_in.files[0].bytes).into_owned();
-        let score: f64 = text.lines().next().and_then(|line| line.trim().parse().ok()).unwrap_or(0.0);
-        let sources = ggrade::grade::sources(assignment, submission.hand_in);
-        let verdict = if score >= 100.0 { Verdict::Correct } else { Verdict::Wrong };
-        let report = ggrade::grade::unfinished(assignment, sources, verdict, Vec::new(), Default::default());
-        let mut left = score;
-        let mut rubric = report.rubric;
-        for line in &mut rubric {
-            line.points = left.min(line.max_points);
-            left -= line.points;
-        }
-        Ok(GradedSubmission { report: Report { score, rubric, ..report }, frames: Vec::new() })
+        Ok(graded(submission.hand_in, points(submission.hand_in)))
     }
+}
+
+/// The points that stand in the first line of a file.
+pub fn points(hand_in: &HandIn) -> f64 {
+    let text = String::from_utf8_lossy(&hand_in.files[0].bytes).into_owned();
+    text.lines().next().and_then(|line| line.trim().parse().ok()).unwrap_or(0.0)
+}
+
+/// A report with this score; the first lines of the rubric have their points first.
+pub fn graded(hand_in: &HandIn, score: f64) -> GradedSubmission {
+    let assignment = reference::assignment("ggsample06").expect("built in");
+    let sources = ggrade::grade::sources(assignment, hand_in);
+    let verdict = if score >= 100.0 { Verdict::Correct } else { Verdict::Wrong };
+    let report = ggrade::grade::unfinished(assignment, sources, verdict, Vec::new(), Default::default());
+    let mut left = score;
+    let mut rubric = report.rubric;
+    for line in &mut rubric {
+        line.points = left.min(line.max_points);
+        left -= line.points;
+    }
+    GradedSubmission { report: Report { score, rubric, ..report }, frames: Vec::new() }
 }
 
 /// 2023-11-15 07:13:20 in Tokyo. The homework is due at 08:00.
@@ -56,7 +66,7 @@ const ROSTER: &str = "number,name,グループ\nS1,和田 花子,Tue\nS2,B,Wed\n
 const RULES: &str = "closes=2023-11-15T08%3A00&grace=10&late_until=2023-11-30T08%3A00&late_percent=10&late_span=day\
                      &late_floor=50&hints=full&audience=open";
 
-pub async fn bench(database: Database) -> (Bench, Clock) {
+async fn bench(database: Database) -> (Bench, Clock) {
     let clock = Clock::fixed(NOW);
     let bench = Bench::with(database, config(), Arc::new(Points), clock.clone()).await;
     file(&bench, "/teacher/roster", "roster", "r.csv", ROSTER.as_bytes()).await;
@@ -68,7 +78,7 @@ async fn rules(bench: &Bench, rules: &str) {
 }
 
 /// Hands in a file that gets these points, for a student.
-pub async fn hand_in(bench: &Bench, number: &str, points: u32) -> Reply {
+async fn hand_in(bench: &Bench, number: &str, points: u32) -> Reply {
     let address = format!("/api/v1/submissions?student={number}");
     // No two are the same file.
     let text = format!("{points}\n{}", ggrade::service::identity::new_id());
@@ -127,6 +137,7 @@ async fn a_late_hand_in_loses_what_the_rules_say(database: Database) {
     // Of equals the first counts: that of the grace.
     let of = csv(&bench, "S1").await;
     assert_eq!([of("score"), of("late_minutes"), of("late_penalty"), of("total")], ["70", "", "", "70"]);
+    clock.advance(Duration::from_secs(1));
     hand_in(&bench, "S1", 100).await;
     let of = csv(&bench, "S1").await;
     assert_eq!([of("score"), of("late_minutes"), of("late_penalty"), of("total")], ["100", "1504", "20", "80"]);

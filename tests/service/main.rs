@@ -14,6 +14,7 @@ mod hints;
 mod hostile;
 mod idempotency;
 mod identity;
+mod judgement;
 mod killed;
 mod late;
 mod limits;

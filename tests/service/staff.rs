@@ -22,7 +22,7 @@ const PASSWORD: &str = "the old shared password";
 const OWN: &str = "my own long password";
 
 /// A browser with its cookies.
-struct Browser<'a> {
+pub struct Browser<'a> {
     bench: &'a Bench,
     cookies: Vec<(String, String)>,
     csrf: String,
@@ -56,12 +56,12 @@ impl<'a> Browser<'a> {
         reply
     }
 
-    async fn get(&mut self, address: &str) -> Reply {
+    pub async fn get(&mut self, address: &str) -> Reply {
         self.send("GET", address, "").await
     }
 
     /// Opens a page, and sends one of its forms.
-    async fn form(&mut self, page: &str, action: &str, fields: &str) -> Reply {
+    pub async fn form(&mut self, page: &str, action: &str, fields: &str) -> Reply {
         self.get(page).await;
         self.send("POST", action, fields).await
     }
@@ -72,7 +72,7 @@ impl<'a> Browser<'a> {
     }
 
     /// Lets somebody in, who chooses a password in a browser of their own.
-    async fn let_in(&mut self, login: &str, role: &str) -> Browser<'a> {
+    pub async fn let_in(&mut self, login: &str, role: &str) -> Browser<'a> {
         let page = self.form("/teacher/people", "/teacher/people", &format!("login={login}&name=N&role={role}")).await;
         assert_eq!(page.status, StatusCode::OK, "{}", page.text());
         let link = page.all(".link code")[0].clone();
@@ -84,14 +84,14 @@ impl<'a> Browser<'a> {
     }
 }
 
-async fn bench(database: Database, clock: Clock) -> Bench {
+pub async fn bench(database: Database, clock: Clock) -> Bench {
     let hash = hash_password(PASSWORD).expect("a hash");
     let config = Config { teacher_password_hash: Some(hash), ..config() };
     Bench::with(database, config, Arc::new(Fake(|| Ok(()))), clock).await
 }
 
 /// The first administrator, let in by the password of the service.
-async fn administrator(bench: &Bench) -> Browser<'_> {
+pub async fn administrator(bench: &Bench) -> Browser<'_> {
     let mut browser = Browser::new(bench);
     assert_eq!(browser.login("", PASSWORD).await.status, StatusCode::SEE_OTHER);
     let next = browser.form("/teacher/people", "/teacher/people", "login=Prof@Example.ac.jp&name=P&role=administrator");
@@ -157,7 +157,7 @@ async fn each_role_does_what_it_may_and_is_in_the_log(database: Database) {
         assert_eq!(assistant.get(page).await.status, StatusCode::OK, "{page}");
     }
     let links = assistant.get("/teacher").await.all(".top nav a");
-    assert_eq!(links, ["Class", "Archives", "Student's page"]);
+    assert_eq!(links, ["Class", "Requests", "Archives", "Student's page"]);
     let delete = format!("/teacher/delete?submission={handed_in}");
     for page in
         ["/teacher/settings", "/teacher/people", "/teacher/codes", "/teacher/codes/file", "/teacher/log", &delete]

@@ -86,9 +86,11 @@ fn graded(report: &Report, title: &str, language: Language) -> String {
     } else {
         out.push_str(&format!("<ul>{}</ul>", errors.concat()));
     }
-    let lateness: Vec<String> = report.lateness_lines(language).iter().map(|line| html(line)).collect();
-    if !lateness.is_empty() {
-        out.push_str(&format!("<p>{}</p>", lateness.join("<br>")));
+    for lines in [report.comment_lines(language), report.lateness_lines(language)] {
+        let lines: Vec<String> = lines.iter().map(|line| html(line)).collect();
+        if !lines.is_empty() {
+            out.push_str(&format!("<p>{}</p>", lines.join("<br>")));
+        }
     }
     out
 }
@@ -96,10 +98,14 @@ fn graded(report: &Report, title: &str, language: Language) -> String {
 fn rubric(line: &RubricLine, language: Language) -> String {
     let label = html(line.label.get(language));
     let points = format!("{} / {}", number(line.points), number(line.max_points));
-    if line.points >= line.max_points {
+    if line.points >= line.max_points && line.graded.is_none() {
         format!("<li>○ {label} {points}</li>")
     } else {
-        let sign = if line.points > 0.0 { "△" } else { "×" };
+        let sign = match line.points {
+            points if points >= line.max_points => "○",
+            points if points > 0.0 => "△",
+            _ => "×",
+        };
         format!("<li>{sign} <strong>{label} {points}</strong><br>{}</li>", rich(line.message.get(language)))
     }
 }

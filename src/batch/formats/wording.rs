@@ -14,8 +14,9 @@ pub fn explanation(entry: &Entry, language: Language) -> String {
         Outcome::Graded(report) => {
             let advice = report.advice.iter().map(|advice| untrusted::visible(advice.message.get(language)));
             let headline = Labels::of(language).headline(report.verdict).to_owned();
-            let lateness = report.lateness_lines(language);
-            std::iter::once(headline).chain(advice).chain(lateness).collect::<Vec<_>>().join("\n")
+            let comments = report.comment_lines(language).into_iter().map(|line| untrusted::visible(&line));
+            let lines = std::iter::once(headline).chain(advice).chain(comments);
+            lines.chain(report.lateness_lines(language)).collect::<Vec<_>>().join("\n")
         }
         Outcome::NotGraded(why) => untrusted::visible(why.get(language)),
         Outcome::Fault(_) => autograder_failed().get(language).to_owned(),

@@ -76,6 +76,7 @@ mod tests {
             message: Text::default(),
             file: None,
             line: None,
+            graded: None,
         };
         let rubric =
             vec![line("shape", "Shape", "形", 10.0, 10.0), line("specular", "Specular", "鏡面反射光", specular, 40.0)];

@@ -264,6 +264,8 @@ pub(super) struct Body<'a> {
     headline: &'static str,
     mark: Mark,
     is_drawn: bool,
+    /// Whether the rubric is shown: what could not be drawn has one where somebody gave points.
+    has_rubric: bool,
     next: Option<String>,
     bar: Vec<Stretch>,
     rubric: Vec<Rubric>,
@@ -310,6 +312,7 @@ impl<'a> Body<'a> {
             headline: labels.headline(report.verdict),
             mark: Mark::of_report(report),
             is_drawn,
+            has_rubric: is_drawn || report.rubric.iter().any(|line| line.graded.is_some()),
             score: number(report.score),
             max_score: number(report.max_score),
             lateness: report.lateness_lines(language),

@@ -1,9 +1,10 @@
 //! The student's files with what there is to say about its lines.
 
 use super::body::Message;
-use super::rich::Piece;
+use super::rich::{Piece, pieces};
 use crate::language::Language;
 use crate::report::Report;
+use crate::report::labels::Labels;
 use crate::source::Source;
 
 /// One file.
@@ -92,6 +93,13 @@ fn notes(file: &File, number: u32, report: &Report, messages: &[Message], langua
         heading: line.label.get(language).to_owned(),
         text: Vec::new(),
         target: Some(line.id.clone()),
+    }));
+    let comments = report.comments.iter().filter(|comment| comment.line == number && file.has(Some(&comment.file)));
+    notes.extend(comments.map(|comment| Note {
+        kind: "comment",
+        heading: comment.author.clone().unwrap_or_else(|| Labels::of(language).comment.to_owned()),
+        text: pieces(&comment.text),
+        target: None,
     }));
     notes
 }

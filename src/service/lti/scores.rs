@@ -112,10 +112,11 @@ fn comment(report: &Report, language: Language, page: &str) -> String {
     )];
     for line in &report.rubric {
         lines.push(format!("{} {} / {}", line.label.get(language), number(line.points), number(line.max_points)));
-        if line.points < line.max_points {
+        if line.points < line.max_points || line.graded.is_some() {
             lines.push(line.message.get(language).replace('`', ""));
         }
     }
+    lines.extend(report.comment_lines(language));
     lines.extend(report.lateness_lines(language));
     lines.push(page.to_owned());
     lines.join("\n")

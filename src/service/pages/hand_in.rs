@@ -59,6 +59,11 @@ pub(super) async fn desk(
         history = state.store.history(id, owner, identity.student_id(), LISTED).await?;
         used = state.store.attempts(id, owner, identity.student_id()).await?;
     }
+    let asker = identity.student_id().or(identity.owner_id());
+    let appeal = match asker {
+        Some(asker) => state.store.appeal_of(id, asker).await?,
+        None => None,
+    };
     let needs_number = settings.audience == Audience::Number && identity.student().is_none();
     let stranger = match identity.student() {
         Some(student) if is_stranger(&state, student).await? => Some(not_on_roster(&student.number).detail),
@@ -97,6 +102,7 @@ pub(super) async fn desk(
         who: identity.student().map(|student| student.number.clone()),
         csrf: visitor.csrf(&state),
         history: &history,
+        appeal,
         own,
         notice: notice.or(lost).map(str::to_owned),
     };

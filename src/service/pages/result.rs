@@ -1,6 +1,7 @@
 //! The page of a report, and its pictures.
 
 use super::frame::Frame;
+use super::judgement::Judgement;
 use super::{internal, receipt, report_fragment, shown};
 use crate::hand_in::HandIn;
 use crate::report::Report;
@@ -9,7 +10,7 @@ use crate::report::text::number;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery::PictureSet;
-use crate::service::identity::Teacher;
+use crate::service::identity::{Teacher, Visitor};
 use crate::service::store::{State as Progress, Stored, Submission, Via};
 use crate::service::{Service, State};
 use askama::Template;
@@ -32,6 +33,9 @@ struct ResultPage {
     source_name: &'static str,
     receipt: Option<String>,
     part: String,
+    /// Id of the submission, and what people judge of it.
+    submission: String,
+    judgement: Judgement,
 }
 
 #[derive(Template)]
@@ -49,10 +53,13 @@ pub(super) async fn page(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
     teacher: Option<Teacher>,
+    visitor: Visitor,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    let (state, Stored { submission, report, cross_check }) = service.stored(&id).await?;
+    let (state, stored) = service.stored(&id).await?;
     let frame = frame.of(&state);
+    let judgement = Judgement::of(&state, &frame, &stored, teacher.as_ref(), &visitor).await?;
+    let Stored { submission, report, cross_check } = stored;
     let Some(mut report) = report else { return waiting(&state, frame, &submission) };
     if teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment)) {
         report.cross_check = cross_check;
@@ -80,6 +87,8 @@ pub(super) async fn page(
             },
             receipt,
             part,
+            submission: id,
+            judgement,
             frame,
         }
         .render(),

@@ -3,6 +3,7 @@
 use super::assets;
 use super::attempts::{Attempt, Choice};
 use super::frame::Frame;
+use super::judgement;
 use super::preview::PreviewPanel;
 use super::report_fragment;
 use super::standing::{Fact, StudentStanding};
@@ -11,7 +12,7 @@ use crate::report::html::rich::{Piece, pieces};
 use crate::service::clock::Millis;
 use crate::service::counting::{Counting, counted};
 use crate::service::identity::new_id;
-use crate::service::store::HistoryRow;
+use crate::service::store::{Appeal, HistoryRow};
 use crate::service::submit::{MAX_UPLOAD, too_large};
 use crate::slots::Slot;
 use askama::Template;
@@ -34,6 +35,8 @@ pub(super) struct Desk<'a> {
     pub csrf: String,
     /// What this browser has handed in, the newest first.
     pub history: &'a [HistoryRow],
+    /// What they asked to be looked at again.
+    pub appeal: Option<Appeal>,
     /// Id and texts of a submission to go on with, in place of the hand-out.
     pub own: Option<(String, Vec<String>)>,
     /// What is to be said first.
@@ -156,6 +159,10 @@ impl Desk<'_> {
 
     fn facts(&self) -> Vec<Fact> {
         let mut facts = self.standing.facts(&self.frame);
+        if let Some(appeal) = &self.appeal {
+            let asked = self.frame.say("Another look:", "再確認:");
+            facts.push(Fact::plain("", format!("{asked} {}", judgement::standing(&self.frame, appeal))));
+        }
         facts.extend(counted_fact(&self.frame, self.history, self.standing.settings.counting));
         facts
     }

@@ -1,6 +1,6 @@
 //! The teacher's pages, behind the login.
 //!
-//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`extensions`] later deadlines, [`batches`]
+//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`extensions`] later deadlines, [`appeals`] what students ask to be looked at again, [`batches`]
 //! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
@@ -8,6 +8,7 @@
 //! platforms, [`acts`] the log of what was done.
 
 mod acts;
+mod appeals;
 mod batches;
 mod charts;
 mod class;
@@ -41,6 +42,7 @@ use axum::routing::{get, post};
 pub(super) fn router() -> Router<State> {
     Router::new()
         .route("/teacher", get(class::page))
+        .route("/teacher/appeals", get(appeals::page))
         .route("/teacher/events", get(live::events))
         .route("/teacher/person", get(person::page))
         .route("/teacher/extension", post(extensions::of_student))
@@ -82,6 +84,8 @@ pub(super) fn of_course() -> Router<Service> {
 pub(super) enum Tab {
     /// The class.
     Class,
+    /// What students ask to be looked at again.
+    Appeals,
     /// Archives.
     Batches,
     /// Settings.

@@ -1,12 +1,14 @@
 //! Grading everything again: the new results stand beside the reports until a teacher adopts them.
 
+use super::judgements::rescore;
 use super::queue::{is_among, list};
 use super::rows::{from_word, submission_columns, word};
-use super::{Progress, Result, Store, Submission, on, signed};
+use super::{OverriddenAgain, Progress, Result, Store, Submission, on, signed};
 use crate::diagnose::Hints;
 use crate::hand_in::HandIn;
 use crate::report::{Report, Verdict};
 use crate::service::clock::Millis;
+use std::collections::HashMap;
 
 /// One time that everything is graded again.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -133,7 +135,8 @@ impl Store {
         Ok(Progress::of(&states))
     }
 
-    /// Every submission of a regrading, before and after; those that changed most come first.
+    /// Every submission of a regrading, before and after, with the points that people gave in place of the grading's; those that
+    /// changed most come first.
     pub async fn compared(&self, id: &str) -> Result<Vec<Compared>> {
         const SQL: &str = concat!(
             "SELECT ",
@@ -142,9 +145,23 @@ impl Store {
              g.score AS new_score, g.mistakes AS new_mistakes FROM regraded g \
              JOIN submissions s ON s.id = g.submission_id JOIN reports r ON r.submission_id = s.id \
              LEFT JOIN students t ON t.id = s.student_id WHERE g.regrading_id = $1 \
-             ORDER BY abs(coalesce(g.score, r.score) - r.score) DESC, s.received_at DESC, s.id"
+             ORDER BY s.received_at DESC, s.id"
         );
-        Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?))
+        let mut rows: Vec<Compared> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
+        let mut given: HashMap<String, f64> = HashMap::new();
+        for OverriddenAgain { overridden, graded_again } in self.overridden_again(id).await? {
+            // A line that is there no more keeps nothing.
+            let more = graded_again.map_or(0.0, |again| overridden.points - again);
+            *given.entry(overridden.submission_id).or_default() += more;
+        }
+        for row in &mut rows {
+            if let (Some((_, score, _)), Some(more)) = (&mut row.after, given.get(&row.submission.id)) {
+                *score += more;
+            }
+        }
+        let change = |row: &Compared| row.after.as_ref().map_or(0.0, |after| (after.1 - row.before.1).abs());
+        rows.sort_by(|a, b| change(b).total_cmp(&change(a)));
+        Ok(rows)
     }
 
     /// Claims the next submission of these assignments that is to be graded again.
@@ -203,6 +220,8 @@ impl Store {
         const SUBMISSIONS: &str = "UPDATE submissions SET seed = $2 WHERE id IN \
                                    (SELECT submission_id FROM regraded WHERE regrading_id = $1 AND state = 'graded')";
         const ASSIGNMENT: &str = "UPDATE assignments SET seed = $2 WHERE id = $1";
+        const OVERRIDDEN: &str = "SELECT DISTINCT o.submission_id FROM overrides o JOIN regraded g \
+                                  ON g.submission_id = o.submission_id WHERE g.regrading_id = $1";
         const DONE: &str = "UPDATE regradings SET adopted_at = $2 WHERE id = $1";
         let seed = signed(regrading.seed);
         on!(&self.write, db => {
@@ -213,6 +232,11 @@ impl Store {
                 .bind(env!("CARGO_PKG_VERSION"))
                 .execute(&mut *transaction)
                 .await?;
+            let overridden: Vec<String> =
+                sqlx::query_scalar(OVERRIDDEN).bind(&regrading.id).fetch_all(&mut *transaction).await?;
+            for submission in &overridden {
+                rescore!(transaction, submission);
+            }
             sqlx::query(SUBMISSIONS).bind(&regrading.id).bind(seed).execute(&mut *transaction).await?;
             sqlx::query(ASSIGNMENT).bind(&regrading.assignment).bind(seed).execute(&mut *transaction).await?;
             sqlx::query(DONE).bind(&regrading.id).bind(now).execute(&mut *transaction).await?;

@@ -147,7 +147,7 @@ where
 }
 
 impl Store {
-    /// A submission with its report.
+    /// A submission with its report, and what people judge in it.
     pub async fn stored(&self, id: &str) -> Result<Option<Stored>> {
         const SQL: &str = "SELECT report FROM reports WHERE submission_id = $1";
         let Some(submission) = self.submission(id).await? else { return Ok(None) };
@@ -156,6 +156,7 @@ impl Store {
         if let Some(report) = &mut report {
             // Reports of 0.1.0 do not say how much they help; their submissions do.
             report.hints = report.hints.min(submission.hints);
+            self.judge(id, report).await?;
             report.lateness = self.lateness(id).await?;
         }
         let cross_check = report.as_mut().and_then(|report| report.cross_check.take());

@@ -34,6 +34,8 @@ struct ClassPage {
     strangers: usize,
     /// On how many files of the class driver and interpreter disagree.
     disputed: usize,
+    /// Requests for another look that are not answered.
+    appeals: u64,
     has_roster: bool,
     histogram: Histogram,
     course: Option<(Course, String, String)>,
@@ -104,6 +106,7 @@ pub(in crate::service::pages) async fn page(
             handed_in: everyone.iter().filter(|person| !person.rows.is_empty()).count(),
             strangers: strangers.iter().map(|person| person.rows.len().max(1)).sum(),
             disputed: everyone.iter().flat_map(|person| &person.rows).filter(|row| row.differs).count(),
+            appeals: state.store.open_appeals(id).await?,
             has_roster: state.store.has_roster().await?,
             histogram: charts::histogram(&everyone),
             course,

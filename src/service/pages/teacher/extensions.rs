@@ -29,7 +29,7 @@ struct ExtensionsPage {
     rows: Vec<Row>,
     /// Groups and numbers to choose from.
     known: Vec<String>,
-    typed: Asked,
+    typed: ExtensionForm,
     problem: Option<String>,
 }
 
@@ -45,7 +45,7 @@ struct Row {
 /// The form of a deadline; without a date it is taken away.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Asked {
+pub(in crate::service::pages) struct ExtensionForm {
     csrf: String,
     /// Id of the student, on their own page.
     student: String,
@@ -55,7 +55,7 @@ pub(in crate::service::pages) struct Asked {
     pub reason: String,
 }
 
-impl Asked {
+impl ExtensionForm {
     /// The date that was typed.
     fn date(&self, frame: &Frame) -> Result<Option<i64>, Problem> {
         datetime::parse(&self.closes, frame.course.zone()).map_err(|_| {
@@ -84,7 +84,7 @@ pub(in crate::service::pages) async fn page(
     LecturerPage(teacher): LecturerPage,
     frame: Frame,
 ) -> Result<Response, Problem> {
-    view(&state, &teacher, frame, Asked::default(), None).await
+    view(&state, &teacher, frame, ExtensionForm::default(), None).await
 }
 
 /// `POST /teacher/extensions`: the deadline of a student or of a group.
@@ -92,7 +92,7 @@ pub(in crate::service::pages) async fn set(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
     frame: Frame,
-    Form(asked): Form<Asked>,
+    Form(asked): Form<ExtensionForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &asked.csrf)?;
     let done = match beneficiary(&state, &asked.whose).await {
@@ -114,7 +114,7 @@ pub(in crate::service::pages) async fn of_student(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
     frame: Frame,
-    Form(asked): Form<Asked>,
+    Form(asked): Form<ExtensionForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &asked.csrf)?;
     let student = state.store.student_by_id(&asked.student).await?.ok_or_else(Problem::not_found)?;
@@ -136,7 +136,7 @@ async fn view(
     state: &State,
     teacher: &Teacher,
     frame: Frame,
-    typed: Asked,
+    typed: ExtensionForm,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
     let id = &state.assignment.id;

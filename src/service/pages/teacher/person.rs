@@ -5,7 +5,7 @@ use super::super::datetime::{self, Moment};
 use super::super::frame::Frame;
 use super::super::shown;
 use super::Tab;
-use super::extensions::Asked;
+use super::extensions::ExtensionForm;
 use super::table::titled;
 use crate::service::State;
 use crate::service::acts::Detail;
@@ -105,7 +105,7 @@ async fn deadline(
     state: &State,
     frame: &Frame,
     key: &str,
-    typed: Option<(Asked, String)>,
+    typed: Option<(ExtensionForm, String)>,
 ) -> Result<Option<Deadline>, Problem> {
     let id = &state.assignment.id;
     let closes = state.store.assignment(id).await?.closes_at;
@@ -126,7 +126,7 @@ pub(super) async fn view(
     teacher: &Teacher,
     whom: &Whom,
     frame: Frame,
-    typed: Option<(Asked, String)>,
+    typed: Option<(ExtensionForm, String)>,
 ) -> Result<Response, Problem> {
     let people = people(state).await?;
     let person = people.all().find(|person| person.key == whom.key).cloned().ok_or_else(Problem::not_found)?;

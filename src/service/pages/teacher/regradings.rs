@@ -7,13 +7,14 @@ use super::Tab;
 use super::login::CsrfForm;
 use super::table::{Pager, titled};
 use crate::report::Verdict;
+use crate::report::labels::rubric_label;
 use crate::report::text::number;
 use crate::service::State;
 use crate::service::api::batches::{Job, progress};
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, TeacherPage};
 use crate::service::regrade;
-use crate::service::store::{Compared, Progress};
+use crate::service::store::{Compared, OverriddenAgain, Progress};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Path, Query, State as Shared};
@@ -42,6 +43,20 @@ struct RegradingsPage {
     same: usize,
     rows: Vec<Row>,
     pager: Pager,
+    /// Lines that somebody overrode, and that are graded otherwise now.
+    overridden: Vec<OverriddenLine>,
+}
+
+/// A line that somebody overrode.
+struct OverriddenLine {
+    href: String,
+    number: String,
+    label: String,
+    given: String,
+    reason: String,
+    author: String,
+    graded: String,
+    again: String,
 }
 
 /// One submission that changed.
@@ -142,6 +157,14 @@ pub(in crate::service::pages) async fn page(
             losses,
             otherwise: changes.saturating_sub(gains + losses),
             same: compared.iter().filter(|row| row.after.is_some()).count() - changes,
+            overridden: state
+                .store
+                .overridden_again(&id)
+                .await?
+                .into_iter()
+                .filter(OverriddenAgain::is_changed)
+                .map(|line| overridden(&state, &frame, &compared, line))
+                .collect(),
             rows: pager.of(&changed).iter().map(|row| line(&frame, row)).collect(),
             pager,
             id,
@@ -171,6 +194,23 @@ fn line(frame: &Frame, row: &Compared) -> Row {
         before: got(&row.before),
         after: row.after.as_ref().map(got),
         change: row.after.as_ref().map_or_else(String::new, |after| signed(after.1 - row.before.1)),
+    }
+}
+
+/// A line that somebody overrode, and what it gets now.
+fn overridden(state: &State, frame: &Frame, compared: &[Compared], line: OverriddenAgain) -> OverriddenLine {
+    let OverriddenAgain { overridden, graded_again } = line;
+    let row = compared.iter().find(|row| row.submission.id == overridden.submission_id);
+    let number_of = |row: &Compared| row.number.clone().unwrap_or_else(|| row.submission.name.clone());
+    OverriddenLine {
+        href: format!("/r/{}#judgement", overridden.submission_id),
+        number: row.map(number_of).unwrap_or_default(),
+        label: rubric_label(&state.assignment, &overridden.line, frame.language).to_owned(),
+        given: number(overridden.points),
+        reason: overridden.reason,
+        author: overridden.author.unwrap_or_default(),
+        graded: number(overridden.graded),
+        again: graded_again.map_or_else(|| frame.say("no such line", "項目なし").to_owned(), number),
     }
 }
 

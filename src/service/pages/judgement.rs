@@ -1,0 +1,298 @@
+//! The page of a report as the place where people judge: what those who teach can do there, and what its student can ask.
+
+use super::datetime::Moment;
+use super::frame::Frame;
+use super::report_fragment;
+use crate::report::Report;
+use crate::report::labels::rubric_label;
+use crate::report::text::number;
+use crate::service::acts::Detail;
+use crate::service::errors::Problem;
+use crate::service::identity::{Teacher, Visitor};
+use crate::service::judgement::{self, Handling, asker, handle};
+use crate::service::store::{Appeal, Stored, Via};
+use crate::service::{Service, State};
+use axum::Form;
+use axum::extract::{Path, State as Shared};
+use axum::response::{IntoResponse, Redirect, Response};
+use serde::Deserialize;
+
+/// What those who teach can do.
+pub(super) struct StaffForms {
+    pub csrf: String,
+    pub lines: Vec<LineForm>,
+    /// The names of the files.
+    pub files: Vec<String>,
+    pub comments: Vec<CommentLine>,
+}
+
+/// A line of the rubric, and what it is given.
+pub(super) struct LineForm {
+    pub id: String,
+    pub label: String,
+    pub points: String,
+    pub most: String,
+    /// What the grading gave, and why it is overridden by whom.
+    pub overridden: Option<(String, String, String)>,
+}
+
+/// A comment, with what removes it.
+pub(super) struct CommentLine {
+    pub id: String,
+    pub place: String,
+    pub text: String,
+    pub author: String,
+}
+
+/// What was asked, for its student and for those who teach.
+pub(super) struct ShownAppeal {
+    pub id: String,
+    pub label: String,
+    pub question: String,
+    pub at: Moment,
+    /// How far it is, in words.
+    pub standing: String,
+    /// Whether somebody handles it, and who; empty where only the course is known.
+    pub is_taken: bool,
+    pub handler: String,
+    pub answer: Option<String>,
+}
+
+/// What the student may ask: the token of the form, and ids and names of the rubric's lines.
+pub(super) struct Question {
+    pub csrf: String,
+    pub lines: Vec<(String, String)>,
+}
+
+/// Everything of it on one page.
+pub(super) struct Judgement {
+    /// None for who does not teach.
+    pub desk: Option<StaffForms>,
+    pub asked: Option<ShownAppeal>,
+    /// None for who may not ask.
+    pub question: Option<Question>,
+}
+
+impl Judgement {
+    /// What there is for whoever looks at a report.
+    pub async fn of(
+        state: &State,
+        frame: &Frame,
+        stored: &Stored,
+        teacher: Option<&Teacher>,
+        visitor: &Visitor,
+    ) -> Result<Self, Problem> {
+        let submission = &stored.submission;
+        let Some(report) = stored.report.as_ref().filter(|_| submission.via != Via::Editor) else {
+            return Ok(Self { desk: None, asked: None, question: None });
+        };
+        let teacher = teacher.filter(|teacher| teacher.may_see(&submission.assignment));
+        let is_theirs = visitor.identity.has_handed_in(submission);
+        let desk = match teacher {
+            Some(teacher) => Some(StaffForms::of(state, frame, stored, report, teacher).await?),
+            None => None,
+        };
+        let appeal = match (is_theirs, asker(submission)) {
+            (true, Some(asker)) => state.store.appeal_of(&submission.assignment, asker).await?,
+            _ => None,
+        };
+        let question = (is_theirs && appeal.is_none()).then(|| Question {
+            csrf: visitor.csrf(state),
+            lines: report.rubric.iter().map(|it| (it.id.clone(), it.label.get(frame.language).to_owned())).collect(),
+        });
+        let shown = match appeal {
+            Some(appeal) => Some(appeal).filter(|appeal| appeal.submission_id == submission.id),
+            None if desk.is_some() => state.store.appeal_about(&submission.id).await?,
+            None => None,
+        };
+        Ok(Self { desk, asked: shown.map(|appeal| ShownAppeal::of(state, frame, appeal)), question })
+    }
+}
+
+impl StaffForms {
+    async fn of(
+        state: &State,
+        frame: &Frame,
+        stored: &Stored,
+        report: &Report,
+        teacher: &Teacher,
+    ) -> Result<Self, Problem> {
+        let id = &stored.submission.id;
+        let overrides = state.store.overrides(id).await?;
+        let line = |line: &crate::report::RubricLine| LineForm {
+            id: line.id.clone(),
+            label: line.label.get(frame.language).to_owned(),
+            points: number(line.points),
+            most: number(line.max_points),
+            overridden: overrides.iter().find(|given| given.line == line.id).map(|given| {
+                let graded = report_fragment::points(line.graded);
+                (graded, given.reason.clone(), given.author.clone().unwrap_or_default())
+            }),
+        };
+        let comments = state.store.comments(id).await?.into_iter().map(|comment| CommentLine {
+            place: match frame.tag() {
+                "ja" => format!("{} {} 行目", comment.file, comment.line),
+                _ => format!("{}, line {}", comment.file, comment.line),
+            },
+            id: comment.id,
+            text: comment.text,
+            author: comment.author.unwrap_or_default(),
+        });
+        Ok(Self {
+            csrf: teacher.csrf(state),
+            lines: report.rubric.iter().map(line).collect(),
+            files: report.sources.iter().map(|source| source.name.clone()).collect(),
+            comments: comments.collect(),
+        })
+    }
+}
+
+impl ShownAppeal {
+    pub fn of(state: &State, frame: &Frame, appeal: Appeal) -> Self {
+        Self {
+            standing: standing(frame, &appeal),
+            is_taken: appeal.taken_at.is_some(),
+            label: rubric_label(&state.assignment, &appeal.line, frame.language).to_owned(),
+            question: appeal.question,
+            at: frame.moment(appeal.asked_at),
+            handler: appeal.handler.unwrap_or_default(),
+            answer: appeal.answer,
+            id: appeal.id,
+        }
+    }
+}
+
+/// How far an appeal is, in words.
+pub(super) fn standing(frame: &Frame, appeal: &Appeal) -> String {
+    let handler = appeal.taken_at.map(|_| appeal.handler.as_deref());
+    match (&appeal.answer, handler, frame.tag()) {
+        (Some(_), _, "ja") => "回答済み".to_owned(),
+        (Some(_), ..) => "answered".to_owned(),
+        (None, Some(handler), "ja") => format!("{} が対応中", handler.unwrap_or("担当者")),
+        (None, Some(handler), _) => format!("{} is handling it", handler.unwrap_or("somebody of the staff")),
+        (None, None, "ja") => "対応待ち".to_owned(),
+        (None, None, _) => "nobody is handling it yet".to_owned(),
+    }
+}
+
+/// The submission with its report, for a teacher who may see it.
+async fn judged(service: &Service, teacher: &Teacher, csrf: &str, id: &str) -> Result<Stored, Problem> {
+    teacher.check_csrf(service, csrf)?;
+    let (_, stored) = service.stored(id).await?;
+    teacher.check(&stored.submission.assignment)?;
+    Ok(stored)
+}
+
+/// Back to the page, with a line for the log.
+fn done(stored: &Stored, text: String) -> Response {
+    let submission = &stored.submission;
+    let detail =
+        Detail { student_id: submission.student_id.clone(), assignment: Some(submission.assignment.clone()), text };
+    detail.on(Redirect::to(&format!("/r/{}#judgement", submission.id)).into_response())
+}
+
+/// The form of a line of the rubric.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct OverrideForm {
+    csrf: String,
+    line: String,
+    points: String,
+    reason: String,
+    /// `clear`: the grading's points count again.
+    wish: String,
+}
+
+/// `POST /r/{id}/override`.
+pub(super) async fn override_line(
+    Shared(service): Shared<Service>,
+    teacher: Teacher,
+    Path(id): Path<String>,
+    Form(form): Form<OverrideForm>,
+) -> Result<Response, Problem> {
+    let stored = judged(&service, &teacher, &form.csrf, &id).await?;
+    let points = form.points.trim().parse().unwrap_or(f64::NAN);
+    let given = (form.wish != "clear").then_some((points, form.reason.as_str()));
+    let said = judgement::override_line(&service, &teacher, &stored, &form.line, given).await?;
+    Ok(done(&stored, said))
+}
+
+/// The form of a comment.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct CommentForm {
+    csrf: String,
+    file: String,
+    line: String,
+    text: String,
+    /// Id of a comment that is to be removed.
+    remove: String,
+}
+
+/// `POST /r/{id}/comments`.
+pub(super) async fn comment(
+    Shared(service): Shared<Service>,
+    teacher: Teacher,
+    Path(id): Path<String>,
+    Form(form): Form<CommentForm>,
+) -> Result<Response, Problem> {
+    let stored = judged(&service, &teacher, &form.csrf, &id).await?;
+    if !form.remove.is_empty() {
+        service.store.remove_comment(&id, &form.remove).await?;
+        return Ok(done(&stored, "–".to_owned()));
+    }
+    let line = form.line.trim().parse().unwrap_or(0);
+    let comment = judgement::comment(&service, &teacher, &stored, (&form.file, line), &form.text).await?;
+    Ok(done(&stored, format!("{}:{}: {}", comment.file, comment.line, comment.text)))
+}
+
+/// The form by which a student asks.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct QuestionForm {
+    csrf: String,
+    line: String,
+    question: String,
+}
+
+/// `POST /r/{id}/appeal`: a student asks for another look at a line.
+pub(super) async fn ask(
+    Shared(service): Shared<Service>,
+    visitor: Visitor,
+    Path(id): Path<String>,
+    Form(form): Form<QuestionForm>,
+) -> Result<Response, Problem> {
+    visitor.check_csrf(&service, &form.csrf)?;
+    let (_, stored) = service.stored(&id).await?;
+    judgement::ask(&service, &visitor.identity, &stored, &form.line, &form.question).await?;
+    Ok(Redirect::to(&format!("/r/{id}#judgement")).into_response())
+}
+
+/// The form by which those who teach handle what was asked.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct HandlingForm {
+    csrf: String,
+    answer: String,
+    /// `take`, `release` or `answer`.
+    wish: String,
+}
+
+/// `POST /teacher/appeals/{id}`: takes, gives back or answers what a student asked.
+pub(super) async fn handled(
+    Shared(service): Shared<Service>,
+    teacher: Teacher,
+    Path(id): Path<String>,
+    Form(form): Form<HandlingForm>,
+) -> Result<Response, Problem> {
+    let appeal = service.store.appeal(&id).await?.ok_or_else(Problem::not_found)?;
+    let stored = judged(&service, &teacher, &form.csrf, &appeal.submission_id).await?;
+    let handling = match form.wish.as_str() {
+        "take" => Handling::Take,
+        "release" => Handling::Release,
+        _ => Handling::Answer(&form.answer),
+    };
+    handle(&service, &teacher, &appeal, handling).await?;
+    let said = if matches!(handling, Handling::Answer(_)) { form.answer } else { form.wish };
+    Ok(done(&stored, said))
+}
