@@ -18,7 +18,7 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
-//! [`judgement`] what people judge beside it, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
+//! [`judgement`] what people judge beside it, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
 
@@ -44,6 +44,7 @@ pub mod lti;
 pub(crate) mod metrics;
 pub mod pages;
 pub mod preview;
+pub mod proxied;
 pub mod regrade;
 mod requests;
 pub mod roster;
@@ -78,6 +79,7 @@ pub fn layered(service: Service, routes: Router<Service>) -> Router {
         .layer(CatchPanicLayer::custom(panicked))
         .layer(axum::middleware::from_fn_with_state(service.clone(), acts::note))
         .layer(axum::middleware::from_fn_with_state(service.clone(), requests::attend))
+        .layer(axum::middleware::from_fn_with_state(service.clone(), proxied::attend))
         .layer(axum::middleware::from_fn(errors::render))
         .layer(fixed(header::CONTENT_SECURITY_POLICY, CSP))
         .layer(fixed(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))

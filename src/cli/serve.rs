@@ -42,6 +42,15 @@ pub struct Serve {
     #[arg(long = "trusted-proxy", value_name = "ADDRESS")]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub trusted_proxies: Vec<String>,
+    /// Header in which a reverse proxy says who somebody is (a student number, or the login of an account); needs
+    /// --identity-proxy
+    #[arg(long, value_name = "HEADER")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub identity_header: Option<String>,
+    /// Address (or network) of a reverse proxy whose --identity-header is believed; may be given again
+    #[arg(long = "identity-proxy", value_name = "ADDRESS")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub identity_proxies: Vec<String>,
     /// An assignment: the name of a built-in one, or the folder of one; may be given again, for a service with several
     /// [default: ggsample06]
     #[arg(long, value_name = "NAME|FOLDER")]

@@ -5,6 +5,7 @@ use crate::cli::{LogFormat, Serve};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::Policy;
+use axum::http::HeaderName;
 use figment::Figment;
 use figment::providers::{Env, Format, Serialized, Toml};
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,8 @@ pub struct Config {
     pub database: String,
     pub public_url: Option<String>,
     pub trusted_proxies: Vec<String>,
+    pub identity_header: Option<String>,
+    pub identity_proxies: Vec<String>,
     #[serde(deserialize_with = "one_or_several")]
     pub assignment: Vec<String>,
     pub workers: usize,
@@ -71,6 +74,8 @@ impl Default for Config {
             database: "ggrade.db".into(),
             public_url: None,
             trusted_proxies: Vec::new(),
+            identity_header: None,
+            identity_proxies: Vec::new(),
             assignment: Vec::new(),
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
@@ -171,7 +176,25 @@ impl Config {
             }
         }
         self.location()?;
-        super::limits::Proxies::parse(&self.trusted_proxies)?;
+        super::limits::Proxies::parse("trusted_proxies", &self.trusted_proxies)?;
+        super::limits::Proxies::parse("identity_proxies", &self.identity_proxies)?;
+        match &self.identity_header {
+            Some(header) if HeaderName::from_bytes(header.as_bytes()).is_err() => {
+                return wrong(
+                    "identity_header",
+                    "takes the name of an HTTP header",
+                    "には HTTP ヘッダーの名前を指定してください",
+                );
+            }
+            Some(_) if self.identity_proxies.is_empty() => {
+                return wrong(
+                    "identity_header",
+                    "needs identity_proxies: the addresses of the proxies that send it",
+                    "を使うには、それを送るプロキシのアドレスを identity_proxies に指定してください",
+                );
+            }
+            _ => {}
+        }
         Ok(())
     }
 

@@ -26,7 +26,7 @@ pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use secrets::{hex, same};
 pub(super) use staff::PASSWORD_SETTING;
 pub(crate) use staff::SHORTEST_PASSWORD;
-pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, set_staff};
+pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, member_of, set_staff};
 pub use teacher::{LecturerPage, Teacher, TeacherPage};
 pub(super) use teacher::{bearer, is_teachers_program};
 pub use visitor::{Visitor, visit};

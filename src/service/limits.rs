@@ -35,24 +35,22 @@ impl<S: Scope> FromRequestParts<S> for Client {
 }
 
 /// The address at the other end; where there is no connection, as in a test, nobody in particular.
-fn peer(extensions: &Extensions) -> IpAddr {
+pub(super) fn peer(extensions: &Extensions) -> IpAddr {
     extensions.get::<Peer>().map_or(IpAddr::V6(Ipv6Addr::UNSPECIFIED), |peer| peer.0.ip().to_canonical())
 }
 
-/// The networks of reverse proxies whose `X-Forwarded-For` is believed.
+/// The networks of reverse proxies whose word is taken.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Proxies(Vec<(IpAddr, u32)>);
 
 impl Proxies {
-    /// Reads addresses and networks.
-    pub fn parse(texts: &[String]) -> Result<Self, Fault> {
+    /// Reads the addresses and networks of an option.
+    pub fn parse(option: &str, texts: &[String]) -> Result<Self, Fault> {
         let networks = texts.iter().map(|text| network(text).ok_or(text)).collect::<Result<_, _>>();
         networks.map(Self).map_err(|text| {
             Fault::new(Text::new(
-                format!(
-                    "the configuration: trusted_proxies: {text:?} is no address, and no network such as 10.0.0.0/8"
-                ),
-                format!("設定の trusted_proxies の {text:?} は、アドレスでも 10.0.0.0/8 のような範囲でもありません"),
+                format!("the configuration: {option}: {text:?} is no address, and no network such as 10.0.0.0/8"),
+                format!("設定の {option} の {text:?} は、アドレスでも 10.0.0.0/8 のような範囲でもありません"),
             ))
         })
     }
@@ -120,7 +118,9 @@ mod tests {
         if let Some(chain) = forwarded {
             headers.insert("x-forwarded-for", chain.parse().expect("a header"));
         }
-        Proxies::parse(&trusted).expect("networks").client(peer.parse().expect("an address"), &headers)
+        Proxies::parse("trusted_proxies", &trusted)
+            .expect("networks")
+            .client(peer.parse().expect("an address"), &headers)
     }
 
     #[test]
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn what_is_no_network_is_a_fault() {
         for wrong in ["", "proxy.example", "10.0.0.0/33", "10.0.0.0/x"] {
-            assert!(Proxies::parse(&[wrong.to_owned()]).is_err(), "{wrong}");
+            assert!(Proxies::parse("trusted_proxies", &[wrong.to_owned()]).is_err(), "{wrong}");
         }
     }
 }

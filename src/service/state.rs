@@ -77,6 +77,8 @@ pub struct Shared {
     /// What a preview of a folder says beside the student's page; nothing in a service for students.
     pub preview: OnceLock<FolderVersion>,
     pub(super) proxies: Proxies,
+    /// Whose word is taken on who somebody is.
+    pub(super) identity_proxies: Proxies,
     /// The key of the tokens in forms.
     pub(super) key: Vec<u8>,
     /// One password is checked at a time.
@@ -109,7 +111,8 @@ impl Service {
             limits: Limits::new(&config, &clock),
             lti: Connections::default(),
             preview: OnceLock::new(),
-            proxies: Proxies::parse(&config.trusted_proxies)?,
+            proxies: Proxies::parse("trusted_proxies", &config.trusted_proxies)?,
+            identity_proxies: Proxies::parse("identity_proxies", &config.identity_proxies)?,
             queue: Queue::new(config.queue),
             cross_checks: CrossChecks::default(),
             gallery: Gallery::default(),

@@ -21,6 +21,7 @@ mod limits;
 mod lti;
 mod places;
 mod process;
+mod proxied;
 mod roster;
 mod server;
 mod several_files;

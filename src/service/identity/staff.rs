@@ -38,6 +38,13 @@ pub(super) fn normal_login(text: &str) -> Option<String> {
     (!login.is_empty() && login.len() <= LONGEST_LOGIN && login.chars().all(is_plain)).then_some(login)
 }
 
+/// Whose account this login is, where it is open; a reverse proxy has checked who they are.
+pub async fn member_of(service: &Service, login: &str) -> Result<Option<StaffMember>, Problem> {
+    let Some(login) = normal_login(login) else { return Ok(None) };
+    let staff = service.store.staff().await?;
+    Ok(staff.into_iter().find(|member| member.login == login && member.is_active))
+}
+
 /// Adds somebody who has still to choose a password.
 pub async fn add_staff(service: &Service, login: &str, name: &str, role: Role) -> Result<StaffMember, Problem> {
     let login = normal_login(login).ok_or_else(|| {

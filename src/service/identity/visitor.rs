@@ -1,12 +1,14 @@
 //! The browser that a page is for.
 
 use super::cookies::{Jar, STUDENT_COOKIE, is_set, read, set};
-use super::{Identity, csrf, new_token, token_hash};
+use super::{Identity, become_student, csrf, member_of, new_token, normal_number, token_hash};
 use crate::service::errors::Problem;
+use crate::service::proxied::ProxiedName;
+use crate::service::store::Proof;
 use crate::service::{Scope, Service};
 use axum::extract::{FromRequestParts, Request, State as Shared};
-use axum::http::header;
 use axum::http::request::Parts;
+use axum::http::{Extensions, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
@@ -42,6 +44,23 @@ impl Visitor {
             },
         };
         Ok(Self { token, is_new: false, identity })
+    }
+
+    /// Whoever a reverse proxy says that it is: the browser becomes that student's. Where the name is no student's of this course,
+    /// the browser is nobody's.
+    async fn proxied(self, service: &Service, extensions: &Extensions) -> Result<Self, Problem> {
+        let Some(ProxiedName(name)) = extensions.get::<ProxiedName>() else { return Ok(self) };
+        let is_staff = member_of(service, name).await?.is_some();
+        let student = match normal_number(name).filter(|_| !is_staff) {
+            Some(number) => service.store.student(&number, service.clock.now()).await?,
+            None => None,
+        };
+        match (student, self.identity.student().or(self.identity.claimed())) {
+            (Some(student), _) if self.identity.student_id() == Some(student.id.as_str()) => Ok(self),
+            (Some(student), _) => become_student(service, self, student, Proof::Platform).await,
+            (None, Some(_)) => Ok(Self::replaced()),
+            (None, None) => Ok(self),
+        }
     }
 
     /// Whether the request brought no cookie.
@@ -88,7 +107,7 @@ impl Visitor {
 
 /// The layer around pages: gives each browser its cookie.
 pub async fn visit(Shared(service): Shared<Service>, mut request: Request, next: Next) -> Result<Response, Problem> {
-    let visitor = Visitor::of(&service, request.headers()).await?;
+    let visitor = Visitor::of(&service, request.headers()).await?.proxied(&service, request.extensions()).await?;
     let jar = Jar::of(request.headers());
     request.extensions_mut().insert(visitor.clone());
     let mut response = next.run(request).await;
@@ -105,7 +124,7 @@ impl<S: Scope> FromRequestParts<S> for Visitor {
     async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Problem> {
         match parts.extensions.get::<Self>() {
             Some(visitor) => Ok(visitor.clone()),
-            None => Self::of(scope.whole(), &parts.headers).await,
+            None => Self::of(scope.whole(), &parts.headers).await?.proxied(scope.whole(), &parts.extensions).await,
         }
     }
 }

@@ -26,7 +26,7 @@ pub enum Proof {
     First,
     /// By the student's personal code.
     Code,
-    /// By the word of a learning platform.
+    /// By the word of a learning platform, or of a reverse proxy.
     Platform,
 }
 

@@ -4,12 +4,13 @@ use super::super::frame::Frame;
 use super::super::shown;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::identity::{self, LoginForm, Teacher, TeacherPage, Visitor};
+use crate::service::identity::{self, Jar, LoginForm, Teacher, TeacherPage, Visitor};
 use crate::service::limits::Client;
+use crate::service::proxied::ProxiedName;
 use askama::Template;
-use axum::Form;
 use axum::extract::State as Shared;
 use axum::response::{IntoResponse, Redirect, Response};
+use axum::{Extension, Form};
 use serde::Deserialize;
 
 #[derive(Template)]
@@ -40,9 +41,15 @@ pub(in crate::service::pages) async fn page(
     frame: Frame,
     visitor: Visitor,
     teacher: Option<Teacher>,
+    proxied: Option<Extension<ProxiedName>>,
 ) -> Result<Response, Problem> {
     if teacher.is_some() {
         return Ok(Redirect::to("/teacher").into_response());
+    }
+    if let Some(Extension(ProxiedName(name))) = proxied
+        && let Some(member) = identity::member_of(&service, &name).await?
+    {
+        return identity::open_for(&service, member, "/teacher", Jar::Own).await;
     }
     view(&service, frame, &visitor, String::new(), None).await
 }
