@@ -3,13 +3,19 @@
 mod assignment;
 mod batch;
 mod format;
+#[cfg(feature = "service")]
 mod serve;
+#[cfg(feature = "watch")]
 mod watch;
 
-pub use assignment::{Action, Assignment, Check, New, Preview, Show};
+#[cfg(feature = "service")]
+pub use assignment::Preview;
+pub use assignment::{Action, Assignment, Check, New, Show};
 pub use batch::Batch;
 pub use format::{Format, Reading};
+#[cfg(feature = "service")]
 pub use serve::{LogFormat, Serve};
+#[cfg(feature = "watch")]
 pub use watch::Watch;
 
 use crate::diagnose::Hints;
@@ -39,8 +45,10 @@ pub enum Command {
     /// Grade a whole class: folders, files, archives, a Moodle download
     Batch(Batch),
     /// Grade a hand-in again whenever a file of it is saved
+    #[cfg(feature = "watch")]
     Watch(Watch),
     /// Serve the pages on which students upload and teachers see the class
+    #[cfg(feature = "service")]
     Serve(Serve),
     /// Grade a folder of samples and hold each report against the expected one beside it
     Corpus(Corpus),

@@ -4,13 +4,18 @@ pub mod assignment;
 pub mod batch;
 pub mod corpus;
 pub mod doctor;
+#[cfg(feature = "watch")]
+mod end_signals;
 mod exchange;
 mod files;
 pub mod grade;
 pub mod interrupt;
+#[cfg(feature = "watch")]
 mod saves;
+#[cfg(feature = "service")]
 pub mod serve;
 mod view;
+#[cfg(feature = "watch")]
 pub mod watch;
 pub mod worker;
 

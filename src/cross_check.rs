@@ -24,7 +24,8 @@ const NEARLY_INFINITE: f64 = 8e37;
 const POSITION: &str = "gl_Position";
 
 /// How the two opinions relate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Opinion {
     /// All defined values agree.

@@ -23,6 +23,7 @@ pub mod sandbox;
 
 pub mod batch;
 pub mod corpus;
+#[cfg(feature = "service")]
 pub mod service;
 
 pub mod choice;

@@ -9,7 +9,9 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Grade(arguments) => command::grade::run(&arguments),
         Command::Batch(arguments) => command::batch::run(&arguments),
+        #[cfg(feature = "watch")]
         Command::Watch(arguments) => command::watch::run(&arguments),
+        #[cfg(feature = "service")]
         Command::Serve(arguments) => command::serve::run(&arguments),
         Command::Corpus(arguments) => command::corpus::run(&arguments),
         Command::Assignment(arguments) => command::assignment::run(&arguments),

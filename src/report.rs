@@ -23,7 +23,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The outcome in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Every frame and every probe agrees: full marks.
@@ -37,13 +38,14 @@ pub enum Verdict {
 }
 
 /// A file that was handed in.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct SourceInfo {
     /// File name as handed in.
     pub name: String,
     /// The stage that it is for; none where it is for no slot of the assignment, or an older report does not say.
     #[serde(default)]
-    #[schema(value_type = Option<String>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<String>))]
     pub stage: Option<Stage>,
     /// SHA-256 of the bytes as handed in, in hexadecimal.
     pub sha256: String,
@@ -79,7 +81,8 @@ pub struct RubricLine {
 }
 
 /// What somebody who teaches says about a line of a file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Comment {
     /// Name of the file.
     pub file: String,
@@ -116,20 +119,8 @@ pub struct Advice {
 }
 
 /// How much a message helps.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    clap::ValueEnum,
-    Serialize,
-    Deserialize,
-    utoipa::ToSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Hints {
     /// What is seen, no more.
@@ -177,7 +168,8 @@ pub struct ProbeResult {
 }
 
 /// What graded it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Environment {
     /// Version of ggrade.
     pub ggrade: String,
@@ -188,7 +180,8 @@ pub struct Environment {
 }
 
 /// How late a hand-in came, and what that takes off its points.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 pub struct Lateness {
     /// Milliseconds since the due date.
     pub milliseconds: u64,

@@ -19,6 +19,7 @@ mod tree;
 mod wording;
 
 pub use limits::{Budget, Limits};
+#[cfg(feature = "service")]
 pub(crate) use moodle::is_blind;
 pub use place::in_working_folder;
 

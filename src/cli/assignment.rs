@@ -4,6 +4,7 @@ use crate::language::Language;
 use crate::render::AdapterKind;
 use crate::sandbox::Policy;
 use clap::{Args, Subcommand};
+#[cfg(feature = "service")]
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -32,6 +33,7 @@ pub enum Action {
     /// Print the JSON schema of assignment.toml, for editors
     Schema,
     /// Open the page that students will see, and keep it as the folder is while you write
+    #[cfg(feature = "service")]
     Preview(Preview),
 }
 
@@ -73,6 +75,7 @@ pub struct Check {
 }
 
 /// Open the page that students will see.
+#[cfg(feature = "service")]
 #[derive(Debug, Args)]
 pub struct Preview {
     /// The folder of an assignment; it may still be broken

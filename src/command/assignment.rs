@@ -2,6 +2,7 @@
 
 mod check;
 mod new;
+#[cfg(feature = "service")]
 mod preview;
 mod show;
 
@@ -26,6 +27,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, Fault> {
             anstream::print!("{}", reference::schema::text());
             Ok(ExitStatus::FullMarks)
         }
+        #[cfg(feature = "service")]
         Action::Preview(preview) => preview::run(preview, language),
     }
 }

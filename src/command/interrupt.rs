@@ -5,7 +5,6 @@ use crate::language::Text;
 use nix::sys::signal::{SigSet, Signal};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use tokio::signal::unix::{self, SignalKind, signal};
 
 /// Exit code of a program that was ended by Ctrl-C, as shells have it.
 pub const EXIT_CODE: u8 = 130;
@@ -71,33 +70,6 @@ impl Interrupt {
         self.shared.happened.store(true, Ordering::Relaxed);
         self.shared.stop.store(true, Ordering::Relaxed);
         answer();
-    }
-}
-
-/// The signals that end what goes on until it is ended.
-pub struct EndSignals {
-    interrupt: unix::Signal,
-    terminate: unix::Signal,
-    hang_up: unix::Signal,
-}
-
-impl EndSignals {
-    /// Listens from now on.
-    pub fn listen() -> std::io::Result<Self> {
-        Ok(Self {
-            interrupt: signal(SignalKind::interrupt())?,
-            terminate: signal(SignalKind::terminate())?,
-            hang_up: signal(SignalKind::hangup())?,
-        })
-    }
-
-    /// Waits for any of them.
-    pub async fn any(&mut self) {
-        tokio::select! {
-            _ = self.interrupt.recv() => {}
-            _ = self.terminate.recv() => {}
-            _ = self.hang_up.recv() => {}
-        }
     }
 }
 

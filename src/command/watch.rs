@@ -6,7 +6,7 @@
 mod change;
 mod screen;
 
-use super::interrupt::EndSignals;
+use super::end_signals::EndSignals;
 use super::saves::{self, Save, Saves};
 use super::view::{ReportView, has_colour};
 use super::{ExitStatus, deadline, files, language, warn};

@@ -74,8 +74,8 @@ impl Serialize for Number {
 }
 
 /// A report in the shape of the contract.
-#[derive(Debug, Serialize, utoipa::ToSchema)]
-#[schema(as = Report)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Report))]
 pub struct JsonReport<'a> {
     schema: &'static str,
     assignment: &'a str,
@@ -83,15 +83,15 @@ pub struct JsonReport<'a> {
     source: &'a SourceInfo,
     sources: &'a [SourceInfo],
     verdict: Verdict,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     score: Number,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     max_score: Number,
     /// How late it was handed in, where a service knows; `total` is what is left of the score then.
     #[serde(skip_serializing_if = "Option::is_none")]
     lateness: Option<Lateness>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     total: Option<Number>,
     rubric: Vec<Rubric<'a>>,
     /// What people say about lines of the files.
@@ -105,12 +105,13 @@ pub struct JsonReport<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     cross_check: Option<CrossChecked<'a>>,
     environment: &'a Environment,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     elapsed_ms: Number,
 }
 
 /// What the interpreter says of the same vertices.
-#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 struct CrossChecked<'a> {
     opinion: Opinion,
     agreeing: u32,
@@ -134,16 +135,17 @@ fn file_of<'a>(report: &'a Report, file: Option<&'a str>, line: Option<u32>) -> 
     file.or_else(|| line.and_then(|_| report.file_of(None)).map(|source| source.name.as_str()))
 }
 
-#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 struct Rubric<'a> {
     id: &'a str,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     points: Number,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     max_points: Number,
     /// What the grading gave, where somebody who teaches gave other points.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     graded_points: Option<Number>,
     mistake: Option<&'a str>,
     message: &'a str,
@@ -168,8 +170,8 @@ impl<'a> Rubric<'a> {
     }
 }
 
-#[derive(Debug, Serialize, utoipa::ToSchema)]
-#[schema(as = Advice)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Advice))]
 struct Remark<'a> {
     id: &'a str,
     message: &'a str,
@@ -184,7 +186,8 @@ impl<'a> Remark<'a> {
     }
 }
 
-#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 struct Message<'a> {
     severity: Severity,
     stage: Stage,
@@ -209,14 +212,15 @@ impl<'a> Message<'a> {
     }
 }
 
-#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 struct Frame {
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     t: Number,
     coverage_mismatches: u32,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     max_difference: Number,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     mean_difference: Number,
     mismatched_pixels: u32,
 }
@@ -233,12 +237,13 @@ impl Frame {
     }
 }
 
-#[derive(Debug, Serialize, utoipa::ToSchema)]
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
 struct Probes {
     seed: u64,
     samples: u32,
     mismatched: u32,
-    #[schema(value_type = Option<f64>)]
+    #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     max_difference: Option<Number>,
 }
 
