@@ -2,7 +2,8 @@
 //!
 //! [`intake`] finds what was handed in, [`run`] grades it on all cores and writes each result into a [`journal`] as it
 //! comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`shared_answers`] knows which
-//! submissions are the same, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it.
+//! submissions are the same, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it,
+//! [`shard`] divides it among machines.
 
 pub mod anonymous;
 pub mod changes;
@@ -18,6 +19,7 @@ pub mod portrait;
 pub mod progress;
 pub mod resume;
 pub mod run;
+pub mod shard;
 pub mod shared_answers;
 pub mod standing;
 pub mod statistics;

@@ -11,7 +11,7 @@ mod watch;
 #[cfg(feature = "service")]
 pub use assignment::Preview;
 pub use assignment::{Action, Assignment, Check, New, Show};
-pub use batch::Batch;
+pub use batch::{Batch, BatchAction, BatchCommand, Merge};
 pub use format::{Format, Reading};
 #[cfg(feature = "service")]
 pub use serve::{LogFormat, Serve};
@@ -43,7 +43,7 @@ pub enum Command {
     /// Grade one hand-in: its file, or its files
     Grade(Grade),
     /// Grade a whole class: folders, files, archives, a Moodle download
-    Batch(Batch),
+    Batch(BatchCommand),
     /// Grade a hand-in again whenever a file of it is saved
     #[cfg(feature = "watch")]
     Watch(Watch),

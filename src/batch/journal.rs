@@ -5,6 +5,7 @@
 
 use super::class::{Outcome, Student};
 use super::folder::{Folder, unreadable, unwritable};
+use super::shard::Shard;
 use crate::diagnose::Hints;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
@@ -48,6 +49,9 @@ pub struct Header {
     pub language: Language,
     /// Whether names are pseudonyms.
     pub anonymous: bool,
+    /// Which part of the class this is; none for all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<Shard>,
 }
 
 /// What became of one student's submission.
@@ -227,6 +231,7 @@ mod tests {
             adapter: "software".into(),
             language: Language::En,
             anonymous: false,
+            shard: None,
         }
     }
 

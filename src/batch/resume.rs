@@ -87,6 +87,8 @@ fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
     compare(option("adapter"), found.adapter.clone(), wanted.adapter.clone());
     compare(option("lang"), name(&found.language), name(&wanted.language));
     compare(option("anonymous"), found.anonymous.to_string(), wanted.anonymous.to_string());
+    let shard = |header: &Header| header.shard.map_or_else(|| "-".to_owned(), |shard| shard.to_string());
+    compare(option("shard"), shard(found), shard(wanted));
     differences
 }
 

@@ -282,7 +282,7 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
 }
 
 /// `indices` with those that need one grading together, in order of the first of each.
-fn groups(candidates: &[Candidate], indices: &[usize]) -> Vec<Vec<usize>> {
+pub(super) fn groups(candidates: &[Candidate], indices: &[usize]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut places: HashMap<&Content, usize> = HashMap::new();
     for &index in indices {

@@ -2,21 +2,51 @@
 
 use super::{Machine, Sandbox};
 use crate::batch::formats::Format;
+use crate::batch::shard::Shard;
 use crate::diagnose::Hints;
 use crate::language::Language;
-use clap::Args;
-use std::path::PathBuf;
+use clap::{Args, Subcommand};
+use std::path::{Path, PathBuf};
+
+/// Grade a whole class, or put the shards of one together.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct BatchCommand {
+    /// What to do with shards.
+    #[command(subcommand)]
+    pub action: Option<BatchAction>,
+    /// What to grade, where there is no action.
+    #[command(flatten)]
+    pub batch: Batch,
+}
+
+/// What to do with shards.
+#[derive(Debug, Subcommand)]
+pub enum BatchAction {
+    /// Put the results of all shards together: the same as one run on the whole class gives
+    Merge(Merge),
+}
+
+/// Put shards together.
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// The output folders of all shards
+    #[arg(long, value_name = "DIR", num_args = 1.., required = true)]
+    pub shards: Vec<PathBuf>,
+    /// The class, with the options of the shards.
+    #[command(flatten)]
+    pub batch: Batch,
+}
 
 /// Grade a whole class.
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
 pub struct Batch {
     /// What was handed in: folders, shaders, ZIP archives, a Moodle download
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
     /// The folder that everything is written into
-    #[arg(long, short, value_name = "DIR")]
-    pub out: PathBuf,
+    #[arg(long, short, value_name = "DIR", required = true)]
+    out: Option<PathBuf>,
     /// What is written, separated by commas [default: all but nbgrader, as far as the input allows]
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
     pub formats: Vec<Format>,
@@ -56,6 +86,9 @@ pub struct Batch {
     /// Seed of the fresh probes, one for the whole class: that of an earlier run repeats it exactly [default: random]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Grade only one of N parts of the class, I from 1; `ggrade batch merge` puts the results together
+    #[arg(long, value_name = "I/N", requires = "seed", conflicts_with = "anonymous")]
+    pub shard: Option<Shard>,
     /// Seconds that a grading may take
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     pub deadline: f64,
@@ -67,5 +100,13 @@ pub struct Batch {
     pub sandbox: Sandbox,
 }
 
-const AFTER: &str = "Exit codes: 0 graded, all full marks · 1 graded, something is not · 2 usage · 3 our fault, or a \
+impl Batch {
+    /// The folder that everything is written into.
+    pub fn out(&self) -> &Path {
+        // An option for the parser only, which asks for the folder wherever there is something to grade.
+        self.out.as_deref().unwrap_or_else(|| Path::new(""))
+    }
+}
+
+const AFTER: &str = "Exit codes: 0 graded, all full marks, or a whole shard · 1 graded, something is not · 2 usage · 3 our fault, or a \
                      fault of ours in any submission · 4 nothing to grade · 130 stopped by Ctrl-C or SIGTERM";

@@ -10,21 +10,27 @@ use crate::batch::intake;
 use crate::batch::output::{self, OutputOptions};
 use crate::batch::portrait::Portraits;
 use crate::batch::resume::{self, Mode, NotBegun};
-use crate::batch::run;
 use crate::batch::standing::Standing;
+use crate::batch::{run, shard};
 use crate::choice;
-use crate::cli::Batch;
+use crate::cli::{Batch, BatchAction, BatchCommand, Merge};
 use crate::fault::Fault;
+use crate::language::Text;
 use session::{Session, Wanted};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Grades a class.
-pub fn run(arguments: &Batch) -> Result<ExitStatus, Fault> {
+/// Grades a class, or puts shards together.
+pub fn run(arguments: &BatchCommand) -> Result<ExitStatus, Fault> {
+    let (arguments, shards) = match &arguments.action {
+        Some(BatchAction::Merge(Merge { shards, batch })) => (batch, shards.as_slice()),
+        None => (&arguments.batch, &[][..]),
+    };
     // Before any thread is started.
     let interrupt = Interrupt::watch()?;
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
-    match grade(arguments, deadline, &interrupt) {
+    match grade(arguments, shards, deadline, &interrupt) {
         Ok(outcome) => Ok(outcome),
         Err(NotBegun::Fault(fault)) => Err(fault),
         Err(NotBegun::Usage(text)) => {
@@ -34,7 +40,16 @@ pub fn run(arguments: &Batch) -> Result<ExitStatus, Fault> {
     }
 }
 
-fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result<ExitStatus, NotBegun> {
+fn grade(
+    arguments: &Batch,
+    shards: &[PathBuf],
+    deadline: Duration,
+    interrupt: &Interrupt,
+) -> Result<ExitStatus, NotBegun> {
+    if !shards.is_empty() && (arguments.shard.is_some() || arguments.resume) {
+        let text = "`ggrade batch merge` takes neither --shard nor --resume";
+        return Err(NotBegun::Usage(Text::new(text, "ggrade batch merge に --shard と --resume は指定できません")));
+    }
     let assignment =
         choice::assignment(arguments.machine.assignment.as_deref(), &[]).map_err(NotBegun::Usage)?.assignment;
     begin::outside(arguments)?;
@@ -58,20 +73,30 @@ fn grade(arguments: &Batch, deadline: Duration, interrupt: &Interrupt) -> Result
         (_, true) => Mode::Force,
         _ => Mode::New,
     };
-    let found = resume::earlier(&folder, &arguments.out, mode)?;
+    let mut found = resume::earlier(&folder, arguments.out(), mode)?;
+    if !shards.is_empty() {
+        found = Some(shard::gather(&folder, shards)?);
+    }
     let header = begin::header(arguments, &assignment, found.as_ref(), before.as_ref());
     if let Some(found) = &found {
-        resume::same_conditions(&arguments.out, &found.header, &header)?;
+        resume::same_conditions(arguments.out(), &found.header, &header)?;
     }
     let intake = if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.slots)? } else { intake };
     let title = arguments.title.clone().unwrap_or(intake.title);
-    let candidates = run::candidates(intake.hand_ins, &assignment);
+    let mut candidates = run::candidates(intake.hand_ins, &assignment);
+    if let Some(shard) = arguments.shard {
+        candidates = shard.of(candidates);
+    }
     let portraits = Portraits::new(&assignment)?;
     let session = Session { arguments, assignment: &assignment, interrupt, deadline, folder: &folder, header: &header };
     let wants = output::wants(&formats);
     let mut entries = session.reuse(&candidates, found, wants)?;
     if !session.fill(&candidates, &mut entries, wants, &portraits)? {
         return Ok(ExitStatus::Interrupted);
+    }
+    if let Some(shard) = arguments.shard {
+        let entries: Vec<_> = entries.into_iter().flatten().collect();
+        return Ok(session.finish_shard(shard, &candidates, &entries)?);
     }
     let class = Class {
         assignment: Arc::clone(&assignment),

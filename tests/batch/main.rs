@@ -9,3 +9,4 @@ mod interrupted;
 mod moodle;
 mod places;
 mod regrade;
+mod shards;

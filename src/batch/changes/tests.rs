@@ -17,6 +17,7 @@ fn header(version: &str) -> Header {
         adapter: "software".into(),
         language: Language::En,
         anonymous: false,
+        shard: None,
     }
 }
 

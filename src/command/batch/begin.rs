@@ -17,13 +17,13 @@ use std::path::Path;
 /// Refuses an output folder that a later run would read as part of the input.
 pub(super) fn outside(arguments: &Batch) -> Result<(), NotBegun> {
     let real = |path: &Path| std::fs::canonicalize(path).ok();
-    let absolute = std::path::absolute(&arguments.out).unwrap_or_else(|_| arguments.out.clone());
+    let absolute = std::path::absolute(arguments.out()).unwrap_or_else(|_| arguments.out().to_owned());
     // The nearest folder that is there already tells where the others will be.
     let Some(out) = absolute.ancestors().find_map(real) else { return Ok(()) };
     let inside =
         arguments.inputs.iter().find(|input| real(input).is_some_and(|input| input.is_dir() && out.starts_with(input)));
     let Some(input) = inside else { return Ok(()) };
-    let (out, input) = (arguments.out.display(), input.display());
+    let (out, input) = (arguments.out().display(), input.display());
     Err(NotBegun::Usage(Text::new(
         format!("--out {out} lies inside the input {input}, and would be handed in with it: name a folder beside it"),
         format!(
@@ -33,10 +33,10 @@ pub(super) fn outside(arguments: &Batch) -> Result<(), NotBegun> {
 }
 
 pub(super) fn open(arguments: &Batch) -> Result<Folder, NotBegun> {
-    Folder::open(&arguments.out).map_err(|error| match error {
+    Folder::open(arguments.out()).map_err(|error| match error {
         NotOpened::Fault(fault) => NotBegun::Fault(fault),
         NotOpened::InUse => {
-            let path = arguments.out.display();
+            let path = arguments.out().display();
             NotBegun::Usage(Text::new(
                 format!("another ggrade is writing into {path}: wait for it, or name another folder"),
                 format!("別の ggrade が {path} に書き込んでいます。終わるまで待つか、別のフォルダを指定してください"),
@@ -101,6 +101,7 @@ pub(super) fn header(
         adapter: arguments.machine.adapter.name().into(),
         language: language(asked),
         anonymous: arguments.anonymous,
+        shard: arguments.shard,
     }
 }
 

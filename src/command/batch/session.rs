@@ -1,7 +1,7 @@
 //! A run on its way: what is kept, what is graded, what is written at the end.
 
 use crate::batch::changes::Changes;
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, Entry, Outcome};
 use crate::batch::folder::Folder;
 use crate::batch::formats::Format;
 use crate::batch::journal::{self, FoundJournal, Header, Journal, Record, RecordOf};
@@ -10,6 +10,7 @@ use crate::batch::portrait::Portraits;
 use crate::batch::progress::Progress;
 use crate::batch::resume::{self, NotBegun};
 use crate::batch::run::{Candidate, Run, Wants};
+use crate::batch::shard::Shard;
 use crate::batch::{anonymous, json_lines, output, summary};
 use crate::cli::Batch;
 use crate::command::interrupt::Interrupt;
@@ -61,7 +62,7 @@ impl Session<'_> {
         let records: HashMap<&str, &Record> = found.records.iter().map(|r| (r.student.key.as_str(), r)).collect();
         let of = |candidate: &Candidate| records.get(candidate.hand_in.student.key.as_str());
         if !records.is_empty() && candidates.iter().all(|candidate| of(candidate).is_none()) {
-            return Err(NotBegun::Usage(resume::other_class(&self.arguments.out)));
+            return Err(NotBegun::Usage(resume::other_class(self.arguments.out())));
         }
         let keys: HashSet<&str> = candidates.iter().map(|candidate| candidate.hand_in.student.key.as_str()).collect();
         resume::forget(self.folder, &found.records, &keys)?;
@@ -141,7 +142,7 @@ impl Session<'_> {
         if count == total {
             return Ok(true);
         }
-        let out = self.arguments.out.display();
+        let out = self.arguments.out().display();
         if !self.interrupt.happened() {
             return Err(Fault::new(Text::new(
                 format!(
@@ -182,6 +183,26 @@ impl Session<'_> {
         }
     }
 
+    /// Writes the results of a shard in order. Its formats are those of the whole class, which it does not know.
+    pub fn finish_shard(&self, shard: Shard, candidates: &[Candidate], entries: &[Entry]) -> Result<ExitStatus, Fault> {
+        self.write_journal(candidates, entries)?;
+        let (count, out) = (entries.len(), self.arguments.out().display());
+        self.say(&Text::new(
+            format!("shard {shard}: {count} results are in {out}. `ggrade batch merge` puts all shards together"),
+            format!(
+                "分割 {shard}: {count} 件の結果が {out} にあります。全分割が終わったら ggrade batch merge でまとめます"
+            ),
+        ));
+        let has_fault = entries.iter().any(|entry| matches!(entry.outcome, Outcome::Fault(_)));
+        Ok(if has_fault { ExitStatus::Fault } else { ExitStatus::FullMarks })
+    }
+
+    fn write_journal(&self, candidates: &[Candidate], entries: &[Entry]) -> Result<(), Fault> {
+        let records: Vec<_> =
+            candidates.iter().zip(entries).map(|(candidate, entry)| candidate.record(&entry.outcome)).collect();
+        journal::write(self.folder, self.header, &records)
+    }
+
     /// Writes the class in all formats, and says how it came out.
     pub fn finish(
         &self,
@@ -190,9 +211,7 @@ impl Session<'_> {
         wanted: &Wanted,
         before: Option<FoundJournal>,
     ) -> Result<ExitStatus, NotBegun> {
-        let records: Vec<_> =
-            candidates.iter().zip(&class.entries).map(|(candidate, entry)| candidate.record(&entry.outcome)).collect();
-        journal::write(self.folder, self.header, &records)?;
+        self.write_journal(candidates, &class.entries)?;
         let changes = before.map(|found| Changes::between((found.header, found.records), self.header, class));
         let (mut written, fault) = output::write(class, wanted.formats, wanted.sheet, changes.as_ref(), self.folder);
         written.notes.extend(wanted.hint.clone());
