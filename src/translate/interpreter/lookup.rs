@@ -41,7 +41,7 @@ pub(super) fn read(
     }
     let found = match opcode {
         op::IMAGE_FETCH => {
-            lookup.coordinates = whole(coordinates.clone())?;
+            lookup.coordinates.iter_mut().zip(whole(coordinates.clone())?).for_each(|(to, from)| *to = from);
             lookup.level = level.map_or(Some(0.0), |level| whole(level?)?.first().copied())?;
             texture.fetch(&lookup)?
         }
@@ -49,7 +49,7 @@ pub(super) fn read(
         op::IMAGE_SAMPLE_IMPLICIT_LOD | op::IMAGE_SAMPLE_EXPLICIT_LOD
             if texture.levels.len() == 1 && texture.magnify == texture.minify =>
         {
-            lookup.coordinates = coordinates.floats()?;
+            lookup.coordinates.iter_mut().zip(coordinates.floats()?).for_each(|(to, from)| *to = from);
             texture.sample(&lookup)
         }
         _ => return None,

@@ -55,10 +55,14 @@ impl Machine<'_> {
     }
 
     pub(super) fn lookup(&mut self, query: &Query) {
+        let plain = self.plain(query);
         let mut results = vec![[0.0; 4]; self.lanes];
         let mut open: Vec<Option<Undefined>> = vec![None; self.lanes];
         for (lane, found) in results.iter_mut().zip(&mut open).enumerate().filter(|(lane, _)| self.active.has(*lane)) {
-            (*found.0, *found.1) = self.look_up_one(query, lane);
+            (*found.0, *found.1) = match plain {
+                Some(texture) => self.look_up_plain(texture, query, lane),
+                None => self.look_up_one(query, lane),
+            };
         }
         let inherited = |lane: usize| {
             query.operands().map(|slot| self.memory.cause(slot, lane)).find(|&cause| cause != 0).unwrap_or(0)
@@ -77,6 +81,26 @@ impl Machine<'_> {
                 }
             }
         }
+    }
+
+    /// The one texture that all lanes read, where each reads a single texel of it: of many lookups most are such.
+    fn plain(&self, query: &Query) -> Option<&Texture> {
+        let numbers = self.memory.column(query.texture);
+        let lanes = || (0..self.lanes).filter(|lane| self.active.has(*lane));
+        let number = numbers[lanes().next()?];
+        let texture = self.textures.get(number as usize).filter(|_| number >= 0.0)?;
+        let is_plain = texture.is_plain() && texture.fits(query.sampler);
+        let takes_one = matches!(query.mode, Mode::Implicit(_) | Mode::Level(_));
+        (is_plain && takes_one && lanes().all(|lane| numbers[lane] == number)).then_some(texture)
+    }
+
+    fn look_up_plain(&self, texture: &Texture, query: &Query, lane: usize) -> ([f64; 4], Option<Undefined>) {
+        let value = |slot: &Slot| self.memory.column(*slot)[lane];
+        let at = [0, 1].map(|axis| query.coordinates.get(axis).map_or(0.0, value));
+        let offset = [0, 1].map(|axis| query.offset.get(axis).map_or(0.0, value));
+        let reference = query.reference.as_ref().map(value);
+        let is_number = at.iter().chain(&reference).all(|number| number.is_finite());
+        (texture.nearest(at, offset, reference), (!is_number).then_some(Undefined::Texture))
     }
 
     fn look_up_one(&self, query: &Query, lane: usize) -> ([f64; 4], Option<Undefined>) {
@@ -101,11 +125,10 @@ pub(super) fn look_up(
         let open = bound.is_some() || query.reference.is_some();
         return (INCOMPLETE, open.then_some(Undefined::Texture));
     };
-    let mut lookup = Lookup {
-        coordinates: query.coordinates.iter().map(|&slot| value(slot)).collect(),
-        reference: query.reference.map(value),
-        ..Lookup::default()
-    };
+    let mut lookup = Lookup { reference: query.reference.map(value), ..Lookup::default() };
+    for (coordinate, &slot) in lookup.coordinates.iter_mut().zip(&query.coordinates) {
+        *coordinate = value(slot);
+    }
     for (offset, &slot) in lookup.offset.iter_mut().zip(&query.offset) {
         *offset = value(slot);
     }

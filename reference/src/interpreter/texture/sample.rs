@@ -6,8 +6,8 @@ use crate::interpreter::types::Dimension;
 /// A lookup in one lane.
 #[derive(Clone, Debug, Default)]
 pub struct Lookup {
-    /// Coordinates, then the layer.
-    pub coordinates: Vec<f64>,
+    /// Coordinates, then the layer; 0 for what the texture has not.
+    pub coordinates: [f64; 4],
     /// What texels are compared with.
     pub reference: Option<f64>,
     /// Whole texels by which the place is moved.
@@ -119,6 +119,24 @@ impl Texture {
         sum
     }
 
+    /// Whether each lookup without a gather is [that of one texel](Self::nearest).
+    pub fn is_plain(&self) -> bool {
+        let is_flat = self.dimension == Dimension::Two && !self.array && self.levels.len() == 1;
+        is_flat && self.magnify == Filter::Nearest && self.minify == Filter::Nearest
+    }
+
+    /// What [`sample`](Self::sample) gives of a texture of two coordinates, one level and no filter.
+    pub fn nearest(&self, at: [f64; 2], offset: [f64; 2], reference: Option<f64>) -> [f64; 4] {
+        let level = &self.levels[0];
+        let whole = |axis: usize| (at[axis] * level.size[axis] as f64 + offset[axis]).floor();
+        let place = |axis: usize| wrapped(whole(axis), level.size[axis] as f64, self.wrap[axis]);
+        let texel = match (place(0), place(1)) {
+            (Some(x), Some(y)) => level.texels.at(y * level.size[0] + x),
+            _ => self.border,
+        };
+        self.compared(texel, reference)
+    }
+
     /// One component of the four texels that a linear filter reads, in the order of GLSL.
     pub fn gather(&self, lookup: &Lookup, component: usize) -> [f64; 4] {
         let place = self.place(lookup);
@@ -137,12 +155,13 @@ impl Texture {
     pub fn fetch(&self, lookup: &Lookup) -> Option<[f64; 4]> {
         let level = self.levels.get(lookup.level as usize).filter(|_| lookup.level >= 0.0)?;
         let mut index = [0_usize; 3];
-        for (axis, &at) in lookup.coordinates.iter().enumerate() {
-            let at = at + lookup.offset[axis];
+        let count = usize::from(self.dimension.count()) + usize::from(self.array);
+        for (axis, index) in index.iter_mut().enumerate().take(count) {
+            let at = lookup.coordinates[axis] + lookup.offset[axis];
             if at < 0.0 || at >= level.size[axis] as f64 {
                 return None;
             }
-            index[axis] = at as usize;
+            *index = at as usize;
         }
         Some(at(level, index))
     }
@@ -204,7 +223,7 @@ mod tests {
     }
 
     fn at(x: f64, y: f64) -> Lookup {
-        Lookup { coordinates: vec![x, y], ..Lookup::default() }
+        Lookup { coordinates: [x, y, 0.0, 0.0], ..Lookup::default() }
     }
 
     #[test]
@@ -214,6 +233,27 @@ mod tests {
         assert_eq!(texture.sample(&at(0.5, 0.5))[..2], [2.0, 1.0]);
         // Repeated: −0.1 is 0.9.
         assert_eq!(texture.sample(&at(-0.1, 1.3))[..2], [3.0, 0.0]);
+    }
+
+    #[test]
+    fn one_texel_is_the_same_on_the_short_way() {
+        let mut texture = texture();
+        assert!(texture.is_plain());
+        texture.border = [9.0; 4];
+        for wrap in [Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge, Wrap::ClampToBorder] {
+            texture.wrap = [wrap; 3];
+            for (compare, reference) in [(None, None), (Some(Compare::LessOrEqual), Some(1.5))] {
+                texture.compare = compare;
+                for [x, y] in [[0.49, 0.3], [-0.1, 1.3], [2.2, -3.1], [1.0, 0.0]] {
+                    let lookup = Lookup { reference, offset: [1.0, -1.0, 0.0], ..at(x, y) };
+                    assert_eq!(
+                        texture.nearest([x, y], [1.0, -1.0], reference),
+                        texture.sample(&lookup),
+                        "{wrap:?} {x} {y}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]
