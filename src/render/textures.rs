@@ -46,7 +46,9 @@ fn words(textures: &[Texture]) -> Vec<u32> {
         words[1 + DESCRIPTION * number..][..own.len()].copy_from_slice(&own);
         match &level.texels {
             Texels::Bytes(texels) => words.extend(texels.iter().map(|texel| u32::from_le_bytes(*texel))),
-            Texels::Depths(depths) => words.extend(depths.drawn().iter().map(|depth| depth.to_bits())),
+            Texels::Depths(depths) if depths.each() == 1 => {
+                words.extend(depths.drawn().iter().map(|depth| depth.to_bits()));
+            }
             texels => {
                 let texels = (0..texels.count()).map(|place| texels.at(place));
                 words.extend(texels.flatten().map(|number| (number as f32).to_bits()));
@@ -80,7 +82,7 @@ fn describe(texture: &Texture, level: &Level, first: u32) -> [u32; 9] {
         | wrap(1) << 6
         | wrap(2) << 8
         | bit(matches!(level.texels, Texels::Bytes(_)), BYTES)
-        | bit(matches!(level.texels, Texels::Depths(_)), DEPTHS)
+        | bit(matches!(&level.texels, Texels::Depths(depths) if depths.each() == 1), DEPTHS)
         | compare << 16
         | bit(texture.clamps_reference, CLAMPS_REFERENCE);
     let [width, height, depth] = level.size.map(|side| side as u32);

@@ -34,10 +34,16 @@ impl Upload for Texture {
                 (glow::RGBA32F, glow::FLOAT, bytemuck::cast_slice(&floats))
             }
             // The same depths, bit for bit: those of fixed point are clamped by who reads them here, and that is where they lie.
-            Kept::Depths(depths) => (glow::DEPTH_COMPONENT32F, glow::FLOAT, bytemuck::cast_slice(depths.drawn())),
+            Kept::Depths(depths) => {
+                let format = if depths.each() == 1 { glow::DEPTH_COMPONENT32F } else { glow::RG32F };
+                (format, glow::FLOAT, bytemuck::cast_slice(depths.drawn()))
+            }
         };
-        let is_depth = matches!(level.texels, Kept::Depths(_));
-        let channels = if is_depth { glow::DEPTH_COMPONENT } else { glow::RGBA };
+        let channels = match format {
+            glow::DEPTH_COMPONENT32F => glow::DEPTH_COMPONENT,
+            glow::RG32F => glow::RG,
+            _ => glow::RGBA,
+        };
         let faces = if is_cube { 6 } else { 1 };
         assert_eq!(texels.len() % faces, 0);
         let wrap = |wrap: Wrap| match wrap {

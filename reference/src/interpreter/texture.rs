@@ -72,7 +72,7 @@ pub enum Texels {
     Srgb(Vec<[u8; 4]>),
     /// As they are.
     Numbers(Vec<[f64; 4]>),
-    /// Depths, which are red; green and blue are 0, alpha is 1.
+    /// Depths, which are red, or their moments, red and green; what is not there is 0, alpha is 1.
     Depths(Depths),
 }
 
@@ -96,7 +96,10 @@ impl Texels {
                 [red, green, blue, f64::from(alpha) / 255.0]
             }
             Self::Numbers(texels) => texels[place],
-            Self::Depths(depths) => [f64::from(depths.drawn()[place]), 0.0, 0.0, 1.0],
+            Self::Depths(depths) => {
+                let [red, green] = depths.at(place).map(f64::from);
+                [red, green, 0.0, 1.0]
+            }
         }
     }
 }

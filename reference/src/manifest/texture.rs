@@ -33,6 +33,8 @@ pub struct Texture {
     pub border: Option<Colour>,
     /// What a shadow sampler compares: `reference OP texel`. Only of depths.
     pub compare: Option<Compare>,
+    /// Of moments, over how many texels to each side the mean is taken.
+    pub blur: Option<u32>,
     /// Whether red, green and blue are decoded from sRGB.
     #[serde(default)]
     pub srgb: bool,
@@ -51,12 +53,14 @@ pub enum Format {
     Depth24,
     /// Depths as floats, which a pass draws.
     Depth32f,
+    /// The mean of depths around a texel, and that of their squares, as floats.
+    Moments,
 }
 
 impl Format {
     /// Whether it holds depths.
     pub fn is_depth(self) -> bool {
-        matches!(self, Self::Depth24 | Self::Depth32f)
+        matches!(self, Self::Depth24 | Self::Depth32f | Self::Moments)
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Pass {
     pub size: [u32; 2],
     /// Whether depths are kept in 24 bits of fixed point, or else as floats.
     pub is_fixed_point: bool,
+    /// Over how many texels to each side moments are means, where the texture holds moments of the depths.
+    pub moments: Option<u32>,
 }
 
 impl Pass {
@@ -87,9 +89,44 @@ impl DepthPass {
             true => (depth * FIXED).round() / FIXED,
             false => depth,
         };
-        depth_map(pass.size, &surfaces, pass.polygon_offset).into_iter().map(|depth| rounded(depth) as f32).collect()
+        let depths = depth_map(pass.size, &surfaces, pass.polygon_offset).into_iter().map(rounded);
+        match pass.moments {
+            None => depths.map(|depth| depth as f32).collect(),
+            Some(blur) => moments(&depths.collect::<Vec<_>>(), pass.size, blur),
+        }
     }
+}
+
+/// The means of depths over so many texels to each side, and those of their squares. Beyond the map its outermost depths go on.
+fn moments(depths: &[f64], [width, height]: [u32; 2], blur: u32) -> Vec<f32> {
+    let (width, height, blur) = (width as usize, height as usize, blur as usize);
+    let around = move |at: usize, size: usize| (0..=2 * blur).map(move |k| (at + k).saturating_sub(blur).min(size - 1));
+    let count = (2 * blur + 1) as f64;
+    let mean = |of: &dyn Fn(f64) -> f64| {
+        let along =
+            |at: usize| around(at % width, width).map(|x| of(depths[at / width * width + x])).sum::<f64>() / count;
+        let rows: Vec<f64> = (0..width * height).map(along).collect();
+        let across = |at: usize| around(at / width, height).map(|y| rows[y * width + at % width]).sum::<f64>() / count;
+        (0..width * height).map(across).collect::<Vec<_>>()
+    };
+    let (first, second) = (mean(&|depth| depth), mean(&|depth| depth * depth));
+    first.into_iter().zip(second).flat_map(|(first, second)| [first as f32, second as f32]).collect()
 }
 
 /// The greatest number of 24 bits.
 const FIXED: f64 = 16_777_215.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_are_means_of_depths_and_of_their_squares() {
+        // 2 × 1 texels of 0 and 0.5 without a blur: the depth and its square.
+        assert_eq!(moments(&[0.0, 0.5], [2, 1], 0), [0.0, 0.0, 0.5, 0.25]);
+        // Over one texel to each side the outermost counts twice: (0 + 0 + 0.6) / 3 and (0 + 0 + 0.36) / 3, then the other way round.
+        let found = moments(&[0.0, 0.6], [2, 1], 1);
+        let expected = [0.2_f32, 0.12, 0.4, 0.24];
+        assert!(found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-6), "{found:?}");
+    }
+}

@@ -46,10 +46,10 @@ pub(super) fn pass(
     let Some(target) = target.filter(|_| maps == 1) else {
         return Err(wrong(
             format!(
-                "`target` is the one [[texture]] with `format = \"depth24\"` or `\"depth32f\"`: there is no `{name}`, or another beside it"
+                "`target` is the one [[texture]] with `format = \"depth24\"`, `\"depth32f\"` or `\"moments\"`: there is no `{name}`, or another beside it"
             ),
             format!(
-                "`target` には `format = \"depth24\"` または `\"depth32f\"` の [[texture]] を 1 つだけ書きます。`{name}` がないか、ほかにもあります"
+                "`target` には `format = \"depth24\"`、`\"depth32f\"`、`\"moments\"` のいずれかの [[texture]] を 1 つだけ書きます。`{name}` がないか、ほかにもあります"
             ),
         ));
     };
@@ -91,6 +91,7 @@ pub(super) fn pass(
         polygon_offset: entry.polygon_offset,
         size: [width, height],
         is_fixed_point: target.format == Some(Format::Depth24),
+        moments: (target.format == Some(Format::Moments)).then(|| target.blur.unwrap_or(0)),
     });
     let poses = scene.all_poses();
     for pose in &poses {
@@ -115,17 +116,32 @@ pub(super) fn pass(
 /// How many squares of one depth the map of probes has along a side.
 const SQUARES: usize = 32;
 
+/// What SplitMix64 makes of a number (Steele, Lea and Flood 2014), from 0 to 1: neighbours have nothing in common.
+fn scattered(number: u64) -> f32 {
+    let mut z = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 40) as f32 / 16_777_216.0
+}
+
 /// Depths that no scene has, for probes: squares, each with a depth of its own anywhere from 0 to 1. A place or a depth that is looked
 /// up wrongly meets another answer in about every second probe, whatever is wrong with it.
 pub(super) fn depths_of_probes([width, height]: [usize; 2]) -> Vec<f32> {
     let square = |at: usize, size: usize| at * SQUARES / size;
-    let depth = |x: usize, y: usize| {
-        // Three rounds of SplitMix64's mixing (Steele, Lea and Flood 2014): neighbours have nothing in common.
-        let mut z = (square(y, height) * SQUARES + square(x, width) + 1) as u64;
-        z = z.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / 16_777_216.0
-    };
+    let depth = |x: usize, y: usize| scattered((square(y, height) * SQUARES + square(x, width) + 1) as u64);
     (0..height).flat_map(|y| (0..width).map(move |x| depth(x, y))).collect()
+}
+
+/// The least and the greatest deviation of the depths of a square. Noise: a variance computed in f32 is off by 1e-7, of the least
+/// square here by 1e-4 of itself.
+const DEVIATION: [f32; 2] = [0.04, 0.25];
+
+/// The same as means of depths, with a deviation of each square's own; and the means of their squares.
+pub(super) fn moments_of_probes(depths: &[f32]) -> Vec<f32> {
+    let [least, most] = DEVIATION;
+    let moments = |mean: &f32| {
+        let deviation = least + (most - least) * scattered(u64::from(mean.to_bits()));
+        [*mean, mean * mean + deviation * deviation]
+    };
+    depths.iter().flat_map(moments).collect()
 }

@@ -16,6 +16,8 @@ const LONGEST_SIDE: usize = 8_192;
 const MOST_TEXELS: usize = 1 << 22;
 /// More texels of depths than this, in the maps of all pictures, are refused: 64 MiB, which each worker holds twice.
 const MOST_DEPTHS: usize = 1 << 24;
+/// The mean of moments is taken over at most so many texels to each side.
+const MOST_BLUR: u32 = 16;
 /// A texel of four floats counts as so many of four bytes.
 const FLOATS: usize = 4;
 
@@ -61,9 +63,10 @@ pub(super) fn textures(
         all.iter().filter(|texture| matches!(texture.levels[0].texels, Texels::Depths(_))).collect();
     if let [map] = maps[..] {
         let mut map = map.clone();
-        let count = map.levels[0].texels.count();
+        let Texels::Depths(known) = &map.levels[0].texels else { return Ok(all) };
+        let (count, each) = (known.count(), known.each());
         for _ in 0..pictures {
-            map.levels[0].texels = Texels::Depths(Depths::later(count));
+            map.levels[0].texels = Texels::Depths(Depths::later(count, each));
             all.push(map.clone());
         }
     }
@@ -157,13 +160,30 @@ impl TextureReader<'_> {
         }
         let wrap = self.wrap(false)?;
         let filter = entry.filter.unwrap_or(Filter::Nearest);
-        let texels = Texels::Depths(Depths::known(passes::depths_of_probes([width, height])));
+        let is_moments = self.format() == Format::Moments;
+        if entry.blur.is_some_and(|blur| !is_moments || blur > MOST_BLUR) {
+            return Err(self.wrong(
+                format!("`blur` is a number up to {MOST_BLUR}, and belongs to `format = \"moments\"`"),
+                format!("`blur` は {MOST_BLUR} までの数で、`format = \"moments\"` のときだけ使います"),
+            ));
+        }
+        if is_moments && entry.compare.is_some() {
+            return Err(self.wrong(
+                "moments are not compared: remove `compare`",
+                "moments は比較には使えません。`compare` を取り除いてください",
+            ));
+        }
+        let depths = passes::depths_of_probes([width, height]);
+        let texels = Texels::Depths(match is_moments {
+            true => Depths::known(passes::moments_of_probes(&depths), 2),
+            false => Depths::known(depths, 1),
+        });
         Ok(Texture {
             magnify: filter,
             minify: filter,
             wrap,
             border: self.border(wrap)?,
-            compare: Some(entry.compare.unwrap_or(Compare::LessOrEqual)),
+            compare: (!is_moments).then(|| entry.compare.unwrap_or(Compare::LessOrEqual)),
             clamps_reference: self.format() == Format::Depth24,
             ..Texture::two_dimensional(width, height, texels)
         })

@@ -6,25 +6,26 @@ use std::sync::{Arc, OnceLock};
 /// What draws a map: its texels row by row, the lowest row first.
 type Draw = dyn Fn() -> Vec<f32> + Send + Sync;
 
-/// The depths of a texture, one number a texel.
+/// The depths of a texture: one number a texel, or their moments, which are two.
 #[derive(Clone)]
 pub struct Depths(Arc<Later>);
 
 struct Later {
     count: usize,
+    each: usize,
     draw: OnceLock<Box<Draw>>,
     drawn: OnceLock<Vec<f32>>,
 }
 
 impl Depths {
-    /// So many depths, of which is said [later](Self::are) how they are drawn.
-    pub fn later(count: usize) -> Self {
-        Self(Arc::new(Later { count, draw: OnceLock::new(), drawn: OnceLock::new() }))
+    /// So many texels of so many numbers each, of which is said [later](Self::are) how they are drawn.
+    pub fn later(count: usize, each: usize) -> Self {
+        Self(Arc::new(Later { count, each, draw: OnceLock::new(), drawn: OnceLock::new() }))
     }
 
-    /// Depths that are known.
-    pub fn known(depths: Vec<f32>) -> Self {
-        let later = Self::later(depths.len());
+    /// Texels of so many numbers each that are known.
+    pub fn known(depths: Vec<f32>, each: usize) -> Self {
+        let later = Self::later(depths.len() / each.max(1), each);
         let _ = later.0.drawn.set(depths);
         later
     }
@@ -34,16 +35,30 @@ impl Depths {
         let _ = self.0.draw.set(Box::new(draw));
     }
 
-    /// How many there are.
+    /// How many texels there are.
     pub fn count(&self) -> usize {
         self.0.count
     }
 
-    /// The depths; 1 where nothing was ever drawn.
+    /// How many numbers a texel has: a depth, or the mean of depths and that of their squares.
+    pub fn each(&self) -> usize {
+        self.0.each
+    }
+
+    /// Red and green of a texel.
+    pub fn at(&self, place: usize) -> [f32; 2] {
+        let all = self.drawn();
+        match self.0.each {
+            1 => [all[place], 0.0],
+            each => [all[place * each], all[place * each + 1]],
+        }
+    }
+
+    /// The numbers of all texels; 1 where nothing was ever drawn.
     pub fn drawn(&self) -> &[f32] {
         self.0.drawn.get_or_init(|| {
             let mut depths = self.0.draw.get().map_or_else(Vec::new, |draw| draw());
-            depths.resize(self.0.count, 1.0);
+            depths.resize(self.0.count * self.0.each, 1.0);
             depths
         })
     }

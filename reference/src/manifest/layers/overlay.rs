@@ -5,12 +5,14 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// What tells the elements of a list of tables apart: elements that have the same are one.
-const IDENTITIES: [(&str, &str); 12] = [
+const IDENTITIES: [(&str, &str); 14] = [
     ("file", "stage"),
     ("fixed", "stage"),
     ("input", "name"),
     ("uniform", "name"),
     ("texture", "name"),
+    ("pass", "target"),
+    ("free", "id"),
     ("constant", "name"),
     ("rubric", "id"),
     ("mistake", "id"),
