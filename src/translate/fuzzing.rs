@@ -17,7 +17,9 @@ pub fn bear(words: &[u32], source: &Source) {
     // A refusal is as good an answer as any here.
     let _ = gate::check_words(words, source, Stage::Vertex, &[]);
     for poisons in [false, true] {
-        let _ =
-            spirv::rework(words, spirv::How { set: &["mw", "mc", "mg"], has_textures: true, is_split: true, poisons });
+        let _ = spirv::rework(
+            words,
+            spirv::How { set: &["mw", "mc", "mg"], has_textures: true, alike: None, is_split: true, poisons },
+        );
     }
 }

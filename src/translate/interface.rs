@@ -1,6 +1,6 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
-use super::spirv::Declared;
+use super::spirv::{Alike, Declared};
 use super::{Refusal, Shader, glslang};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
@@ -34,6 +34,8 @@ pub struct Interface {
     pub fragment: CString,
     /// The line with `#version` of what is handed out.
     pub version: String,
+    /// What all textures have in common, where they do.
+    pub alike: Option<Alike>,
 }
 
 impl Interface {
@@ -64,6 +66,7 @@ impl Interface {
                 .unwrap_or("#version 410 core")
                 .trim()
                 .to_owned(),
+            alike: Alike::of(&assignment.textures),
             fragment: CString::new(fixed).map_err(|_| broken("a NUL in the fixed stage"))?,
         })
     }

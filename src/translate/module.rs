@@ -146,7 +146,8 @@ pub(super) struct Built {
 /// Makes the module. A fault here is our limit, not the student's.
 pub(super) fn build(written: Vec<u32>, source: &Source, interface: &Interface, how: Built) -> Result<Shader, Refusal> {
     let has_textures = interface.uniforms.iter().any(|uniform| uniform.ty.contains("sampler"));
-    let rework = spirv::How { set: &interface.set_uniforms(), has_textures, is_split: true, poisons: how.poisons };
+    let (set, alike) = (&interface.set_uniforms(), interface.alike);
+    let rework = spirv::How { set, has_textures, alike, is_split: true, poisons: how.poisons };
     let Reworked { words, lines, uniforms: known, io, reads_textures } =
         spirv::rework(&written, rework).map_err(refusal)?;
     let mut module = parse(&words)?;

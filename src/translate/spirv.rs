@@ -23,7 +23,7 @@ pub(super) use io::Io;
 pub use io::{Interpolation, Qualifiers};
 pub(super) use poison::NEGATIVE;
 pub(super) use textures::OURS;
-pub use textures::TEXTURES;
+pub use textures::{Alike, DESCRIPTION, TEXTURES, descriptions};
 pub(super) use walk::{Instruction, instructions, rename, text};
 
 use code::Code;
@@ -59,6 +59,8 @@ pub(super) struct How<'a> {
     pub set: &'a [&'a str],
     /// Whether there are textures among them.
     pub has_textures: bool,
+    /// What all textures have in common, where they do.
+    pub alike: Option<Alike>,
     /// Whether inputs and outputs become plain variables.
     pub is_split: bool,
     /// Whether what is undefined becomes a number that shows.
@@ -86,7 +88,7 @@ pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable
     undefined(&mut code);
     code.functions.retain(|instruction| instruction.opcode != op::MEMORY_BARRIER);
     switch::separate_cases(&mut code)?;
-    let reads_textures = textures::lower(&mut code, &samplers, is_fragment);
+    let reads_textures = textures::lower(&mut code, &samplers, is_fragment, how.alike);
     lower::lower(&mut code);
     if how.poisons {
         poison::poison(&mut code);

@@ -65,6 +65,7 @@ impl Homework {
             output: Variable { name: "colour".into(), ty: "vec4".into() },
             constants: Vec::new(),
             version: "#version 410 core".to_owned(),
+            alike: None,
             fragment: c"".to_owned(),
         }
     }

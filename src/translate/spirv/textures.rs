@@ -4,13 +4,14 @@
 //! So samplers may stand in structures and arrays, be chosen by an index and be handed to functions, which naga takes in
 //! no other way; what a lookup gives is that of the reference's rules, and depends on no driver.
 
+mod description;
 mod image;
-
 mod library;
 
 use super::code::{Code, Instruction};
 use super::lower::{Builder, rewrite};
 use super::op::{self};
+pub use description::{Alike, DESCRIPTION, descriptions};
 pub use image::Samplers;
 use image::{ImageType, Texel};
 use library::splice;
@@ -22,13 +23,13 @@ pub const OURS: &str = "@ours";
 /// Bind group and binding of the textures.
 pub const TEXTURES: (u32, u32) = (1, 1);
 
-/// Replaces the lookups; gives whether there are any.
-pub(super) fn lower(code: &mut Code, samplers: &Samplers, is_fragment: bool) -> bool {
+/// Replaces the lookups; gives whether there are any. `alike`: what all textures have in common, where they do.
+pub(super) fn lower(code: &mut Code, samplers: &Samplers, is_fragment: bool, alike: Option<Alike>) -> bool {
     let is_lookup = |i: &Instruction| (op::IMAGE_SAMPLE_FIRST..=op::IMAGE_LAST).contains(&i.opcode);
     if samplers.0.is_empty() || !code.functions.iter().any(is_lookup) {
         return false;
     }
-    let Some(functions) = splice(code, is_fragment) else { return false };
+    let Some(functions) = splice(code, is_fragment, alike) else { return false };
     rewrite(code, |builder, instruction| {
         let mut look = LookUp { b: builder, samplers, functions: &functions };
         look.lowered(instruction)

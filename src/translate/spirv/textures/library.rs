@@ -1,31 +1,42 @@
 //! The functions that look-ups become: what the compiler makes of `textures.glsl`, put into a module.
 
-use super::{OURS, TEXTURES};
+use super::{Alike, OURS, TEXTURES};
 use crate::translate::glslang::{Reached, Request, Rules, Stage, StageText, compile};
 use crate::translate::spirv::code::{Code, Instruction};
 use crate::translate::spirv::op::{self, decoration, storage};
 use std::collections::HashMap;
 use std::ffi::CString;
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// What the compiler makes of `textures.glsl`, once a process.
-pub(super) fn library() -> Option<&'static Code> {
-    static LIBRARY: OnceLock<Option<Code>> = OnceLock::new();
-    LIBRARY
-        .get_or_init(|| {
-            let text = CString::new(include_str!("textures.glsl")).ok()?;
-            let stages = [StageText::plain(Stage::Fragment, &text)];
-            let outcome = compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Fragment });
-            let code = (outcome.reached == Reached::Done).then(|| Code::parse(&outcome.spirv)).flatten();
-            debug_assert!(code.is_some(), "{}{}", outcome.log(Stage::Fragment), outcome.link_log);
-            code
-        })
-        .as_ref()
+/// What the compiler makes of `textures.glsl` for textures that are alike in this way, or in none.
+type Library = (Option<Alike>, Option<Arc<Code>>);
+
+/// What the compiler makes of `textures.glsl`, once a process for each homework.
+pub(super) fn library(alike: Option<Alike>) -> Option<Arc<Code>> {
+    static LIBRARIES: Mutex<Vec<Library>> = Mutex::new(Vec::new());
+    let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = libraries.iter().find(|(known, _)| *known == alike) {
+        return known.clone();
+    }
+    let made = compiled(alike).map(Arc::new);
+    libraries.push((alike, made.clone()));
+    made
+}
+
+fn compiled(alike: Option<Alike>) -> Option<Code> {
+    let (version, text) = include_str!("textures.glsl").split_once('\n')?;
+    let preamble = alike.map_or_else(String::new, |alike| alike.preamble());
+    let text = CString::new(format!("{version}\n{preamble}{text}")).ok()?;
+    let stages = [StageText::plain(Stage::Fragment, &text)];
+    let outcome = compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Fragment });
+    let code = (outcome.reached == Reached::Done).then(|| Code::parse(&outcome.spirv)).flatten();
+    debug_assert!(code.is_some(), "{}{}", outcome.log(Stage::Fragment), outcome.link_log);
+    code
 }
 
 /// Adds the functions of the library; gives their ids and the types of their results, by name.
-pub(super) fn splice(code: &mut Code, is_fragment: bool) -> Option<HashMap<String, (u32, u32)>> {
-    let library = library()?;
+pub(super) fn splice(code: &mut Code, is_fragment: bool, alike: Option<Alike>) -> Option<HashMap<String, (u32, u32)>> {
+    let library = library(alike)?;
     let names = library.names();
     let name = |id: u32| names.get(&id).and_then(|name| name.split('(').next()).unwrap_or_default();
     let is_left_out = |id: u32| name(id) == "main" || !is_fragment && name(id) == "detail_here";
@@ -33,7 +44,7 @@ pub(super) fn splice(code: &mut Code, is_fragment: bool) -> Option<HashMap<Strin
     code.reserve(library.bound());
     // naga knows one type without a value.
     let void = |code: &Code| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
-    let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(library)?, void(code)?);
+    let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(&library)?, void(code)?);
     let moved = |id: u32| match id {
         id if id == own_set => set,
         id if id == own_void => void,

@@ -10,9 +10,18 @@ const uint MAGNIFY_LINEAR = 1u, MINIFY_LINEAR = 2u, BYTES = 4096u, DEPTHS = 8192
 // A lookup's mode: how many axes, and bits.
 const int AXES = 3, LAYERS = 4, CUBE = 8, COMPARES = 16, RECTANGLE = 32;
 
+#ifdef ALIKE
+// All textures have one description, but for where their texels begin.
+uint described(const uint unit, const int at) {
+    return at == WIDTH ? ALIKE_WIDTH : at == HEIGHT ? ALIKE_HEIGHT : at == DEPTH ? ALIKE_DEPTH
+        : at == FIRST ? ALIKE_FIRST + unit * STRIDE : at == FLAGS ? ALIKE_FLAGS : at == BORDER ? ALIKE_RED
+        : at == BORDER + 1 ? ALIKE_GREEN : at == BORDER + 2 ? ALIKE_BLUE : ALIKE_ALPHA;
+}
+#else
 uint described(const uint unit, const int at) {
     return words[1u + unit * 16u + uint(at)];
 }
+#endif
 
 bool is_there(const uint unit) {
     return unit < words[0];
@@ -30,14 +39,14 @@ vec4 border_of(const uint unit) {
 vec4 texel_at(const uint unit, const ivec3 at) {
     uint place = (uint(at.z) * described(unit, HEIGHT) + uint(at.y)) * described(unit, WIDTH) + uint(at.x);
     uint first = described(unit, FIRST);
-    if ((described(unit, FLAGS) & BYTES) != 0u) {
-        return unpackUnorm4x8(words[first + place]);
+    uint flags = described(unit, FLAGS);
+    bool is_float = (flags & (BYTES | DEPTHS)) == 0u;
+    uint word = first + (is_float ? place * 4u : place);
+    uint number = words[word];
+    if (is_float) {
+        return uintBitsToFloat(uvec4(number, words[word + 1u], words[word + 2u], words[word + 3u]));
     }
-    if ((described(unit, FLAGS) & DEPTHS) != 0u) {
-        return vec4(uintBitsToFloat(words[first + place]), 0.0, 0.0, 1.0);
-    }
-    uint word = first + place * 4u;
-    return uintBitsToFloat(uvec4(words[word], words[word + 1u], words[word + 2u], words[word + 3u]));
+    return (flags & BYTES) != 0u ? unpackUnorm4x8(number) : vec4(uintBitsToFloat(number), 0.0, 0.0, 1.0);
 }
 
 // The coordinate inside of the texture; -1 for the border.
@@ -93,18 +102,6 @@ vec4 texel(const uint unit, const vec3 at, const int layer, const float referenc
     return found;
 }
 
-vec4 row(const uint unit, const vec3 at, const float share, const int layer, const float reference, const int mode) {
-    return mix(texel(unit, at, layer, reference, mode), texel(unit, at + vec3(1.0, 0.0, 0.0), layer, reference, mode), share);
-}
-
-vec4 plane(const uint unit, const vec3 at, const vec3 share, const int layer, const float reference, const int mode) {
-    vec4 low = row(unit, at, share.x, layer, reference, mode);
-    if ((mode & AXES) == 1) {
-        return low;
-    }
-    return mix(low, row(unit, at + vec3(0.0, 1.0, 0.0), share.x, layer, reference, mode), share.y);
-}
-
 vec3 on_face(const float major, const vec3 at) {
     return vec3((at.xy / abs(major) + 1.0) * 0.5, at.z);
 }
@@ -152,17 +149,19 @@ vec4 look_up(const uint unit, const vec4 at, const float detail, const ivec3 off
     vec4 place = place_of(unit, at, offset, mode);
     int layer = int(place.w);
     bool is_linear = (described(unit, FLAGS) & (detail > 0.0 ? MINIFY_LINEAR : MAGNIFY_LINEAR)) != 0u;
-    if (!is_linear) {
-        return texel(unit, floor(place.xyz), layer, reference, mode);
-    }
-    vec3 from = place.xyz - 0.5;
+    vec3 from = is_linear ? place.xyz - 0.5 : place.xyz;
     vec3 low = floor(from);
     vec3 share = from - low;
-    if ((mode & AXES) < 3) {
-        return plane(unit, low, share, layer, reference, mode);
+    // However many texels are read, what reads one stands here once: the driver compiles each copy of it, and runs all of them.
+    int texels = is_linear ? 1 << (mode & AXES) : 1;
+    vec4 sum = vec4(0.0);
+    for (int number = 0; number < texels; number++) {
+        vec3 upper = vec3(number & 1, number >> 1 & 1, number >> 2 & 1);
+        vec3 weights = is_linear ? mix(1.0 - share, share, upper) : vec3(1.0);
+        float weight = weights.x * ((mode & AXES) > 1 ? weights.y : 1.0) * ((mode & AXES) > 2 ? weights.z : 1.0);
+        sum += weight * texel(unit, low + upper, layer, reference, mode);
     }
-    return mix(plane(unit, low, share, layer, reference, mode),
-        plane(unit, low + vec3(0.0, 0.0, 1.0), share, layer, reference, mode), share.z);
+    return sum;
 }
 
 vec4 gather(const uint unit, const vec4 at, const ivec3 offset, const float reference, const int component,
