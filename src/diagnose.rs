@@ -25,7 +25,7 @@ pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
-use reference::probes::{Probe, ProbeSet};
+use reference::probes::{Course, Crossings, Probe, ProbeSet};
 
 /// Mistakes that are told from other things than the colours alone.
 const POSITION_CHANGED: &str = "position-changed";
@@ -48,6 +48,8 @@ pub struct Evidence<'a> {
     pub samples: &'a [Sample],
     /// Those that nobody knows beforehand.
     pub fresh: Fresh<'a>,
+    /// Rows of probes across edges, and what the shader computed there; none where the homework does not judge by them.
+    pub across: Option<(&'a Crossings, &'a [Sample])>,
     /// The line where a negative number was raised to a power, where one was.
     pub undefined: Option<u32>,
     /// The shader, to be run step by step; none where it has something that the interpreter does not know.
@@ -103,6 +105,8 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     if !shape && !mistakes.iter().any(|id| costs_position(evidence.assignment, id)) {
         mistakes.insert(0, POSITION_CHANGED.into());
     }
+    let course = course(evidence, mistakes.is_empty());
+    mistakes.extend(course.filter(|id| !mistakes.iter().any(|other| share_a_line(evidence.assignment, id, other))));
     let lines = &evidence.assignment.rubric;
     let facts = if mistakes.is_empty() { Facts::default() } else { Facts::of(evidence, &cause) };
     let judged = lines.iter().map(|line| judge(evidence, &facts, line, shape, &cause, &mistakes));
@@ -124,6 +128,23 @@ pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
     let agrees = frames_agree && reference::fit::is_right(evidence.probes, &samples, COLOUR_TOLERANCE);
     agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)
+}
+
+/// The mistake that the way over edges shows. That of an answer that is wrong elsewhere may go back for that reason.
+fn course(evidence: &Evidence<'_>, is_right_elsewhere: bool) -> Option<String> {
+    let gradual = evidence.assignment.gradual.as_ref()?;
+    let (crossings, samples) = evidence.across?;
+    let colours: Vec<[f64; 3]> = samples.iter().map(Sample::colour_f64).collect();
+    match crossings.course(&colours)? {
+        Course::Abrupt => Some(gradual.abrupt.clone()),
+        Course::Uneven => is_right_elsewhere.then(|| gradual.uneven.clone()),
+    }
+}
+
+/// Whether two mistakes cost points of the same line: then what explains the samples says more than their course.
+fn share_a_line(assignment: &Assignment, a: &str, b: &str) -> bool {
+    let costs = |id: &str, line: &str| assignment.mistake(id).is_some_and(|mistake| mistake.keeps(line) < 1.0);
+    assignment.rubric.iter().any(|line| costs(a, &line.id) && costs(b, &line.id))
 }
 
 /// Whether a mistake costs points where things are drawn.

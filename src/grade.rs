@@ -24,7 +24,7 @@ use crate::source::{self, Source};
 use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
 use reference::Assignment;
 use reference::accepted::{AcceptedAnswer, Reading};
-use reference::probes::ProbeSet;
+use reference::probes::{Crossings, ProbeSet};
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
@@ -63,6 +63,8 @@ pub struct Grader {
     accepted: Vec<(AcceptedAnswer, Vec<ExpectedFrame>)>,
     /// The probes that judge.
     probes: ProbeSet,
+    /// Those across edges, where the homework judges by them.
+    crossings: Option<Crossings>,
     environment: Environment,
     /// What advice comes from.
     beyond: Vec<Beyond>,
@@ -88,6 +90,7 @@ struct Judged<'a> {
     assignment: &'a Assignment,
     probes: &'a ProbeSet,
     fresh: &'a ProbeSet,
+    crossings: Option<&'a Crossings>,
     rendering: &'a Rendering,
     interpreter: Option<&'a Interpreter>,
 }
@@ -119,6 +122,7 @@ impl Grader {
         });
         let accepted = accepted.collect();
         let probes = assignment.judging_probes();
+        let crossings = assignment.crossings();
         let beyond = advice::beyond(&assignment, &probes);
         Ok(Self {
             assignment,
@@ -127,6 +131,7 @@ impl Grader {
             expected,
             accepted,
             probes,
+            crossings,
             environment,
             beyond,
             programs,
@@ -200,6 +205,7 @@ impl Grader {
             assignment: &self.assignment,
             probes: &self.probes,
             fresh,
+            crossings: self.crossings.as_ref(),
             rendering: &rendering,
             interpreter: interpreter.as_ref(),
         };
@@ -222,7 +228,11 @@ impl Grader {
             return Rc::clone(last);
         }
         let fresh = self.assignment.fresh_probes(seed);
-        let scene = Scene::of(&self.assignment, &[&self.probes, &fresh]);
+        let sets: Vec<&ProbeSet> = [&self.probes, &fresh]
+            .into_iter()
+            .chain(self.crossings.iter().map(|crossings| &crossings.probes))
+            .collect();
+        let scene = Scene::of(&self.assignment, &sets);
         Rc::clone(self.last.insert(Rc::new(Probing { fresh, scene })))
     }
 
@@ -259,14 +269,15 @@ impl Grader {
 
     /// The report but for what was handed in.
     fn report(&self, judged: Judged<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
-        let Judged { source, sources, assignment, probes, fresh, rendering, interpreter } = judged;
+        let Judged { source, sources, assignment, probes, fresh, crossings, rendering, interpreter } = judged;
         let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
             let frames = expected.iter().zip(0..);
             frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
         };
         let mut frames = compared(&self.expected);
         let samples: Vec<_> = rendering.probe_samples.concat();
-        let (samples, fresh_samples) = samples.split_at(probes.probes.len().min(samples.len()));
+        let (samples, others) = samples.split_at(probes.probes.len().min(samples.len()));
+        let (fresh_samples, across) = others.split_at(fresh.probes.len().min(others.len()));
         let evidence = Evidence {
             assignment,
             source,
@@ -276,6 +287,7 @@ impl Grader {
             samples,
             fresh: Fresh { probes: fresh, samples: fresh_samples },
             undefined: rendering.undefined,
+            across: crossings.map(|crossings| (crossings, across)),
             interpreter,
             beyond: &self.beyond,
             hints,

@@ -51,6 +51,8 @@ pub struct Assignment {
     pub free: Vec<Free>,
     /// The solution, changed: what these show otherwise is not judged.
     pub(crate) unjudged: Vec<AcceptedAnswer>,
+    /// The ids of the mistakes of an answer that does not go gradually from one thing to another, where that is asked for.
+    pub gradual: Option<Gradual>,
     /// The solution, changed: some probes lie where these show something else.
     pub(crate) revealed: Vec<AcceptedAnswer>,
     /// What the handed-out file defines.
@@ -73,6 +75,15 @@ pub struct Assignment {
     pub regions: Vec<Region>,
     pub(crate) probing: Probing,
     pub(crate) derived: OnceLock<Arc<Derived>>,
+}
+
+/// The mistakes that are told by the way of an answer across edges, by their ids.
+#[derive(Clone, Debug)]
+pub struct Gradual {
+    /// It shows the one or the other, and nothing between.
+    pub abrupt: String,
+    /// It goes back on its way.
+    pub uneven: String,
 }
 
 /// A file that is handed in.

@@ -1,5 +1,6 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
+mod gradual;
 mod interface;
 mod layers;
 mod mistake;
@@ -9,6 +10,7 @@ mod texture;
 mod toml_error;
 mod variant;
 
+pub use gradual::Gradual;
 pub use interface::{Free, Input, Uniform};
 pub use layers::{Layers, extended, line_of_extends, name_of_base};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
@@ -64,6 +66,8 @@ pub struct Manifest {
     #[schemars(with = "Vec<Variant>")]
     #[serde(default)]
     pub unjudged: Vec<Spanned<Variant>>,
+    /// What is judged by its course between places that are judged.
+    pub gradual: Option<Gradual>,
     /// What the handed-out file defines, as the solution does.
     #[serde(default)]
     pub constant: Vec<Constant>,

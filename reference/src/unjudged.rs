@@ -29,16 +29,20 @@ impl Assignment {
 
     /// The probes that all those programs agree on.
     pub(crate) fn judged(&self, uniforms: &[Value], mut probes: Vec<Probe>) -> Vec<Probe> {
-        for other in &self.unjudged {
-            let Some(shown) = self.shown_of_group(&other.pipeline, uniforms, &probes) else { continue };
-            let mut agrees = probes
-                .iter()
-                .zip(&shown)
-                .map(|(probe, shown)| (probe.colour - shown.colour).abs().max_element() <= COLOUR)
-                .collect::<Vec<_>>()
-                .into_iter();
-            probes.retain(|_| agrees.next() == Some(true));
-        }
+        let mut is_judged = self.are_judged(uniforms, &probes).into_iter();
+        probes.retain(|_| is_judged.next() == Some(true));
         probes
+    }
+
+    /// For each of these probes whether all those programs agree on it.
+    pub(crate) fn are_judged(&self, uniforms: &[Value], probes: &[Probe]) -> Vec<bool> {
+        let mut judged = vec![true; probes.len()];
+        for other in &self.unjudged {
+            let Some(shown) = self.shown_of_group(&other.pipeline, uniforms, probes) else { continue };
+            for ((judged, probe), shown) in judged.iter_mut().zip(probes).zip(&shown) {
+                *judged &= (probe.colour - shown.colour).abs().max_element() <= COLOUR;
+            }
+        }
+        judged
     }
 }

@@ -14,6 +14,7 @@ use crate::source::{self, Source};
 use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
+use reference::probes::ProbeSet;
 
 /// The program of a homework, as far as it is not handed in.
 #[derive(Debug)]
@@ -82,10 +83,15 @@ impl Grader {
         let mut diagnostics: Vec<Diagnostic> = warnings.chain(notes()).collect();
         let probing = self.probing(order.seed);
         let own_fresh = extended.as_ref().map(|extended| extended.probes_of(&probing.fresh));
-        let own_scene = extended
-            .as_ref()
-            .zip(own_fresh.as_ref())
-            .map(|(extended, fresh)| Scene::of(&extended.assignment, &[&extended.probes, fresh]));
+        let own_crossings = extended.as_ref().and_then(|extended| {
+            let crossings = self.crossings.as_ref()?;
+            Some(crossings.given(extended.probes_of(&crossings.probes)))
+        });
+        let own_scene = extended.as_ref().zip(own_fresh.as_ref()).map(|(extended, fresh)| {
+            let across = own_crossings.iter().map(|crossings| &crossings.probes);
+            let sets: Vec<&ProbeSet> = [&extended.probes, fresh].into_iter().chain(across).collect();
+            Scene::of(&extended.assignment, &sets)
+        });
         let rendering = self.render_linked(&linked, own_scene.as_ref().unwrap_or(&probing.scene))?;
         let stages = [(&linked.vertex, rendering.ran_out), (&linked.fragment, rendering.of_fragments.ran_out)];
         if let Some((shader, ran_out)) = stages.into_iter().find_map(|(shader, out)| Some((shader, out?))) {
@@ -93,7 +99,7 @@ impl Grader {
             diagnostics.insert(0, error);
             return Ok(self.refused(infos, Verdict::Stopped, diagnostics));
         }
-        let rendering = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
+        let drawn = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
         let Some((_, source)) = sources.last() else { return Err(no_program()) };
         // Of definitions it is known where in the text they stand.
         let steps = linked.steps.last().filter(|_| self.assignment.equation.reads() == Reads::Varyings);
@@ -102,7 +108,9 @@ impl Grader {
         let own = extended.as_ref();
         let (assignment, probes) = own.map_or((&*self.assignment, &self.probes), |own| (&own.assignment, &own.probes));
         let fresh = own_fresh.as_ref().unwrap_or(&probing.fresh);
-        let judged = Judged { source, sources: &given, assignment, probes, fresh, rendering: &rendering, interpreter };
+        let crossings = own_crossings.as_ref().or(self.crossings.as_ref());
+        let (sources, rendering) = (&given[..], &drawn);
+        let judged = Judged { source, sources, assignment, probes, fresh, crossings, rendering, interpreter };
         let mut report = self.report(judged, diagnostics, order.hints);
         report.advice.extend(own.into_iter().flat_map(|own| own.notes(&given)));
         if report.mistakes.iter().any(|id| id == UNEXPLAINED) {
@@ -113,7 +121,7 @@ impl Grader {
             cross_check::check_program(assignment, &given, probes, &samples)
         });
         report.sources = infos;
-        Ok(Graded { report, frames: Some(rendering.frames) })
+        Ok(Graded { report, frames: Some(drawn.frames) })
     }
 
     /// Draws a program. What the fixed vertex stage does with the frames is the same for every submission.

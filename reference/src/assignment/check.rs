@@ -16,11 +16,12 @@ mod textures;
 mod typeset;
 mod variants;
 
-use super::{Assignment, AssignmentError, FixedStage, HandedIn, MANIFEST, both, error};
+use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, both, error};
 use crate::Folder;
 use crate::accepted::AcceptedAnswer;
 use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
+use crate::mistake::Mistake;
 use solution::Solution;
 use std::collections::HashSet;
 use std::sync::{Arc, OnceLock};
@@ -67,6 +68,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     if features.iter().all(Option::is_none) {
         mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()));
     }
+    let gradual = gradual(&m, &mistakes, place_at)?;
     let probing = probing::probing(&m.probes, &constants, &solution)?;
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, place_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
@@ -89,6 +91,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
         interface,
         free,
         unjudged,
+        gradual,
         revealed,
         constants,
         equation,
@@ -143,6 +146,35 @@ fn programs(
         variants.program(entry.get_ref(), &format!("{}, {key}", place_at(entry.span().start)))
     };
     listed.iter().map(program).collect()
+}
+
+/// The mistakes of what is not gradual. Edges are those of what a pass draws.
+fn gradual(m: &Manifest, mistakes: &[Mistake], place_at: &dyn Fn(usize) -> String) -> Checked<Option<Gradual>> {
+    let Some(entry) = &m.gradual else { return Ok(None) };
+    let known = |id: &toml::Spanned<String>| {
+        let place = format!("{}, gradual", place_at(id.span().start));
+        if m.pass.is_empty() || m.unjudged.is_empty() {
+            return Err(error(
+                place,
+                both(
+                    "is about the edges of what a pass draws, where it is not judged: write [[pass]] and [[unjudged]], or remove it",
+                    "[[pass]] が描くものの境目のうち、[[unjudged]] により採点しない場所についての設定です。両方を書くか、取り除いてください",
+                ),
+            ));
+        }
+        let id = id.get_ref();
+        if !mistakes.iter().any(|mistake| mistake.id == *id) {
+            return Err(error(
+                place,
+                both(
+                    format!("there is no mistake `{id}`: correct the name, or write its [[mistake]]"),
+                    format!("`{id}` という mistake はありません。名前を直すか、[[mistake]] を書いてください"),
+                ),
+            ));
+        }
+        Ok(id.clone())
+    };
+    Ok(Some(Gradual { abrupt: known(&entry.abrupt)?, uneven: known(&entry.uneven)? }))
 }
 
 fn rubric(lines: &mut [manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {

@@ -4,15 +4,18 @@
 //! between them is like what the homework's own fragments are given. Where a colour hangs on the last bits of what it is
 //! computed from, at the edge of a step, no fragment is probed: there a right answer may have another one.
 
+mod across;
+mod seen;
 mod shown;
 
 use super::{Group, Probe, ProbeSet, Random};
 use crate::equation::{Evaluation, Reads};
 use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
-use glam::{DMat3, DQuat, DVec2, DVec3, DVec4};
+pub use across::{Course, Crossings};
+use glam::{DQuat, DVec2, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
-use shown::{Handed, WAYS, mixed};
+use shown::{Handed, HandedAround, WAYS, mixed};
 pub use shown::{Shown, linear};
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.
@@ -55,6 +58,27 @@ pub struct Spot {
     pub varyings_beside: [Vec<(String, Value)>; 2],
 }
 
+/// A fragment before it is known whether it is seen: the corners of a triangle, a share for each, and which triangles are left out.
+type Candidate = ([Vertex; 3], [f64; 3], Cull);
+
+/// Which fragments are taken.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Taken {
+    /// In the middle of a pixel, on either side of a triangle.
+    AnySide,
+    /// The same on the fronts only, where both sides are drawn.
+    Front,
+    /// On the fronts, just where they are.
+    FrontInPlace,
+}
+
+/// Fragments that are seen, the position of the first corner of each, and what is handed over there.
+struct Located {
+    spots: Vec<Spot>,
+    positions: Vec<DVec4>,
+    handed: HandedAround,
+}
+
 /// A number `at` so many pixels to the right and above, where it is known here and at the two pixels `beside`. What a driver
 /// interpolates within 2 × 2 pixels is as good as linear.
 pub fn at_pixel(here: f64, beside: [f64; 2], at: [f64; 2]) -> f64 {
@@ -82,15 +106,15 @@ impl Assignment {
         for camera in 0..2 * CAMERAS {
             // Of a closed surface nobody sees the inside, so an answer may do there what it likes. The outside of a mesh whose
             // triangles all run with the clock is never found.
-            let is_outside = camera < CAMERAS;
-            if !is_outside && !best.1.is_empty() {
+            let taken = if camera < CAMERAS { Taken::Front } else { Taken::AnySide };
+            if taken == Taken::AnySide && !best.1.is_empty() {
                 break;
             }
             let drawn = self.group(random);
             let mut probes = Vec::new();
             for _ in 0..ROUNDS {
                 let some = (0..wanted).map(|_| self.triangle(random)).collect();
-                probes.extend(self.probed(group, &drawn, some, is_outside).unwrap_or_default());
+                probes.extend(self.probed(group, &drawn, some, taken).unwrap_or_default());
                 // What lies behind the eye altogether lies there for every triangle.
                 if probes.is_empty() || probes.len() >= wanted {
                     break;
@@ -122,7 +146,7 @@ impl Assignment {
             let mut found = Vec::new();
             for _ in 0..REVEALING_ROUNDS {
                 let some = (0..TRIANGLES_TO_REVEAL).map(|_| self.triangle(random)).collect();
-                let some = self.probed(group, drawn, some, true).unwrap_or_default();
+                let some = self.probed(group, drawn, some, Taken::Front).unwrap_or_default();
                 let Some(shown) = self.shown_of_group(&other.pipeline, &drawn.uniforms, &some) else { continue };
                 let differs =
                     |(probe, shown): &(Probe, Shown)| (probe.colour - shown.colour).abs().max_element() > REVEALED;
@@ -138,7 +162,7 @@ impl Assignment {
     }
 
     /// A triangle of what is drawn, moved and turned, a share for each corner, and which triangles are left out.
-    fn triangle(&self, random: &mut Random) -> ([Vertex; 3], [f64; 3], Cull) {
+    fn triangle(&self, random: &mut Random) -> Candidate {
         let draws: Vec<_> = self.scene.views.iter().flat_map(|view| &view.draws).collect();
         let pick = |random: &mut Random, count: usize| random.between(0.0, count as f64) as usize;
         let draw = draws[pick(random, draws.len())];
@@ -169,15 +193,47 @@ impl Assignment {
         (corners, [1.0 - along, along * (1.0 - across), along * across], draw.cull)
     }
 
-    /// The probes at those of these fragments that lie before the eye, are not left out, and have a colour that stays when
-    /// they are moved a little. `is_outside`: only the fronts of triangles, where both sides are drawn.
-    fn probed(
+    /// The probes at those of these fragments that are seen, and have a colour that stays when they are moved a little.
+    fn probed(&self, group: usize, drawn: &Group, some: Vec<Candidate>, taken: Taken) -> Option<Vec<Probe>> {
+        let located = self.located(drawn, some, taken)?;
+        let colours = self.colours(&self.pipeline, &drawn.uniforms, &located.spots, &located.handed, WAYS)?;
+        let is_steady: Vec<bool> = colours.iter().map(|(_, is_steady)| *is_steady).collect();
+        let probes = self.shown_in_place(group, drawn, located, colours.into_iter().map(|(colour, _)| colour));
+        let known = probes
+            .into_iter()
+            .zip(is_steady)
+            .filter(|(probe, is_steady)| *is_steady && probe.colour.is_finite() && probe.position.is_finite());
+        Some(self.judged(&drawn.uniforms, known.map(|(probe, _)| probe).collect()))
+    }
+
+    /// The probes at these fragments, with the colours that the solution shows there.
+    fn shown_in_place(
         &self,
         group: usize,
         drawn: &Group,
-        some: Vec<([Vertex; 3], [f64; 3], Cull)>,
-        is_outside: bool,
-    ) -> Option<Vec<Probe>> {
+        located: Located,
+        colours: impl Iterator<Item = DVec3>,
+    ) -> Vec<Probe> {
+        let Located { spots, positions, handed } = located;
+        let right = self.equation.right();
+        let probe = |(((at, spot), position), shown): (((usize, Spot), DVec4), DVec3)| {
+            let attributes = self.read_at(at, &handed[0], shown, position);
+            let outcome: Evaluation<'_> = right.evaluate(&drawn.uniforms, &attributes);
+            Probe {
+                group,
+                vertex: spot.corners[0],
+                attributes,
+                region: right.first_region(&self.regions),
+                colour: outcome.colour(),
+                position: outcome.position(),
+                spot: Some(Box::new(spot)),
+            }
+        };
+        spots.into_iter().enumerate().zip(positions).zip(colours).map(probe).collect()
+    }
+
+    /// Those of these fragments that lie before the eye, and are not left out.
+    fn located(&self, drawn: &Group, some: Vec<Candidate>, taken: Taken) -> Option<Located> {
         let pipeline = &self.pipeline;
         let vertices: Vec<Vertex> = some.iter().flat_map(|(corners, ..)| corners).copied().collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, &drawn.uniforms, &vertices)?;
@@ -185,14 +241,14 @@ impl Assignment {
         let mut shares = Vec::new();
         for (number, (corners, weights, cull)) in some.into_iter().enumerate() {
             let ends = [0, 1, 2].map(|corner| positions[3 * number + corner]);
-            let Some((weights, place, is_front)) = self.seen_at(ends, weights) else { continue };
+            let Some((weights, place, is_front)) = self.seen_at(ends, weights, taken) else { continue };
             let [x, y, ..] = place;
             // A triangle without an area has no fragments, and one that begins here has no neighbours before the eye.
             let beside = [[x, y], [x + 1.0, y], [x, y + 1.0]].map(|at| self.weights_at(ends, at));
             let [Some(_), Some(right), Some(above)] = beside else { continue };
             let weights_beside = [right, above];
             let is_left_out = matches!((cull, is_front), (Cull::Back, false) | (Cull::Front, true));
-            if is_left_out || (is_outside && cull == Cull::None && !is_front) {
+            if is_left_out || (taken != Taken::AnySide && cull == Cull::None && !is_front) {
                 continue;
             }
             shares.push((number, [weights, weights_beside[0], weights_beside[1]]));
@@ -218,27 +274,7 @@ impl Assignment {
             (spot.varyings, spot.varyings_beside) = (values(here), [values(right), values(above)]);
         }
         let (spots, positions): (Vec<Spot>, Vec<DVec4>) = spots.into_iter().unzip();
-        let colours = self.colours(pipeline, &drawn.uniforms, &spots, &handed, WAYS)?;
-        let right = self.equation.right();
-        let probe = |(((at, spot), position), colour): (((usize, Spot), DVec4), (DVec3, bool))| {
-            let (shown, is_steady) = colour;
-            let attributes = self.read_at(at, &handed[0], shown, position);
-            let outcome: Evaluation<'_> = right.evaluate(&drawn.uniforms, &attributes);
-            let region = right.first_region(&self.regions);
-            let colour = outcome.colour();
-            let is_known = is_steady && colour.is_finite() && position.is_finite();
-            is_known.then(|| Probe {
-                group,
-                vertex: spot.corners[0],
-                attributes,
-                region,
-                colour,
-                position: outcome.position(),
-                spot: Some(Box::new(spot)),
-            })
-        };
-        let known = spots.into_iter().enumerate().zip(positions).zip(colours).filter_map(probe).collect();
-        Some(self.judged(&drawn.uniforms, known))
+        Some(Located { spots, positions, handed })
     }
 
     /// What the equation reads at a fragment.
@@ -258,39 +294,5 @@ impl Assignment {
                 pipeline.fragment.inputs().iter().enumerate().map(value).collect()
             }
         }
-    }
-
-    /// The share of each end of a triangle at a place in the window, in pixels; none where it is not before the eye.
-    fn weights_at(&self, ends: [DVec4; 3], place: [f64; 2]) -> Option<[f64; 3]> {
-        let size = DVec2::new(f64::from(self.scene.width), f64::from(self.scene.height));
-        let [x, y] = (DVec2::from(place) / size * 2.0 - 1.0).to_array();
-        let rows = ends.map(|end| DVec3::new(end.x - x * end.w, end.y - y * end.w, 1.0));
-        let shares = DMat3::from_cols(rows[0], rows[1], rows[2]).inverse() * DVec3::Z;
-        let w = shares.dot(DVec3::from(ends.map(|end| end.w)));
-        (shares.is_finite() && w > 0.0).then(|| shares.to_array())
-    }
-
-    /// Where a fragment lies: the shares moved so that it is in the middle of a pixel, `gl_FragCoord`, and whether it is of the
-    /// front. None where a corner is not before the eye, or where it is cut off by the near or far plane.
-    fn seen_at(&self, ends: [DVec4; 3], weights: [f64; 3]) -> Option<([f64; 3], [f64; 4], bool)> {
-        if !ends.iter().all(|end| end.is_finite() && end.w > 1e-3) {
-            return None;
-        }
-        let size = DVec2::new(f64::from(self.scene.width), f64::from(self.scene.height));
-        let at = |weights: [f64; 3]| ends.iter().zip(weights).map(|(end, weight)| *end * weight).sum::<DVec4>();
-        let window = |p: DVec4| (p.truncate().truncate() / p.w + 1.0) / 2.0 * size;
-        let middle = window(at(weights)).floor() + 0.5;
-        let within =
-            self.weights_at(ends, middle.to_array()).filter(|weights| weights.iter().all(|share| *share >= 0.0));
-        let place = within.map_or_else(|| window(at(weights)), |_| middle);
-        let weights = within.unwrap_or(weights);
-        let p = at(weights);
-        let [a, b, c] = ends.map(|end| end.truncate().truncate() / end.w);
-        let is_front = (b - a).perp_dot(c - a) > 0.0;
-        let depth = (p.z / p.w + 1.0) / 2.0;
-        if !(0.0..=1.0).contains(&depth) {
-            return None;
-        }
-        Some((weights, [place.x, place.y, depth, p.w.recip()], is_front))
     }
 }
