@@ -37,7 +37,7 @@ pub use interface::{Interface, Variable};
 pub use interpreter::{Interpreter, Invocation, Site, Value, Written};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use program::{Linked, Program, ProgramRefusal};
-pub use spirv::{Interpolation, Lines, Qualifiers, TEXTURES};
+pub use spirv::{Alike, DESCRIPTION, Interpolation, Lines, Qualifiers, TEXTURES, descriptions};
 pub use steps::Steps;
 pub use undefined::NO_LINE;
 
@@ -292,6 +292,7 @@ pub fn warm_up() {
         output,
         constants: vec![],
         version: String::new(),
+        alike: None,
         fragment: fragment.to_owned(),
     };
     warm(&interface, "#version 410 core\nout vec4 colour; void main() { gl_Position = colour = vec4(0.0); }");

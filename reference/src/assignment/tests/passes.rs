@@ -4,6 +4,8 @@ use super::{changed, refused};
 use crate::assignment::{Assignment, MANIFEST};
 use crate::built_in::assignment;
 use crate::interpreter::{Program, Stage, Texels};
+use crate::pipeline::Pipeline;
+use crate::probes::Course;
 use crate::rasteriser::Coverage;
 use crate::{Folder, feed::Feed};
 use std::sync::Arc;
@@ -98,19 +100,49 @@ fn an_offset_moves_depths_by_slope_and_units() {
 }
 
 #[test]
-fn what_a_little_less_depth_changes_is_not_judged() {
+fn what_a_little_less_depth_or_a_neighbour_changes_is_not_judged() {
     let poses = |assignment: &Assignment| assignment.scene.all_poses()[0];
     let judged = assignment("ggsample11-map").expect("built in");
-    let unjudged = "replace = [[\"* 0.5 + 0.5;\", \"* 0.5 + 0.5 - vec3(0.0, 0.0, 0.005);\"]]";
-    let nothing = "replace = [[\"* 0.5 + 0.5;\", \"* 0.5 + (0.5);\"]]";
-    let all = changed(shadows(), MANIFEST, unjudged, nothing);
-    let all = Assignment::load(all).expect("an assignment");
+    let mut folder = shadows();
+    let text = folder.text(MANIFEST).expect("a text").to_owned();
+    let (before, rest) = text.split_once("[[unjudged]]").expect("what is not judged");
+    let after = &rest[rest.find("[probes]").expect("probes")..];
+    folder.files.insert(MANIFEST.into(), [before, after].concat().into());
+    let all = Assignment::load(folder).expect("an assignment");
     let open = |assignment: &Assignment| {
         let frame = assignment.right_frame(&poses(assignment));
         frame.coverage.iter().filter(|coverage| **coverage == Coverage::Silhouette).count()
     };
     let (less, more) = (open(&all), open(judged));
-    assert!(more > less + 500 && more < less + 10_000, "{less} and {more}");
+    println!("{less} and {more} pixels");
+    assert!(more > less + 5_000 && more < less + 60_000, "{less} and {more}");
+}
+
+#[test]
+fn a_mean_of_comparisons_goes_over_edges_gradually_and_one_comparison_at_once() {
+    let [soft, hard] = ["ggsample11-pcf", "ggsample11-map"].map(|name| assignment(name).expect("built in"));
+    let crossings = soft.crossings().expect("edges");
+    assert_eq!(crossings.probes.probes.len(), 4 * 4 * 32);
+    let course = |pipeline: &Pipeline| {
+        let shown = soft.shown_once(pipeline, &crossings.probes).expect("it runs");
+        crossings.course(&shown.iter().map(|shown| shown.colour.to_array()).collect::<Vec<_>>())
+    };
+    assert_eq!(course(&soft.pipeline), None);
+    assert_eq!(course(&hard.pipeline), Some(Course::Abrupt));
+    assert!(hard.crossings().is_none(), "nobody asks for them");
+}
+
+#[test]
+fn a_map_of_moments_has_the_mean_of_squares_above_the_square_of_the_mean() {
+    let assignment = assignment("ggsample11-vsm").expect("built in");
+    for texture in &assignment.textures[..2] {
+        let Texels::Depths(map) = &texture.levels[0].texels else { panic!("depths") };
+        assert_eq!((map.each(), map.drawn().len()), (2, 2 * 400 * 400));
+        let (pairs, _) = map.drawn().as_chunks::<2>();
+        assert!(pairs.iter().all(|[mean, squares]| squares - mean * mean > -1e-6 && (0.0..=1.0).contains(mean)));
+        // Somewhere depths differ.
+        assert!(pairs.iter().any(|[mean, squares]| squares - mean * mean > 1e-3));
+    }
 }
 
 #[test]
@@ -181,6 +213,14 @@ fn a_pass_that_draws_nothing_is_named_with_what_to_try() {
         ),
         ("size = [800, 800]", "size = [4000, 4000]", "for each of 6 pictures are too many", "大きすぎるか"),
         ("size = [800, 800]", "size = [0, 8]", "or none", "0 です"),
+        ("format = \"depth24\"", "format = \"moments\"", "moments are not compared", "比較には使えません"),
+        ("format = \"depth24\"", "format = \"depth24\"\nblur = 2", "`blur` is a number up to 16", "16 までの数"),
+        (
+            "[probes]",
+            "[gradual]\nabrupt = \"flat-place\"\nuneven = \"rough\"\n[probes]",
+            "there is no mistake `rough`",
+            "`rough` という mistake はありません",
+        ),
         ("polygon_offset = [1, 1]", "polygon_offset = [nan, 1]", "two numbers", "2 つの数"),
         ("id = \"view-of-the-light\"", "id = \"matrix-of-the-model\"", "stands twice", "2 回"),
         (

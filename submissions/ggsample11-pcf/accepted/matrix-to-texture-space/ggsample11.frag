@@ -1,0 +1,21 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2DShadow depth;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    vec3 q = ps.xyz / ps.w;
+    float s = 0.0;
+    for (int i = 0; i < 25; i++)
+        s += texture(depth, q + vec3(i % 5 - 2, i / 5 - 2, 0.0) / 800.0) * 0.04;
+    fc = iamb + s * (idiff + ispec);
+}

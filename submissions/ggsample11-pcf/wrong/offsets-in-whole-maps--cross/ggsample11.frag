@@ -1,0 +1,21 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2DShadow depth;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    vec3 q = ps.xyz / ps.w * 0.5 + 0.5;
+    float s = texture(depth, q) + texture(depth, q + vec3(1.0, 0.0, 0.0)) + texture(depth, q - vec3(1.0, 0.0, 0.0))
+        + texture(depth, q + vec3(0.0, 1.0, 0.0)) + texture(depth, q - vec3(0.0, 1.0, 0.0));
+    s /= 5.0;
+    fc = iamb + s * (idiff + ispec);
+}

@@ -1,0 +1,21 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2DShadow depth;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    vec3 q = ps.xyz / ps.w * 0.5 + 0.5;
+    vec2 h = 0.5 / vec2(800.0);
+    float s = texture(depth, q + vec3(-h, 0.0)) + texture(depth, q + vec3(h, 0.0))
+        + texture(depth, q + vec3(h.x, -h.y, 0.0)) + texture(depth, q + vec3(-h.x, h.y, 0.0));
+    fc = iamb + s * (idiff + ispec);
+}
