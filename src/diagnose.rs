@@ -3,6 +3,7 @@
 mod addends;
 pub mod advice;
 mod cause;
+mod columns;
 pub mod constants;
 mod fresh;
 mod hard_coded;
@@ -10,6 +11,7 @@ mod inside;
 mod locate;
 mod message;
 mod plain;
+mod trials;
 
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, position_difference};
 use crate::language::Text;
@@ -17,7 +19,6 @@ use crate::render::Sample;
 pub use crate::report::Hints;
 use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, RubricLine};
 use crate::source::Source;
-use crate::translate::Interpreter;
 use advice::Beyond;
 pub use cause::UNEXPLAINED;
 use cause::{Cause, belongs, cause, kept};
@@ -26,6 +27,7 @@ use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
 use reference::probes::{Course, Crossings, Probe, ProbeSet};
+use reference::traced::TracedProgram;
 
 /// Mistakes that are told from other things than the colours alone.
 const POSITION_CHANGED: &str = "position-changed";
@@ -52,8 +54,8 @@ pub struct Evidence<'a> {
     pub across: Option<(&'a Crossings, &'a [Sample])>,
     /// The line where a negative number was raised to a power, where one was.
     pub undefined: Option<u32>,
-    /// The shader, to be run step by step; none where it has something that the interpreter does not know.
-    pub interpreter: Option<&'a Interpreter>,
+    /// The program, to be run step by step; none where it has something that the interpreter does not know.
+    pub traced: Option<&'a TracedProgram>,
     /// The probes that advice comes from.
     pub beyond: &'a [Beyond],
     /// How much the messages help.

@@ -21,10 +21,11 @@ use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sam
 use crate::report::{Advice, Environment, FrameResult, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
 use crate::source::{self, Source};
-use crate::translate::{self, Interface, Interpreter, Refusal, Shader};
+use crate::translate::{self, Interface, Refusal, Shader};
 use reference::Assignment;
 use reference::accepted::{AcceptedAnswer, Reading};
 use reference::probes::{Crossings, ProbeSet};
+use reference::traced::TracedProgram;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
@@ -92,7 +93,6 @@ struct Judged<'a> {
     fresh: &'a ProbeSet,
     crossings: Option<&'a Crossings>,
     rendering: &'a Rendering,
-    interpreter: Option<&'a Interpreter>,
 }
 
 impl Grader {
@@ -197,7 +197,6 @@ impl Grader {
         if rendering.undefined.is_some() && !self.shows_undefined(&source, shader, scene, &rendering)? {
             rendering.undefined = None;
         }
-        let interpreter = translation.steps.interpreter(&source);
         let sources_given = [(translate::Stage::Vertex, &source)];
         let judged = Judged {
             source: &source,
@@ -207,7 +206,6 @@ impl Grader {
             fresh,
             crossings: self.crossings.as_ref(),
             rendering: &rendering,
-            interpreter: interpreter.as_ref(),
         };
         let report = self.report(judged, diagnostics, order.hints);
         let cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
@@ -269,7 +267,7 @@ impl Grader {
 
     /// The report but for what was handed in.
     fn report(&self, judged: Judged<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
-        let Judged { source, sources, assignment, probes, fresh, crossings, rendering, interpreter } = judged;
+        let Judged { source, sources, assignment, probes, fresh, crossings, rendering } = judged;
         let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
             let frames = expected.iter().zip(0..);
             frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
@@ -278,6 +276,10 @@ impl Grader {
         let samples: Vec<_> = rendering.probe_samples.concat();
         let (samples, others) = samples.split_at(probes.probes.len().min(samples.len()));
         let (fresh_samples, across) = others.split_at(fresh.probes.len().min(others.len()));
+        let texts: Vec<_> =
+            sources.iter().map(|(stage, source)| (*stage, translate::plain_lines(&source.text))).collect();
+        let texts: Vec<_> = texts.iter().map(|(stage, text)| (*stage, &**text)).collect();
+        let traced = TracedProgram::new(assignment, &texts).ok();
         let evidence = Evidence {
             assignment,
             source,
@@ -288,7 +290,7 @@ impl Grader {
             fresh: Fresh { probes: fresh, samples: fresh_samples },
             undefined: rendering.undefined,
             across: crossings.map(|crossings| (crossings, across)),
-            interpreter,
+            traced: traced.as_ref(),
             beyond: &self.beyond,
             hints,
         };

@@ -14,16 +14,13 @@ mod gate;
 pub mod glslang;
 mod hints;
 mod interface;
-mod interpreter;
 mod limits;
 mod log;
-mod macros;
 mod module;
 mod opaque;
 mod portability;
 mod program;
 mod spirv;
-mod steps;
 mod strict;
 #[cfg(test)]
 mod tests;
@@ -34,11 +31,9 @@ pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT};
 pub use fuel::{MAX_TURNS, Meter};
 pub use glslang::Stage;
 pub use interface::{Interface, Variable};
-pub use interpreter::{Interpreter, Invocation, Site, Value, Written};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use program::{Linked, Program, ProgramRefusal};
 pub use spirv::{Alike, DESCRIPTION, Interpolation, Lines, Qualifiers, TEXTURES, descriptions};
-pub use steps::Steps;
 pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
@@ -73,8 +68,11 @@ pub struct Translation {
     pub shader: Shader,
     /// Warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
-    /// The text, to be run step by step.
-    pub steps: Steps,
+}
+
+/// A text whose lines are those of the file, whatever it says of them.
+pub fn plain_lines(text: &str) -> std::borrow::Cow<'_, str> {
+    hints::without_line_directives(text).map_or(text.into(), Into::into)
 }
 
 /// Compiles, links and translates a vertex shader.
@@ -96,7 +94,7 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
         Built { stage: Stage::Vertex, outputs, is_fixed: false, poisons: false },
     )?;
     diagnostics.extend(interface::check(&shader, source, interface)?);
-    Ok(Translation { shader, diagnostics, steps: Steps::of(stage) })
+    Ok(Translation { shader, diagnostics })
 }
 
 /// What is looked at before the compiler sees a text.

@@ -37,8 +37,8 @@ pub struct Circumstance {
 pub struct Variation {
     /// The values of the uniforms, in the interface's order.
     pub uniforms: Vec<Value>,
-    /// The values of the attributes, in the interface's order.
-    pub attributes: Vec<Value>,
+    /// The probe, with other attributes.
+    pub probe: Probe,
 }
 
 impl Assignment {
@@ -59,13 +59,13 @@ impl Assignment {
                 }
             }
         }
-        let mut attributes = probe.attributes.clone();
-        for (input, value) in self.interface.inputs.iter().zip(&mut attributes) {
+        let mut probe = probe.clone();
+        for (input, value) in self.interface.inputs.iter().zip(&mut probe.attributes) {
             if let Some((_, by)) = when.scaled.iter().find(|(name, _)| *name == input.name) {
                 *value = value.scaled(by);
             }
         }
-        Variation { uniforms, attributes }
+        Variation { uniforms, probe }
     }
 }
 

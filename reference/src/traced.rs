@@ -53,6 +53,10 @@ pub struct Bench<'p> {
     /// How many lanes of the fragment stage a probe takes.
     each: usize,
     colour: usize,
+    /// Whether colours are held in fixed point, from 0 to 1.
+    clamps: bool,
+    /// Whether what GLSL leaves undefined is no number.
+    is_strict: bool,
 }
 
 impl TracedProgram {
@@ -119,6 +123,8 @@ impl<'p> Bench<'p> {
             vertex: None,
             fragment: None,
             each,
+            clamps: reads != Reads::Attributes,
+            is_strict: true,
             colour: program.pipeline.as_ref().map_or(0, |pipeline| pipeline.colour),
         };
         if reads == Reads::Attributes {
@@ -134,11 +140,24 @@ impl<'p> Bench<'p> {
         Some(bench)
     }
 
-    /// Runs it with every value recorded: what is seen, and the traces of the stages that are handed in.
-    pub fn trace(&mut self) -> Option<(Seen, [Option<Trace>; 2])> {
+    /// The same where colours are seen as they are written, and what is no number or beyond `most` becomes 0 wherever it is computed.
+    pub fn bounded(mut self, most: f64) -> Self {
+        self.clamps = false;
+        self.vertex.iter_mut().chain(&mut self.fragment).for_each(|prepared| prepared.bound(most));
+        self
+    }
+
+    /// The same where what GLSL leaves undefined is what f64 computes, as a driver shows something.
+    pub fn lenient(mut self) -> Self {
+        self.is_strict = false;
+        self
+    }
+
+    /// Runs it with some values changed and every value recorded: what is seen, and the traces of the stages that are handed in.
+    pub fn trace(&mut self, changes: &[Vec<Change>; 2]) -> Option<(Seen, [Option<Trace>; 2])> {
         let mut traces = [None, None];
         let seen = self.go(&mut |stage, prepared| {
-            let (outputs, trace) = prepared.trace(&[]).ok()??;
+            let (outputs, trace) = prepared.trace(&changes[stage as usize]).ok()??;
             traces[stage as usize] = Some(trace);
             Some(outputs)
         })?;
@@ -167,22 +186,30 @@ impl<'p> Bench<'p> {
                 positions = (0..count).map(|probe| of(corners * probe)).collect();
             }
             if self.reads == Reads::Attributes {
-                let columns = scalars(&outputs, self.colour);
+                let columns = self.columns(&outputs);
                 let colours = (0..count).map(|lane| colour(&columns, lane)).collect();
                 return Some(Seen { colours, positions });
             }
             self.hand_over(&outputs)?;
         }
         let outputs = run(Stage::Fragment, self.fragment.as_mut()?)?;
-        let columns = scalars(&outputs, self.colour);
+        let columns = self.columns(&outputs);
         let shown = |probe: usize| match outputs.discarded[probe * self.each] {
             true => DISCARDED,
+            false if !self.clamps => colour(&columns, probe * self.each),
             false => colour(&columns, probe * self.each).map(|channel| {
                 // What is no number stays that.
                 if channel.is_nan() { channel } else { channel.clamp(0.0, 1.0) }
             }),
         };
         Some(Seen { colours: (0..count).map(shown).collect(), positions })
+    }
+
+    fn columns(&self, outputs: &Outputs) -> Vec<Vec<f64>> {
+        match outputs.outputs.get(self.colour) {
+            Some(colour) if !self.is_strict => colour.values.clone(),
+            _ => scalars(outputs, self.colour),
+        }
     }
 
     /// Gives the fragment stage what the vertex stage wrote.

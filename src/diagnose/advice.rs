@@ -4,21 +4,23 @@
 //! costs no points; a right answer is right because every frame and every probe agrees.
 
 use super::Evidence;
-use super::locate::{Located, Points, Words, given, is_close, is_handed_out, of};
+use super::columns::is_colour;
+use super::locate::{Located, Points, Words, is_handed_out, last_position};
+use super::trials::{Changes, place};
 use crate::language::Text;
 use crate::report::Advice;
-use crate::translate::{Interpreter, Invocation};
+use crate::translate::plain_lines;
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::advice::Variation;
 use reference::probes::ProbeSet;
+use reference::traced::{Bench, Place, Seen, TracedProgram};
 
-/// How many probes are varied for each piece of advice. A run takes some 20 µs, so that all of them cost a hundredth of
-/// a grading.
+/// How many probes are varied for each piece of advice.
 const PROBES: usize = 8;
 
-/// A shader that takes more instructions for a vertex is not asked: it would cost more than a word is worth.
-const MOST_STEPS: u32 = 4_000;
+/// A shader that takes more steps for them is not asked: it would cost more than a word is worth.
+const FUEL: u64 = 200_000;
 
 /// The probes of one piece of advice, and what a right answer computes there.
 #[derive(Debug)]
@@ -39,7 +41,7 @@ pub fn beyond(assignment: &Assignment, probes: &ProbeSet) -> Vec<Beyond> {
         let variations = assignment.variations(&advice.when, probes, PROBES);
         let right = assignment.equation.right();
         let expected = variations.iter().map(|variation| {
-            let outcome = right.evaluate(&variation.uniforms, &variation.attributes);
+            let outcome = right.evaluate(&variation.uniforms, &variation.probe.attributes);
             (outcome.colour(), outcome.position())
         });
         let expected = expected.collect();
@@ -50,9 +52,11 @@ pub fn beyond(assignment: &Assignment, probes: &ProbeSet) -> Vec<Beyond> {
 
 /// The advice for a right answer, at most one piece for a line.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Advice> {
-    let Some(interpreter) = evidence.interpreter else { return Vec::new() };
     let mut found: Vec<Advice> = Vec::new();
-    for advice in evidence.beyond.iter().filter_map(|beyond| beyond.advice(evidence, interpreter)) {
+    if evidence.beyond.is_empty() || !is_defined(evidence) {
+        return found;
+    }
+    for advice in evidence.beyond.iter().filter_map(|beyond| beyond.advice(evidence)) {
         if advice.line.is_none() || !found.iter().any(|other| other.line == advice.line) {
             found.push(advice);
         }
@@ -60,25 +64,57 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Advice> {
     found
 }
 
+/// Whether the interpreter finds the answer right, as the driver does. What GLSL leaves undefined is no matter of advice.
+fn is_defined(evidence: &Evidence<'_>) -> bool {
+    let all = evidence.probes.probes.len();
+    let count = all.min(PROBES);
+    let places: Vec<Place<'_>> = (0..count).map(|at| place(evidence, at * all / count)).collect();
+    let seen = evidence.traced.and_then(|program| seen(evidence.assignment, program, &places));
+    seen.is_some_and(|seen| {
+        let mut own = seen.colours.iter().zip(&seen.positions).zip(&places);
+        own.all(|((colour, position), Place { probe, .. })| {
+            is_colour(probe.colour, *colour) && is_same_point(probe.position, *position)
+        })
+    })
+}
+
+/// What is seen of a program; `None` where it cannot be run, or not in time.
+fn seen(assignment: &Assignment, program: &TracedProgram, places: &[Place<'_>]) -> Option<Seen> {
+    let in_quads = program.needs_quads(assignment);
+    Bench::new(assignment, program, places, in_quads, FUEL)?.with(&Changes::default())
+}
+
 impl Beyond {
-    /// What the shader is run with.
-    pub(super) fn given<'a>(&'a self, variation: &'a Variation) -> Invocation<'a> {
-        let kept = self.advice.when.constants.iter().map(|(name, value)| (name.as_str(), of(value)));
-        let given = given(&self.assignment, &variation.uniforms, &variation.attributes);
-        Invocation { kept: kept.collect(), ..given }
+    /// The probes, varied.
+    pub(super) fn places<'b>(&'b self) -> Vec<Place<'b>> {
+        let place = |one: &'b Variation| Place { probe: &one.probe, uniforms: &one.uniforms };
+        self.variations.iter().map(place).collect()
     }
 
-    fn advice(&self, evidence: &Evidence<'_>, interpreter: &Interpreter) -> Option<Advice> {
-        // What the file does not declare cannot be set to something else.
-        if !self.advice.when.constants.iter().all(|(name, _)| interpreter.has_variable(name)) {
-            return None;
+    /// The student's program with the circumstance's constants. `None` where the text does not declare them, so that nothing
+    /// can set them to something else.
+    fn program(&self, evidence: &Evidence<'_>) -> Option<TracedProgram> {
+        let constants = &self.advice.when.constants;
+        if constants.is_empty() {
+            return evidence.traced.cloned();
         }
-        let differs = self.differs(evidence, interpreter)?;
+        let own = (evidence.source.text.clone(), evidence.source.code().to_owned());
+        let (text, _) = constants.iter().try_fold(own, |(text, code), (name, value)| {
+            let with = |text: &str| super::constants::with(text, &code, name, value);
+            Some((with(&text)?, with(&code)?))
+        })?;
+        let (stage, _) = evidence.sources.first()?;
+        TracedProgram::new(evidence.assignment, &[(*stage, &plain_lines(&text))]).ok()
+    }
+
+    fn advice(&self, evidence: &Evidence<'_>) -> Option<Advice> {
+        let program = self.program(evidence)?;
+        let differs = self.differs(&program)?;
         if !differs.colour && !differs.position {
             return None;
         }
-        let place = || Points::beyond(interpreter, self, evidence.source)?.place_of(&self.advice.about);
-        let located = if differs.colour { place() } else { interpreter.last_position().map(Located::at) };
+        let place = || Points::beyond(evidence, self, &program)?.place_of(&self.advice.about);
+        let located = if differs.colour { place() } else { last_position(&program).map(Located::at) };
         if self.advice.only_about && located.is_none() {
             return None;
         }
@@ -88,17 +124,13 @@ impl Beyond {
     }
 
     /// Whether the colour or the position is not what a right answer has; `None` where the shader cannot be run.
-    fn differs(&self, evidence: &Evidence<'_>, interpreter: &Interpreter) -> Option<Differs> {
-        let output = &evidence.assignment.interface.outputs.first()?.name;
+    fn differs(&self, program: &TracedProgram) -> Option<Differs> {
+        let seen = seen(&self.assignment, program, &self.places())?;
+        let seen = seen.colours.iter().zip(&seen.positions);
         let mut differs = Differs::default();
-        for (variation, (colour, position)) in self.variations.iter().zip(&self.expected) {
-            let written = interpreter.run(&self.given(variation), output, &mut |_, _| None)?;
-            if written.steps > MOST_STEPS {
-                return None;
-            }
-            differs.colour |= !is_close(colour.to_array(), &written.output);
-            let own: [f64; 4] = written.position?.try_into().ok()?;
-            differs.position |= !is_same_point(*position, DVec4::from_array(own));
+        for ((own_colour, own_position), (colour, position)) in seen.zip(&self.expected) {
+            differs.colour |= !is_colour(*colour, *own_colour);
+            differs.position |= !is_same_point(*position, *own_position);
         }
         Some(differs)
     }

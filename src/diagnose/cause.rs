@@ -2,7 +2,7 @@
 
 use super::constants::{self, ChangedConstant};
 use super::inside::{self, Finding};
-use super::locate::Points;
+use super::locate::{self, Points};
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::render::Sample;
@@ -201,8 +201,12 @@ fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + '
 /// many mistakes together explain much by chance.
 fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     let assignment = evidence.assignment;
-    let Some(points) = Points::new(evidence, assignment) else { return true };
-    let places: Vec<_> = (0..found.len()).map(|index| points.locate(found, index).map(|place| place.line)).collect();
+    let mut points = Points::new(evidence, assignment);
+    if points.is_none() {
+        return true;
+    }
+    let mut line = |index: usize| Some(locate::mistake(evidence, assignment, &mut points, found, index, None)?.line);
+    let places: Vec<_> = (0..found.len()).map(&mut line).collect();
     let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
     places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
 }

@@ -38,6 +38,18 @@ pub fn changed(source: &Source, assignment: &Assignment) -> Vec<ChangedConstant>
         .collect()
 }
 
+/// `text` with another value for a constant that `code` declares: the same text without its comments. `None` where it does not.
+pub(super) fn with(text: &str, code: &str, name: &str, value: &Value) -> Option<String> {
+    let (at, _) = initialiser(code, name)?;
+    let start = at + code[at..].find('=')? + 1;
+    let numbers: Vec<String> = value.numbers().iter().map(|number| format!("{number:?}")).collect();
+    let written = format!(" {}({})", value.kind(), numbers.join(", "));
+    let end = start + end(&code[start..]);
+    // Lines stay where they are.
+    let lines = "\n".repeat(text.get(start..end)?.matches('\n').count());
+    Some(format!("{}{written}{lines}{}", text.get(..start)?, text.get(end..)?))
+}
+
 /// Whether two values draw the same: alpha is not seen, but a light's w is.
 fn same(a: &Value, b: &Value) -> bool {
     // Literals are read in f32 by a compiler; a change that small is none.

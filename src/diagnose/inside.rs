@@ -14,8 +14,10 @@ mod walk;
 mod words;
 
 use super::Evidence;
+use super::columns::is_colour;
 use super::locate::{Located, Role, is_handed_out};
-use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
+use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
+use crate::compare::POSITION_TOLERANCE;
 use glam::DVec3;
 use quantities::Quantities;
 use reference::Assignment;
@@ -24,19 +26,7 @@ use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
 use reference::mistake::FoundMistake;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
-use search::Search;
-
-/// How many wrong and how many right samples are looked at.
-const OF_EACH_KIND: usize = 10;
-
-/// So many of them are asked first: most that is tried fails there.
-const FIRST: usize = 3;
-
-/// The steps of lanes that one search may take: a tenth of a second or two.
-const FUEL: u64 = 30_000_000;
-
-/// The steps of a run that records everything, and of all those that look at all places.
-const FUEL_OF_TRACE: u64 = 10_000_000;
+use search::{Search, is_right};
 
 /// Where a mistake stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,10 +111,22 @@ impl Finding {
     }
 }
 
+/// The variable that the value of a site is given to, or read from as it is.
+pub(super) fn variable(sites: &[Site], site: usize) -> Option<String> {
+    match &sites[site].what {
+        What::Assign { name, .. } | What::Read(name) => return Some(name.clone()),
+        _ => {}
+    }
+    let user = sites.iter().position(|other| other.operands.contains(&site))?;
+    match &sites[user].what {
+        What::Assign { name, .. } => Some(name.clone()),
+        What::Unary | What::Part => variable(sites, user),
+        _ => None,
+    }
+}
+
 fn within(evidence: &Evidence<'_>, assignment: &Assignment, right: Option<&Variant<'_>>) -> Option<Vec<Finding>> {
-    let texts: Vec<(Stage, &str)> =
-        evidence.sources.iter().map(|(stage, source)| (*stage, source.text.as_str())).collect();
-    let theirs = TracedProgram::new(assignment, &texts).ok()?;
+    let theirs = evidence.traced?;
     let solution = TracedProgram::solution(assignment).ok()?;
     let chosen = chosen(evidence);
     if chosen.is_empty() {
@@ -132,81 +134,30 @@ fn within(evidence: &Evidence<'_>, assignment: &Assignment, right: Option<&Varia
     }
     let places: Vec<Place<'_>> = chosen.iter().map(|at| place(evidence, *at)).collect();
     let in_quads = theirs.needs_quads(assignment) || solution.needs_quads(assignment);
-    let (own, traces) = Bench::new(assignment, &theirs, &places, in_quads, FUEL_OF_TRACE)?.trace()?;
-    // What the driver computed is what is judged.
-    let is_drawn = |(at, colour): (&usize, &DVec3)| is_colour(DVec3::from(evidence.samples[*at].colour_f64()), *colour);
-    if !chosen.iter().zip(&own.colours).all(is_drawn) {
+    let (own, traces) = Bench::new(assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?.trace(&Changes::default())?;
+    if !is_drawn(evidence, &chosen, &own.colours) {
         return None;
     }
-    let (mut wanted, right_traces) = Bench::new(assignment, &solution, &places, in_quads, FUEL_OF_TRACE)?.trace()?;
+    let (mut wanted, right_traces) =
+        Bench::new(assignment, &solution, &places, in_quads, FUEL_OF_TRACE)?.trace(&Changes::default())?;
     let mut quantities = Quantities::of(&solution, right_traces);
     if let Some(variant) = right {
         wanted.colours = quantities.replace(assignment, variant, &places, if in_quads { 4 } else { 1 })?;
     }
-    let first = &places[..places.len().min(FIRST)];
-    let bench = |places, fuel| Bench::new(assignment, &theirs, places, in_quads, fuel);
-    let mut few = bench(first, FUEL)?;
-    let mut all = bench(&places, FUEL_OF_TRACE)?;
-    // How many steps a run may take is known from the first.
-    few.with(&Default::default())?;
-    all.with(&Default::default())?;
+    let trials = Trials::new(assignment, theirs, &places, in_quads)?;
     let mut search = Search {
         evidence,
-        theirs: &theirs,
+        theirs,
         traces: &traces,
         own: &own,
         wanted: &wanted,
         quantities: &quantities,
-        few,
-        all,
+        trials,
         count: places.len(),
         base: Default::default(),
     };
-    if search.is_right(&own, places.len()) {
+    if is_right(&wanted, &own, places.len()) {
         return Some(Vec::new());
     }
     Some(search.findings())
-}
-
-/// Wrong and right samples in turn, a wrong one first.
-fn chosen(evidence: &Evidence<'_>) -> Vec<usize> {
-    let scale = super::position_scale(evidence);
-    let is_wrong = |at: &usize| {
-        let (probe, sample) = (&evidence.probes.probes[*at], &evidence.samples[*at]);
-        !is_colour(probe.colour, DVec3::from(sample.colour_f64()))
-            || crate::compare::position_difference(probe.position, sample, scale) > POSITION_TOLERANCE
-    };
-    let count = evidence.samples.len().min(evidence.probes.probes.len());
-    let (wrong, right): (Vec<usize>, Vec<usize>) = (0..count).partition(is_wrong);
-    let [wrong, right] = [wrong, right].map(|all| {
-        let count = all.len().min(OF_EACH_KIND);
-        (0..count).map(|at| all[at * all.len() / count]).collect::<Vec<usize>>()
-    });
-    let mut chosen = Vec::new();
-    for at in 0..wrong.len().max(right.len()) {
-        chosen.extend(wrong.get(at));
-        chosen.extend(right.get(at));
-    }
-    if wrong.is_empty() { Vec::new() } else { chosen }
-}
-
-fn place<'e>(evidence: &Evidence<'e>, at: usize) -> Place<'e> {
-    let probe = &evidence.probes.probes[at];
-    Place { probe, uniforms: evidence.probes.uniforms(probe) }
-}
-
-/// Whether two colours are the same.
-fn is_colour(wanted: DVec3, found: DVec3) -> bool {
-    let is_channel = |wanted: f64, found: f64| match wanted.is_finite() {
-        true => (found - wanted).abs() <= COLOUR_TOLERANCE * wanted.abs().max(1.0),
-        false => !found.is_finite(),
-    };
-    wanted.to_array().into_iter().zip(found.to_array()).all(|(wanted, found)| is_channel(wanted, found))
-}
-
-/// Whether two numbers are the same but for rounding.
-fn is_number(a: f64, b: f64) -> bool {
-    // What is computed in another order differs by rounding, and constants are f32.
-    const RELATIVE: f64 = 1e-4;
-    (a - b).abs() <= RELATIVE * a.abs().max(b.abs()).max(1e-3)
 }

@@ -1,18 +1,25 @@
-//! Which line of the student's file a message speaks of.
+//! Which line of the student's file a message speaks of, where the message is about a definition of the right answer.
 //!
-//! The shader is run once more, on the CPU, at some of the probes, and one value on its way is replaced by what a right
-//! answer has there. Where that mends the colour at all of them, the statement that computes the value is the one that
-//! the mistake is about. A search for names in the text would not see that a statement further down changes the value, or
-//! that a function or a variable of another name computes it. Where no single statement mends the colour, no line is named.
+//! The interpreter of `reference` runs the text at some of the probes. A search for names in the text would not see that a
+//! statement further down changes a value, or that a function or a variable of another name computes it.
 
+use super::columns::{Columns, is_colour, is_same};
+use super::inside::{self, Finding};
+use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
+use super::{Evidence, advice::Beyond};
+use crate::source::Source;
+use glam::DVec3;
+use reference::Assignment;
+use reference::equation::{Reads, Variant};
 use reference::interpreter::Stage;
+use reference::interpreter::trace::{Change, Event, Site, Trace, What};
+use reference::mistake::FoundMistake;
+use reference::traced::{Bench, Place, TracedProgram};
 
 mod lines;
-mod points;
 mod search;
 
 pub(super) use lines::{Words, is_handed_out};
-pub(super) use points::{Points, given, is_close, is_same, of};
 
 /// A place in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,4 +52,140 @@ pub(super) enum Role {
     Absent,
     /// It makes no difference to the colour, and it is not known why; the place is the sum.
     Lost,
+}
+
+/// The line of the last statement that gives the position.
+pub(super) fn last_position(program: &TracedProgram) -> Option<u32> {
+    let gives = |site: &&Site| matches!(&site.what, What::Assign { name, .. } if name == "gl_Position");
+    program.stage(Stage::Vertex).sites().iter().rfind(gives).map(|site| site.line)
+}
+
+/// The file's only stage at some of the probes, with every value on the way to the colour.
+pub(super) struct Points<'a> {
+    /// The homework, with the student's own constants.
+    pub assignment: &'a Assignment,
+    source: &'a Source,
+    stage: Stage,
+    sites: &'a [Site],
+    trace: Trace,
+    trials: Trials<'a>,
+    places: Vec<Place<'a>>,
+    /// How many samples each place has.
+    each: usize,
+}
+
+impl<'a> Points<'a> {
+    /// Runs it at wrong and at right samples. `None` where the answer is known by no definitions, or does not compute what
+    /// the driver computed.
+    pub fn new(evidence: &Evidence<'a>, assignment: &'a Assignment) -> Option<Self> {
+        let chosen = chosen(evidence);
+        let places = chosen.iter().map(|at| place(evidence, *at)).collect();
+        let (points, colours) = Self::of(evidence, assignment, places)?;
+        is_drawn(evidence, &chosen, &colours).then_some(points)
+    }
+
+    /// Runs it under a circumstance of advice. `program`: the text with the circumstance's constants.
+    pub fn beyond(evidence: &Evidence<'a>, beyond: &'a Beyond, program: &'a TracedProgram) -> Option<Self> {
+        let evidence = Evidence { traced: Some(program), ..*evidence };
+        Some(Self::of(&evidence, &beyond.assignment, beyond.places())?.0)
+    }
+
+    fn of(evidence: &Evidence<'a>, assignment: &'a Assignment, places: Vec<Place<'a>>) -> Option<(Self, Vec<DVec3>)> {
+        let program =
+            evidence.traced.filter(|_| assignment.equation.reads() != Reads::Outputs && !places.is_empty())?;
+        let stage = match assignment.equation.reads() {
+            Reads::Attributes => Stage::Vertex,
+            Reads::Varyings | Reads::Outputs => Stage::Fragment,
+        };
+        let in_quads = program.needs_quads(assignment);
+        let mut bench = Bench::new(assignment, program, &places, in_quads, FUEL_OF_TRACE)?;
+        let (seen, mut traces) = bench.trace(&Changes::default())?;
+        let trace = traces[stage as usize].take()?;
+        let trials = Trials::new(assignment, program, &places, in_quads)?;
+        let (source, sites) = (evidence.source, program.stage(stage).sites());
+        let each = if in_quads { 4 } else { 1 };
+        Some((Self { assignment, source, stage, sites, trace, trials, places, each }, seen.colours))
+    }
+
+    /// The student's own name for a definition: that of a variable that holds it at every point.
+    pub fn name_of(&self, definition: &str) -> Option<&'a str> {
+        let index = self.assignment.equation.index(definition)?;
+        let right = self.definitions(&self.assignment.equation.right());
+        let right = &right[index];
+        // A colour may have three components instead of four, and nothing else.
+        let fits = |event: &&Event| event.values.len() <= right.len() && is_same(event, right);
+        let mut holding = self.trace.events.iter().filter(fits);
+        holding.find_map(|event| match &self.sites[event.site] {
+            Site { what: What::Assign { name, is_part: false }, .. } => Some(name.as_str()),
+            Site { what: What::Read(name), is_part: false, .. } => Some(name.as_str()),
+            _ => None,
+        })
+    }
+
+    /// The definitions of a variant of the equation at each point, in the equation's order.
+    fn definitions(&self, variant: &Variant<'_>) -> Vec<Columns> {
+        let outcomes: Vec<_> =
+            self.places.iter().map(|at| variant.evaluate(at.uniforms, &at.probe.attributes)).collect();
+        let columns = |name: &str| -> Columns {
+            let values: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.get(name)).collect();
+            let count = values.first().map_or(0, |value| value.numbers().len());
+            let column = |scalar: usize| {
+                let numbers = values.iter().map(|value| value.numbers()[scalar]);
+                numbers.flat_map(|number| std::iter::repeat_n(number, self.each)).collect()
+            };
+            (0..count).map(column).collect()
+        };
+        self.assignment.equation.definitions().iter().map(|definition| columns(&definition.name)).collect()
+    }
+
+    /// The colours that a variant shows.
+    fn colours(&self, variant: &Variant<'_>) -> Vec<DVec3> {
+        let colour = |at: &Place<'_>| variant.evaluate(at.uniforms, &at.probe.attributes).colour();
+        self.places.iter().map(colour).collect()
+    }
+
+    /// Whether the colour is `wanted` at every point when this is changed.
+    fn becomes(&mut self, wanted: &[DVec3], change: impl IntoIterator<Item = Change>) -> bool {
+        let mut changes = Changes::default();
+        changes[self.stage as usize].extend(change);
+        self.trials.holds(&changes, &|seen, count| {
+            seen.colours.iter().zip(wanted).take(count).all(|(own, wanted)| is_colour(*wanted, *own))
+        })
+    }
+
+    /// What an event is changed to, and only it of all that its site computes.
+    fn change(&self, event: usize, values: Columns) -> Change {
+        let own = &self.trace.events[event];
+        let turns = self.trace.events.iter().enumerate().filter(|(_, other)| other.site == own.site);
+        let values = turns.map(|(at, other)| if at == event { values.clone() } else { other.values.clone() });
+        Change { site: own.site, values: values.collect() }
+    }
+
+    /// Whether the student wrote the line: what was handed out is right.
+    fn is_own(&self, event: &Event) -> bool {
+        !is_handed_out(self.source, self.sites[event.site].line, &self.assignment.files[0].starter)
+    }
+
+    /// The place of an event.
+    fn located(&self, event: usize, role: Role) -> Located {
+        let site = self.trace.events[event].site;
+        let name = inside::variable(self.sites, site);
+        Located { line: self.sites[site].line, name, role, stage: None }
+    }
+}
+
+/// Where mistake `index` of those that were found stands: the place of a value, or of what is 0 or missing. `points`: where the
+/// answer is known by definitions. `only`: the one place at which all of them are mended.
+pub(super) fn mistake(
+    evidence: &Evidence<'_>,
+    assignment: &Assignment,
+    points: &mut Option<Points<'_>>,
+    found: &[FoundMistake],
+    index: usize,
+    only: Option<&Finding>,
+) -> Option<Located> {
+    points.as_mut().and_then(|points| points.missing(found, index)).or_else(|| {
+        let one = only.cloned().or_else(|| inside::find_one(evidence, assignment, found, index))?;
+        one.is_telling.then(|| one.located())
+    })
 }

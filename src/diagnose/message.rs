@@ -5,12 +5,12 @@
 use super::cause::{NEARLY_RIGHT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
-use super::locate::{Located, Points, Role, Words, is_handed_out};
+use super::locate::{self, Located, Points, Role, Words, is_handed_out};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
 use crate::report::FrameResult;
 use crate::source::Source;
-use crate::translate::{Interpreter, NO_LINE};
+use crate::translate::NO_LINE;
 use reference::assignment::RubricLine;
 use reference::equation::DISCARDED;
 use reference::fit::{Part, Parts, Worst};
@@ -108,26 +108,10 @@ impl Facts {
         };
         let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
         let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
-        let points = Points::new(evidence, &theirs);
-        let points = points.as_ref();
-        let located = |index: usize| points.and_then(|points| points.locate(found, index));
+        let mut points = Points::new(evidence, &theirs);
         let only = (found.len() > 1).then(|| inside::only(evidence, &theirs)).flatten();
-        let place = |index: usize| {
-            let known = located(index);
-            // Of what is 0 everywhere, or not in a sum, more is known than its place.
-            if known.as_ref().is_some_and(|known| known.role != Role::Wrong) {
-                return known;
-            }
-            let inside = only.clone().or_else(|| inside::find_one(evidence, &theirs, found, index));
-            // What goes out can always be mended: that is no place.
-            if let Some(one) = inside.as_ref().filter(|one| !one.is_telling) {
-                return known.filter(|known| known.line != one.line);
-            }
-            let inside = inside.map(|one| one.located());
-            let is_same = inside.as_ref().zip(known.as_ref()).is_none_or(|(inside, known)| inside.line == known.line);
-            if is_same { known.or(inside) } else { inside }
-        };
-        let places = found.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index)));
+        let mut place = |index| locate::mistake(evidence, &theirs, &mut points, found, index, only.as_ref());
+        let places = found.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
         let findings = match cause {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found } if constants.is_empty() && found.is_empty() => inside::find(evidence),
@@ -137,11 +121,11 @@ impl Facts {
         };
         let mut names = Self::handed_out(evidence);
         for definition in evidence.assignment.equation.definitions() {
-            let own = points.and_then(|points| points.name_of(&definition.name));
+            let own = points.as_ref().and_then(|points| points.name_of(&definition.name));
             let symbol = definition.symbol.clone();
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
-        Self { places: places.collect(), names, findings }
+        Self { places, names, findings }
     }
 
     /// The names of the handed-out file that the student's still has.
@@ -187,7 +171,7 @@ impl<'f> Blanks<'f> {
         }
         match (cause, mistake.id.as_str()) {
             (_, super::POSITION_CHANGED) => {
-                let store = evidence.interpreter.and_then(Interpreter::last_position).map(Located::at);
+                let store = evidence.traced.and_then(locate::last_position).map(Located::at);
                 let moved = facts.findings.iter().find(|finding| finding.touches_position);
                 blanks.place(evidence, mistake, moved.map(Finding::located).or(store));
             }

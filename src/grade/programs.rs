@@ -101,16 +101,12 @@ impl Grader {
         }
         let drawn = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
         let Some((_, source)) = sources.last() else { return Err(no_program()) };
-        // Of definitions it is known where in the text they stand.
-        let steps = linked.steps.last().filter(|_| self.assignment.equation.reads() == Reads::Varyings);
-        let interpreter = steps.and_then(|steps| steps.interpreter(source));
-        let interpreter = interpreter.as_ref();
         let own = extended.as_ref();
         let (assignment, probes) = own.map_or((&*self.assignment, &self.probes), |own| (&own.assignment, &own.probes));
         let fresh = own_fresh.as_ref().unwrap_or(&probing.fresh);
         let crossings = own_crossings.as_ref().or(self.crossings.as_ref());
         let (sources, rendering) = (&given[..], &drawn);
-        let judged = Judged { source, sources, assignment, probes, fresh, crossings, rendering, interpreter };
+        let judged = Judged { source, sources, assignment, probes, fresh, crossings, rendering };
         let mut report = self.report(judged, diagnostics, order.hints);
         report.advice.extend(own.into_iter().flat_map(|own| own.notes(&given)));
         if report.mistakes.iter().any(|id| id == UNEXPLAINED) {

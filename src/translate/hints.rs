@@ -31,7 +31,7 @@ use super::log::Entry;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Text;
 use std::ops::Range;
-pub use tokens::{Lexeme, LexemeKind, tokens};
+pub use tokens::Lexeme;
 
 /// A message of the compiler with its place in the file.
 #[derive(Clone, Debug)]

@@ -3,8 +3,7 @@
 use super::glslang::{Stage, StageText};
 use super::module::{self, Built, Shader};
 use super::{
-    Interface, Refusal, Steps, Submitted, Variable, boundary, check_text, first_pass, fixed, gate, interface, linked,
-    text,
+    Interface, Refusal, Submitted, Variable, boundary, check_text, first_pass, fixed, gate, interface, linked, text,
 };
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -35,8 +34,6 @@ pub struct Linked {
     pub fragment: Shader,
     /// Warnings and notes, each about one of the stages that are handed in.
     pub diagnostics: Vec<(Stage, Diagnostic)>,
-    /// The stages that are handed in, to be run step by step.
-    pub steps: Vec<Steps>,
 }
 
 /// Why there is no program: about which stage, and what.
@@ -105,8 +102,7 @@ impl Program {
             boundary::check(&vertex, &fragment, source, self.versions(sources)).map_err(about(Stage::Fragment))?;
         }
         linked(&verdict, &stages, &own).map_err(about(last))?;
-        let steps = stages.into_iter().map(Steps::of).collect();
-        Ok(Linked { vertex, fragment, diagnostics, steps })
+        Ok(Linked { vertex, fragment, diagnostics })
     }
 
     fn build(one: &Submitted<'_>, read: Option<Vec<String>>) -> Result<Shader, Refusal> {

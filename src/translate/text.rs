@@ -124,21 +124,6 @@ pub(super) fn version(code: &str) -> i32 {
     directive.and_then(|rest| rest.split_whitespace().next()).and_then(|number| number.parse().ok()).unwrap_or(110)
 }
 
-/// `text` with its constants of float types made variables. `None` where there is none.
-pub(super) fn without_constants(text: &str) -> Option<String> {
-    let code = without_directives(text);
-    let is_float = |word: &str| word == "float" || word.starts_with("vec") || word.starts_with("mat");
-    let all: Vec<_> = words(&code).collect();
-    let mut bytes = text.as_bytes().to_vec();
-    let mut found = false;
-    for pair in all.windows(2).filter(|pair| pair[0].1 == "const" && is_float(pair[1].1)) {
-        bytes[pair[0].0..pair[0].0 + pair[0].1.len()].fill(b' ');
-        found = true;
-    }
-    // ASCII was replaced by ASCII.
-    String::from_utf8(bytes).ok().filter(|_| found)
-}
-
 /// A text without NUL as C text; a [`Source`] never has one.
 pub(super) fn c_text(text: &str) -> CString {
     CString::new(text).unwrap_or_default()

@@ -20,6 +20,8 @@ pub struct Site {
     pub function: Option<String>,
     /// Whether its value goes anywhere.
     pub is_used: bool,
+    /// Whether it is not the whole of a variable that it reads.
+    pub is_part: bool,
 }
 
 /// What a site does.
@@ -82,6 +84,8 @@ pub struct Recorder {
     pub is_full: bool,
     /// Whether values are recorded at all.
     pub is_recording: bool,
+    /// Beyond this a value becomes 0, and so does what is no number; none where values stay as they are.
+    pub most: Option<f64>,
     /// What is changed, and how often it was.
     changes: Vec<(Change, usize)>,
     numbers: usize,
@@ -99,7 +103,7 @@ impl Recorder {
     /// Makes ready for a run.
     pub fn begin(&mut self, is_recording: bool, changes: &[Change]) {
         let changes = changes.iter().map(|change| (change.clone(), 0)).collect();
-        *self = Self { is_recording, changes, ..Self::default() };
+        *self = Self { is_recording, changes, most: self.most, ..Self::default() };
     }
 
     /// What is put in the place of a site's value now.
@@ -201,6 +205,11 @@ impl Prepared<'_> {
     /// The steps are used up.
     pub fn outputs(&mut self, changes: &[Change]) -> Result<super::Outputs, Stopped> {
         self.again(false, changes)
+    }
+
+    /// From now on a value becomes 0 where it is no number, or beyond `most`.
+    pub fn bound(&mut self, most: f64) {
+        self.bound_values(most);
     }
 
     /// Gives an input, or a uniform by its path, a column for each of its scalars.

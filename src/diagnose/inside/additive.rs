@@ -1,7 +1,8 @@
 //! Several mistakes, each in an addend of its own: what each of them changes adds up to all that is wrong.
 
 use super::search::{Mend, Search};
-use super::{Stage, What, is_colour};
+use super::{Stage, What};
+use crate::diagnose::columns::is_colour;
 use glam::DVec3;
 
 /// So many places with what may stand there are put together.

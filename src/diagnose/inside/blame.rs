@@ -1,8 +1,8 @@
 //! Whether a place that would mend everything is the one to speak of.
 
-use super::quantities::{is_constant, is_equal, is_same};
 use super::search::{Mend, ONES, Search};
-use super::{Binary, Trace, What, is_colour};
+use super::{Binary, Trace, What};
+use crate::diagnose::columns::{is_colour, is_constant, is_equal, is_same};
 use glam::DVec3;
 use reference::interpreter::Scalar;
 use reference::interpreter::trace::Event;

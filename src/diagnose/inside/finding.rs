@@ -1,8 +1,9 @@
 //! What is known of a place that mends everything.
 
-use super::quantities::{Columns, Quantity, is_same, made_of};
-use super::search::{Mend, Search};
-use super::{Finding, Flaw, Site, Stage, What};
+use super::quantities::{Quantity, made_of};
+use super::search::{Mend, Search, is_in_place};
+use super::{Finding, Flaw, Stage, What, variable};
+use crate::diagnose::columns::{Columns, is_same};
 use reference::interpreter::Scalar;
 use reference::interpreter::trace::Event;
 
@@ -29,7 +30,7 @@ impl Search<'_, '_> {
             Some(line) => (line, Flaw::ThrownAway),
             None => overwritten.map_or((site.line, flaw), |line| (line, Flaw::Overwrites)),
         };
-        let name = self.name(mend, sites);
+        let name = variable(sites, mend.suspect.site);
         let lane = worst(event, &mend.values[0]);
         let at = |columns: &Columns| columns.iter().map(|column| column[lane]).collect();
         Some(Finding {
@@ -40,7 +41,7 @@ impl Search<'_, '_> {
             is_settled: self.is_settled(mend),
             is_whole: self.is_whole(mend),
             is_telling: (self.is_telling(mend) || flaw != Flaw::Value) && !self.is_start(mend),
-            touches_position: !self.is_in_place(self.own, self.count),
+            touches_position: !is_in_place(self.wanted, self.own, self.count),
             is_use: matches!(site.what, What::Read(_)),
             touches: match missing {
                 Some(missing) => missing,
@@ -50,19 +51,6 @@ impl Search<'_, '_> {
             expected: at(&mend.values[0]),
             found: at(&event.values),
         })
-    }
-
-    /// The variable that is given the value, or else that the statement gives a value to.
-    pub(super) fn name(&self, mend: &Mend, sites: &[Site]) -> Option<String> {
-        match &sites[mend.suspect.site].what {
-            What::Assign { name, .. } | What::Read(name) => return Some(name.clone()),
-            _ => {}
-        }
-        let user = sites.iter().find(|site| site.operands.contains(&mend.suspect.site))?;
-        match &user.what {
-            What::Assign { name, .. } => Some(name.clone()),
-            _ => None,
-        }
     }
 
     /// What a place lacks of a sum.
@@ -102,7 +90,7 @@ impl Search<'_, '_> {
     pub(super) fn overwritten(&self, mend: &Mend, quantity: Option<&Quantity>) -> Option<u32> {
         let trace = self.trace(mend.stage)?;
         let sites = self.theirs.stage(mend.stage).sites();
-        let name = self.name(mend, sites)?;
+        let name = variable(sites, mend.suspect.site)?;
         let missing = self.missing_in(mend)?;
         let is_missing = |event: &Event| {
             let lost =

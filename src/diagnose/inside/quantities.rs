@@ -1,6 +1,7 @@
 //! What a right answer computes on its way.
 
-use super::{Place, is_number};
+use super::Place;
+use crate::diagnose::columns::{Columns, is_constant, is_equal, is_same};
 use glam::DVec3;
 use reference::Assignment;
 use reference::equation::Variant;
@@ -8,9 +9,6 @@ use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{Binary, Program, Scalar, Stage};
 use reference::traced::TracedProgram;
 use std::collections::BTreeSet;
-
-/// The scalars of a value, each for all samples.
-pub(super) type Columns = Vec<Vec<f64>>;
 
 /// A value of the right answer.
 #[derive(Clone, Debug)]
@@ -27,6 +25,8 @@ pub(super) struct Quantity {
     pub is_leaf: bool,
     /// What is added up to it.
     pub addends: Vec<(Option<String>, Columns)>,
+    /// Whether it is some addends of a sum, which the right answer does not add by themselves.
+    pub is_partial: bool,
     /// Whether it is the same at all places: such values are equal by chance.
     pub is_constant: bool,
 }
@@ -56,6 +56,7 @@ impl Quantities {
             let doing = |event: &Event| program.sites()[event.site].what.clone();
             quantities.doings[stage as usize] = trace.events.iter().map(doing).collect();
             let mut own = of_stage(stage, program, &trace);
+            own.extend(partial_sums(&own));
             quantities.all.append(&mut own);
             quantities.traces[stage as usize] = Some(trace);
         }
@@ -180,6 +181,7 @@ fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
             turns,
             events,
             is_bool,
+            is_partial: false,
             is_leaf: matches!(site.what, What::Literal | What::Read(_)),
         };
         if turns.len() > 1 {
@@ -190,6 +192,47 @@ fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
         add(&mut found, quantity(turns, events));
     }
     found
+}
+
+/// Most addends of a sum some of which may be added by themselves.
+const MOST_ADDENDS: usize = 6;
+
+/// Sums of some of the addends of the largest sum: a factor may stand before two terms of three.
+fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
+    let fits = |one: &Quantity| one.addends.iter().all(|(_, addend)| [1, one.turns[0].len()].contains(&addend.len()));
+    let sums = all.iter().filter(|one| (3..=MOST_ADDENDS).contains(&one.addends.len()) && fits(one));
+    let Some(whole) = sums.max_by_key(|one| one.addends.len()) else { return Vec::new() };
+    let count = whole.addends.len();
+    let width = whole.turns[0].len();
+    let chosen = (1_usize..(1 << count) - 1).filter(|chosen| chosen.count_ones() > 1);
+    let sum = |chosen: usize| {
+        let addends: Vec<_> =
+            (0..count).filter(|at| chosen >> at & 1 == 1).map(|at| whole.addends[at].clone()).collect();
+        let mut total: Columns = vec![vec![0.0; addends[0].1[0].len()]; width];
+        for (_, addend) in &addends {
+            for (to, from) in total.iter_mut().zip(addend.iter().cycle()) {
+                to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
+            }
+        }
+        let events = addends.iter().flat_map(|(_, addend)| {
+            all.iter()
+                .filter(|one| one.turns.iter().any(|turn| is_equal(turn, addend)))
+                .flat_map(|one| one.events.clone())
+        });
+        Quantity {
+            stage: whole.stage,
+            names: Vec::new(),
+            is_constant: is_constant(&total),
+            events: events.collect(),
+            turns: vec![total],
+            is_bool: false,
+            is_partial: true,
+            is_leaf: false,
+            addends,
+        }
+    };
+    let is_new = |one: &Quantity| !all.iter().any(|own| own.turns.iter().any(|turn| is_equal(turn, &one.turns[0])));
+    chosen.map(sum).filter(is_new).collect()
 }
 
 /// Adds a quantity; one that is there already only gets a name.
@@ -237,34 +280,4 @@ fn addend(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>
         _ => None,
     };
     vec![(name, own.values.clone())]
-}
-
-/// Whether a value is the same at all places.
-pub(super) fn is_constant(columns: &Columns) -> bool {
-    columns.iter().all(|column| column.iter().all(|value| is_number(*value, column[0])))
-}
-
-/// Whether two values are the same everywhere.
-pub(super) fn is_equal(a: &Columns, b: &Columns) -> bool {
-    let is_one = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || is_number(*a, *b);
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(is_one))
-}
-
-/// Whether a value fits a quantity by its shape: a colour may have three components instead of four.
-pub(super) fn fits(value: usize, quantity: usize) -> bool {
-    value == quantity || value == 3 && quantity == 4 || value == 4 && quantity == 3
-}
-
-/// Whether a value equals a quantity wherever both are there.
-pub(super) fn is_same(event: &Event, quantity: &Columns) -> bool {
-    if !fits(event.values.len(), quantity.len()) {
-        return false;
-    }
-    let is_lane = |lane: usize, own: &f64, right: &f64| !event.lanes[lane] || right.is_nan() || is_number(*own, *right);
-    let columns = event.values.iter().zip(quantity);
-    let is_column = |(own, right): (&Vec<f64>, &Vec<f64>)| {
-        own.len() == right.len()
-            && own.iter().zip(right).enumerate().all(|(lane, (own, right))| is_lane(lane, own, right))
-    };
-    columns.into_iter().all(is_column)
 }

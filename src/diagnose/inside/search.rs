@@ -1,8 +1,9 @@
 //! Which value has to be another one for all that is seen to be right.
 
-use super::quantities::{Columns, fits, is_constant, is_same};
 use super::walk::{Suspect, suspects};
 use super::*;
+use crate::diagnose::columns::{Columns, fits, is_constant, is_number, is_same, shaped};
+use crate::diagnose::trials::{Changes, Trials};
 use reference::interpreter::trace::{Change, Event};
 use reference::interpreter::{Program, Scalar};
 use std::collections::BTreeSet;
@@ -20,11 +21,10 @@ pub(super) struct Search<'s, 'a> {
     pub own: &'s Seen,
     pub wanted: &'s Seen,
     pub quantities: &'s Quantities,
-    pub few: Bench<'s>,
-    pub all: Bench<'s>,
+    pub trials: Trials<'s>,
     pub count: usize,
     /// What is changed already.
-    pub base: [Vec<Change>; 2],
+    pub base: Changes,
 }
 
 /// A place that mends what is seen, and what has to stand there.
@@ -52,21 +52,6 @@ impl Mend {
 }
 
 impl Search<'_, '_> {
-    /// Whether what is seen at the first places is what should be.
-    pub fn is_right(&self, seen: &Seen, count: usize) -> bool {
-        let mut colours = seen.colours.iter().zip(&self.wanted.colours).take(count);
-        colours.all(|(own, wanted)| is_colour(*wanted, *own)) && self.is_in_place(seen, count)
-    }
-
-    /// Whether everything stands where it should.
-    pub fn is_in_place(&self, seen: &Seen, count: usize) -> bool {
-        let mut positions = seen.positions.iter().zip(&self.wanted.positions).take(count);
-        positions.all(|(own, wanted)| {
-            let largest = wanted.abs().max_element().max(f64::MIN_POSITIVE);
-            (*own - *wanted).abs().max_element() <= POSITION_TOLERANCE * largest
-        })
-    }
-
     pub fn findings(&mut self) -> Vec<Finding> {
         let mend = self.mend_but(None);
         if let Some(mend) = mend.as_ref().filter(|mend| self.is_telling(mend)) {
@@ -264,6 +249,11 @@ impl Search<'_, '_> {
             if !is_bool && !is_float || site.what == What::Literal && !quantity.is_leaf {
                 continue;
             }
+            // Only what has a factor is wrong as a part of a sum. A sum that is one of them lacks the others.
+            let has_factor = matches!(site.what, What::Binary(Binary::Multiply | Binary::Divide));
+            if quantity.is_partial && !has_factor {
+                continue;
+            }
             let turns = &quantity.turns;
             if turns.len() != 1 && turns.len() != events.len() {
                 continue;
@@ -305,37 +295,35 @@ impl Search<'_, '_> {
 
     /// Whether all that is seen is right with this in its place.
     pub fn mends(&mut self, mend: &Mend) -> bool {
-        let few = self.count.min(FIRST);
-        let changes = self.changes(mend, few);
-        let Some(seen) = self.few.with(&changes) else { return false };
-        if !self.is_right(&seen, few) {
-            return false;
-        }
-        let changes = self.changes(mend, self.count);
-        self.all.with(&changes).is_some_and(|seen| self.is_right(&seen, self.count))
+        let changes = self.changes(mend);
+        let wanted = self.wanted;
+        self.trials.holds(&changes, &|seen, count| is_right(wanted, seen, count))
     }
 
     /// The colours at the first places with this in its place.
     pub fn seen_with(&mut self, mend: &Mend) -> Option<Vec<DVec3>> {
-        let changes = self.changes(mend, self.count.min(FIRST));
-        Some(self.few.with(&changes)?.colours)
+        let changes = self.changes(mend);
+        Some(self.trials.at_first(&changes)?.colours)
     }
 
-    /// What is changed at the first places.
-    fn changes(&self, mend: &Mend, places: usize) -> [Vec<Change>; 2] {
+    fn changes(&self, mend: &Mend) -> Changes {
         let mut changes = self.base.clone();
         changes[mend.stage as usize].push(mend.change());
-        let all = changes.iter_mut().flatten().flat_map(|change| &mut change.values);
-        for column in all.flatten() {
-            let each = column.len() / self.count.max(1);
-            column.truncate(each * places);
-        }
         changes
     }
 }
 
-/// A quantity in the shape of a value: what it has not stays as it is.
-fn shaped(event: &Event, quantity: &Columns) -> Columns {
-    let own = event.values.iter().enumerate();
-    own.map(|(scalar, own)| quantity.get(scalar).unwrap_or(own).clone()).collect()
+/// Whether what is seen at the first places is what should be.
+pub(super) fn is_right(wanted: &Seen, seen: &Seen, count: usize) -> bool {
+    let mut colours = seen.colours.iter().zip(&wanted.colours).take(count);
+    colours.all(|(own, wanted)| is_colour(*wanted, *own)) && is_in_place(wanted, seen, count)
+}
+
+/// Whether everything stands where it should.
+pub(super) fn is_in_place(wanted: &Seen, seen: &Seen, count: usize) -> bool {
+    let mut positions = seen.positions.iter().zip(&wanted.positions).take(count);
+    positions.all(|(own, wanted)| {
+        let largest = wanted.abs().max_element().max(f64::MIN_POSITIVE);
+        (*own - *wanted).abs().max_element() <= POSITION_TOLERANCE * largest
+    })
 }

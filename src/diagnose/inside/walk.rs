@@ -1,7 +1,7 @@
 //! From the outputs back to what they are made of, as far as it is not right yet.
 
-use super::quantities::is_equal;
 use super::{Quantities, Stage, Trace, What};
+use crate::diagnose::columns::is_equal;
 use reference::interpreter::Program;
 use std::collections::BTreeMap;
 

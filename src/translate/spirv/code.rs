@@ -184,17 +184,6 @@ impl Code {
         let names = self.heads.iter().filter(|i| i.opcode == op::NAME);
         names.filter_map(|i| Some((*i.operands.first()?, text(i.operands.get(1..)?)))).collect()
     }
-
-    /// Names of the members of structures, by type and number.
-    pub fn member_names(&self) -> HashMap<(u32, u32), String> {
-        let names = self.heads.iter().filter(|i| i.opcode == op::MEMBER_NAME);
-        let named = |i: &Instruction| match i.operands.as_slice() {
-            [shape, member, words @ ..] => Some(((*shape, *member), text(words))),
-            _ => None,
-        };
-        names.filter_map(named).collect()
-    }
-
     /// Gives `target` (an id, or an id and the number of a member) a name.
     pub fn name(&mut self, target: &[u32], name: &str) {
         let opcode = if target.len() == 1 { op::NAME } else { op::MEMBER_NAME };

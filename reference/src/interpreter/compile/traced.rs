@@ -44,7 +44,10 @@ impl Compiler {
         let value = self.computed(expression)?;
         let Some(what) = what(expression) else { return Ok(value) };
         self.builder.line = expression.line;
-        Ok(self.record(what, value, mark))
+        let value = self.record(what, value, mark);
+        let site = self.tracing.operands.last().and_then(|&site| self.tracing.sites.get_mut(site));
+        site.into_iter().for_each(|site| site.is_part = !matches!(expression.kind, ExpressionKind::Name(_)));
+        Ok(value)
     }
 
     /// The number of an element: one that is written is no value that anybody looks at.
@@ -74,8 +77,8 @@ impl Compiler {
         let operands = self.tracing.operands.split_off(mark.min(self.tracing.operands.len()));
         let number = self.tracing.sites.len();
         let (line, function) = (self.builder.line, self.tracing.function.clone());
-        let is_used = true;
-        self.tracing.sites.push(Site { line, what, kind: value.kind.clone(), operands, function, is_used });
+        let (is_used, is_part) = (true, false);
+        self.tracing.sites.push(Site { line, what, kind: value.kind.clone(), operands, function, is_used, is_part });
         self.tracing.operands.push(number);
         number
     }

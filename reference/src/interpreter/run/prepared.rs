@@ -5,6 +5,7 @@ use super::{Column, Mismatch, Outputs, Precision, Stopped, Variable, leaves, slo
 use crate::interpreter::code::{Code, Record, Slot};
 use crate::interpreter::texture::Texture;
 use crate::interpreter::trace::{Change, Trace};
+use crate::interpreter::types::Scalar;
 use std::fmt;
 use std::ops::Range;
 
@@ -53,6 +54,10 @@ impl Prepared<'_> {
         self.inputs.retain(|(slot, _)| !own.contains(slot));
         self.inputs.extend(own.into_iter().zip(columns.iter().cloned()));
         Ok(())
+    }
+
+    pub(crate) fn bound_values(&mut self, most: f64) {
+        self.machine.recorder.iter_mut().for_each(|recorder| recorder.most = Some(most));
     }
 
     pub(crate) fn again(&mut self, is_recording: bool, changes: &[Change]) -> Result<Outputs, Stopped> {
@@ -108,6 +113,18 @@ impl Machine<'_> {
             for (slot, values) in record.slots.iter().zip(values) {
                 let column = self.memory.column_mut(*slot);
                 self.active.copy(column, values);
+            }
+        }
+        if let Some(most) = recorder.most.filter(|_| self.code.sites[record.site].kind.scalar() == Some(Scalar::Float))
+        {
+            for slot in &record.slots {
+                let is_usual = |x: &f64| x.abs() < most;
+                if self.memory.column(*slot).iter().all(is_usual) {
+                    continue;
+                }
+                let column = self.memory.column_mut(*slot);
+                let bound: Vec<f64> = column.iter().map(|x| if is_usual(x) { *x } else { 0.0 }).collect();
+                self.active.copy(column, &bound);
             }
         }
         if !recorder.is_recording || recorder.is_full {
