@@ -7,9 +7,7 @@ use super::encode::{Raster, encode, encode_animated, mismatched};
 use super::{Picture, Pictures};
 use crate::fault::Fault;
 use crate::language::Text;
-use png::Transformations;
 use std::fs;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// Pixels between the pictures of the animation, and their colour.
@@ -109,14 +107,9 @@ pub fn animated(pictures: &[Picture], cycle: f64) -> Result<Vec<u8>, Fault> {
 }
 
 /// The picture in a PNG of ours.
-pub fn decode(bytes: &[u8]) -> Result<Picture, Fault> {
-    let mut decoder = png::Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(Transformations::EXPAND | Transformations::ALPHA);
-    let mut reader = decoder.read_info().map_err(|_| mismatched())?;
-    let mut rgba = vec![0; reader.output_buffer_size().ok_or_else(mismatched)?];
-    let frame = reader.next_frame(&mut rgba).map_err(|_| mismatched())?;
-    rgba.truncate(frame.buffer_size());
-    Ok(Picture { width: frame.width, height: frame.height, rgba })
+pub fn decode(png: &[u8]) -> Result<Picture, Fault> {
+    let image = image::load_from_memory_with_format(png, image::ImageFormat::Png).map_err(|_| mismatched())?.to_rgba8();
+    Ok(Picture { width: image.width(), height: image.height(), rgba: image.into_raw() })
 }
 
 fn animate(poses: &[Pose], cycle: f64) -> Result<Vec<u8>, Fault> {
