@@ -1,6 +1,6 @@
 //! What a right answer computes: the definitions of the solution, in their order, with any of them replaced.
 
-use crate::interpreter::{Formula, Registers, Sheet, Type};
+use crate::interpreter::{Formula, Registers, Sheet, Stage, Type};
 use crate::mistake::Form;
 use crate::probes::Region;
 use crate::value;
@@ -21,6 +21,17 @@ pub enum Reads {
     Varyings,
     /// What the whole program shows: colour and position are all that is told apart.
     Outputs,
+}
+
+impl Reads {
+    /// The stage whose definitions the solution consists of; none where it is known by what it shows.
+    pub const fn stage(self) -> Option<Stage> {
+        match self {
+            Self::Attributes => Some(Stage::Vertex),
+            Self::Varyings => Some(Stage::Fragment),
+            Self::Outputs => None,
+        }
+    }
 }
 
 /// The colour that stands for a fragment that is thrown away: no other is below 0.

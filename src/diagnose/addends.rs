@@ -5,14 +5,13 @@
 //! moves a right answer's when something is added to it.
 
 use super::Evidence;
-use super::columns::{Columns, is_constant, is_number};
-use super::trials::{Changes, FUEL_OF_TRACE, is_drawn, place};
+use super::columns::{Columns, is_constant, is_number, of_places};
+use super::trials::{Changes, FUEL_OF_TRACE, change, is_drawn, place};
 use glam::DVec3;
 use reference::assignment::RubricLine;
-use reference::equation::Reads;
 use reference::fit::TermJudgement;
 use reference::interpreter::Stage;
-use reference::interpreter::trace::{Change, Event, Trace};
+use reference::interpreter::trace::{Event, Trace};
 use reference::traced::{Bench, Place};
 
 /// Every seventh of the 560 probes is looked at, so that each of the 20 designs occurs four times.
@@ -63,8 +62,7 @@ pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
 /// Whether no colour that the text computes is finite, so that what the driver shows says nothing.
 pub(super) fn is_finite_nowhere(evidence: &Evidence<'_>) -> bool {
     // One of each design.
-    let places: Vec<usize> = (0..evidence.probes.of_group(0).len()).collect();
-    let places: Vec<Place<'_>> = places.into_iter().map(|at| place(evidence, at)).collect();
+    let places: Vec<Place<'_>> = (0..evidence.probes.of_group(0).len()).map(|at| place(evidence, at)).collect();
     let colours = bench(evidence, &places).and_then(|bench| bench.lenient().with(&Changes::default()));
     colours.is_some_and(|seen| !seen.colours.iter().any(|colour| colour.is_finite()))
 }
@@ -72,7 +70,7 @@ pub(super) fn is_finite_nowhere(evidence: &Evidence<'_>) -> bool {
 /// The program at some probes; none where it is known by no definitions.
 fn bench<'p>(evidence: &Evidence<'p>, places: &[Place<'p>]) -> Option<Bench<'p>> {
     let assignment = evidence.assignment;
-    let program = evidence.traced.filter(|_| assignment.equation.reads() != Reads::Outputs)?;
+    let program = evidence.traced.filter(|_| assignment.equation.reads().stage().is_some())?;
     Bench::new(assignment, program, places, program.needs_quads(assignment), FUEL_OF_TRACE)
 }
 
@@ -102,10 +100,7 @@ impl<'a> Text<'a> {
         }
         let mut bench = bench(evidence, &places)?.bounded(OVERFLOWING);
         let (seen, mut traces) = bench.trace(&Changes::default())?;
-        let stage = match evidence.assignment.equation.reads() {
-            Reads::Attributes => Stage::Vertex,
-            Reads::Varyings | Reads::Outputs => Stage::Fragment,
-        };
+        let stage = evidence.assignment.equation.reads().stage()?;
         let trace = traces[stage as usize].take()?;
         Some(Self { evidence: *evidence, places, stage, bench, trace, colours: seen.colours })
     }
@@ -113,16 +108,10 @@ impl<'a> Text<'a> {
     /// What a line judges, as a right answer computes it.
     fn right(&self, line: &RubricLine) -> Columns {
         let right = self.evidence.assignment.equation.right();
-        let numbers = |at: &Place<'_>| -> Vec<f64> {
-            let outcome = right.evaluate(at.uniforms, &at.probe.attributes);
-            outcome.get(&line.judges).map(|value| value.numbers().to_vec()).unwrap_or_default()
-        };
-        let all: Vec<Vec<f64>> = self.places.iter().map(numbers).collect();
-        let count = all.first().map_or(0, Vec::len);
+        let value = |at: &Place<'_>| right.evaluate(at.uniforms, &at.probe.attributes).get(&line.judges);
+        let values: Vec<_> = self.places.iter().filter_map(value).collect();
         let lanes = self.trace.events.first().map_or(0, |event| event.lanes.len());
-        let each = lanes / self.places.len().max(1);
-        let column = |scalar: usize| all.iter().flat_map(|one| std::iter::repeat_n(one[scalar], each)).collect();
-        (0..count).map(column).collect()
+        of_places(&values, lanes / self.places.len().max(1))
     }
 
     /// Where the text computes a colour, alpha aside.
@@ -144,17 +133,12 @@ impl<'a> Text<'a> {
 
     /// Something is added to an event.
     fn raised(&self, event: usize) -> Changes {
-        let site = self.trace.events[event].site;
-        let turns = self.trace.events.iter().enumerate().filter(|(_, other)| other.site == site);
-        let values = turns.map(|(at, other)| {
-            let mut values = other.values.clone();
-            for (column, added) in values.iter_mut().zip(ADDED).filter(|_| at == event) {
-                column.iter_mut().for_each(|x| *x += added);
-            }
-            values
-        });
+        let mut values = self.trace.events[event].values.clone();
+        for (column, added) in values.iter_mut().zip(ADDED) {
+            column.iter_mut().for_each(|x| *x += added);
+        }
         let mut changes = Changes::default();
-        changes[self.stage as usize].push(Change { site, values: values.collect() });
+        changes[self.stage as usize].push(change(&self.trace, event, &values));
         changes
     }
 

@@ -2,10 +2,21 @@
 
 use crate::compare::COLOUR_TOLERANCE;
 use glam::DVec3;
+use reference::Value;
 use reference::interpreter::trace::Event;
 
 /// The scalars of a value, each for all samples.
 pub(super) type Columns = Vec<Vec<f64>>;
+
+/// The columns of what has one of these values at each place, which has so many samples `each`.
+pub(super) fn of_places(values: &[Value], each: usize) -> Columns {
+    let count = values.first().map_or(0, |value| value.numbers().len());
+    let column = |scalar: usize| {
+        let numbers = values.iter().map(|value| value.numbers()[scalar]);
+        numbers.flat_map(|number| std::iter::repeat_n(number, each)).collect()
+    };
+    (0..count).map(column).collect()
+}
 
 /// Whether two numbers are the same but for rounding.
 pub(super) fn is_number(a: f64, b: f64) -> bool {

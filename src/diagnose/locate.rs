@@ -3,14 +3,14 @@
 //! The interpreter of `reference` runs the text at some of the probes. A search for names in the text would not see that a
 //! statement further down changes a value, or that a function or a variable of another name computes it.
 
-use super::columns::{Columns, is_colour, is_same};
+use super::columns::{Columns, is_colour, is_same, of_places};
 use super::inside::{self, Finding};
 use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
 use super::{Evidence, advice::Beyond};
 use crate::source::Source;
 use glam::DVec3;
 use reference::Assignment;
-use reference::equation::{Reads, Variant};
+use reference::equation::Variant;
 use reference::interpreter::Stage;
 use reference::interpreter::trace::{Change, Event, Site, Trace, What};
 use reference::mistake::FoundMistake;
@@ -91,12 +91,8 @@ impl<'a> Points<'a> {
     }
 
     fn of(evidence: &Evidence<'a>, assignment: &'a Assignment, places: Vec<Place<'a>>) -> Option<(Self, Vec<DVec3>)> {
-        let program =
-            evidence.traced.filter(|_| assignment.equation.reads() != Reads::Outputs && !places.is_empty())?;
-        let stage = match assignment.equation.reads() {
-            Reads::Attributes => Stage::Vertex,
-            Reads::Varyings | Reads::Outputs => Stage::Fragment,
-        };
+        let stage = assignment.equation.reads().stage()?;
+        let program = evidence.traced.filter(|_| !places.is_empty())?;
         let in_quads = program.needs_quads(assignment);
         let mut bench = Bench::new(assignment, program, &places, in_quads, FUEL_OF_TRACE)?;
         let (seen, mut traces) = bench.trace(&Changes::default())?;
@@ -107,11 +103,13 @@ impl<'a> Points<'a> {
         Some((Self { assignment, source, stage, sites, trace, trials, places, each }, seen.colours))
     }
 
-    /// The student's own name for a definition: that of a variable that holds it at every point.
-    pub fn name_of(&self, definition: &str) -> Option<&'a str> {
-        let index = self.assignment.equation.index(definition)?;
-        let right = self.definitions(&self.assignment.equation.right());
-        let right = &right[index];
+    /// The student's own names for the definitions, in the equation's order.
+    pub fn names(&self) -> Vec<Option<&'a str>> {
+        self.definitions(&self.assignment.equation.right()).iter().map(|right| self.name_of(right)).collect()
+    }
+
+    /// The name of a variable that holds a definition at every point.
+    fn name_of(&self, right: &Columns) -> Option<&'a str> {
         // A colour may have three components instead of four, and nothing else.
         let fits = |event: &&Event| event.values.len() <= right.len() && is_same(event, right);
         let mut holding = self.trace.events.iter().filter(fits);
@@ -128,12 +126,7 @@ impl<'a> Points<'a> {
             self.places.iter().map(|at| variant.evaluate(at.uniforms, &at.probe.attributes)).collect();
         let columns = |name: &str| -> Columns {
             let values: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.get(name)).collect();
-            let count = values.first().map_or(0, |value| value.numbers().len());
-            let column = |scalar: usize| {
-                let numbers = values.iter().map(|value| value.numbers()[scalar]);
-                numbers.flat_map(|number| std::iter::repeat_n(number, self.each)).collect()
-            };
-            (0..count).map(column).collect()
+            of_places(&values, self.each)
         };
         self.assignment.equation.definitions().iter().map(|definition| columns(&definition.name)).collect()
     }
@@ -151,14 +144,6 @@ impl<'a> Points<'a> {
         self.trials.holds(&changes, &|seen, count| {
             seen.colours.iter().zip(wanted).take(count).all(|(own, wanted)| is_colour(*wanted, *own))
         })
-    }
-
-    /// What an event is changed to, and only it of all that its site computes.
-    fn change(&self, event: usize, values: Columns) -> Change {
-        let own = &self.trace.events[event];
-        let turns = self.trace.events.iter().enumerate().filter(|(_, other)| other.site == own.site);
-        let values = turns.map(|(at, other)| if at == event { values.clone() } else { other.values.clone() });
-        Change { site: own.site, values: values.collect() }
     }
 
     /// Whether the student wrote the line: what was handed out is right.

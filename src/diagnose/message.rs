@@ -120,8 +120,9 @@ impl Facts {
             Cause::Unexplained { findings, .. } => findings.clone(),
         };
         let mut names = Self::handed_out(evidence);
-        for definition in evidence.assignment.equation.definitions() {
-            let own = points.as_ref().and_then(|points| points.name_of(&definition.name));
+        let own = points.as_ref().map(Points::names).unwrap_or_default();
+        let own = own.into_iter().chain(std::iter::repeat(None));
+        for (definition, own) in evidence.assignment.equation.definitions().iter().zip(own) {
             let symbol = definition.symbol.clone();
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }

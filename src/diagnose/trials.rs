@@ -1,11 +1,11 @@
 //! The student's program at some of the probes, run again and again with some of its values changed.
 
-use super::columns::is_colour;
+use super::columns::{Columns, is_colour};
 use super::{Evidence, position_scale};
 use crate::compare::{POSITION_TOLERANCE, position_difference};
 use glam::DVec3;
 use reference::Assignment;
-use reference::interpreter::trace::Change;
+use reference::interpreter::trace::{Change, Trace};
 use reference::traced::{Bench, Place, Seen, TracedProgram};
 
 /// How many wrong and how many right samples are looked at.
@@ -65,6 +65,14 @@ impl<'p> Trials<'p> {
         }
         self.few.with(&changes)
     }
+}
+
+/// An event has other values, and only it of all that its site computes.
+pub(super) fn change(trace: &Trace, event: usize, values: &Columns) -> Change {
+    let site = trace.events[event].site;
+    let turns = trace.events.iter().enumerate().filter(|(_, other)| other.site == site);
+    let values = turns.map(|(at, other)| if at == event { values.clone() } else { other.values.clone() });
+    Change { site, values: values.collect() }
 }
 
 /// Wrong and right samples in turn, a wrong one first; right ones alone where none is wrong.

@@ -207,11 +207,6 @@ impl Prepared<'_> {
         self.again(false, changes)
     }
 
-    /// From now on a value becomes 0 where it is no number, or beyond `most`.
-    pub fn bound(&mut self, most: f64) {
-        self.bound_values(most);
-    }
-
     /// Gives an input, or a uniform by its path, a column for each of its scalars.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! What a right answer computes on its way.
 
 use super::Place;
-use crate::diagnose::columns::{Columns, is_constant, is_equal, is_same};
+use crate::diagnose::columns::{Columns, is_constant, is_equal, is_same, of_places};
 use glam::DVec3;
 use reference::Assignment;
 use reference::equation::Variant;
@@ -75,14 +75,9 @@ impl Quantities {
         let outcomes: Vec<_> = places.iter().map(|at| variant.evaluate(at.uniforms, &at.probe.attributes)).collect();
         for definition in assignment.equation.definitions() {
             let values: Vec<_> = outcomes.iter().map(|one| one.get(&definition.name)).collect::<Option<_>>()?;
-            let count = values.first()?.numbers().len();
-            let column = |scalar: usize| {
-                let numbers = values.iter().map(|value| value.numbers()[scalar]);
-                numbers.flat_map(|number| std::iter::repeat_n(number, each)).collect()
-            };
-            let columns: Columns = (0..count).map(column).collect();
+            let columns = of_places(&values, each);
             for own in self.all.iter_mut().filter(|own| own.names.contains(&definition.name)) {
-                if own.turns.len() == 1 && own.turns[0].len() == count {
+                if own.turns.len() == 1 && own.turns[0].len() == columns.len() {
                     own.is_constant = is_constant(&columns);
                     own.turns = vec![columns.clone()];
                 }

@@ -2,7 +2,7 @@
 
 use super::{Located, Points, Role};
 use crate::diagnose::columns::{Columns, fits, is_colour, is_same, is_zero, shaped};
-use crate::diagnose::trials::Changes;
+use crate::diagnose::trials::{Changes, change};
 use glam::DVec3;
 use reference::interpreter::Binary;
 use reference::interpreter::trace::{Change, What};
@@ -104,7 +104,7 @@ impl Points<'_> {
                 && !is_same(event, right)
         });
         let candidates: Vec<(usize, Change)> =
-            candidates.map(|(at, event)| (at, self.change(at, shaped(event, right)))).collect();
+            candidates.map(|(at, event)| (at, change(&self.trace, at, &shaped(event, right)))).collect();
         let mends = candidates.into_iter().filter(|(_, change)| self.becomes(wanted, Some(change.clone())));
         mends.map(|(at, _)| at).collect()
     }
@@ -126,7 +126,7 @@ impl Points<'_> {
                 for ((own, right), wrong) in values.iter_mut().zip(right).zip(wrong).take(3) {
                     own.iter_mut().zip(right.iter().zip(wrong)).for_each(|(own, (right, wrong))| *own += right - wrong);
                 }
-                (at, self.change(at, values))
+                (at, change(&self.trace, at, &values))
             })
             .collect();
         let found = sums.into_iter().rev().find(|(_, change)| self.becomes(wanted, Some(change.clone())));

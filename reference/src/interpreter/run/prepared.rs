@@ -56,7 +56,8 @@ impl Prepared<'_> {
         Ok(())
     }
 
-    pub(crate) fn bound_values(&mut self, most: f64) {
+    /// From now on a value becomes 0 where it is no number, or beyond `most`.
+    pub(crate) fn bound(&mut self, most: f64) {
         self.machine.recorder.iter_mut().for_each(|recorder| recorder.most = Some(most));
     }
 
