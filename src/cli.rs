@@ -12,7 +12,7 @@ mod watch;
 pub use assignment::Preview;
 pub use assignment::{Action, Assignment, Check, New, Show};
 pub use batch::{Batch, BatchAction, BatchCommand, Merge};
-pub use format::{Format, Reading};
+pub use format::{Format, ViewFormat};
 #[cfg(feature = "service")]
 pub use serve::{LogFormat, Serve};
 #[cfg(feature = "watch")]
@@ -56,6 +56,10 @@ pub enum Command {
     Assignment(Assignment),
     /// Check this machine and say what to install
     Doctor(Doctor),
+    /// Hold the solution of an assignment against OpenGL, and print JSON (started by `assignment check`)
+    #[cfg(feature = "opengl")]
+    #[command(hide = true, name = "opengl")]
+    OpenGl(OpenGl),
     /// Grade what the parent process sends (started by the other commands)
     #[command(hide = true)]
     Worker(Worker),
@@ -165,6 +169,15 @@ pub struct Doctor {
     /// Language of the answers [default: from LC_ALL, LC_MESSAGES or LANG]
     #[arg(long, value_enum, env = "GGRADE_LANG")]
     pub lang: Option<Language>,
+}
+
+/// Hold the solution of an assignment against OpenGL, and print JSON.
+#[cfg(feature = "opengl")]
+#[derive(Debug, Args)]
+pub struct OpenGl {
+    /// The folder of an assignment, or the name of a built-in one
+    #[arg(value_name = "FOLDER")]
+    pub assignment: String,
 }
 
 /// Grade what the parent process sends.

@@ -10,6 +10,8 @@ mod exchange;
 mod files;
 pub mod grade;
 pub mod interrupt;
+#[cfg(feature = "opengl")]
+pub mod opengl;
 #[cfg(feature = "watch")]
 mod saves;
 #[cfg(feature = "service")]

@@ -18,6 +18,8 @@ pub mod translate;
 
 pub mod expected;
 pub mod grade;
+#[cfg(feature = "opengl")]
+pub mod opengl;
 pub mod pictures;
 pub mod sandbox;
 
@@ -35,3 +37,5 @@ pub mod diagnostic;
 pub mod fault;
 pub mod language;
 pub mod parallel;
+
+pub mod ffi;

@@ -16,6 +16,8 @@ fn main() -> ExitCode {
         Command::Corpus(arguments) => command::corpus::run(&arguments),
         Command::Assignment(arguments) => command::assignment::run(&arguments),
         Command::Doctor(arguments) => command::doctor::run(&arguments),
+        #[cfg(feature = "opengl")]
+        Command::OpenGl(arguments) => command::opengl::run(&arguments),
         Command::Worker(arguments) => command::worker::run(&arguments),
     };
     outcome.unwrap_or_else(|fault| command::report_fault(&fault)).into()

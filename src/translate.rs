@@ -11,10 +11,9 @@ mod fuel;
 #[cfg(fuzzing)]
 pub mod fuzzing;
 mod gate;
-pub mod glslang;
-mod hints;
+pub mod hints;
 mod interface;
-mod limits;
+pub(crate) mod limits;
 mod log;
 mod module;
 mod opaque;
@@ -27,9 +26,10 @@ mod tests;
 mod text;
 mod undefined;
 
+pub use crate::ffi::glslang::Stage;
 pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT};
 pub use fuel::{MAX_TURNS, Meter};
-pub use glslang::Stage;
+pub(crate) use interface::place;
 pub use interface::{Interface, Variable};
 pub use module::{Shader, Uniform, UniformBlock, unsupported};
 pub use program::{Linked, Program, ProgramRefusal};
@@ -38,9 +38,9 @@ pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
+use crate::ffi::glslang::{CompilerOutput, Reached, Request, Rules, StageText, compile};
 use crate::source::{self, Source};
 use concessions::Renamed;
-use glslang::{CompilerOutput, Reached, Request, Rules, StageText, compile};
 use module::Built;
 use std::ffi::CStr;
 

@@ -1,9 +1,9 @@
 //! What this compiler refuses and drivers take: the text is changed so that it takes it too.
 
-use super::glslang::CompilerOutput;
 use super::log::{self, Entry};
 use super::{Refusal, spirv, text, unsupported};
 use crate::diagnostic::{Diagnostic, Stage};
+use crate::ffi::glslang::CompilerOutput;
 use crate::language::Text;
 use crate::source::Source;
 

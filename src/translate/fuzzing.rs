@@ -1,7 +1,7 @@
 //! Steps of the translation that the fuzzer enters from the side; in no other build.
 
-use super::glslang::{Stage, StageText};
 use super::{Interface, Submitted, first_pass, gate, spirv};
+use crate::ffi::glslang::{Stage, StageText};
 use crate::source::Source;
 
 /// The words that the compiler writes for a file that it accepts.

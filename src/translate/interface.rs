@@ -1,7 +1,7 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
 use super::spirv::{Alike, Declared};
-use super::{Refusal, Shader, glslang};
+use super::{Refusal, Shader};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -140,7 +140,7 @@ pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> 
             _ => notes.push(unset_uniform(source, &unset.name, interface)),
         }
     }
-    for attribute in shader.inputs.iter().filter(|_| shader.stage == glslang::Stage::Vertex) {
+    for attribute in shader.inputs.iter().filter(|_| shader.stage == super::Stage::Vertex) {
         let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
         // A program feeds floats; a shader may take fewer of them than there are.
         if attribute.kind != Some(naga::ScalarKind::Float) || attribute.width != 4 {
@@ -187,7 +187,7 @@ fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnost
 
 /// Puts the diagnostic at the first place where the code has `name`, or the last name of that path, as a word: its
 /// declaration.
-pub(super) fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
+pub(crate) fn place(diagnostic: Diagnostic, source: &Source, name: &str) -> Diagnostic {
     let name = name.rsplit('.').next().unwrap_or(name);
     let name = name.split('[').next().unwrap_or(name);
     if name.is_empty() {

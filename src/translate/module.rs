@@ -3,13 +3,13 @@
 use super::entry::{self, Attribute, CAPTURE_SLOT, Part};
 use super::fuel::{self, Meter};
 use super::gate::{self, Costs};
-use super::glslang::Stage;
 use super::opaque;
 use super::spirv::{self, Lines, Reworked, Uniforms, Unworkable};
 use super::undefined;
 use super::{Interface, Refusal};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
+use crate::ffi::glslang::Stage;
 use crate::language::Text;
 use crate::source::Source;
 use naga::{AddressSpace, Handle, Module, ResourceBinding, Type, TypeInner};

@@ -1,12 +1,12 @@
 //! The stages of a homework as one program: those that are handed in, and those that are fixed.
 
-use super::glslang::{Stage, StageText};
 use super::module::{self, Built, Shader};
 use super::{
     Interface, Refusal, Submitted, Variable, boundary, check_text, first_pass, fixed, gate, interface, linked, text,
 };
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
+use crate::ffi::glslang::{Stage, StageText};
 use crate::source::Source;
 use std::ffi::CString;
 

@@ -3,7 +3,7 @@
 //! Every line stays where it is, and so does every byte but those of [`continued`] lines, so that the places of the
 //! compiler's messages are the student's own.
 
-use super::glslang::Stage;
+use crate::ffi::glslang::Stage;
 use crate::source::Source;
 use std::ffi::CString;
 use std::ops::Range;

@@ -1,50 +1,21 @@
 //! Homeworks in folders: what ggrade draws and what the reference draws, against a real OpenGL driver.
 
-use super::opengl::{Draw, Kind, OpenGl, Rejection, Version, Window};
-use ggrade::render::{AdapterKind, Batch, Device, Renderer, Scene};
+use super::opengl::{OpenGl, Version};
+use ggrade::opengl::{disagreeing, frame, texts};
+use ggrade::render::{AdapterKind, Device, Renderer, Scene};
 use ggrade::source;
 use ggrade::translate::{Interface, Program, Stage};
-use reference::interpreter::{Program as Compiled, Scalar, Stage as InterpreterStage, Texels, Texture, Type};
+use reference::interpreter::{Program as Compiled, Stage as InterpreterStage, Texels};
 use reference::rasteriser::{Coverage, Frame};
-use reference::scene::{Cull, DepthTest};
-use reference::{Assignment, Folder, Value, assignment};
+use reference::{Assignment, Folder, assignment};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Largest difference of a channel between the drivers, in 1/255, and between a driver in f32 and the reference in f64.
+/// Largest difference of a channel between the drivers, in 1/255.
 const DRIVER_TOLERANCE: u8 = 1;
-const REFERENCE_TOLERANCE: u8 = 2;
 /// One of so many pixels may differ more between the drivers: those at which the nearest texel hangs on a last bit.
 const DOUBTFUL: usize = 500;
-
-fn kind(kind: &Type) -> Kind {
-    match kind {
-        Type::Vector(Scalar::Float, size) => Kind::Float(*size),
-        Type::Vector(Scalar::Uint, size) => Kind::Uint(*size),
-        Type::Vector(Scalar::Bool, size) => Kind::Bool(*size),
-        Type::Vector(_, size) => Kind::Int(*size),
-        Type::Matrix(_, columns, rows) => Kind::Matrix(*columns, *rows),
-        // The number of a texture is that of its unit.
-        Type::Sampler(_) => Kind::Int(1),
-        other => panic!("no uniform or attribute is a {other}"),
-    }
-}
-
-fn draw(batch: &Batch) -> Draw {
-    let uniform = |(path, value): &(String, Value)| (path.clone(), kind(value.kind()), value.numbers().to_vec());
-    Draw {
-        uniforms: batch.uniforms.iter().map(uniform).collect(),
-        attributes: batch
-            .attributes
-            .iter()
-            .map(|(name, values)| (name.clone(), kind(&values.kind), values.numbers.clone()))
-            .collect(),
-        triangles: batch.triangles.clone(),
-        tests_depth: batch.state.depth_test == Some(DepthTest::Less),
-        culls_back: batch.state.cull == Cull::Back,
-    }
-}
 
 /// Pixels of all frames: how many are painted, how many differ between the drivers, and how many of those that are no
 /// silhouette differ between OpenGL and the reference.
@@ -57,53 +28,8 @@ struct Counts {
     reference: usize,
 }
 
-/// The text of each stage, vertex before fragment; of those that are handed in it is what `handed_in` gives.
-fn texts<'a>(assignment: &'a Assignment, handed_in: impl Fn(&'a assignment::HandedIn) -> &'a str) -> [&'a str; 2] {
-    let of = |wanted: assignment::Stage| {
-        let handed_in = assignment.files.iter().map(|file| (file.stage, handed_in(file)));
-        let fixed = assignment.fixed.iter().map(|fixed| (fixed.stage, fixed.text.as_str()));
-        handed_in.chain(fixed).find(|(stage, _)| *stage == wanted).map(|(_, text)| text).expect("a stage")
-    };
-    [of(assignment::Stage::Vertex), of(assignment::Stage::Fragment)]
-}
-
-/// What a real driver draws of a program: 8 bits a channel, rows from above, as ours.
-fn by_opengl(
-    gl: &OpenGl,
-    assignment: &Assignment,
-    scene: &Scene,
-    texts: [&str; 2],
-    frame: usize,
-) -> Result<Vec<[u8; 4]>, Rejection> {
-    let (width, height) = (scene.width as usize, scene.height as usize);
-    let background = scene.background.map(|channel| f32::from(channel) / 255.0);
-    let window = Window { width, height, background, is_float: false };
-    // A host program compares with the depths for a sampler that does, and for no other.
-    let compares = scene.frames[frame]
-        .iter()
-        .flat_map(|batch| &batch.uniforms)
-        .any(|(_, value)| matches!(value.kind(), Type::Sampler(sampler) if sampler.shadow));
-    let texture =
-        |texture: &Texture| ("", Texture { compare: texture.compare.filter(|_| compares), ..texture.clone() });
-    let textures: Vec<(&str, Texture)> = assignment.textures.iter().map(texture).collect();
-    let draws: Vec<Draw> = scene.frames[frame].iter().map(draw).collect();
-    let drawn = gl.scene(texts, &draws, &textures, window, 1);
-    let drawn = drawn?.remove(0);
-    let rows = drawn.chunks_exact(width).rev().flatten();
-    Ok(rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect())
-}
-
 fn differs(from: &[u8], from_opengl: [u8; 4], by: u8) -> bool {
     (0..3).any(|axis| from[axis].abs_diff(from_opengl[axis]) > by)
-}
-
-/// How many pixels of a picture that are judged are not what OpenGL draws.
-fn disagreeing(right: &Frame, drawn: &[[u8; 4]]) -> usize {
-    let pixels = right.coverage.iter().zip(&right.pixels).zip(drawn);
-    let wrong = pixels.filter(|((coverage, right), drawn)| {
-        **coverage != Coverage::Silhouette && differs(&right[..], **drawn, REFERENCE_TOLERANCE)
-    });
-    wrong.count()
 }
 
 fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
@@ -123,7 +49,7 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let ours = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
     let mut counts = Counts::default();
     for (index, right) in assignment.frames().into_iter().enumerate() {
-        let drawn = by_opengl(gl, assignment, &scene, texts, index);
+        let drawn = frame(gl.driver(), assignment, &scene, texts, index);
         let drawn = drawn.unwrap_or_else(|rejection| panic!("{rejection:?}"));
         let ours = ours.picture(index as u32);
         counts.pixels += drawn.len();
@@ -201,7 +127,7 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
             let extended_scene = extended.as_ref().map(|extended| Scene::of(extended, &[]));
             let scene = extended_scene.as_ref().unwrap_or(&scene);
             for (index, right) in &frames {
-                let drawn = match by_opengl(&gl, assignment, scene, [vertex, fragment], *index) {
+                let drawn = match frame(gl.driver(), assignment, scene, [vertex, fragment], *index) {
                     Ok(drawn) => drawn,
                     Err(rejection) => {
                         wrong.push(format!("{}: {rejection:?}", sample.display()));

@@ -1,7 +1,7 @@
 //! Programs of which the fragment stage is handed in: what ggrade paints and computes, against a real OpenGL driver.
 
 use super::opengl::{Draw, Kind, OpenGl, Texels, Version, Window};
-use ggrade::render::{AdapterKind, Batch, Device, Pixel, Renderer, Scene, State};
+use ggrade::render::{AdapterKind, Batch, Device, DrawState, Pixel, Renderer, Scene};
 use ggrade::source;
 use ggrade::translate::{self, Interface, Linked, Program, Refusal, Stage, Variable};
 use reference::interpreter::{Filter, Scalar, Texture, Type, Wrap};
@@ -46,10 +46,7 @@ fn batch(draw: &Draw) -> Batch {
         attributes: draw.attributes.iter().map(attribute).collect(),
         triangles: draw.triangles.clone(),
         beside: Default::default(),
-        state: State {
-            depth_test: draw.tests_depth.then_some(DepthTest::Less),
-            cull: if draw.culls_back { Cull::Back } else { Cull::None },
-        },
+        state: DrawState { depth_test: draw.depth_test, cull: draw.cull },
     }
 }
 
@@ -181,8 +178,8 @@ pub fn sheets() -> Homework {
             .map(|(name, kind, numbers)| (name.to_owned(), kind, numbers))
             .to_vec(),
             triangles: triangles(seed == 1),
-            tests_depth: true,
-            culls_back: seed == 2,
+            depth_test: Some(DepthTest::Less),
+            cull: if seed == 2 { Cull::Back } else { Cull::None },
         }
     };
     let picture = |seed: u64, is_linear: bool, repeats: bool| Texels {
@@ -363,7 +360,9 @@ fn fragment_stages_paint_what_opengl_paints() {
         let rendering = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{name}: {fault}"));
         assert_eq!(rendering.of_fragments.ran_out, None, "{name}");
         let ours = rendering.frames.picture(0);
-        let theirs = gl.scene([homework.vertex, &text], &homework.draws, &homework.textures, window, 1);
+        let textures: Vec<_> = homework.textures.iter().map(|(name, texels)| (*name, texture(texels))).collect();
+        let textures: Vec<_> = textures.iter().map(|(name, texture)| (*name, texture)).collect();
+        let theirs = gl.driver().scene([homework.vertex, &text], &homework.draws, &textures, window, 1);
         let theirs = theirs.unwrap_or_else(|rejection| panic!("{name}: {rejection:?}")).remove(0);
         let painted = ours.rgba.chunks_exact(4).filter(|pixel| pixel[3] != 0).count();
         let differing = (0..SIZE[1])

@@ -40,7 +40,9 @@ impl Written {
         let schema: serde_json::Value = serde_json::from_str(&self.text(".assignment.schema.json")).unwrap();
         let manifest: serde_json::Value = toml::from_str(&self.text("assignment.toml")).unwrap();
         jsonschema::validate(&schema, &manifest).unwrap();
-        ggrade().args(["assignment", "check"]).arg(self.folder()).assert().code(0);
+        let checked = ggrade().args(["assignment", "check"]).arg(self.folder()).args(["--lang", "en"]).assert().code(0);
+        let said = String::from_utf8_lossy(&checked.get_output().stdout).into_owned();
+        assert!(said.contains("draws the same in all"), "real OpenGL has its say: {said}");
     }
 
     /// The report of a hand-in: the solution, with some texts replaced.
@@ -84,6 +86,29 @@ fn a_fragment_shader_with_maps_and_a_lamp_becomes_a_homework() {
     written.tells("texture(material.specular, TexCoords).r", "1.0");
     let report = written.graded(&[("ambient + diffuse + varnish", "ambient + diffuse")]);
     assert_eq!(report["mistakes"][0], "no-varnish", "{report:#}");
+}
+
+#[test]
+fn a_solution_that_real_opengl_refuses_is_told() {
+    let written = Written::from(&["ripples.vert"]);
+    let path = written.folder().join("solution.vert");
+    let text = fs::read_to_string(&path).unwrap();
+    // glslang makes a float of it in every version; drivers do so from 4.20 on.
+    fs::write(&path, text.replacen("void main", "float one() { return 1; }\nvoid main", 1)).unwrap();
+    let check = || {
+        let mut command = ggrade();
+        command.args(["assignment", "check", "--lang", "en"]).arg(written.folder());
+        command
+    };
+    let refused = check().output().unwrap();
+    let said = String::from_utf8(refused.stdout).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("refuses the solution") && said.contains("`one' returning float"), "{said}");
+    // Without a driver nothing is held against it, and it says so.
+    let without = check().env("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere").output().unwrap();
+    let said = String::from_utf8(without.stdout).unwrap();
+    assert_eq!(without.status.code(), Some(0), "{said}");
+    assert!(said.contains("not held against real OpenGL") && said.contains("apt-get install libegl1"), "{said}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Fragment shaders: each pixel of a small window, as floats.
 #![allow(unsafe_code, reason = "OpenGL is a C library")]
 
-use super::driver::Driver;
+use super::driver::Recorder;
 use super::{Matrix, Rejection};
 use glow::HasContext;
 
@@ -29,7 +29,7 @@ pub struct Given<'a> {
 const VERTEX: &str = "#version 410\nvoid main() {\n  \
                       gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n}\n";
 
-impl Driver {
+impl Recorder {
     /// What the shader's only output is for each pixel of a square window, rows from below; `untouched` where it is
     /// thrown away.
     pub fn shade(
@@ -43,7 +43,7 @@ impl Driver {
         let gl = self.gl();
         self.set_uniforms(program, given.matrices);
         let mut pixels = vec![[0.0_f32; 4]; side * side];
-        // SAFETY: see the head of `driver.rs`. Each picture has the size that is told with it, and the slice that is
+        // SAFETY: see `src/ffi/opengl.rs`. Each picture has the size that is told with it, and the slice that is
         // read into has 16 bytes for each pixel.
         unsafe {
             let target = self.texture(&Texels {
@@ -84,13 +84,13 @@ impl Driver {
     }
 
     /// A texture, bound to the unit that is active.
-    pub(super) fn texture(&self, from: &Texels) -> glow::Texture {
+    fn texture(&self, from: &Texels) -> glow::Texture {
         let gl = self.gl();
         let [width, height] = [from.width, from.height].map(|side| i32::try_from(side).expect("a side"));
         assert_eq!(from.texels.len(), from.width * from.height, "a texel for each place");
         let filter = if from.is_linear { glow::LINEAR } else { glow::NEAREST };
         let wrap = if from.repeats { glow::REPEAT } else { glow::CLAMP_TO_EDGE };
-        // SAFETY: see the head of `driver.rs`. The slice holds 16 bytes for each texel of the size that is told.
+        // SAFETY: see `src/ffi/opengl.rs`. The slice holds 16 bytes for each texel of the size that is told.
         unsafe {
             let texture = gl.create_texture().expect("a texture");
             gl.bind_texture(glow::TEXTURE_2D, Some(texture));

@@ -5,17 +5,13 @@
 //! 8 bits a channel without sRGB encoding. Nothing here shares code with what the tests hold against it.
 #![allow(dead_code, reason = "every test binary that includes this module uses a part of it")]
 
-mod context;
 mod driver;
 mod fragments;
-mod scenes;
-mod textures;
 
-pub use context::Version;
-use driver::{Driver, Linked};
+use driver::Recorder;
 pub use fragments::{Given, Texels};
-pub use scenes::{Draw, Kind, Window};
-use textures::Upload;
+use ggrade::ffi::opengl::LinkedProgram;
+pub use ggrade::ffi::opengl::{Draw, Driver, Kind, Rejection, Version, Window};
 
 /// One 4 × 4 matrix, column after column.
 pub type Matrix = [f32; 16];
@@ -63,41 +59,12 @@ pub struct Vertex {
     pub position: [f32; 4],
 }
 
-/// Who refused a shader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// The compiler, while reading a shader.
-    Compile,
-    /// The linker, while joining it with the fragment shader.
-    Link,
-}
-
-/// The driver refuses the shader.
-#[derive(Clone, Debug)]
-pub struct Rejection {
-    /// Who refuses it.
-    pub stage: Stage,
-    /// The driver's log.
-    pub log: String,
-}
-
-impl Rejection {
-    /// The line, from 1, of the first error of the log; `#line` directives count. The linker names none, nor
-    /// does the compiler for a recursion.
-    pub fn line(&self) -> Option<u32> {
-        self.log.lines().filter(|line| line.contains("error")).find_map(|line| {
-            let (_, rest) = line.split_once(':')?;
-            rest.split_once('(')?.0.parse().ok().filter(|&line| line > 0)
-        })
-    }
-}
-
 /// A vertex shader that the driver accepted and linked.
 pub struct Program<'gl> {
     gl: &'gl OpenGl,
-    drawing: Linked,
+    drawing: LinkedProgram,
     /// The same shader with its outputs recorded, or why the driver cannot record them.
-    recording: Result<Linked, String>,
+    recording: Result<LinkedProgram, String>,
 }
 
 impl Drop for Program<'_> {
@@ -111,7 +78,7 @@ impl Drop for Program<'_> {
 
 /// An OpenGL context, current in the thread that made it.
 pub struct OpenGl {
-    driver: Driver,
+    driver: Recorder,
 }
 
 impl OpenGl {
@@ -128,7 +95,7 @@ impl OpenGl {
     /// # Errors
     /// As for [`OpenGl::new`]; and when the process has started the driver with another version before.
     pub fn with_version(version: Version) -> Result<Self, String> {
-        Ok(Self { driver: Driver::start(version)? })
+        Ok(Self { driver: Recorder(Driver::start(version)?) })
     }
 
     /// The driver's name and version, for reports.
@@ -164,19 +131,9 @@ impl OpenGl {
         self.driver.shade(fragment, given, side, untouched)
     }
 
-    /// Draws a scene; the outputs from location 0 on, each as rows from below.
-    ///
-    /// # Errors
-    /// The driver refuses the program.
-    pub fn scene(
-        &self,
-        texts: [&str; 2],
-        draws: &[Draw],
-        textures: &[(&str, impl Upload)],
-        window: Window,
-        outputs: u32,
-    ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {
-        self.driver.scene(texts, draws, textures, window, outputs)
+    /// The driver, for whole scenes.
+    pub fn driver(&self) -> &Driver {
+        &self.driver
     }
 
     /// Draws one pose.

@@ -1,5 +1,7 @@
 //! `ggrade assignment check`: whether a folder is a homework that grades.
 
+#[cfg(feature = "opengl")]
+mod opengl;
 mod shows;
 mod texts;
 
@@ -51,6 +53,11 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
     let solution = grade(&grade::solution(&assignment), "solution")?;
     let took = begin.elapsed();
     let mut is_whole = say_solution(said, &solution);
+    #[cfg(feature = "opengl")]
+    let is_drawn_alike = opengl::say(said, &arguments.assignment);
+    #[cfg(not(feature = "opengl"))]
+    let is_drawn_alike = say_no_opengl(said);
+    is_whole &= is_drawn_alike;
     say_time(said, took, Settings::new(Arc::clone(&assignment)).deadline);
     is_whole &= say_starter(said, &grade(&grade::handed_out(&assignment), "handed-out")?);
     is_whole &= shows::say(said, &assignment, &album)?;
@@ -77,6 +84,16 @@ fn say_solution(said: Said, report: &Report) -> bool {
             scored.en
         ),
         format!("{}。インタープリターとドライバーの差は、検査点 {probes} 点で最大 {apart:.1e}、画像 {frames} 枚で最大 {steps}/255", scored.ja),
+    ));
+    true
+}
+
+/// Says that this build has no OpenGL, which is no error of the homework.
+#[cfg(not(feature = "opengl"))]
+fn say_no_opengl(said: Said) -> bool {
+    said.note(&Text::new(
+        "the solution was not held against real OpenGL: this ggrade is built without the feature `opengl`",
+        "本物の OpenGL とは比べていません: この ggrade は機能 `opengl` なしでビルドされています",
     ));
     true
 }

@@ -2,8 +2,8 @@
 
 use super::{MAX_TURNS, Meter};
 use crate::diagnostic::{Diagnostic, Stage};
+use crate::ffi::glslang::Stage as GlslStage;
 use crate::language::Text;
-use crate::translate::glslang::Stage as GlslStage;
 
 /// What a student is told whose loops ran out of fuel.
 pub(in crate::translate) fn out_of_fuel(meters: &[Meter], ran_out: u32, stage: GlslStage) -> Diagnostic {

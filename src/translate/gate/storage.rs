@@ -5,10 +5,10 @@
 
 use super::bounds::{MAX_SCALARS, MAX_UNIFORM_BYTES, too_many_uniforms, too_much_memory};
 use crate::diagnostic::{Diagnostic, Stage};
+use crate::ffi::glslang::Stage as GlslStage;
 use crate::language::Text;
 use crate::source::Source;
 use crate::translate::Refusal;
-use crate::translate::glslang::Stage as GlslStage;
 use crate::translate::interface::place;
 use crate::translate::spirv::{Instruction, instructions, op, text};
 use std::collections::{HashMap, HashSet};

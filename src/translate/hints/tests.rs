@@ -5,7 +5,7 @@ mod link;
 mod robustness;
 
 use crate::diagnostic::Diagnostic;
-use crate::translate::glslang::{self, CompilerOutput, Request, Rules, Stage, StageText};
+use crate::ffi::glslang::{self, CompilerOutput, Request, Rules, Stage, StageText};
 use crate::translate::hints::overlooked_errors;
 use crate::translate::log::{link_diagnostics, stage_diagnostics};
 use crate::translate::{Interface, Variable};

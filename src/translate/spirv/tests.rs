@@ -2,7 +2,7 @@
 
 use super::code::{Code, Instruction};
 use super::{How, Reworked, Unworkable, op, op::storage, rework};
-use crate::translate::glslang::{self, Reached, Request, Rules, Stage, StageText};
+use crate::ffi::glslang::{self, Reached, Request, Rules, Stage, StageText};
 use std::collections::HashSet;
 use std::ffi::CString;
 

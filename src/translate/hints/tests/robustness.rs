@@ -2,14 +2,14 @@
 
 use super::{RIGHT, diagnostics, interface, outcome};
 use crate::diagnostic::Severity;
-use crate::translate::glslang::Reached;
+use crate::ffi::glslang::Reached;
 use crate::translate::hints::tokens::tokens;
 
 fn check(text: &str) {
     let outcome = outcome(text, &interface());
     // A continued line or a `;` too many alone is no reason: real drivers take it.
     let taken = |log: &str| log.contains("line continuation") || log.contains("extraneous semicolon");
-    let refused = outcome.reached != Reached::Done && !taken(outcome.log(crate::translate::glslang::Stage::Vertex));
+    let refused = outcome.reached != Reached::Done && !taken(outcome.log(crate::ffi::glslang::Stage::Vertex));
     let all = diagnostics(text);
     let is_error = |severity| severity == Severity::Error;
     assert!(!refused || all.iter().any(|one| is_error(one.severity)), "nothing is said about\n{text}");

@@ -1,7 +1,7 @@
 //! The functions that look-ups become: what the compiler makes of `textures.glsl`, put into a module.
 
 use super::{Alike, OURS, TEXTURES};
-use crate::translate::glslang::{Reached, Request, Rules, Stage, StageText, compile};
+use crate::ffi::glslang::{Reached, Request, Rules, Stage, StageText, compile};
 use crate::translate::spirv::code::{Code, Instruction};
 use crate::translate::spirv::op::{self, decoration, storage};
 use std::collections::HashMap;

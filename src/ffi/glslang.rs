@@ -2,7 +2,6 @@
 //!
 //! Source text is handed over as "preprocessed" code: the parser runs the preprocessor itself, so
 //! that line *and* column of a message are those of the student's own text, and one pass is saved.
-#![allow(unsafe_code)]
 
 use glslang_sys as sys;
 pub use reference::interpreter::Stage;
@@ -142,7 +141,7 @@ struct Shader {
 impl Shader {
     fn new(rules: Rules, text: &StageText<'_>) -> Self {
         let code: CString = text.text.to_owned();
-        let resource = Box::new(super::limits::desktop());
+        let resource = Box::new(crate::translate::limits::desktop());
         let spirv = rules == Rules::SpirV;
         let input = Box::new(sys::glslang_input_t {
             language: sys::glslang_source_t::GLSL,

@@ -1,5 +1,4 @@
 //! An OpenGL context without a display, made by EGL.
-#![allow(unsafe_code, reason = "EGL is a C library")]
 
 use glow::HasContext;
 use khronos_egl as egl;

@@ -1,29 +1,16 @@
 //! The textures of a homework, set up as a host program does.
-#![allow(unsafe_code, reason = "OpenGL is a C library")]
 
-use super::driver::Driver;
-use super::fragments::Texels;
+use super::Driver;
 use glow::HasContext;
 use reference::interpreter::{Compare, Dimension, Filter, Texels as Kept, Texture, Wrap};
 
-/// What can be bound to a unit.
-pub trait Upload {
+impl Driver {
     /// A texture, bound to the unit that is active.
-    fn upload(&self, driver: &Driver) -> glow::Texture;
-}
-
-impl Upload for Texels {
-    fn upload(&self, driver: &Driver) -> glow::Texture {
-        driver.texture(self)
-    }
-}
-
-impl Upload for Texture {
-    fn upload(&self, driver: &Driver) -> glow::Texture {
-        let gl = driver.gl();
-        let level = &self.levels[0];
+    pub(super) fn upload(&self, texture: &Texture) -> glow::Texture {
+        let gl = self.gl();
+        let level = &texture.levels[0];
         let [width, height, _] = level.size.map(|side| i32::try_from(side).expect("a side"));
-        let is_cube = self.dimension == Dimension::Cube;
+        let is_cube = texture.dimension == Dimension::Cube;
         let target = if is_cube { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D };
         let floats: Vec<[f32; 4]>;
         let (format, kind, texels): (_, _, &[u8]) = match &level.texels {
@@ -52,23 +39,22 @@ impl Upload for Texture {
             Wrap::ClampToEdge => glow::CLAMP_TO_EDGE,
             Wrap::ClampToBorder => glow::CLAMP_TO_BORDER,
         };
-        let filter = if self.magnify == Filter::Linear { glow::LINEAR } else { glow::NEAREST };
-        // SAFETY: see the head of `driver.rs`. Each slice holds the texels of a face.
+        let filter = if texture.magnify == Filter::Linear { glow::LINEAR } else { glow::NEAREST };
+        // SAFETY: see the head of `opengl.rs`. Each slice holds the texels of a face.
         unsafe {
-            let texture = gl.create_texture().expect("a texture");
-            gl.bind_texture(target, Some(texture));
+            let name = gl.create_texture().expect("a texture");
+            gl.bind_texture(target, Some(name));
             for (face, texels) in (0..).zip(texels.chunks_exact(texels.len() / faces)) {
                 let target = if is_cube { glow::TEXTURE_CUBE_MAP_POSITIVE_X + face } else { target };
                 let texels = glow::PixelUnpackData::Slice(Some(texels));
                 gl.tex_image_2d(target, 0, format.cast_signed(), width, height, 0, channels, kind, texels);
             }
-            if self.compare.is_some() {
-                assert_eq!(self.compare, Some(Compare::LessOrEqual), "another comparison is in no homework");
+            if let Some(compare) = texture.compare {
                 let mode = glow::COMPARE_REF_TO_TEXTURE.cast_signed();
                 gl.tex_parameter_i32(target, glow::TEXTURE_COMPARE_MODE, mode);
-                gl.tex_parameter_i32(target, glow::TEXTURE_COMPARE_FUNC, glow::LEQUAL.cast_signed());
+                gl.tex_parameter_i32(target, glow::TEXTURE_COMPARE_FUNC, function(compare).cast_signed());
             }
-            let [s, t, r] = self.wrap.map(wrap);
+            let [s, t, r] = texture.wrap.map(wrap);
             let parameters = [
                 (glow::TEXTURE_MIN_FILTER, filter),
                 (glow::TEXTURE_MAG_FILTER, filter),
@@ -79,9 +65,22 @@ impl Upload for Texture {
             for (name, value) in parameters {
                 gl.tex_parameter_i32(target, name, value.cast_signed());
             }
-            gl.tex_parameter_f32_slice(target, glow::TEXTURE_BORDER_COLOR, &self.border.map(|number| number as f32));
-            driver.check("set up a texture");
-            texture
+            gl.tex_parameter_f32_slice(target, glow::TEXTURE_BORDER_COLOR, &texture.border.map(|number| number as f32));
+            self.check("set up a texture");
+            name
         }
+    }
+}
+
+fn function(compare: Compare) -> u32 {
+    match compare {
+        Compare::Never => glow::NEVER,
+        Compare::Less => glow::LESS,
+        Compare::Equal => glow::EQUAL,
+        Compare::LessOrEqual => glow::LEQUAL,
+        Compare::Greater => glow::GREATER,
+        Compare::NotEqual => glow::NOTEQUAL,
+        Compare::GreaterOrEqual => glow::GEQUAL,
+        Compare::Always => glow::ALWAYS,
     }
 }

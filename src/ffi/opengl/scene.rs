@@ -1,53 +1,70 @@
 //! Whole draws: meshes with attributes and uniforms of any type, depth test and culling, several outputs.
-#![allow(unsafe_code, reason = "OpenGL is a C library")]
 
-use super::Rejection;
-use super::driver::{Driver, Linked};
-use super::textures::Upload;
+use super::{Driver, LinkedProgram, Rejection};
 use glow::HasContext;
+use reference::interpreter::Texture;
+use reference::scene::{Cull, DepthTest};
 
 /// A scalar, vector or matrix: what its components are, and how many there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
+    /// Floats.
     Float(u8),
+    /// Signed integers.
     Int(u8),
+    /// Unsigned integers.
     Uint(u8),
+    /// Truth values.
     Bool(u8),
     /// Columns and rows.
     Matrix(u8, u8),
 }
 
 /// A uniform by path, column after column.
-pub type Uniform = (String, Kind, Vec<f64>);
+pub type UniformValue = (String, Kind, Vec<f64>);
 
 /// One draw.
 #[derive(Clone, Debug, Default)]
 pub struct Draw {
-    pub uniforms: Vec<Uniform>,
+    /// What its uniforms are.
+    pub uniforms: Vec<UniformValue>,
     /// By name: the type, and number after number.
     pub attributes: Vec<(String, Kind, Vec<f64>)>,
+    /// The vertices of each triangle; without any, three consecutive vertices are one.
     pub triangles: Vec<[u32; 3]>,
-    pub tests_depth: bool,
-    pub culls_back: bool,
+    /// Which pixels are drawn over others; all without it.
+    pub depth_test: Option<DepthTest>,
+    /// Which triangles are left out.
+    pub cull: Cull,
 }
 
 /// Where it is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
+    /// Pixels of a row.
     pub width: usize,
+    /// Rows.
     pub height: usize,
+    /// The colour that it is cleared to.
     pub background: [f32; 4],
     /// 32 bits a channel, or 8.
     pub is_float: bool,
 }
 
 impl Driver {
-    /// The outputs at locations 0 to `outputs` - 1 after the draws, each as rows from below.
+    /// The outputs at locations 0 to `outputs` - 1 after the draws, each as rows from below. Textures are bound to units in
+    /// their order; one without a name is told by a uniform that is the number of its unit.
+    ///
+    /// # Errors
+    /// The driver refuses the program.
+    ///
+    /// # Panics
+    /// A triangle has a corner without a vertex, or OpenGL has no memory left.
     pub fn scene(
         &self,
         [vertex, fragment]: [&str; 2],
         draws: &[Draw],
-        textures: &[(&str, impl Upload)],
+        textures: &[(&str, &Texture)],
         window: Window,
         outputs: u32,
     ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {
@@ -55,7 +72,7 @@ impl Driver {
         let gl = self.gl();
         let [width, height] = [window.width, window.height].map(|side| i32::try_from(side).expect("a side"));
         let mut pictures = Vec::new();
-        // SAFETY: see the head of `driver.rs`. Each slice that is read into has 16 bytes for each pixel, and no corner
+        // SAFETY: see the head of `opengl.rs`. Each slice that is read into has 16 bytes for each pixel, and no corner
         // names a vertex that the buffers do not have.
         unsafe {
             let framebuffer = gl.create_framebuffer().expect("a framebuffer");
@@ -80,9 +97,9 @@ impl Driver {
             gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
             gl.use_program(Some(program.name()));
             let mut bound = Vec::new();
-            for (unit, (name, texels)) in (0..).zip(textures) {
+            for (unit, (name, texture)) in (0..).zip(textures) {
                 gl.active_texture(glow::TEXTURE0 + unit);
-                bound.push(texels.upload(self));
+                bound.push(self.upload(texture));
                 gl.uniform_1_i32(gl.get_uniform_location(program.name(), name).as_ref(), unit.cast_signed());
             }
             for draw in draws {
@@ -105,7 +122,7 @@ impl Driver {
         Ok(pictures)
     }
 
-    fn draw_scene(&self, program: Linked, draw: &Draw) {
+    fn draw_scene(&self, program: LinkedProgram, draw: &Draw) {
         let gl = self.gl();
         let count = draw.attributes.first().map_or(0, |(_, kind, numbers)| numbers.len() / components(*kind));
         let given = !draw.triangles.is_empty();
@@ -136,8 +153,10 @@ impl Driver {
             gl.buffer_data_u8_slice(glow::ELEMENT_ARRAY_BUFFER, bytemuck::cast_slice(&corners), glow::STATIC_DRAW);
             let blocks = self.set_values(program, &draw.uniforms);
             let switch = |what, on: bool| if on { gl.enable(what) } else { gl.disable(what) };
-            switch(glow::DEPTH_TEST, draw.tests_depth);
-            switch(glow::CULL_FACE, draw.culls_back);
+            switch(glow::DEPTH_TEST, draw.depth_test.is_some());
+            gl.depth_func(if draw.depth_test == Some(DepthTest::LessEqual) { glow::LEQUAL } else { glow::LESS });
+            switch(glow::CULL_FACE, draw.cull != Cull::None);
+            gl.cull_face(if draw.cull == Cull::Front { glow::FRONT } else { glow::BACK });
             let corners = i32::try_from(corners.len()).expect("a count");
             gl.draw_elements(glow::TRIANGLES, corners, glow::UNSIGNED_INT, 0);
             switch(glow::DEPTH_TEST, false);
@@ -149,7 +168,7 @@ impl Driver {
     }
 
     /// Sets uniforms by path, those of blocks as well; gives the buffers of the blocks.
-    fn set_values(&self, program: Linked, uniforms: &[Uniform]) -> Vec<glow::Buffer> {
+    fn set_values(&self, program: LinkedProgram, uniforms: &[UniformValue]) -> Vec<glow::Buffer> {
         let gl = self.gl();
         let name = program.name();
         let mut blocks: Vec<Vec<u8>> = Vec::new();
@@ -220,8 +239,12 @@ impl Driver {
                 Kind::Matrix(2, 2) => gl.uniform_matrix_2_f32_slice(at, false, &floats),
                 Kind::Matrix(3, 3) => gl.uniform_matrix_3_f32_slice(at, false, &floats),
                 Kind::Matrix(4, 4) => gl.uniform_matrix_4_f32_slice(at, false, &floats),
+                Kind::Matrix(2, 3) => gl.uniform_matrix_2x3_f32_slice(at, false, &floats),
+                Kind::Matrix(2, _) => gl.uniform_matrix_2x4_f32_slice(at, false, &floats),
                 Kind::Matrix(3, 2) => gl.uniform_matrix_3x2_f32_slice(at, false, &floats),
-                Kind::Matrix(..) => panic!("no test has such a matrix"),
+                Kind::Matrix(3, _) => gl.uniform_matrix_3x4_f32_slice(at, false, &floats),
+                Kind::Matrix(_, 2) => gl.uniform_matrix_4x2_f32_slice(at, false, &floats),
+                Kind::Matrix(..) => gl.uniform_matrix_4x3_f32_slice(at, false, &floats),
             }
         }
     }

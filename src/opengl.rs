@@ -1,0 +1,137 @@
+//! What the machine's own OpenGL driver draws of a homework: a third opinion, beside the interpreter's and wgpu's.
+
+use crate::ffi::opengl::{Draw, Driver, Kind, Rejection, Version, Window};
+use crate::render::{Batch, Scene};
+use reference::assignment::{HandedIn, Stage};
+use reference::interpreter::{Scalar, Texture, Type};
+use reference::rasteriser::{Coverage, Frame};
+use reference::{Assignment, Value};
+use serde::{Deserialize, Serialize};
+
+/// Largest difference of a channel, in 1/255, between a driver in f32 and the reference in f64: rounding at .5, and the driver's
+/// own rounding while it interpolates. Of 28 homeworks no judged pixel differs by more than 2.
+pub const REFERENCE_TOLERANCE: u8 = 2;
+
+/// How far OpenGL agrees with the reference about the solution.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Agreement {
+    /// The driver.
+    pub renderer: String,
+    /// Why the driver refuses the solution.
+    pub refusal: Option<String>,
+    /// The frames, in the order of all poses.
+    pub frames: Vec<FrameAgreement>,
+}
+
+/// The same for one frame.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct FrameAgreement {
+    /// Pixels that are judged.
+    pub judged: usize,
+    /// How many of them differ by more than [`REFERENCE_TOLERANCE`].
+    pub differing: usize,
+}
+
+/// Holds the solution's frames against the reference's.
+///
+/// # Errors
+/// There is no OpenGL driver: what to install.
+pub fn agreement(assignment: &Assignment) -> Result<Agreement, String> {
+    let driver = Driver::start(Version::Raised460)?;
+    let scene = Scene::of(assignment, &[]);
+    let texts = texts(assignment, |file| &file.solution.text);
+    let mut agreement = Agreement { renderer: driver.renderer(), refusal: None, frames: Vec::new() };
+    for (index, right) in assignment.frames().into_iter().enumerate() {
+        match frame(&driver, assignment, &scene, texts, index) {
+            Ok(drawn) => {
+                let judged = right.coverage.iter().filter(|coverage| **coverage != Coverage::Silhouette).count();
+                agreement.frames.push(FrameAgreement { judged, differing: disagreeing(&right, &drawn) });
+            }
+            Err(rejection) => {
+                agreement.refusal = Some(rejection.log);
+                break;
+            }
+        }
+    }
+    Ok(agreement)
+}
+
+/// The text of each stage, vertex before fragment; of those that are handed in it is what `handed_in` gives.
+///
+/// # Panics
+/// The homework has no such stage. Reading its folder has made sure that it has.
+pub fn texts<'a>(assignment: &'a Assignment, handed_in: impl Fn(&'a HandedIn) -> &'a str) -> [&'a str; 2] {
+    [Stage::Vertex, Stage::Fragment].map(|wanted| {
+        let handed_in = assignment.files.iter().map(|file| (file.stage, handed_in(file)));
+        let fixed = assignment.fixed.iter().map(|fixed| (fixed.stage, fixed.text.as_str()));
+        handed_in.chain(fixed).find(|(stage, _)| *stage == wanted).map(|(_, text)| text).expect("a stage")
+    })
+}
+
+/// One frame as OpenGL draws it: 8 bits a channel, rows from above.
+///
+/// # Errors
+/// The driver refuses the program.
+pub fn frame(
+    driver: &Driver,
+    assignment: &Assignment,
+    scene: &Scene,
+    texts: [&str; 2],
+    frame: usize,
+) -> Result<Vec<[u8; 4]>, Rejection> {
+    let (width, height) = (scene.width as usize, scene.height as usize);
+    let background = scene.background.map(|channel| f32::from(channel) / 255.0);
+    let window = Window { width, height, background, is_float: false };
+    // A host program compares with the depths of a texture for a sampler that does, and for no other.
+    let is_compared = |unit: usize| {
+        let uniforms = scene.frames[frame].iter().flat_map(|batch| &batch.uniforms);
+        let mut samplers = uniforms.filter(|(_, value)| value.numbers().first() == Some(&(unit as f64)));
+        samplers.any(|(_, value)| matches!(value.kind(), Type::Sampler(sampler) if sampler.shadow))
+    };
+    let texture = |(unit, texture): (usize, &Texture)| Texture {
+        compare: texture.compare.filter(|_| is_compared(unit)),
+        ..texture.clone()
+    };
+    let textures: Vec<Texture> = assignment.textures.iter().enumerate().map(texture).collect();
+    let textures: Vec<(&str, &Texture)> = textures.iter().map(|texture| ("", texture)).collect();
+    let draws: Vec<Draw> = scene.frames[frame].iter().map(draw).collect();
+    let drawn = driver.scene(texts, &draws, &textures, window, 1)?.remove(0);
+    let rows = drawn.chunks_exact(width).rev().flatten();
+    Ok(rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect())
+}
+
+/// How many pixels of a right frame that are judged are not what OpenGL draws.
+pub fn disagreeing(right: &Frame, drawn: &[[u8; 4]]) -> usize {
+    let pixels = right.coverage.iter().zip(&right.pixels).zip(drawn);
+    let is_off = |right: [u8; 4], drawn: [u8; 4]| {
+        (0..3).any(|channel| right[channel].abs_diff(drawn[channel]) > REFERENCE_TOLERANCE)
+    };
+    pixels.filter(|((coverage, right), drawn)| **coverage != Coverage::Silhouette && is_off(**right, **drawn)).count()
+}
+
+fn draw(batch: &Batch) -> Draw {
+    let uniform = |(path, value): &(String, Value)| (path.clone(), kind(value.kind()), value.numbers().to_vec());
+    Draw {
+        uniforms: batch.uniforms.iter().map(uniform).collect(),
+        attributes: batch
+            .attributes
+            .iter()
+            .map(|(name, values)| (name.clone(), kind(&values.kind), values.numbers.clone()))
+            .collect(),
+        triangles: batch.triangles.clone(),
+        depth_test: batch.state.depth_test,
+        cull: batch.state.cull,
+    }
+}
+
+fn kind(kind: &Type) -> Kind {
+    match kind {
+        Type::Vector(Scalar::Float, size) => Kind::Float(*size),
+        Type::Vector(Scalar::Uint, size) => Kind::Uint(*size),
+        Type::Vector(Scalar::Bool, size) => Kind::Bool(*size),
+        Type::Vector(_, size) => Kind::Int(*size),
+        Type::Matrix(_, columns, rows) => Kind::Matrix(*columns, *rows),
+        // The number of a texture is that of its unit.
+        _ => Kind::Int(1),
+    }
+}
