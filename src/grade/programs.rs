@@ -11,7 +11,7 @@ use crate::language::Text;
 use crate::render::{Captured, Pixel, Rendering, Sample, Scene};
 use crate::report::{SourceInfo, Verdict};
 use crate::source::{self, Source};
-use crate::translate::{Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
+use crate::translate::{self, Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
 use reference::probes::ProbeSet;
@@ -145,12 +145,25 @@ fn overlooked(assignment: &Assignment, sources: &[(Stage, &Source)], linked: &Li
         );
         found.push(Diagnostic::warning(Speaker::Run, message));
     }
+    let unwritten = linked.vertex.outputs.iter().filter(|output| !linked.vertex.is_fixed && !output.is_used);
+    let mut unwritten: Vec<&str> = unwritten.map(|output| root(&output.name)).collect();
+    unwritten.dedup();
+    if let Some((_, source)) = sources.iter().find(|(stage, _)| *stage == Stage::Vertex) {
+        found.extend(unwritten.into_iter().map(|name| {
+            let message = Text::new(
+                format!("`{name}` is given no value here, and the fragment shader reads it."),
+                format!("`{name}` に値が代入されていませんが、フラグメントシェーダはこれを読みます。"),
+            );
+            let warning = translate::place(Diagnostic::warning(Speaker::Run, message), source, name);
+            Diagnostic { file: Some(source.facts.name.clone()), ..warning }
+        }));
+    }
     let of_stage = |stage: &Stage| match stage {
         Stage::Vertex => assignment.pipeline.vertex.uniforms(),
         Stage::Fragment => assignment.pipeline.fragment.uniforms(),
     };
     let read = sources.iter().flat_map(|(stage, _)| of_stage(stage));
-    let roots = read.map(|uniform| uniform.name.split(['.', '[']).next().unwrap_or_default());
+    let roots = read.map(|uniform| root(&uniform.name));
     let mut unread: Vec<&str> = roots.filter(|root| !is_named(root)).collect();
     unread.dedup();
     if !unread.is_empty() {
@@ -168,6 +181,11 @@ fn overlooked(assignment: &Assignment, sources: &[(Stage, &Source)], linked: &Li
         found.push(Diagnostic::warning(Speaker::Run, message));
     }
     found
+}
+
+/// The variable that a path begins with.
+fn root(path: &str) -> &str {
+    path.split(['.', '[']).next().unwrap_or_default()
 }
 
 fn no_program() -> Fault {

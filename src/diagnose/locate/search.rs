@@ -101,6 +101,7 @@ impl Points<'_> {
                 && event.lanes[0]
                 && event.values[0].len() == right[0].len()
                 && (handed_out || self.is_own(event))
+                && self.sites[event.site].function.is_some()
                 && !is_same(event, right)
         });
         let candidates: Vec<(usize, Change)> =
