@@ -149,14 +149,14 @@ impl CrossCheck {
 }
 
 /// What is said of one vertex, and its first value that differs.
-struct Judged {
+struct VertexOpinion {
     relation: Relation,
     message: Option<Text>,
 }
 
-fn judge(drawn: &Drawn<'_>, exact: &Outputs, single: &Outputs) -> Vec<Judged> {
+fn judge(drawn: &Drawn<'_>, exact: &Outputs, single: &Outputs) -> Vec<VertexOpinion> {
     let judge_one = |index: usize| {
-        let mut judged = Judged { relation: Relation::Agrees, message: None };
+        let mut judged = VertexOpinion { relation: Relation::Agrees, message: None };
         let is_discarded = exact.discarded[index];
         let agrees = drawn.discarded.get(index).is_none_or(|discarded| *discarded == is_discarded);
         for (name, values) in &drawn.outputs {
@@ -190,7 +190,7 @@ fn judge(drawn: &Drawn<'_>, exact: &Outputs, single: &Outputs) -> Vec<Judged> {
 }
 
 /// What noise in the last bits moves is no difference between driver and interpreter.
-fn settle(judged: &mut [Judged], drawn: &Drawn<'_>, exact: &Outputs, noisy: &Outputs) {
+fn settle(judged: &mut [VertexOpinion], drawn: &Drawn<'_>, exact: &Outputs, noisy: &Outputs) {
     for (index, one) in judged.iter_mut().enumerate().filter(|(_, one)| one.relation == Relation::Differs) {
         let moves = |name: &str| {
             let (Some(exact), Some(noisy)) = (exact.get(name), noisy.get(name)) else { return false };
@@ -205,12 +205,12 @@ fn settle(judged: &mut [Judged], drawn: &Drawn<'_>, exact: &Outputs, noisy: &Out
         let is_thrown_by_one = drawn.discarded.get(index).is_some_and(|discarded| *discarded != exact.discarded[index]);
         let is_moved = !is_thrown_by_one && drawn.outputs.iter().any(|(name, _)| moves(name));
         if is_moved || exact.discarded[index] != noisy.discarded[index] {
-            *one = Judged { relation: Relation::Unsettled, message: None };
+            *one = VertexOpinion { relation: Relation::Unsettled, message: None };
         }
     }
 }
 
-fn summed_up(judged: Vec<Judged>) -> CrossCheck {
+fn summed_up(judged: Vec<VertexOpinion>) -> CrossCheck {
     let count = |relation| judged.iter().filter(|one| one.relation == relation).count() as u32;
     let differing = count(Relation::Differs);
     CrossCheck {

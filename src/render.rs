@@ -21,5 +21,5 @@ pub use device::{AdapterKind, Device};
 pub use frames::{Frames, Met, Rendering, Sample};
 pub use pixels::Pixel;
 pub use renderer::{Captured, Renderer};
-pub use scene::{Batch, Scene, State};
+pub use scene::{Batch, DrawState, Scene};
 pub use tiles::Area;

@@ -19,7 +19,7 @@ pub use kind::fragment_shader;
 use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
-use comments::Comment;
+use comments::SourceComment;
 use reference::interpreter::Stage;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -61,7 +61,7 @@ pub struct Source {
     /// Warnings and notes: nothing that keeps the file from being graded.
     pub notes: Vec<Diagnostic>,
     code: String,
-    comments: Vec<Comment>,
+    comments: Vec<SourceComment>,
     line_starts: Vec<usize>,
 }
 

@@ -61,7 +61,7 @@ impl Folder {
 
     /// The files of a folder, without those that it extends.
     fn read_alone(root: &Path) -> Result<Self, AssignmentError> {
-        let mut reading = Reading { root, bytes: 0, files: BTreeMap::new() };
+        let mut reading = FolderReader { root, bytes: 0, files: BTreeMap::new() };
         reading.folder(root, "", 0)?;
         Ok(Self { files: reading.files })
     }
@@ -189,13 +189,13 @@ fn cannot_read(file: &str, e: &io::Error) -> AssignmentError {
 }
 
 /// A folder that is being read.
-struct Reading<'a> {
+struct FolderReader<'a> {
     root: &'a Path,
     bytes: u64,
     files: BTreeMap<String, Vec<u8>>,
 }
 
-impl Reading<'_> {
+impl FolderReader<'_> {
     fn folder(&mut self, folder: &Path, before: &str, depth: usize) -> Result<(), AssignmentError> {
         let unreadable = |e: io::Error| cannot_read(before.trim_end_matches('/'), &e);
         for entry in fs::read_dir(folder).map_err(unreadable)? {

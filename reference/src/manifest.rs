@@ -1,20 +1,26 @@
 //! `assignment.toml` as it is written: shapes only, nothing checked yet beyond them.
 
+mod advice;
+mod equation;
 mod gradual;
 mod interface;
 mod layers;
 mod mistake;
 mod pass;
+mod probes;
 mod scene;
 mod texture;
 mod toml_error;
 mod variant;
 
+pub use advice::{Advice, Circumstance};
+pub use equation::{Equation, SymbolMeaning, Term};
 pub use gradual::Gradual;
 pub use interface::{Free, Input, Uniform};
 pub use layers::{Layers, extended, line_of_extends, name_of_base};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
 pub use pass::Pass;
+pub use probes::{Design, Probes, Range, Region};
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
 pub use texture::{Format, Texture, Wraps};
 pub use variant::Variant;
@@ -123,84 +129,6 @@ pub struct Task {
     pub picture: Text,
 }
 
-/// A sum of terms, in LaTeX.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Equation {
-    /// Where it stands.
-    pub source: Text,
-    /// The symbol of the sum.
-    #[schemars(with = "String")]
-    pub total: Spanned<String>,
-    /// How the sum is made of the summands, each as the id of its line in braces; they are added, where nothing is written.
-    #[schemars(with = "Option<String>")]
-    pub sum: Option<Spanned<String>>,
-    /// The summands, in order.
-    pub term: Vec<Term>,
-    /// What the terms need.
-    #[serde(default, rename = "where")]
-    pub given: Vec<SymbolMeaning>,
-}
-
-/// A summand.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Term {
-    /// The rubric line that judges it.
-    pub line: String,
-    /// Its symbol in the sum.
-    #[schemars(with = "String")]
-    pub symbol: Spanned<String>,
-    /// What the symbol stands for.
-    #[schemars(with = "String")]
-    pub value: Spanned<String>,
-}
-
-/// What a symbol in the terms stands for.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SymbolMeaning {
-    /// The symbol.
-    #[schemars(with = "String")]
-    pub symbol: Spanned<String>,
-    /// What it stands for.
-    #[schemars(with = "String")]
-    pub value: Spanned<String>,
-    /// Where that stands.
-    pub source: Text,
-}
-
-/// Something to say of a right answer that would break elsewhere.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Advice {
-    /// Its id in reports.
-    pub id: String,
-    /// Where it breaks.
-    pub when: Circumstance,
-    /// The definitions that are likely to be at fault, the likeliest first.
-    pub about: Vec<String>,
-    /// Whether it is said only if one of these is what breaks.
-    #[serde(default)]
-    pub only_about: bool,
-    /// What would break, and where to look.
-    pub message: Text,
-}
-
-/// What is different from a probe of the homework.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Circumstance {
-    /// Vertex attribute → what its components are multiplied by.
-    #[serde(default)]
-    pub scaled: BTreeMap<String, [f64; 4]>,
-    /// By how much the model is stretched along its axes.
-    pub stretched: Option<[f64; 3]>,
-    /// Constant → another value.
-    #[serde(default)]
-    pub constants: BTreeMap<String, Vec<f64>>,
-}
-
 /// A file that is handed in.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -304,70 +232,6 @@ pub struct Definition {
     pub symbol: Option<String>,
     /// What it is, as a part of a sentence: `the cosine between N and L`.
     pub means: Option<Text>,
-}
-
-/// How probes are chosen. Without designs they lie near the vertices of what the scene draws.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Probes {
-    /// Number of cameras.
-    pub groups: usize,
-    /// Vertices for each of them.
-    pub per_group: usize,
-    /// Definition that is a direction in eye space; positions are placed at an angle from it, as it is at the eye.
-    pub axis: String,
-    /// Definition that is a direction in eye space; normals are placed at an angle from it.
-    pub lobe: String,
-    /// Constant to whose power the cosine of that angle is raised.
-    pub power: String,
-    /// What the vertices of a group show, one after the other.
-    pub design: Vec<Design>,
-    /// The solution, changed: some fragments lie where one of these shows something else.
-    #[schemars(with = "Vec<Variant>")]
-    pub reveal: Vec<Spanned<Variant>>,
-}
-
-impl Default for Probes {
-    fn default() -> Self {
-        let [axis, lobe, power] = Default::default();
-        Self { groups: 28, per_group: 20, axis, lobe, power, design: Vec::new(), reveal: Vec::new() }
-    }
-}
-
-/// A range of numbers.
-pub type Range = [f64; 2];
-
-/// Where a vertex lies and how its normal stands.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Design {
-    /// Angle at the eye between the axis and the direction from the vertex, in degrees.
-    pub angle: Range,
-    /// Distance from the eye.
-    pub distance: Range,
-    /// Cosine of the angle between the normal and the lobe; or else that, raised to the power:
-    pub cosine: Option<Range>,
-    /// Where the normal stands so that the cosine, raised to the power, is in this range.
-    pub raised: Option<Range>,
-    /// Definition → values that it may have.
-    #[serde(default)]
-    pub within: BTreeMap<String, Range>,
-}
-
-/// What a right answer shows at a probe.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Region {
-    /// Its name in this file.
-    pub id: String,
-    /// Where that is: a GLSL expression of type `bool` with the solution's definitions.
-    #[schemars(with = "String")]
-    pub when: Spanned<String>,
-    /// What is said of a place there.
-    pub seen: Text,
-    /// Whether a term that is nothing here shows if a clamp is missing.
-    #[serde(default)]
-    pub shows_clamps: bool,
 }
 
 /// A line of the rubric.

@@ -23,13 +23,13 @@ pub struct Changes {
     /// What this one was done with.
     pub after: Header,
     /// Who has more points, the largest gain first.
-    pub gains: Vec<Change>,
+    pub gains: Vec<StudentChange>,
     /// Who has fewer points, the largest loss first.
-    pub losses: Vec<Change>,
+    pub losses: Vec<StudentChange>,
     /// Who has the same points for other reasons.
-    pub otherwise: Vec<Change>,
+    pub otherwise: Vec<StudentChange>,
     /// Whom one of the gradings has no result for, by a fault of ggrade's or because there was nothing to grade.
-    pub unclear: Vec<Change>,
+    pub unclear: Vec<StudentChange>,
     /// How many are as they were.
     pub unchanged: usize,
     /// Who was not in the earlier grading.
@@ -40,7 +40,7 @@ pub struct Changes {
 
 /// One student's change.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Change {
+pub struct StudentChange {
     /// Who.
     pub student: Student,
     /// Whether another file was graded; else the same file was graded otherwise.
@@ -116,7 +116,7 @@ impl Changes {
 
     fn add(&mut self, record: &Record, entry: &Entry) {
         let (before, after) = (Grade::of(&record.outcome), Grade::of(&entry.outcome));
-        let change = Change {
+        let change = StudentChange {
             student: entry.student.clone(),
             is_new_file: record.sha256 != sha256(&entry.outcome),
             rubric: if before.is_drawn() && after.is_drawn() {
@@ -144,7 +144,7 @@ impl Changes {
     }
 }
 
-impl Change {
+impl StudentChange {
     /// How many points more there are.
     pub fn difference(&self) -> f64 {
         self.after.score.unwrap_or_default() - self.before.score.unwrap_or_default()

@@ -64,7 +64,7 @@ pub enum Format {
 pub const KEY: &str = "KEY";
 
 /// One format as a person chooses it.
-struct Row {
+struct FormatRow {
     format: Format,
     id: &'static str,
     files: &'static [&'static str],
@@ -78,12 +78,12 @@ const fn row(
     files: &'static [&'static str],
     en: &'static str,
     ja: &'static str,
-) -> Row {
-    Row { format, id, files, en, ja }
+) -> FormatRow {
+    FormatRow { format, id, files, en, ja }
 }
 
 /// In the order of the variants, which is the order in which help lists them.
-const TABLE: [Row; 12] = [
+const TABLE: [FormatRow; 12] = [
     row(
         Format::Html,
         "html",
@@ -171,7 +171,7 @@ const TABLE: [Row; 12] = [
 ];
 
 impl Format {
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static FormatRow {
         &TABLE[self as usize]
     }
 

@@ -142,7 +142,7 @@ pub fn some(given: Vec<HandInPart>, asked: usize, options: &Options) -> Result<V
 
 /// The files that are given, and those in the folders and archives among them, as those of one person.
 fn together(given: Vec<HandInPart>, options: &Options) -> Result<Group, Text> {
-    let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
+    let mut reading = IntakeReader { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut files = Vec::new();
     let mut is_named = true;
     for given in given {
@@ -175,7 +175,7 @@ fn is_archive(name: &str, bytes: &[u8]) -> bool {
 
 /// Reads inputs, each with what it is called.
 fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
-    let mut reading = Reading { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
+    let mut reading = IntakeReader { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut groups = Vec::new();
     let mut loose = Vec::new();
     for &(path, name) in inputs {
@@ -224,7 +224,7 @@ enum Input {
 }
 
 /// What goes on while everything is read.
-struct Reading<'a> {
+struct IntakeReader<'a> {
     options: &'a Options,
     budget: Budget,
     refused: Vec<Refused>,
@@ -232,7 +232,7 @@ struct Reading<'a> {
     untold: u64,
 }
 
-impl Reading<'_> {
+impl IntakeReader<'_> {
     fn input(&mut self, path: &Path, name: &str) -> Option<Input> {
         let metadata = match std::fs::metadata(path) {
             Ok(metadata) => metadata,

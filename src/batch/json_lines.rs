@@ -10,7 +10,7 @@ use serde::Serialize;
 pub const SCHEMA: &str = "ggrade/entry/v1";
 
 #[derive(Serialize)]
-struct Line<'a> {
+struct JsonLine<'a> {
     schema: &'static str,
     student: &'a Student,
     path: Option<String>,
@@ -29,7 +29,7 @@ pub fn line(entry: &Entry, language: Language) -> String {
         Outcome::NotGraded(why) => Some(why.get(language)),
         Outcome::Fault(fault) => Some(fault.message.get(language)),
     };
-    let line = Line {
+    let line = JsonLine {
         schema: SCHEMA,
         student: &entry.student,
         path: entry.path(),

@@ -209,19 +209,22 @@ impl Run<'_> {
         let members: Vec<&Candidate> = group.iter().map(|&index| &candidates[index]).collect();
         let first = members.first().and_then(|first| first.files());
         let Some((hand_in, pool)) = first.zip(self.pool) else {
-            return members.into_iter().map(|member| self.finish(member, &Judged::without(member.nothing()))).collect();
+            return members
+                .into_iter()
+                .map(|member| self.finish(member, &ShownFile::without(member.nothing())))
+                .collect();
         };
         let wants_frames = self.portraits.is_some() || self.pages.is_some();
         let assignment = pool.assignment();
         let mut answer = guarded(|| pool.grade(Submission { assignment, hand_in, order: self.order, wants_frames }));
         let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
-        let mut last: Option<Judged> = None;
+        let mut last: Option<ShownFile> = None;
         for member in members {
             let judged = match &mut answer {
                 Ok(answer) => guarded(|| self.show(answer, member, last.take())),
                 Err(fault) => Err(fault.clone()),
             };
-            let judged = judged.unwrap_or_else(|fault| Judged::without(Outcome::Fault(fault)));
+            let judged = judged.unwrap_or_else(|fault| ShownFile::without(Outcome::Fault(fault)));
             entries.push(self.finish(member, &judged)?);
             last = Some(judged);
         }
@@ -229,8 +232,13 @@ impl Run<'_> {
     }
 
     /// What is shown of one of the hand-ins that the answer is for; `last` is what was shown of the one before.
-    fn show(&self, answer: &mut GradedSubmission, member: &Candidate, last: Option<Judged>) -> Result<Judged, Fault> {
-        let Some(hand_in) = member.files() else { return Ok(Judged::without(member.nothing())) };
+    fn show(
+        &self,
+        answer: &mut GradedSubmission,
+        member: &Candidate,
+        last: Option<ShownFile>,
+    ) -> Result<ShownFile, Fault> {
+        let Some(hand_in) = member.files() else { return Ok(ShownFile::without(member.nothing())) };
         // Names, sizes and line ends are each one's own.
         let sources = grade::sources(self.assignment, hand_in);
         if let Some(last) = last
@@ -242,12 +250,12 @@ impl Run<'_> {
         let portrait = self.portraits.map(|portraits| portraits.of(&answer.frames)).transpose()?.flatten();
         let page =
             self.pages.map(|pages| pages.page(&answer.report, &member.sources, &mut answer.frames)).transpose()?;
-        Ok(Judged { outcome: Outcome::Graded(Box::new(answer.report.clone())), portrait, page })
+        Ok(ShownFile { outcome: Outcome::Graded(Box::new(answer.report.clone())), portrait, page })
     }
 
     /// Writes down what became of a hand-in.
-    fn finish(&self, member: &Candidate, judged: &Judged) -> Result<Entry, Fault> {
-        let Judged { outcome, portrait, page } = judged;
+    fn finish(&self, member: &Candidate, judged: &ShownFile) -> Result<Entry, Fault> {
+        let ShownFile { outcome, portrait, page } = judged;
         let key = &member.hand_in.student.key;
         if let Some(portrait) = portrait {
             self.folder.write(&portrait_file(key), portrait)?;
@@ -262,13 +270,13 @@ impl Run<'_> {
 }
 
 /// What is shown of a file.
-struct Judged {
+struct ShownFile {
     outcome: Outcome,
     portrait: Option<Vec<u8>>,
     page: Option<String>,
 }
 
-impl Judged {
+impl ShownFile {
     fn without(outcome: Outcome) -> Self {
         Self { outcome, portrait: None, page: None }
     }

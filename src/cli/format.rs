@@ -9,14 +9,14 @@ use std::sync::LazyLock;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// To be read as it is.
-    Reading(Reading),
+    Reading(ViewFormat),
     /// For an autograder or CI.
     Exchange(formats::Format),
 }
 
 /// The forms of a report that are read as they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Reading {
+pub enum ViewFormat {
     /// For a person at a terminal
     Text,
     /// One JSON object (schema ggrade/report/v1)
@@ -27,14 +27,14 @@ pub enum Reading {
 
 impl Default for Format {
     fn default() -> Self {
-        Self::Reading(Reading::Text)
+        Self::Reading(ViewFormat::Text)
     }
 }
 
 impl ValueEnum for Format {
     fn value_variants<'a>() -> &'a [Self] {
         static ALL: LazyLock<Vec<Format>> = LazyLock::new(|| {
-            let reading = Reading::value_variants().iter().copied().map(Format::Reading);
+            let reading = ViewFormat::value_variants().iter().copied().map(Format::Reading);
             reading.chain(exchange::FORMATS.map(Format::Exchange)).collect()
         });
         &ALL

@@ -16,7 +16,7 @@ use crate::choice;
 use crate::cli::{Batch, BatchAction, BatchCommand, Merge};
 use crate::fault::Fault;
 use crate::language::Text;
-use session::{Session, Wanted};
+use session::{ClassOutputs, Session};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -107,7 +107,7 @@ fn grade(
         language: header.language,
     };
     let hint = output::hint(&arguments.formats, given);
-    session.finish(&candidates, &class, &Wanted { formats: &formats, sheet: sheet.as_deref(), hint }, before)
+    session.finish(&candidates, &class, &ClassOutputs { formats: &formats, sheet: sheet.as_deref(), hint }, before)
 }
 
 /// How a graded class ends the program.

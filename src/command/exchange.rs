@@ -4,7 +4,7 @@
 //! is no file, and where ggrade itself fails.
 
 use super::files::{self, NotTaken};
-use super::grade::Wish;
+use super::grade::GradeRequest;
 use super::{ExitStatus, file_fault, grade, writing};
 use crate::batch::class::{Class, Entry, Outcome, Student};
 use crate::batch::formats::{Format, exchange, github, vpl};
@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Grades one hand-in and writes it in `format`.
-pub(super) fn run(wish: &Wish<'_>, format: Format) -> Result<ExitStatus, Fault> {
+pub(super) fn run(wish: &GradeRequest<'_>, format: Format) -> Result<ExitStatus, Fault> {
     let class = class(wish, format).for_students().into_owned();
     let variable = |name| std::env::var(name).ok();
     let scale = vpl::Scale::from_variables(variable("VPL_GRADEMIN").as_deref(), variable("VPL_GRADEMAX").as_deref());
@@ -34,8 +34,8 @@ pub(super) fn run(wish: &Wish<'_>, format: Format) -> Result<ExitStatus, Fault> 
 }
 
 /// The hand-in as a class of one.
-fn class(wish: &Wish<'_>, format: Format) -> Class {
-    let Wish { arguments, assignment, language, .. } = wish;
+fn class(wish: &GradeRequest<'_>, format: Format) -> Class {
+    let GradeRequest { arguments, assignment, language, .. } = wish;
     let name = files::names(&arguments.files);
     let mut entry = Entry {
         student: Student { key: "submission".into(), name: name.clone(), moodle: None },
@@ -62,8 +62,8 @@ fn class(wish: &Wish<'_>, format: Format) -> Class {
 }
 
 /// Grades the hand-in; what became of it where there is no report.
-fn fill(entry: &mut Entry, class: &mut Class, wish: &Wish<'_>, format: Format) -> Result<(), Outcome> {
-    let Wish { arguments, assignment, .. } = wish;
+fn fill(entry: &mut Entry, class: &mut Class, wish: &GradeRequest<'_>, format: Format) -> Result<(), Outcome> {
+    let GradeRequest { arguments, assignment, .. } = wish;
     let (hand_in, places) = files::taken(&arguments.files, assignment).map_err(|why| match &why {
         NotTaken::Unfit(why) => Outcome::NotGraded(why.clone()),
         NotTaken::Unreadable(path, error) => match error.kind() {

@@ -2,7 +2,7 @@
 
 use super::view::{ReportView, has_colour};
 use super::{ExitStatus, deadline, exchange, file_fault, files, language, warn, writing};
-use crate::cli::{Format, Grade, Reading};
+use crate::cli::{Format, Grade, ViewFormat};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
@@ -21,7 +21,7 @@ pub fn run(arguments: &Grade) -> Result<ExitStatus, Fault> {
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
     let asked = arguments.machine.assignment.as_deref();
     let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(ExitStatus::Usage) };
-    let wish = Wish { arguments, assignment, deadline, language };
+    let wish = GradeRequest { arguments, assignment, deadline, language };
     match arguments.format {
         Format::Reading(reading) => run_for_reading(&wish, reading),
         Format::Exchange(format) => exchange::run(&wish, format),
@@ -29,15 +29,15 @@ pub fn run(arguments: &Grade) -> Result<ExitStatus, Fault> {
 }
 
 /// What is to be graded, and how.
-pub(super) struct Wish<'a> {
+pub(super) struct GradeRequest<'a> {
     pub arguments: &'a Grade,
     pub assignment: Arc<Assignment>,
     pub deadline: Duration,
     pub language: Language,
 }
 
-fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<ExitStatus, Fault> {
-    let Wish { arguments, assignment, language, .. } = wish;
+fn run_for_reading(wish: &GradeRequest<'_>, reading: ViewFormat) -> Result<ExitStatus, Fault> {
+    let GradeRequest { arguments, assignment, language, .. } = wish;
     let language = *language;
     let hand_in = match files::taken(&arguments.files, assignment) {
         Ok((hand_in, _)) => hand_in,
@@ -46,7 +46,7 @@ fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<ExitStatus, Faul
             return Ok(ExitStatus::Nothing);
         }
     };
-    let wants_frames = arguments.frames.is_some() || reading == Reading::Html;
+    let wants_frames = arguments.frames.is_some() || reading == ViewFormat::Html;
     let GradedSubmission { report, frames } = grade(wish, &hand_in, wants_frames)?;
     let sources = hand_in.readable();
     let pictures = pictures(wish, &report, &sources, frames)?;
@@ -57,8 +57,8 @@ fn run_for_reading(wish: &Wish<'_>, reading: Reading) -> Result<ExitStatus, Faul
 }
 
 /// Grades a hand-in in a worker.
-pub(super) fn grade(wish: &Wish<'_>, hand_in: &HandIn, wants_frames: bool) -> Result<GradedSubmission, Fault> {
-    let Wish { arguments, assignment, deadline, language } = wish;
+pub(super) fn grade(wish: &GradeRequest<'_>, hand_in: &HandIn, wants_frames: bool) -> Result<GradedSubmission, Fault> {
+    let GradeRequest { arguments, assignment, deadline, language } = wish;
     let settings =
         Settings { adapter: arguments.machine.adapter, deadline: *deadline, ..Settings::new(Arc::clone(assignment)) };
     let pool = Pool::start(arguments.sandbox.apply(settings).for_one_grading(), 1)?;
@@ -70,7 +70,7 @@ pub(super) fn grade(wish: &Wish<'_>, hand_in: &HandIn, wants_frames: bool) -> Re
 
 /// The pictures, where any were drawn; written into the folder that was asked for.
 pub(super) fn pictures(
-    wish: &Wish<'_>,
+    wish: &GradeRequest<'_>,
     report: &Report,
     sources: &[Source],
     frames: Vec<Picture>,
@@ -78,7 +78,7 @@ pub(super) fn pictures(
     if frames.is_empty() {
         return Ok(None);
     }
-    let Wish { arguments, assignment, .. } = wish;
+    let GradeRequest { arguments, assignment, .. } = wish;
     let pictures = Pictures {
         yours: frames,
         expected: crate::pictures::expected_pictures(assignment),

@@ -1,7 +1,7 @@
 //! How a report is shown, whichever command shows it.
 
 use super::width;
-use crate::cli::Reading;
+use crate::cli::ViewFormat;
 use crate::excerpt;
 use crate::fault::Fault;
 use crate::language::Language;
@@ -27,10 +27,10 @@ pub(super) struct ReportView<'a> {
 
 impl ReportView<'_> {
     /// The report in a format.
-    pub fn document(&self, format: Reading, colour: bool) -> Result<String, Fault> {
+    pub fn document(&self, format: ViewFormat, colour: bool) -> Result<String, Fault> {
         match format {
-            Reading::Json => Ok(json::render(self.report, self.language)),
-            Reading::Html => Page {
+            ViewFormat::Json => Ok(json::render(self.report, self.language)),
+            ViewFormat::Html => Page {
                 assignment: self.assignment,
                 report: self.report,
                 sources: self.sources,
@@ -38,7 +38,7 @@ impl ReportView<'_> {
                 language: self.language,
             }
             .render(),
-            Reading::Text => {
+            ViewFormat::Text => {
                 let excerpts = excerpt::excerpt(self.sources, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,

@@ -11,7 +11,7 @@ use super::saves::{self, Save, Saves};
 use super::view::{ReportView, has_colour};
 use super::{ExitStatus, deadline, files, language, warn};
 use crate::batch::intake::{self, Content, Options};
-use crate::cli::{Reading, Watch};
+use crate::cli::{ViewFormat, Watch};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
@@ -119,7 +119,7 @@ impl Session {
         let assignment = self.pool.assignment();
         let view =
             ReportView { assignment, report: &report, sources: &sources, pictures: None, language: self.language };
-        match view.document(Reading::Text, has_colour()) {
+        match view.document(ViewFormat::Text, has_colour()) {
             Ok(document) => {
                 let change = self
                     .last

@@ -9,7 +9,7 @@ use std::io;
 
 /// Grades what the parent sends until it closes the pipe.
 pub fn run(arguments: &Worker) -> Result<ExitStatus, Fault> {
-    let job = worker::Job {
+    let job = worker::WorkerTask {
         adapter: arguments.adapter,
         limits: Limits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
         rehearsal: arguments.rehearse,
@@ -20,7 +20,7 @@ pub fn run(arguments: &Worker) -> Result<ExitStatus, Fault> {
     }
 }
 
-fn try_to_escape(job: worker::Job, attempt: Attempt) -> Result<ExitStatus, Fault> {
+fn try_to_escape(job: worker::WorkerTask, attempt: Attempt) -> Result<ExitStatus, Fault> {
     match worker::attempt(job, attempt).map_err(|error| broken(&error))? {
         Ok(()) => Ok(ExitStatus::Graded),
         Err(error) => {

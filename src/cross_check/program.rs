@@ -1,6 +1,6 @@
 //! The second opinion on a program with a fragment stage: what it shows at the probes.
 
-use super::{CrossCheck, Judged, Relation, TOLERANCE, summed_up};
+use super::{CrossCheck, Relation, TOLERANCE, VertexOpinion, summed_up};
 use crate::language::Text;
 use crate::render::Sample;
 use crate::source::Source;
@@ -56,7 +56,7 @@ pub fn check_program(
                 format!("フラグメント {number}: 色はドライバーでは {theirs}, インタープリターでは {ours} です"),
             )
         });
-        Judged { relation, message }
+        VertexOpinion { relation, message }
     });
     summed_up(judged.collect())
 }

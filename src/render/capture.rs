@@ -13,13 +13,13 @@ const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
 
 /// What is the same for every submission.
 #[derive(Debug)]
-pub(super) struct Stage {
+pub(super) struct FrameStage {
     layout: wgpu::BindGroupLayout,
     /// A pixel that nothing is painted to.
     nothing: wgpu::TextureView,
 }
 
-impl Stage {
+impl FrameStage {
     pub fn new(device: &wgpu::Device) -> Self {
         let layout = capture_layout(device, wgpu::ShaderStages::VERTEX, false);
         let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -51,7 +51,7 @@ pub(super) struct Capture {
 impl Capture {
     pub fn new(
         device: &wgpu::Device,
-        stage: &Stage,
+        stage: &FrameStage,
         shader: &Shader,
         scene: &Scene,
         textures: Option<&wgpu::Buffer>,
@@ -81,14 +81,14 @@ impl Capture {
     }
 
     /// Runs the vertices of the whole scene.
-    pub fn submit(&self, device: &Device, stage: &Stage, scene: &Scene) {
+    pub fn submit(&self, device: &Device, stage: &FrameStage, scene: &Scene) {
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw(&mut encoder, stage, scene);
         encoder.copy_buffer_to_buffer(&self.records, 0, &self.readback, 0, self.records.size());
         device.queue.submit([encoder.finish()]);
     }
 
-    fn draw(&self, encoder: &mut wgpu::CommandEncoder, stage: &Stage, scene: &Scene) {
+    fn draw(&self, encoder: &mut wgpu::CommandEncoder, stage: &FrameStage, scene: &Scene) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("vertices"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {

@@ -5,7 +5,7 @@
 //! and `gl_FrontFacing` are those of OpenGL.
 
 use super::buffers::{Uniforms, capture_group, capture_layout};
-use super::scene::{Batch, State};
+use super::scene::{Batch, DrawState};
 use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader, UniformBlock};
 use naga::ScalarKind;
 use reference::scene::{Cull, DepthTest};
@@ -37,14 +37,14 @@ pub(super) struct FragmentStage {
     pub reads_textures: bool,
     /// Whether it takes derivatives.
     pub has_derivatives: bool,
-    pipelines: Vec<(Key, wgpu::RenderPipeline)>,
+    pipelines: Vec<(PipelineKey, wgpu::RenderPipeline)>,
 }
 
 /// What tells pipelines of one stage apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Key {
+pub(super) struct PipelineKey {
     /// How fragments are kept.
-    pub state: State,
+    pub state: DrawState,
     /// The formats of the targets.
     pub targets: Vec<Option<wgpu::TextureFormat>>,
     /// Whether there is a target for depths.
@@ -60,11 +60,11 @@ pub(super) struct Key {
 /// What a fragment stage reads besides its inputs, for the batches of one pass.
 pub(super) struct FragmentData {
     uniforms: Uniforms,
-    header: Option<Header>,
+    header: Option<PassHeader>,
 }
 
 /// The header of a pass.
-struct Header {
+struct PassHeader {
     buffer: wgpu::Buffer,
     readback: wgpu::Buffer,
     group: wgpu::BindGroup,
@@ -100,7 +100,7 @@ impl FragmentStage {
     }
 
     /// The pipeline for passes of this kind.
-    pub fn pipeline(&mut self, device: &wgpu::Device, data: &FragmentData, key: &Key) -> &wgpu::RenderPipeline {
+    pub fn pipeline(&mut self, device: &wgpu::Device, data: &FragmentData, key: &PipelineKey) -> &wgpu::RenderPipeline {
         let known = self.pipelines.iter().position(|(known, _)| known == key);
         let place = known.unwrap_or_else(|| {
             self.pipelines.push((key.clone(), self.make(device, data, key)));
@@ -109,7 +109,7 @@ impl FragmentStage {
         &self.pipelines[place].1
     }
 
-    fn make(&self, device: &wgpu::Device, data: &FragmentData, key: &Key) -> wgpu::RenderPipeline {
+    fn make(&self, device: &wgpu::Device, data: &FragmentData, key: &PipelineKey) -> wgpu::RenderPipeline {
         let header = capture_layout(device, wgpu::ShaderStages::FRAGMENT, self.reads_textures);
         let mut groups = vec![Some(&data.uniforms.layout)];
         groups.extend(self.has_group().then_some(Some(&header)));
@@ -211,7 +211,7 @@ impl FragmentData {
             });
             let layout = capture_layout(device, wgpu::ShaderStages::FRAGMENT, stage.reads_textures);
             let group = capture_group(device, &layout, &buffer, textures.filter(|_| stage.reads_textures));
-            Header { buffer, readback, group }
+            PassHeader { buffer, readback, group }
         });
         Self { uniforms: Uniforms::new(device, wgpu::ShaderStages::FRAGMENT, &stage.blocks, batches), header }
     }

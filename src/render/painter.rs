@@ -1,7 +1,7 @@
 //! From captured vertices to frames.
 
 use super::device::Device;
-use super::fragments::{DEPTH, FragmentData, FragmentStage, Key};
+use super::fragments::{DEPTH, FragmentData, FragmentStage, PipelineKey};
 use super::frames::Mapped;
 use super::scene::{Batch, Scene};
 use super::tiles::{Tile, Tiles};
@@ -182,7 +182,7 @@ impl RenderTarget {
                 if tile.area.is_empty() || own.is_empty() {
                     continue;
                 }
-                let key = Key {
+                let key = PipelineKey {
                     state: draw.state,
                     targets: vec![Some(FORMAT)],
                     has_depth: depth.is_some(),

@@ -1,8 +1,8 @@
 //! A fragment stage on its own: one pixel of a target of floats for each probe, whose inputs are given.
 
 use super::device::Device;
-use super::fragments::{DEPTH, FragmentData, FragmentStage, Key, is_flat};
-use super::scene::{Batch, Scene, State};
+use super::fragments::{DEPTH, FragmentData, FragmentStage, PipelineKey, is_flat};
+use super::scene::{Batch, DrawState, Scene};
 use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader};
 use naga::ScalarKind;
 use reference::Values;
@@ -72,8 +72,8 @@ impl Pixels {
         let targets = stage.outputs.iter().map(|output| output.location as usize + 1).max().unwrap_or(0);
         let at = |location: usize| stage.outputs.iter().position(|output| output.location as usize == location);
         let places: Vec<Option<usize>> = (0..targets).map(at).collect();
-        let key = Key {
-            state: State::default(),
+        let key = PipelineKey {
+            state: DrawState::default(),
             targets: places.iter().map(|place| place.map(|place| formats[place])).collect(),
             // A pass needs something to draw to, also for a stage that writes nothing, or a depth of its own.
             has_depth: true,

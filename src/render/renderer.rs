@@ -20,7 +20,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Renderer {
     device: Device,
-    stage: capture::Stage,
+    stage: capture::FrameStage,
     /// The fixed fragment stage of vertex shaders.
     fragments: Option<FragmentStage>,
     painter: Painter,
@@ -54,7 +54,7 @@ impl Renderer {
     pub fn new(device: Device, fragment: Option<&Shader>) -> Result<Self, Fault> {
         let (stage, fragments) = checked(&device.device, || {
             let fragments = fragment.map(|fragment| FragmentStage::new(&device.device, fragment));
-            (capture::Stage::new(&device.device), fragments)
+            (capture::FrameStage::new(&device.device), fragments)
         })?;
         Ok(Self { device, stage, fragments, painter: Painter::default(), textures: RefCell::default() })
     }

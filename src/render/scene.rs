@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// How the fragments of a draw are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct State {
+pub struct DrawState {
     /// Which fragments are drawn over what is there; none draws all.
     pub depth_test: Option<DepthTest>,
     /// Which triangles are left out.
@@ -28,7 +28,7 @@ pub struct Batch {
     /// Of pixels, what of the attributes is another number at the pixel to the right and at the one above.
     pub beside: [Vec<(String, Values)>; 2],
     /// How its fragments are kept.
-    pub state: State,
+    pub state: DrawState,
 }
 
 impl Batch {

@@ -4,7 +4,7 @@ use super::child::Worker;
 use super::ending::{Blame, Ending};
 use super::protection::Protection;
 use super::protocol::{Answered, Reply, Request, Tile};
-use super::roster::{Roster, Wanted, WorkerPermit};
+use super::roster::{Roster, WorkerKind, WorkerPermit};
 use super::{Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::fault::Fault;
@@ -73,7 +73,7 @@ impl Pool {
     /// Waits until a worker has read the assignment, and nothing but a submission is missing.
     pub fn warm(&self) -> Result<(), Fault> {
         let place = self.roster.place();
-        let worker = place.take(Wanted::Any)?;
+        let worker = place.take(WorkerKind::Any)?;
         place.give_back(worker);
         Ok(())
     }
@@ -105,13 +105,13 @@ impl Pool {
     pub fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
         let place = self.roster.place();
         let mut grading = Grading { pool: self, place, submission, blamed: None };
-        let mut wanted = Wanted::Any;
+        let mut wanted = WorkerKind::Any;
         let mut attempts = 0;
         loop {
             attempts += 1;
             match grading.attempt(wanted)? {
                 Attempted::Done(answer) => return Ok(*answer),
-                Attempted::NotDone(_) if attempts < ATTEMPTS => wanted = Wanted::Fresh,
+                Attempted::NotDone(_) if attempts < ATTEMPTS => wanted = WorkerKind::Fresh,
                 Attempted::NotDone(fault) => return Err(fault),
             }
         }
@@ -172,14 +172,14 @@ enum Attempted {
 }
 
 impl Grading<'_> {
-    fn attempt(&mut self, wanted: Wanted) -> Result<Attempted, Fault> {
+    fn attempt(&mut self, wanted: WorkerKind) -> Result<Attempted, Fault> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
         let Submission { assignment, hand_in, order, wants_frames } = self.submission;
         if !worker.has_read(assignment) {
             if !worker.may_read(assignment, self.pool.roster.library()) {
                 self.place.give_up(worker);
-                worker = self.place.take(Wanted::Fresh)?;
+                worker = self.place.take(WorkerKind::Fresh)?;
             }
             if let Err(failure) = worker.read(assignment, self.pool.roster.library(), settings) {
                 self.place.give_up(worker);

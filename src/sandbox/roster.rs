@@ -1,12 +1,14 @@
 //! The workers of a pool: who is idle, who is on the way, and a thread that starts the next one ahead of need.
 
+mod keeper;
+
 use super::Settings;
 use super::child::{NotStarted, Worker, end_group};
 use super::library::Library;
 use super::protection::Protection;
 use crate::fault::Fault;
-use crate::language::Text;
 use crate::report::Environment;
+use keeper::{keep, no_thread};
 use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -18,7 +20,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 
 /// Which worker is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub(super) enum WorkerKind {
     /// Any; one that has graded before rather than one that has not.
     Any,
     /// One that has met no file yet.
@@ -38,12 +40,12 @@ struct Shared {
     /// How many may grade at once.
     places: usize,
     library: Library,
-    state: Mutex<State>,
+    state: Mutex<RosterState>,
     changed: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct RosterState {
     idle: Vec<Worker>,
     /// How many workers are in callers' hands, and how many callers hold a place.
     lent: usize,
@@ -133,7 +135,7 @@ impl Drop for Roster {
 
 impl WorkerPermit<'_> {
     /// Takes a worker, waiting for one to be started where none is ready.
-    pub fn take(&self, wanted: Wanted) -> Result<Worker, Fault> {
+    pub fn take(&self, wanted: WorkerKind) -> Result<Worker, Fault> {
         let mut state = self.shared.lock();
         // Tries that failed were told to whom they concerned, and this caller is worth new ones. Those under way go on.
         if state.ordered == 0 && state.ushers == 0 {
@@ -190,29 +192,29 @@ impl Drop for WorkerPermit<'_> {
     }
 }
 
-impl State {
+impl RosterState {
     /// All workers that there are or will be.
     fn alive(&self) -> usize {
         self.idle.len() + self.lent + self.ordered + self.starting.len()
     }
 
-    fn pick(&mut self, wanted: Wanted) -> Option<Worker> {
+    fn pick(&mut self, wanted: WorkerKind) -> Option<Worker> {
         let is_fresh = |worker: &Worker| worker.gradings == 0;
         let fresh = self.idle.iter().position(is_fresh);
         let index = match wanted {
-            Wanted::Fresh => fresh,
-            Wanted::Any => self.idle.iter().position(|worker| !is_fresh(worker)).or(fresh),
+            WorkerKind::Fresh => fresh,
+            WorkerKind::Any => self.idle.iter().position(|worker| !is_fresh(worker)).or(fresh),
         };
         index.map(|index| self.idle.remove(index))
     }
 }
 
 impl Shared {
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, RosterState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn wait<'a>(&self, state: MutexGuard<'a, State>) -> MutexGuard<'a, State> {
+    fn wait<'a>(&self, state: MutexGuard<'a, RosterState>) -> MutexGuard<'a, RosterState> {
         self.changed.wait(state).unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -236,7 +238,7 @@ impl Shared {
     }
 
     /// Has the keeper start what is missing; after a failure, one at a time.
-    fn order(&self, state: &mut State) {
+    fn order(&self, state: &mut RosterState) {
         let missing = self.target().saturating_sub(state.alive());
         if missing > 0 && state.failures == 0 && !state.closing {
             state.ordered += missing;
@@ -259,7 +261,7 @@ impl Shared {
         Ok(())
     }
 
-    fn failed(&self, state: &mut State, failure: NotStarted) {
+    fn failed(&self, state: &mut RosterState, failure: NotStarted) {
         state.failures += 1;
         if failure.transient && state.failures < TRIES {
             state.ordered += 1;
@@ -267,86 +269,4 @@ impl Shared {
             state.fault = Some(failure.fault);
         }
     }
-}
-
-/// Starts what is ordered, until the pool closes.
-fn keep(shared: &Arc<Shared>) {
-    let mut state = shared.lock();
-    loop {
-        while state.ordered == 0 && !state.closing {
-            state = shared.wait(state);
-        }
-        if state.closing {
-            return;
-        }
-        state.ordered -= 1;
-        match Worker::spawn(&shared.settings) {
-            Ok(worker) => {
-                state.starting.push(worker.id());
-                state.ushers += 1;
-                drop(state);
-                let for_usher = Arc::clone(shared);
-                let usher = std::thread::Builder::new().name("usher".into());
-                if let Err(error) = usher.spawn(move || receive(&for_usher, worker)) {
-                    // The worker went with the closure.
-                    shared.lock().ushers -= 1;
-                    fail(shared, NotStarted { fault: no_thread(&error), transient: true });
-                }
-            }
-            Err(failure) => {
-                drop(state);
-                fail(shared, failure);
-            }
-        }
-        state = shared.lock();
-    }
-}
-
-/// Waits until the worker is ready, and has it join the others.
-fn receive(shared: &Shared, mut worker: Worker) {
-    let greeted = worker.greet(&shared.settings).and_then(|()| {
-        let greeting = (worker.environment.clone(), worker.protection.clone());
-        shared.lock().greeting.get_or_insert(greeting);
-        shared.changed.notify_all();
-        worker.read(&shared.settings.assignment, &shared.library, &shared.settings)?;
-        shared.have_further_read(&mut worker)
-    });
-    let process = worker.id();
-    let mut state = shared.lock();
-    state.starting.retain(|&other| other != process);
-    match greeted {
-        Ok(()) if !state.closing => {
-            state.failures = 0;
-            state.idle.push(worker);
-            drop(state);
-        }
-        Ok(()) => {
-            drop(state);
-            drop(worker);
-        }
-        Err(failure) => {
-            // Not counted as gone before the next try is ordered.
-            state.lent += 1;
-            drop(state);
-            drop(worker);
-            fail(shared, failure);
-            shared.lock().lent -= 1;
-        }
-    }
-    shared.lock().ushers -= 1;
-    shared.changed.notify_all();
-}
-
-/// Orders another try after a pause, or gives the fault to whoever waits.
-fn fail(shared: &Shared, failure: NotStarted) {
-    let failures = shared.lock().failures;
-    if failure.transient && failures + 1 < TRIES {
-        std::thread::sleep(PAUSE * 2_u32.pow(failures));
-    }
-    shared.failed(&mut shared.lock(), failure);
-    shared.changed.notify_all();
-}
-
-fn no_thread(error: &std::io::Error) -> Fault {
-    Fault::new(Text::new(format!("no thread can be started: {error}"), format!("スレッドを起動できません: {error}")))
 }

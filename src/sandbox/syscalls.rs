@@ -13,7 +13,7 @@ use seccompiler::{
 };
 use std::collections::BTreeMap;
 
-type Rules = BTreeMap<i64, Vec<SeccompRule>>;
+type SyscallRules = BTreeMap<i64, Vec<SeccompRule>>;
 
 /// What grading, memory management, threads, and Rust's and C's ways to abort call.
 const ALLOWED: [i64; 53] = [
@@ -123,14 +123,14 @@ pub(super) fn restrict(adapter: AdapterKind) -> Result<String, String> {
     let not_permitted = SeccompAction::Errno(Errno::EPERM as u32);
     install(allowed(adapter).map_err(text)?, not_permitted, SeccompAction::Allow)?;
     // The kernel cannot look into clone3's arguments. "No such call" makes C fall back to clone, whose flags it can see.
-    let clone3 = Rules::from([(libc::SYS_clone3, Vec::new())]);
+    let clone3 = SyscallRules::from([(libc::SYS_clone3, Vec::new())]);
     install(clone3, SeccompAction::Allow, SeccompAction::Errno(Errno::ENOSYS as u32))?;
     Ok("seccomp".into())
 }
 
 /// Ends the process where it tries to break out.
 pub(super) fn make_deadly() -> Result<(), String> {
-    let mut rules: Rules = DEADLY.iter().map(|&call| (call, Vec::new())).collect();
+    let mut rules: SyscallRules = DEADLY.iter().map(|&call| (call, Vec::new())).collect();
     #[cfg(target_arch = "x86_64")]
     rules.extend([libc::SYS_fork, libc::SYS_vfork].map(|call| (call, Vec::new())));
     let process = when(0, SeccompCmpOp::MaskedEq(libc::CLONE_THREAD as u64), 0);
@@ -138,8 +138,8 @@ pub(super) fn make_deadly() -> Result<(), String> {
     install(rules, SeccompAction::Allow, SeccompAction::KillProcess)
 }
 
-fn allowed(adapter: AdapterKind) -> Result<Rules, BackendError> {
-    let mut rules: Rules = ALLOWED.iter().map(|&call| (call, Vec::new())).collect();
+fn allowed(adapter: AdapterKind) -> Result<SyscallRules, BackendError> {
+    let mut rules: SyscallRules = ALLOWED.iter().map(|&call| (call, Vec::new())).collect();
     #[cfg(target_arch = "x86_64")]
     rules.extend([libc::SYS_poll, libc::SYS_time].map(|call| (call, Vec::new())));
     if adapter == AdapterKind::Gpu {
@@ -167,7 +167,7 @@ fn when(argument: u8, operator: SeccompCmpOp, value: u64) -> Result<SeccompRule,
     SeccompRule::new(vec![SeccompCondition::new(argument, SeccompCmpArgLen::Dword, operator, value)?])
 }
 
-fn install(rules: Rules, otherwise: SeccompAction, listed: SeccompAction) -> Result<(), String> {
+fn install(rules: SyscallRules, otherwise: SeccompAction, listed: SeccompAction) -> Result<(), String> {
     let machine = TargetArch::try_from(std::env::consts::ARCH).map_err(text)?;
     let filter = SeccompFilter::new(rules, otherwise, listed, machine).map_err(text)?;
     let program = BpfProgram::try_from(filter).map_err(text)?;

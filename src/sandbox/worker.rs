@@ -28,7 +28,7 @@ const LOADING: Limits = Limits { memory: 1 << 30, cpu_seconds: 120 };
 
 /// What a worker is started for.
 #[derive(Clone, Copy, Debug)]
-pub struct Job {
+pub struct WorkerTask {
     /// What renders.
     pub adapter: AdapterKind,
     /// What one submission may take.
@@ -38,13 +38,13 @@ pub struct Job {
 }
 
 /// Serves the parent on standard input and output until it closes them.
-pub fn run(job: Job) -> io::Result<()> {
+pub fn run(job: WorkerTask) -> io::Result<()> {
     let confined = confine::enter(job.limits, job.adapter)?;
     on_large_stack(move || serve(job, confined))
 }
 
 /// Enters the sandbox as [`run`] does, tries one forbidden thing there, and gives what came of it.
-pub fn attempt(job: Job, attempt: Attempt) -> io::Result<io::Result<()>> {
+pub fn attempt(job: WorkerTask, attempt: Attempt) -> io::Result<io::Result<()>> {
     let confined = confine::enter(job.limits, job.adapter)?;
     on_large_stack(move || {
         let Confined { layers, meter, .. } = confined;
@@ -59,7 +59,7 @@ fn on_large_stack<T: Send + 'static>(work: impl FnOnce() -> io::Result<T> + Send
     thread.spawn(work)?.join().map_err(|_| io::Error::other("the grader panicked"))?
 }
 
-fn serve(job: Job, confined: Confined) -> io::Result<()> {
+fn serve(job: WorkerTask, confined: Confined) -> io::Result<()> {
     let Confined { mut output, layers, meter } = confined;
     let (device, protection) = match prepare(job, layers) {
         Ok(ready) => ready,
@@ -88,7 +88,7 @@ fn serve(job: Job, confined: Confined) -> io::Result<()> {
 
 /// Opens the device, warms the compiler meanwhile, and closes the sandbox around them. What is read after that, the
 /// assignment's folder included, is read inside.
-fn prepare(job: Job, mut layers: Vec<super::LayerState>) -> Result<(Device, Protection), Fault> {
+fn prepare(job: WorkerTask, mut layers: Vec<super::LayerState>) -> Result<(Device, Protection), Fault> {
     let device = std::thread::scope(|scope| {
         let device = scope.spawn(|| Device::open(job.adapter));
         translate::warm_up();
@@ -108,7 +108,7 @@ fn prepare(job: Job, mut layers: Vec<super::LayerState>) -> Result<(Device, Prot
 
 /// A worker that is ready: its device, and the assignments that it has read.
 struct Desk {
-    job: Job,
+    job: WorkerTask,
     output: File,
     meter: Meter,
     device: Device,

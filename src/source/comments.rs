@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// A comment of the student's text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Comment {
+pub(super) struct SourceComment {
     /// Its bytes, from the opening slash to its last character; for `//` without the line end.
     pub range: Range<usize>,
     /// Whether it is a `//` comment.
@@ -14,7 +14,7 @@ pub(super) struct Comment {
 }
 
 /// All comments of `text`, in order. A block comment that is never closed reaches to the end.
-pub(super) fn find(text: &str) -> Vec<Comment> {
+pub(super) fn find(text: &str) -> Vec<SourceComment> {
     let bytes = text.as_bytes();
     let mut found = Vec::new();
     let mut at = 0;
@@ -29,17 +29,17 @@ pub(super) fn find(text: &str) -> Vec<Comment> {
                 continue;
             }
         };
-        found.push(Comment { range: at..end, to_line_end: bytes[second] == b'/' });
+        found.push(SourceComment { range: at..end, to_line_end: bytes[second] == b'/' });
         at = end;
     }
     found
 }
 
 /// `text` with every byte of a comment, line ends left out, replaced by a space.
-pub(super) fn blank(text: &str, comments: &[Comment]) -> String {
+pub(super) fn blank(text: &str, comments: &[SourceComment]) -> String {
     let mut code = String::with_capacity(text.len());
     let mut done = 0;
-    for Comment { range, .. } in comments {
+    for SourceComment { range, .. } in comments {
         code.push_str(&text[done..range.start]);
         code.extend(text[range.clone()].bytes().map(|byte| if byte == b'\n' { '\n' } else { ' ' }));
         done = range.end;

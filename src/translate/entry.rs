@@ -22,7 +22,7 @@ pub(super) use parts::{Part, is_input, parts};
 
 use super::build::Build;
 use super::fuel::{self, Gauge};
-use header::Header;
+use header::CaptureHeader;
 use naga::{Expression, Function, GlobalVariable, Handle, LocalVariable, Module, Span, Statement};
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
@@ -83,7 +83,7 @@ fn statements(function: &mut Function) -> [Vec<(Statement, Span)>; 2] {
 fn run(
     build: &mut Build<'_>,
     hooks: &Hooks,
-    header: &Header,
+    header: &CaptureHeader,
     turns: Handle<LocalVariable>,
     call: impl FnOnce(&mut Build<'_>),
 ) {

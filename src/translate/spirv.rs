@@ -1,6 +1,7 @@
 //! What the compiler wrote, made into what naga's front end takes, with the same meaning.
 
 pub(super) mod code;
+mod declared;
 mod globals;
 mod images;
 mod infinite;
@@ -18,7 +19,8 @@ mod tests;
 mod textures;
 mod walk;
 
-pub(super) use globals::{DEFAULT_BLOCK, Declared, Uniforms};
+pub(super) use declared::Declared;
+pub(super) use globals::{DEFAULT_BLOCK, Uniforms};
 pub(super) use io::Io;
 pub use io::{Interpolation, Qualifiers};
 pub(super) use poison::NEGATIVE;

@@ -56,7 +56,7 @@ fn changes(before: &[(&str, Outcome)], after: &[(&str, Outcome)]) -> Changes {
     Changes::between((header("0.1.0"), records.collect()), &header("0.2.0"), &class)
 }
 
-fn keys(list: &[Change]) -> Vec<&str> {
+fn keys(list: &[StudentChange]) -> Vec<&str> {
     list.iter().map(|change| change.student.key.as_str()).collect()
 }
 

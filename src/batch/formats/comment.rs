@@ -36,7 +36,7 @@ const fn marks(language: Language) -> [&'static str; 2] {
 
 /// A comment for a cell of the worksheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Comment {
+pub(super) struct WorksheetComment {
     /// The cell's content: ours, and what a teacher wrote around it.
     pub html: String,
     /// Whether the end of an older version's comment had to be guessed: words that a teacher wrote right behind it, in
@@ -45,7 +45,7 @@ pub(super) struct Comment {
 }
 
 /// The comment on one student in place of the one that is in the cell, and behind a teacher's words where there is none.
-pub(super) fn merge(cell: &str, entry: &Entry, class: &Class) -> Comment {
+pub(super) fn merge(cell: &str, entry: &Entry, class: &Class) -> WorksheetComment {
     existing::replaced(cell, &render(entry, class.language), &Former::of(entry, class))
 }
 

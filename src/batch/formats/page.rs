@@ -46,7 +46,7 @@ pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
 }
 
 /// A column of the rubric.
-struct Line {
+struct RubricColumn {
     id: String,
     label: String,
 }
@@ -58,7 +58,7 @@ struct Points {
 }
 
 /// One student.
-struct Row {
+struct StudentRow {
     key: String,
     name: String,
     detail: String,
@@ -83,10 +83,10 @@ struct Row {
 struct Group {
     id: usize,
     size: usize,
-    members: Vec<Member>,
+    members: Vec<GroupMember>,
 }
 
-struct Member {
+struct GroupMember {
     key: String,
     name: String,
 }
@@ -117,8 +117,8 @@ struct Page {
     tallies: Vec<Tally>,
     bins: Vec<Bin>,
     mistakes: Vec<Mistake>,
-    lines: Vec<Line>,
-    rows: Vec<Row>,
+    lines: Vec<RubricColumn>,
+    rows: Vec<StudentRow>,
     groups: Vec<Group>,
     sharing: usize,
     faults: Vec<FaultView>,
@@ -201,23 +201,29 @@ fn title(class: &Class) -> String {
 }
 
 /// The lines of the rubric, in the order in which the reports have them.
-fn lines(class: &Class) -> Vec<Line> {
-    let mut lines: Vec<Line> = Vec::new();
+fn lines(class: &Class) -> Vec<RubricColumn> {
+    let mut lines: Vec<RubricColumn> = Vec::new();
     for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
         if !lines.iter().any(|known| known.id == line.id) {
-            lines.push(Line { id: line.id.clone(), label: line.label.get(class.language).to_owned() });
+            lines.push(RubricColumn { id: line.id.clone(), label: line.label.get(class.language).to_owned() });
         }
     }
     lines
 }
 
-fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, shares: Option<(usize, usize)>) -> Row {
+fn row(
+    entry: &Entry,
+    class: &Class,
+    lines: &[RubricColumn],
+    portraits: &Portraits<'_>,
+    shares: Option<(usize, usize)>,
+) -> StudentRow {
     let (report, status) = (entry.report(), Standing::of(&entry.outcome));
     let names: Vec<&str> = entry.places.iter().filter_map(|place| place.path.rsplit('/').next()).collect();
     let file = (!names.is_empty()).then(|| one_line(&names.join(", ")));
     let number_in_moodle =
         entry.student.moodle.as_ref().and_then(|moodle| moodle.number).map(|number| number.to_string());
-    let points = |line: &Line| {
+    let points = |line: &RubricColumn| {
         let found = report.and_then(|report| report.rubric.iter().find(|found| found.id == line.id));
         found.map_or(Points { text: "–".into(), is_less: false }, |found| Points {
             text: number(found.points),
@@ -228,7 +234,7 @@ fn row(entry: &Entry, class: &Class, lines: &[Line], portraits: &Portraits<'_>, 
     let titled = |id: String| (mistake_title(&class.assignment, &id, class.language).to_owned(), id);
     let advised = report.is_some_and(|report| !report.advice.is_empty());
     let is_said_already = (status == Standing::Correct && !advised) || !mistake_ids.is_empty();
-    Row {
+    StudentRow {
         key: entry.student.key.clone(),
         name: one_line(&entry.student.name),
         detail: number_in_moodle.into_iter().chain(file).collect::<Vec<_>>().join(" · "),
@@ -271,7 +277,7 @@ fn excerpt(message: &str) -> String {
 fn group_view(id: usize, group: &[usize], class: &Class) -> Group {
     let member = |index: &usize| {
         let student = &class.entries[*index].student;
-        Member { key: student.key.clone(), name: one_line(&student.name) }
+        GroupMember { key: student.key.clone(), name: one_line(&student.name) }
     };
     Group { id, size: group.len(), members: group.iter().map(member).collect() }
 }

@@ -4,7 +4,7 @@ mod region;
 mod rules;
 
 use self::region::Lines;
-use self::rules::Rules;
+use self::rules::RuleTable;
 use super::untrusted::visible;
 use super::wording;
 use crate::batch::class::{Class, Entry, FileLocation, Outcome};
@@ -26,7 +26,7 @@ const PATH: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_')
 ///
 /// Results are diagnostics and lost points; a failure of ours and a missing file are notifications of the run.
 pub fn render(class: &Class) -> String {
-    let mut run = Run { rules: Rules::of(class), results: vec![], artifacts: vec![], seen: HashMap::new() };
+    let mut run = Run { rules: RuleTable::of(class), results: vec![], artifacts: vec![], seen: HashMap::new() };
     for entry in &class.entries {
         run.add(entry, class.language);
     }
@@ -58,7 +58,7 @@ pub fn render(class: &Class) -> String {
 
 /// One run while it is written.
 struct Run {
-    rules: Rules,
+    rules: RuleTable,
     results: Vec<Value>,
     artifacts: Vec<Value>,
     /// How often each fingerprint has come up.
@@ -66,7 +66,7 @@ struct Run {
 }
 
 /// One file among the artifacts.
-struct File<'a> {
+struct Artifact<'a> {
     entry: &'a Entry,
     source: &'a SourceInfo,
     uri: String,
@@ -75,7 +75,7 @@ struct File<'a> {
 }
 
 /// What is said about a place in a file.
-struct Finding<'a> {
+struct SarifResult<'a> {
     rule: &'a str,
     level: &'static str,
     message: String,
@@ -90,7 +90,7 @@ impl Run {
         for (source, place) in report.sources.iter().zip(&entry.places) {
             let text = entry.sources.iter().find(|read| read.facts.name == source.name);
             let lines = Lines::of(text.map_or("", |read| &read.text));
-            let file = File { entry, source, index: self.artifacts.len(), lines, uri: uri(place) };
+            let file = Artifact { entry, source, index: self.artifacts.len(), lines, uri: uri(place) };
             self.artifacts.push(artifact(&file));
             files.push(file);
         }
@@ -113,7 +113,7 @@ impl Run {
         }
     }
 
-    fn push(&mut self, file: &File, finding: &Finding) {
+    fn push(&mut self, file: &Artifact, finding: &SarifResult) {
         let mut location = json!({ "artifactLocation": location(&file.uri, file.index) });
         if let Some(region) = &finding.region {
             location["region"] = region.clone();
@@ -133,7 +133,7 @@ impl Run {
 
     /// The same for the same finding wherever its line moves to: rule, file and the text of the line, and how often
     /// these have come up, in the form in which GitHub's code scanning writes its own.
-    fn fingerprint(&mut self, file: &File, finding: &Finding) -> String {
+    fn fingerprint(&mut self, file: &Artifact, finding: &SarifResult) -> String {
         const BYTES: usize = 8;
         let text = finding.line.map_or("", |line| file.lines.text(line).trim());
         let digest = Sha256::digest(format!("{}\0{}\0{text}", finding.rule, file.uri));
@@ -144,7 +144,7 @@ impl Run {
     }
 }
 
-fn artifact(file: &File) -> Value {
+fn artifact(file: &Artifact) -> Value {
     let mut location = location(&file.uri, file.index);
     location["description"] = json!({ "text": visible(&file.entry.student.name) });
     json!({
@@ -165,8 +165,8 @@ fn uri(place: &FileLocation) -> String {
     utf8_percent_encode(local.as_deref().unwrap_or(&place.path), PATH).to_string()
 }
 
-fn lost<'a>(file: &File, line: &'a RubricLine, language: Language) -> Finding<'a> {
-    Finding {
+fn lost<'a>(file: &Artifact, line: &'a RubricLine, language: Language) -> SarifResult<'a> {
+    SarifResult {
         rule: line.mistake.as_deref().unwrap_or(rules::UNEXPLAINED),
         level: "warning",
         message: format!("{}: {}", wording::rubric_title(line, language), visible(line.message.get(language))),
@@ -175,8 +175,8 @@ fn lost<'a>(file: &File, line: &'a RubricLine, language: Language) -> Finding<'a
     }
 }
 
-fn advised<'a>(file: &File, advice: &'a Advice, language: Language) -> Finding<'a> {
-    Finding {
+fn advised<'a>(file: &Artifact, advice: &'a Advice, language: Language) -> SarifResult<'a> {
+    SarifResult {
         rule: &advice.id,
         level: "note",
         message: visible(advice.message.get(language)),
@@ -185,8 +185,8 @@ fn advised<'a>(file: &File, advice: &'a Advice, language: Language) -> Finding<'
     }
 }
 
-fn said<'a>(file: &File, diagnostic: &'a Diagnostic, language: Language) -> Finding<'a> {
-    Finding {
+fn said<'a>(file: &Artifact, diagnostic: &'a Diagnostic, language: Language) -> SarifResult<'a> {
+    SarifResult {
         rule: rules::stage(diagnostic.stage),
         level: match diagnostic.severity {
             Severity::Error => "error",

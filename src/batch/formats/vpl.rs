@@ -43,7 +43,7 @@ impl Scale {
 
 /// The output for one submission. After a failure of ours it proposes no grade, and VPL leaves the grading to a teacher.
 pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
-    let mut comment = Comment(String::from("<|--\n"));
+    let mut comment = VplComment(String::from("<|--\n"));
     comment.heading(Standing::of(&entry.outcome).word(language));
     comment.text(&wording::explanation(entry, language));
     if let Some(report) = entry.report() {
@@ -78,9 +78,9 @@ pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
 }
 
 /// A comment in which no line is one of VPL's own.
-struct Comment(String);
+struct VplComment(String);
 
-impl Comment {
+impl VplComment {
     fn heading(&mut self, text: &str) {
         let _ = writeln!(self.0, "-{}", harmless(&text.replace('\n', " ")));
     }

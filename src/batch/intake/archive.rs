@@ -10,7 +10,7 @@ mod storage;
 
 use super::limits::{Limits, spent, too_deep, too_many};
 use super::tree::{self, Folder, Held, Node};
-use super::{Reading, moodle};
+use super::{IntakeReader, moodle};
 use crate::language::Text;
 use crate::slots::Fit;
 use record::Record;
@@ -30,17 +30,17 @@ pub(super) fn is_archive_start(bytes: &[u8]) -> bool {
 }
 
 /// Everything in the archive `file`, which is shown as `shown`; or why it cannot be opened.
-pub(super) fn read(file: File, shown: &str, reading: &mut Reading) -> Result<Folder, Text> {
+pub(super) fn read(file: File, shown: &str, reading: &mut IntakeReader) -> Result<Folder, Text> {
     let unreadable = |error: io::Error| super::limits::unreadable(&error);
     unpacked(Storage::file(file).map_err(unreadable)?, shown, 1, reading)
 }
 
 /// The same of an archive that was read already.
-pub(super) fn read_bytes(bytes: Vec<u8>, shown: &str, reading: &mut Reading) -> Result<Folder, Text> {
+pub(super) fn read_bytes(bytes: Vec<u8>, shown: &str, reading: &mut IntakeReader) -> Result<Folder, Text> {
     unpacked(Storage::Memory(bytes), shown, 1, reading)
 }
 
-fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut Reading) -> Result<Folder, Text> {
+fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut IntakeReader) -> Result<Folder, Text> {
     let directory = directory::read(&storage, reading.budget.entries.saturating_add(1)).ok_or_else(no_archive)?;
     if directory.is_recovered {
         reading.refuse(shown.into(), cut_off(directory.records.len()));
@@ -74,7 +74,7 @@ struct Unpacking<'a, 'b> {
     nested: Vec<(Vec<String>, Record)>,
     /// Members with names that lead elsewhere, and why they are refused.
     astray: Vec<(String, Text)>,
-    reading: &'a mut Reading<'b>,
+    reading: &'a mut IntakeReader<'b>,
 }
 
 impl Unpacking<'_, '_> {

@@ -1,7 +1,7 @@
 //! A folder of this machine → a tree. No link is followed, and only ordinary files are opened.
 
 use super::tree::{self, Folder, Held, Node};
-use super::{Reading, archive, limits};
+use super::{IntakeReader, archive, limits};
 use crate::language::Text;
 use nix::fcntl::OFlag;
 use std::collections::HashMap;
@@ -13,7 +13,7 @@ use std::path::Path;
 use walkdir::{DirEntry, WalkDir};
 
 /// Everything below `root`, which is shown as `shown`.
-pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
+pub(super) fn read(root: &Path, shown: &str, reading: &mut IntakeReader) -> Folder {
     let mut folder = Folder::default();
     let walk = WalkDir::new(root).min_depth(1).follow_links(false).sort_by_file_name();
     let mut entries = walk.into_iter();
@@ -36,10 +36,10 @@ pub(super) fn read(root: &Path, shown: &str, reading: &mut Reading) -> Folder {
                     continue;
                 }
                 match add(&mut folder, root, shown, &entry, reading) {
-                    Step::On => {}
-                    Step::Over if is_folder => entries.skip_current_dir(),
-                    Step::Over => {}
-                    Step::Out => return folder,
+                    Descent::On => {}
+                    Descent::Over if is_folder => entries.skip_current_dir(),
+                    Descent::Over => {}
+                    Descent::Out => return folder,
                 }
             }
             Err(error) => {
@@ -62,28 +62,28 @@ fn below(root: &Path, shown: &str, path: &Path) -> String {
 }
 
 /// How the walk goes on.
-enum Step {
+enum Descent {
     On,
     /// Not into this folder.
     Over,
     Out,
 }
 
-fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading: &mut Reading) -> Step {
+fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading: &mut IntakeReader) -> Descent {
     let name = tree::decoded(entry.file_name());
     if tree::is_litter(&name) || is_beside_another(entry, &name) {
-        return Step::Over;
+        return Descent::Over;
     }
     let below = entry.path().strip_prefix(root).unwrap_or(entry.path());
     let mut path: Vec<String> = below.iter().map(tree::decoded).collect();
     let full = || format!("{shown}/{}", path.join("/"));
     if !reading.budget.take_entry() {
         reading.refuse(full(), limits::too_many());
-        return Step::Out;
+        return Descent::Out;
     }
     if path.len() > reading.options.limits.folder_depth {
         reading.refuse(full(), limits::too_deep(&reading.options.limits));
-        return Step::Over;
+        return Descent::Over;
     }
     let kind = entry.file_type();
     let node = if kind.is_dir() {
@@ -115,9 +115,9 @@ fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading:
             "同じフォルダに、文字の表し方だけが異なる同じ名前のファイルがあります。",
         );
         reading.refuse(full, reason);
-        return Step::Over;
+        return Descent::Over;
     }
-    Step::On
+    Descent::On
 }
 
 /// Whether this is what macOS keeps of another file: that stands beside it, or the content says so.

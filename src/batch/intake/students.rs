@@ -57,7 +57,7 @@ pub(super) fn in_folder(
     options: &Options,
     is_one_of_several: bool,
 ) -> (Vec<Group>, Vec<Refused>) {
-    let mut finding = Finding::new(options);
+    let mut finding = StudentSearch::new(options);
     if is_moodle(&folder) {
         finding.moodle(shown, folder);
     } else if is_one_student(&folder, &options.slots, is_one_of_several) {
@@ -71,7 +71,7 @@ pub(super) fn in_folder(
 
 /// The students whose files were named one by one.
 pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -> (Vec<Group>, Vec<Refused>) {
-    let mut finding = Finding::new(options);
+    let mut finding = StudentSearch::new(options);
     for (shown, path, file) in files {
         let mut names = shown.rsplit('/');
         let name = names.next().unwrap_or(&shown).to_owned();
@@ -89,7 +89,7 @@ pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -
     (finding.groups, finding.refused)
 }
 
-struct Finding<'a> {
+struct StudentSearch<'a> {
     options: &'a Options,
     groups: Vec<Group>,
     refused: Vec<Refused>,
@@ -97,7 +97,7 @@ struct Finding<'a> {
     by_number: HashMap<Option<u64>, usize>,
 }
 
-impl<'o> Finding<'o> {
+impl<'o> StudentSearch<'o> {
     fn new(options: &'o Options) -> Self {
         Self { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() }
     }

@@ -1,7 +1,7 @@
 //! What changed since an earlier grading.
 
 use super::{BAD, DIM, GOOD, LISTED, ODD, PARTIAL, Writer, number, paint};
-use crate::batch::changes::{Change, Changes, Earned, Grade, LineChange};
+use crate::batch::changes::{Changes, Earned, Grade, LineChange, StudentChange};
 use crate::batch::class::Student;
 use crate::language::Language;
 use crate::report::labels::{mistake_title, rubric_label};
@@ -42,7 +42,7 @@ impl Writer {
         self.students(self.text("No longer there", "いなくなった学生"), &changes.gone);
     }
 
-    fn change(&mut self, assignment: &Assignment, change: &Change, sign: &str) {
+    fn change(&mut self, assignment: &Assignment, change: &StudentChange, sign: &str) {
         let (before, after) = (&change.before, &change.after);
         let name = plain(&change.student.name).replace('\n', " ");
         let points = |grade: &Grade| grade.score.map_or("–".into(), number);

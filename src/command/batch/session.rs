@@ -37,7 +37,7 @@ pub(super) struct Session<'a> {
 }
 
 /// What is written of a graded class.
-pub(super) struct Wanted<'a> {
+pub(super) struct ClassOutputs<'a> {
     pub formats: &'a [Format],
     /// Moodle's worksheet.
     pub sheet: Option<&'a [u8]>,
@@ -208,7 +208,7 @@ impl Session<'_> {
         &self,
         candidates: &[Candidate],
         class: &Class,
-        wanted: &Wanted,
+        wanted: &ClassOutputs,
         before: Option<FoundJournal>,
     ) -> Result<ExitStatus, NotBegun> {
         self.write_journal(candidates, &class.entries)?;

@@ -1,6 +1,6 @@
 //! The scene of an assignment: its frames, and what is run for its probes.
 
-use super::{Batch, Scene, State};
+use super::{Batch, DrawState, Scene};
 use reference::assignment::{Input, Stage};
 use reference::interpreter::Type;
 use reference::probes::{ProbeSet, Spot};
@@ -15,7 +15,11 @@ impl Scene {
         let draw = |instance: Instance<'_>| {
             let Draw { mesh, depth_test, cull, .. } = instance.draw;
             let batch = Batch::of(assignment, &assignment.uniform_values(&instance.moment), &mesh.vertices);
-            Batch { triangles: mesh.triangles.clone(), state: State { depth_test: *depth_test, cull: *cull }, ..batch }
+            Batch {
+                triangles: mesh.triangles.clone(),
+                state: DrawState { depth_test: *depth_test, cull: *cull },
+                ..batch
+            }
         };
         let frame = |pose: &Pose| scene.instances(pose).into_iter().map(draw).collect();
         let frames = scene.all_poses().iter().map(frame).collect();

@@ -2,7 +2,7 @@
 
 use super::base::Base;
 use super::cache::PictureCache;
-use super::sheet::{Grid, Step};
+use super::sheet::{FilmStep, Grid};
 use super::shots::Shots;
 use crate::fault::Fault;
 use crate::report::encode::{Raster, encode, mismatched};
@@ -163,7 +163,7 @@ impl Motion {
         let steps = self.grid.steps();
         let start = |pose: usize| cycle * pose as f64 / self.grid.count as f64;
         let opening = self.opening.and_then(|pose| {
-            let Step { x, y, .. } = *steps.get(pose)?;
+            let FilmStep { x, y, .. } = *steps.get(pose)?;
             Some(Opening { x, y, held: HELD, delay: HELD - start(pose) })
         });
         let style = MotionStyle {
@@ -189,7 +189,7 @@ struct MotionStyle {
     poses: usize,
     width: usize,
     height: usize,
-    steps: Vec<Step>,
+    steps: Vec<FilmStep>,
     /// Seconds of the cycle that are over at each pose.
     starts: Vec<f64>,
     opening: Option<Opening>,

@@ -10,11 +10,11 @@ use crate::source::Source;
 /// One file.
 pub(super) struct Listing {
     pub name: String,
-    pub lines: Vec<Line>,
+    pub lines: Vec<ListedLine>,
 }
 
 /// One line of a file.
-pub(super) struct Line {
+pub(super) struct ListedLine {
     pub number: u32,
     pub anchor: String,
     pub spans: Vec<Span>,
@@ -42,10 +42,10 @@ pub(super) struct Note {
 pub(super) fn listings(sources: &[Source], report: &Report, messages: &[Message], language: Language) -> Vec<Listing> {
     let listing = |source: &Source| {
         let name = source.facts.name.as_str();
-        let file = File { name, is_only: report.sources.len() <= 1 };
+        let file = ListedFile { name, is_only: report.sources.len() <= 1 };
         let index = report.sources.iter().position(|source| source.name == name).unwrap_or(0);
         let mut in_comment = false;
-        let line = |(number, text): (u32, &str)| Line {
+        let line = |(number, text): (u32, &str)| ListedLine {
             number,
             anchor: anchor(index, number),
             spans: spans(text, &marks(&file, report, number), &mut in_comment),
@@ -62,19 +62,19 @@ pub(super) fn anchor(file: usize, line: u32) -> String {
 }
 
 /// The file that is listed.
-struct File<'a> {
+struct ListedFile<'a> {
     name: &'a str,
     is_only: bool,
 }
 
-impl File<'_> {
+impl ListedFile<'_> {
     /// Whether a place that names this file, or none, is in it.
     fn has(&self, file: Option<&str>) -> bool {
         self.is_only || file == Some(self.name)
     }
 }
 
-fn notes(file: &File, number: u32, report: &Report, messages: &[Message], language: Language) -> Vec<Note> {
+fn notes(file: &ListedFile, number: u32, report: &Report, messages: &[Message], language: Language) -> Vec<Note> {
     let messages = messages.iter().filter(|message| message.line == Some(number) && file.has(message.file.as_deref()));
     let mut notes: Vec<Note> = messages
         .map(|message| Note {
@@ -105,7 +105,7 @@ fn notes(file: &File, number: u32, report: &Report, messages: &[Message], langua
 }
 
 /// The columns that messages mark in a line, from 0.
-fn marks(file: &File, report: &Report, number: u32) -> Vec<std::ops::Range<usize>> {
+fn marks(file: &ListedFile, report: &Report, number: u32) -> Vec<std::ops::Range<usize>> {
     let here = report.diagnostics.iter().filter(|d| d.line == Some(number) && file.has(d.file.as_deref()));
     here.filter_map(|diagnostic| {
         let start = diagnostic.column?.saturating_sub(1) as usize;

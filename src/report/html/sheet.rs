@@ -21,8 +21,8 @@ impl Grid {
 
     /// The steps of the animation: percentage of the cycle, and how far the sheet moves, in
     /// percent of its own size.
-    pub fn steps(self) -> Vec<Step> {
-        let step = |pose: usize| Step {
+    pub fn steps(self) -> Vec<FilmStep> {
+        let step = |pose: usize| FilmStep {
             at: 100.0 * pose as f64 / self.count as f64,
             x: 100.0 * (pose % self.columns) as f64 / self.columns as f64,
             y: 100.0 * (pose / self.columns) as f64 / self.rows as f64,
@@ -61,7 +61,7 @@ impl Grid {
 
 /// One step of the animation, in percent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
+pub(super) struct FilmStep {
     pub at: f64,
     pub x: f64,
     pub y: f64,

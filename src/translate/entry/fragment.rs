@@ -5,7 +5,7 @@
 //! - Frames lie side by side in one texture, so what places a frame there is taken from `gl_FragCoord`.
 //! - In a frame, alpha says what is painted, so that a colour that equals the background is not taken for it.
 
-use super::header::{Header, insert};
+use super::header::{CaptureHeader, insert};
 use super::inputs::feed;
 use super::{Hooks, Part};
 use crate::translate::build::Build;
@@ -28,7 +28,7 @@ pub(super) fn rebuild(
     outputs: &[Part],
     hooks: Option<&Hooks>,
 ) -> Option<u32> {
-    let header = hooks.map(|hooks| (hooks, Header::declare(module, None)));
+    let header = hooks.map(|hooks| (hooks, CaptureHeader::declare(module, None)));
     let depth = depth(function);
     if let Some((hooks, header)) = &header {
         for (_, own) in module.functions.iter_mut() {
@@ -238,7 +238,7 @@ fn shifted(build: &mut Build<'_>, [vec2, vec4]: [Handle<Type>; 2], place: u32, s
 }
 
 /// The block with a settlement before each end of a fragment.
-fn settled(expressions: &mut naga::Arena<Expression>, block: Block, header: &Header, hooks: &Hooks) -> Block {
+fn settled(expressions: &mut naga::Arena<Expression>, block: Block, header: &CaptureHeader, hooks: &Hooks) -> Block {
     let mut out = Block::new();
     for (statement, span) in block.span_into_iter() {
         let mut inner = |block| settled(expressions, block, header, hooks);
@@ -268,7 +268,7 @@ fn settled(expressions: &mut naga::Arena<Expression>, block: Block, header: &Hea
 }
 
 /// Tells what the fragment met, and adds its fuel to what all have spent.
-fn settle(build: &mut Build<'_>, header: &Header, hooks: &Hooks) {
+fn settle(build: &mut Build<'_>, header: &CaptureHeader, hooks: &Hooks) {
     let capture = header.pointer(build);
     if let Some(undefined) = hooks.undefined {
         header.tell_undefined(build, capture, undefined);

@@ -15,13 +15,13 @@ const IS_FRAME_MEMBER: u32 = 4;
 const RECORDS_MEMBER: u32 = 5;
 
 /// The buffer in a module.
-pub(super) struct Header {
+pub(super) struct CaptureHeader {
     pub u32: Handle<Type>,
     pub vec4: Handle<Type>,
     variable: Handle<GlobalVariable>,
 }
 
-impl Header {
+impl CaptureHeader {
     /// Declares the buffer; a record has a position and `slots` vectors more. Without records, for fragments, the fuel
     /// that they spend is added up by all at once.
     pub fn declare(module: &mut Module, slots: Option<u32>) -> Self {

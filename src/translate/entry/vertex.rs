@@ -2,7 +2,7 @@
 //! vertex, at `instance_index + vertex_index`, and returns one and the same position for every vertex: nothing is to be
 //! painted, and the driver has nothing to clip.
 
-use super::header::Header;
+use super::header::CaptureHeader;
 use super::inputs::{drop_arguments, feed};
 use super::{Hooks, Part};
 use crate::translate::build::Build;
@@ -14,7 +14,7 @@ use naga::{
 pub(super) fn rebuild(module: &mut Module, function: &mut Function, inputs: &[Part], outputs: &[Part], hooks: &Hooks) {
     let position = position(module, function);
     let instance = drop_arguments(module, function);
-    let header = Header::declare(module, Some(outputs.len() as u32));
+    let header = CaptureHeader::declare(module, Some(outputs.len() as u32));
     let vertex = vertex_index(function, header.u32);
     let fed = feed(function, inputs, false);
     let turns = LocalVariable { name: None, ty: header.u32, init: None };

@@ -5,7 +5,7 @@ use super::vocabulary;
 
 /// What kind of thing is declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum DeclarationKind {
     /// A variable.
     Variable,
     /// A parameter of a function.
@@ -22,7 +22,7 @@ pub struct Declaration<'a> {
     /// The name.
     pub name: &'a str,
     /// What it is.
-    pub role: Role,
+    pub role: DeclarationKind,
     /// The type as written, with `[]` for arrays; the type that a function returns.
     pub ty: String,
     /// Words before the type: `const`, `in`, `out`, `uniform`, `flat` …
@@ -65,7 +65,7 @@ pub fn find<'a>(code: &[Lexeme<'a>]) -> Vec<Declaration<'a>> {
         }
         if let Some((ty, role)) = structure(code, index).or_else(|| typed(code, index, &all)) {
             let mut indices = vec![index];
-            if role == Role::Variable {
+            if role == DeclarationKind::Variable {
                 indices.extend(more_names(code, index).into_iter().take(MAX_DECLARATIONS));
             }
             let qualifiers = qualifiers(code, index);
@@ -75,15 +75,15 @@ pub fn find<'a>(code: &[Lexeme<'a>]) -> Vec<Declaration<'a>> {
     all
 }
 
-fn structure(code: &[Lexeme<'_>], index: usize) -> Option<(String, Role)> {
+fn structure(code: &[Lexeme<'_>], index: usize) -> Option<(String, DeclarationKind)> {
     let opens = code.get(index + 1).is_some_and(|next| next.text == "{");
     let keyword = code[index - 1].text;
     (code[index].kind == LexemeKind::Word && opens && matches!(keyword, "struct" | "uniform" | "in" | "out" | "buffer"))
-        .then(|| (keyword.to_owned(), Role::Structure))
+        .then(|| (keyword.to_owned(), DeclarationKind::Structure))
 }
 
 /// The type and role of the name at `index`, if it is one that is declared there.
-fn typed(code: &[Lexeme<'_>], index: usize, before: &[Declaration<'_>]) -> Option<(String, Role)> {
+fn typed(code: &[Lexeme<'_>], index: usize, before: &[Declaration<'_>]) -> Option<(String, DeclarationKind)> {
     let name = code[index];
     if name.kind != LexemeKind::Word || vocabulary::is_keyword(name.text) {
         return None;
@@ -98,16 +98,17 @@ fn typed(code: &[Lexeme<'_>], index: usize, before: &[Declaration<'_>]) -> Optio
     let next = code.get(index + 1).map_or("", |next| next.text);
     if ty == "}" {
         // The name of a block's instance, or of a variable of the structure just defined.
-        return (suffix.is_empty() && matches!(next, ";" | "[" | ",")).then(|| ("struct".to_owned(), Role::Variable));
+        return (suffix.is_empty() && matches!(next, ";" | "[" | ","))
+            .then(|| ("struct".to_owned(), DeclarationKind::Variable));
     }
-    if !vocabulary::is_type(ty) && !before.iter().any(|d| d.role == Role::Structure && d.name == ty) {
+    if !vocabulary::is_type(ty) && !before.iter().any(|d| d.role == DeclarationKind::Structure && d.name == ty) {
         return None;
     }
     let role = match next {
-        "(" => Role::Function,
-        _ if parenthesis_before(code, at) => Role::Parameter,
+        "(" => DeclarationKind::Function,
+        _ if parenthesis_before(code, at) => DeclarationKind::Parameter,
         // A declaration whose semicolon is missing still declares its name.
-        _ => Role::Variable,
+        _ => DeclarationKind::Variable,
     };
     Some((format!("{ty}{suffix}"), role))
 }
@@ -165,7 +166,7 @@ fn declaration<'a>(
     braces: &Braces,
     index: usize,
     ty: &str,
-    role: Role,
+    role: DeclarationKind,
     qualifiers: &[&'a str],
 ) -> Declaration<'a> {
     let array = code.get(index + 1).is_some_and(|next| next.text == "[");
@@ -210,8 +211,8 @@ impl Braces {
     }
 
     /// Where the scope of the name at `index` ends, and whether it is the whole file's.
-    fn scope(&self, code: &[Lexeme<'_>], index: usize, role: Role) -> (usize, bool) {
-        if role == Role::Parameter {
+    fn scope(&self, code: &[Lexeme<'_>], index: usize, role: DeclarationKind) -> (usize, bool) {
+        if role == DeclarationKind::Parameter {
             // A parameter lives in the body that follows its list.
             let body = (index..code.len()).find(|&at| matches!(code[at].text, "{" | ";"));
             return (body.map_or(usize::MAX, |at| self.end[at]), false);

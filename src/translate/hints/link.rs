@@ -1,6 +1,6 @@
 //! What the linker says about the vertex shader and the fixed fragment shader.
 
-use super::declarations::{Declaration, Role};
+use super::declarations::{Declaration, DeclarationKind};
 use super::file::File;
 use super::suggestions;
 use super::vocabulary;
@@ -52,6 +52,7 @@ fn output_hint(file: &File<'_>) -> Text {
 }
 
 /// An error of the compiler: `own` has the name of the output and is none.
+/// Says that the output of the homework is not declared.
 pub fn output_missing_as(file: &File<'_>, own: &Declaration<'_>) -> Diagnostic {
     let name = own.name;
     let text = if own.global {
@@ -71,9 +72,10 @@ pub fn output_missing_as(file: &File<'_>, own: &Declaration<'_>) -> Diagnostic {
 /// Whether `declaration` is an output variable, also in the words of old GLSL.
 fn is_output(declaration: &Declaration<'_>) -> bool {
     let output = declaration.is("out") || declaration.is("varying");
-    declaration.global && declaration.role == Role::Variable && output
+    declaration.global && declaration.role == DeclarationKind::Variable && output
 }
 
+/// Says that the output of the homework is not declared.
 pub fn output_missing(file: &File<'_>) -> Diagnostic {
     let output = &file.interface.output;
     let name = output.name.as_str();
@@ -134,7 +136,7 @@ fn no_main(file: &File<'_>) -> Diagnostic {
         return Diagnostic { stage: Stage::Link, ..swallowed };
     }
     let text = Text::new("The file has no function `main`.", "関数 `main` がありません。");
-    let functions = || file.declarations.iter().filter(|d| d.role == Role::Function);
+    let functions = || file.declarations.iter().filter(|d| d.role == DeclarationKind::Function);
     let near = vocabulary::nearest("main", functions().map(|d| d.name));
     match functions().find(|d| Some(d.name) == near) {
         Some(function) => {
@@ -160,7 +162,7 @@ fn recursion(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
     let (caller, callee) = (*names.first()?, *names.last()?);
     let is_body = |d: &&Declaration<'_>| {
         let close = file.closing(d.index + 1);
-        d.role == Role::Function && close.is_some_and(|close| file.word(Some(close + 1)) == "{")
+        d.role == DeclarationKind::Function && close.is_some_and(|close| file.word(Some(close + 1)) == "{")
     };
     let body = file.declarations.iter().filter(|d| d.name == caller).find(is_body)?;
     let open = file.closing(body.index + 1)? + 1;
@@ -178,7 +180,7 @@ fn recursion(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
 
 fn no_body(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
     let name = *function_names(entry).first()?;
-    let declared = file.declarations.iter().find(|d| d.role == Role::Function && d.name == name)?;
+    let declared = file.declarations.iter().find(|d| d.role == DeclarationKind::Function && d.name == name)?;
     let text = Text::new(
         format!("The function `{name}` is declared but has no body `{{ … }}`."),
         format!("関数 `{name}` は宣言されていますが、本体 `{{ … }}` がありません。"),

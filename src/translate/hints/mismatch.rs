@@ -1,6 +1,6 @@
 //! Types that do not fit: conversions, operands, arguments, constructors, components.
 
-use super::declarations::Role;
+use super::declarations::DeclarationKind;
 use super::file::File;
 use super::types::{self, Numeric};
 use super::{Finding, expression, vocabulary};
@@ -215,7 +215,7 @@ fn arguments(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
 
 /// What a function takes.
 fn form(file: &File<'_>, name: &str) -> Option<Text> {
-    if let Some(function) = file.anywhere(name).filter(|d| d.role == Role::Function) {
+    if let Some(function) = file.anywhere(name).filter(|d| d.role == DeclarationKind::Function) {
         let close = file.closing(function.index + 1)?;
         let parameters: String =
             file.text[function.start..file.code[close].end()].split_ascii_whitespace().collect::<Vec<_>>().join(" ");

@@ -1,6 +1,6 @@
 //! Names that are not there, and those that were meant.
 
-use super::declarations::Role;
+use super::declarations::DeclarationKind;
 use super::file::{File, macro_name};
 use super::tokens::LexemeKind;
 use super::vocabulary;
@@ -32,8 +32,8 @@ pub fn locate(file: &File<'_>, entry: &Entry<'_>, offset: usize) -> usize {
 /// Whether `name` is a function, a type or a variable that can be called or indexed by its name at least.
 pub fn is_callable(file: &File<'_>, name: &str) -> bool {
     let known = vocabulary::is_function(name) || vocabulary::is_type(name) || name.is_empty();
-    let declared = file.declarations.iter().any(|d| d.name == name && d.role != Role::Function);
-    let function = file.declarations.iter().any(|d| d.name == name && d.role == Role::Function);
+    let declared = file.declarations.iter().any(|d| d.name == name && d.role != DeclarationKind::Function);
+    let function = file.declarations.iter().any(|d| d.name == name && d.role == DeclarationKind::Function);
     known || declared || function
 }
 
@@ -117,7 +117,7 @@ fn place(file: &File<'_>, finding: &Finding<'_, '_>, name: &str, text: Text) -> 
 
 fn unknown_function(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Diagnostic {
     let text = Text::new(format!("There is no function `{name}`."), format!("`{name}` という関数はありません。"));
-    let functions = || file.declarations.iter().filter(|d| d.role == Role::Function).map(|d| d.name);
+    let functions = || file.declarations.iter().filter(|d| d.role == DeclarationKind::Function).map(|d| d.name);
     let otherwise = || {
         let text = "`else if (…)`";
         let hint = Text::new(format!("It is written {text}."), format!("{text} と書きます。"));
@@ -137,7 +137,7 @@ fn unknown_function(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> D
 /// A function of the file that is called before it is defined.
 fn defined_later(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Option<Diagnostic> {
     let call = file.code.get(finding.index)?.start;
-    let function = file.declarations.iter().find(|d| d.name == name && d.role == Role::Function)?;
+    let function = file.declarations.iter().find(|d| d.name == name && d.role == DeclarationKind::Function)?;
     if function.start < call {
         return None;
     }
@@ -164,7 +164,7 @@ pub fn unknown_type(file: &File<'_>, index: usize) -> Diagnostic {
         format!("`{name}` is neither a type nor a keyword of GLSL."),
         format!("`{name}` は GLSL の型でもキーワードでもありません。"),
     );
-    let structures = file.declarations.iter().filter(|d| d.role == Role::Structure).map(|d| d.name);
+    let structures = file.declarations.iter().filter(|d| d.role == DeclarationKind::Structure).map(|d| d.name);
     let hint = suggestions::from_elsewhere(file, name).or_else(|| {
         let meant = vocabulary::nearest(name, vocabulary::keywords().chain(structures))?;
         Some(Text::new(format!("Did you mean `{meant}`?"), format!("`{meant}` の間違いではありませんか。")))

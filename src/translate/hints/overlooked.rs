@@ -1,6 +1,6 @@
 //! What every driver refuses and the compiler here lets pass.
 
-use super::declarations::{Declaration, Role};
+use super::declarations::{Declaration, DeclarationKind};
 use super::directives::directive_name;
 use super::file::File;
 use super::suggestions;
@@ -95,7 +95,7 @@ fn output_in_block(file: &File<'_>) -> Option<Diagnostic> {
     let output = file.anywhere(&file.interface.output.name).filter(|d| !d.global)?;
     let inside = file.code[..output.index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
     let block = inside.checked_sub(1)?;
-    let is_block = |d: &Declaration<'_>| d.role == Role::Structure && d.ty == "out" && d.index == block;
+    let is_block = |d: &Declaration<'_>| d.role == DeclarationKind::Structure && d.ty == "out" && d.index == block;
     (file.code[inside].text == "{" && file.declarations.iter().any(is_block)).then(|| super::link::output_missing(file))
 }
 

@@ -1,6 +1,6 @@
 //! What GLSL does not allow with names, functions and declarations that it knows.
 
-use super::declarations::Role;
+use super::declarations::DeclarationKind;
 use super::file::File;
 use super::tokens::LexemeKind;
 use super::{Finding, brackets, disallowed, expression, mismatch};
@@ -112,7 +112,7 @@ fn redefinition(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
     let here = file.declarations.iter().rfind(|d| d.name == name && d.index <= finding.index);
     let index = here.map_or(finding.index, |d| d.index);
     let start = file.code.get(index).map_or(0, |token| token.start);
-    let is_function = here.is_some_and(|d| d.role == Role::Function);
+    let is_function = here.is_some_and(|d| d.role == DeclarationKind::Function);
     let first = file.declarations.iter().find(|d| d.name == name && d.start < start && d.is_visible(start));
     let text = if is_function {
         Text::new(
@@ -159,7 +159,7 @@ fn returned(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
     }
     let end = (at..file.code.len()).find(|&end| file.code[end].text == ";")?;
     let from = expression::type_of(file, file.code.get(at + 1..end)?).map(|ty| ty.to_string());
-    let function = file.declarations.iter().rfind(|d| d.role == Role::Function && d.index < at)?;
+    let function = file.declarations.iter().rfind(|d| d.role == DeclarationKind::Function && d.index < at)?;
     let (name, to) = (function.name, &function.ty);
     let text = match &from {
         Some(from) => Text::new(

@@ -1,6 +1,6 @@
 //! Statements and declarations that do not end, do not begin or do not hold together.
 
-use super::declarations::Role;
+use super::declarations::DeclarationKind;
 use super::file::File;
 use super::syntax::{in_brackets, is_operand_end};
 use super::tokens::LexemeKind;
@@ -14,7 +14,7 @@ pub fn missing_type(file: &File<'_>, at: usize) -> Option<Diagnostic> {
     let head = open.and_then(|open| open.checked_sub(1));
     let parameter = file.code.get(at)?.kind == LexemeKind::Word
         && matches!(file.word(at.checked_sub(1)), "(" | ",")
-        && file.declarations.iter().any(|d| d.role == Role::Function && Some(d.index) == head);
+        && file.declarations.iter().any(|d| d.role == DeclarationKind::Function && Some(d.index) == head);
     let name = if parameter {
         at
     } else {
@@ -86,7 +86,7 @@ pub fn body(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 /// Whether the `)` at `close` ends the parameters of a function that is declared or defined there.
 fn is_function_head(file: &File<'_>, close: usize) -> bool {
     let name = file.opening(close).and_then(|open| open.checked_sub(1));
-    file.declarations.iter().any(|d| d.role == Role::Function && Some(d.index) == name)
+    file.declarations.iter().any(|d| d.role == DeclarationKind::Function && Some(d.index) == name)
 }
 
 /// A word that begins a declaration or statement and is none that GLSL knows there.
@@ -176,7 +176,7 @@ fn ends_structure(file: &File<'_>, close: usize) -> bool {
         return false;
     }
     let name = file.opening(close).and_then(|open| open.checked_sub(1));
-    file.declarations.iter().any(|d| d.role == Role::Structure && Some(d.index) == name)
+    file.declarations.iter().any(|d| d.role == DeclarationKind::Structure && Some(d.index) == name)
 }
 
 fn colon(file: &File<'_>, at: usize) -> Diagnostic {

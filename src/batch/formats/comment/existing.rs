@@ -2,11 +2,11 @@
 
 use super::exported::{GAP, is_html, paragraphs, plain_quotes, text};
 use super::former::Former;
-use super::{CLOSE, Comment, LANGUAGES, OPEN, OPEN_QUOTED, marks};
+use super::{CLOSE, LANGUAGES, OPEN, OPEN_QUOTED, WorksheetComment, marks};
 
 /// The cell with `ours` in the place of what is ours in it, or behind what is a teacher's.
-pub(super) fn replaced(cell: &str, ours: &str, former: &Former) -> Comment {
-    let whole = |html: String| Comment { html, is_end_guessed: false };
+pub(super) fn replaced(cell: &str, ours: &str, former: &Former) -> WorksheetComment {
+    let whole = |html: String| WorksheetComment { html, is_end_guessed: false };
     if !is_html(cell) {
         return in_text(&plain_quotes(cell), ours, former);
     }
@@ -37,7 +37,7 @@ fn in_html(cell: &str, ours: &str) -> Option<String> {
 }
 
 /// The text of a worksheet with `ours` in the place of what is ours in it.
-fn in_text(text: &str, ours: &str, former: &Former) -> Comment {
+fn in_text(text: &str, ours: &str, former: &Former) -> WorksheetComment {
     let (before, after) = match marked(text) {
         Some(span) => (text[..span.start].to_owned(), text[span.end..].to_owned()),
         None => (text.to_owned(), String::new()),
@@ -58,7 +58,7 @@ fn in_text(text: &str, ours: &str, former: &Former) -> Comment {
     let (first, rest) =
         before.split_first().map_or((String::new(), String::new()), |(first, rest)| (first.clone(), rest.join(GAP)));
     let html = format!("{}{ours}{}{}", paragraphs(&first), paragraphs(&rest), paragraphs(&after.join(GAP)));
-    Comment { html, is_end_guessed }
+    WorksheetComment { html, is_end_guessed }
 }
 
 /// From the first of our marks that begins to the last that ends: what a student quotes between them ends nothing.

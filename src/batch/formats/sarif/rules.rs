@@ -24,12 +24,12 @@ pub(super) fn stage(stage: Stage) -> &'static str {
 }
 
 /// The rules, in the order of their indices.
-pub(super) struct Rules {
+pub(super) struct RuleTable {
     values: Vec<Value>,
     indices: HashMap<String, usize>,
 }
 
-impl Rules {
+impl RuleTable {
     /// Those that reports of the class can name.
     pub fn of(class: &Class) -> Self {
         let mut rules = Self { values: Vec::new(), indices: HashMap::new() };
