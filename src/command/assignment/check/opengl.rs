@@ -2,7 +2,7 @@
 
 use super::Said;
 use crate::language::Text;
-use crate::opengl::{Agreement, REFERENCE_TOLERANCE};
+use crate::opengl::{Agreement, FrameAgreement, REFERENCE_TOLERANCE};
 use std::process::{Command, Stdio};
 
 /// Says it, and whether they agree. Where there is no driver nothing is held against it, which is no error of the homework.
@@ -25,33 +25,37 @@ pub(super) fn say(said: Said, assignment: &str) -> bool {
             );
             false
         }
-        Ok(Agreement { renderer, frames, .. }) => {
-            let differing = |(index, frame): (usize, &crate::opengl::FrameAgreement)| {
-                (frame.differing > 0).then_some((index, frame.differing, frame.judged))
-            };
-            let Some((index, count, judged)) = frames.iter().enumerate().find_map(differing) else {
-                let frames = frames.len();
-                said.ok(&Text::new(
-                    format!("real OpenGL ({renderer}) draws the same in all {frames} frames"),
-                    format!("本物の OpenGL ({renderer}) が描く画像も {frames} 枚すべてで同じです"),
-                ));
-                return true;
-            };
-            said.line(
-                false,
-                &Text::new(
-                    format!(
-                        "real OpenGL ({renderer}) draws {count} of {judged} pixels of frame {index} otherwise, by more than \
-                         {REFERENCE_TOLERANCE}/255"
-                    ),
-                    format!(
-                        "本物の OpenGL ({renderer}) では、画像 {index} の {judged} 画素中 {count} 画素が {REFERENCE_TOLERANCE}/255 を超えて異なります"
-                    ),
-                ),
-            );
-            false
-        }
+        Ok(Agreement { renderer, frames, .. }) => say_frames(said, &renderer, &frames),
     }
+}
+
+fn say_frames(said: Said, renderer: &str, frames: &[FrameAgreement]) -> bool {
+    if let Some((index, frame)) = frames.iter().enumerate().find(|(_, frame)| !frame.agrees()) {
+        let FrameAgreement { judged, unlike, .. } = frame;
+        let text = Text::new(
+            format!(
+                "real OpenGL ({renderer}) draws {unlike} of {judged} pixels of frame {index} otherwise, by more than \
+                 {REFERENCE_TOLERANCE}/255"
+            ),
+            format!(
+                "本物の OpenGL ({renderer}) では、画像 {index} の {judged} 画素中 {unlike} 画素が {REFERENCE_TOLERANCE}/255 を超えて異なります"
+            ),
+        );
+        said.line(false, &text);
+        return false;
+    }
+    let count = frames.len();
+    let apart: usize = frames.iter().map(|frame| frame.differing).sum();
+    let mut text = Text::new(
+        format!("real OpenGL ({renderer}) draws the same in all {count} frames"),
+        format!("本物の OpenGL ({renderer}) が描く画像も {count} 枚すべてで同じです"),
+    );
+    if apart > 0 {
+        text.en += &format!("; in {apart} pixels an edge that a texture draws lies elsewhere");
+        text.ja += &format!("(テクスチャの値で決まる境界が {apart} 画素でずれます)");
+    }
+    said.ok(&text);
+    true
 }
 
 fn asked(assignment: &str) -> Result<Agreement, String> {
