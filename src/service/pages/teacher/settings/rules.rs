@@ -1,0 +1,165 @@
+//! The form of a homework's rules: dates, attempts, lateness, hints, who may hand in, what counts.
+
+use super::super::super::datetime;
+use super::super::super::frame::Frame;
+use crate::diagnose::Hints;
+use crate::report::text::number;
+use crate::service::clock::Millis;
+use crate::service::counting::Counting;
+use crate::service::course::Course;
+use crate::service::store::{Assignment, Audience, LateRules, LateSpan, word};
+use serde::Deserialize;
+
+/// The form of the rules.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct Rules {
+    pub csrf: String,
+    pub opens: String,
+    pub closes: String,
+    pub attempts: String,
+    pub hints: String,
+    pub audience: String,
+    /// A box that is not ticked is not sent.
+    pub practice: String,
+    #[serde(flatten)]
+    pub late: LateFields,
+    pub counting: String,
+}
+
+/// The part of the form of the rules that is about lateness.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::service::pages) struct LateFields {
+    /// Minutes.
+    pub grace: String,
+    pub late_until: String,
+    pub late_percent: String,
+    pub late_span: String,
+    pub late_floor: String,
+}
+
+/// A minute.
+const MINUTE: Millis = 60_000;
+
+/// Longest grace, in minutes: a week.
+const LONGEST_GRACE: f64 = 10_080.0;
+
+impl Rules {
+    /// The form as it stands for these settings.
+    pub(super) fn of(settings: &Assignment, course: &Course) -> Self {
+        let date = |at: Option<_>| at.map(|at| datetime::field(at, course.zone())).unwrap_or_default();
+        Self {
+            csrf: String::new(),
+            opens: date(settings.opens_at),
+            closes: date(settings.closes_at),
+            attempts: settings.attempts.map(|attempts| attempts.to_string()).unwrap_or_default(),
+            hints: word(&settings.hints),
+            audience: word(&settings.audience),
+            practice: if settings.practice { "on".to_owned() } else { String::new() },
+            late: LateFields {
+                grace: number(settings.late.grace as f64 / MINUTE as f64),
+                late_until: date(settings.late.until),
+                late_percent: number(settings.late.percent),
+                late_span: word(&settings.late.span),
+                late_floor: number(settings.late.floor),
+            },
+            counting: word(&settings.counting),
+        }
+    }
+
+    /// What differs from a form as it stood before, for the log of acts.
+    pub(super) fn changes_from(&self, before: &Self) -> String {
+        let pairs = [
+            ("opens", &before.opens, &self.opens),
+            ("closes", &before.closes, &self.closes),
+            ("attempts", &before.attempts, &self.attempts),
+            ("hints", &before.hints, &self.hints),
+            ("audience", &before.audience, &self.audience),
+            ("practice", &before.practice, &self.practice),
+            ("grace", &before.late.grace, &self.late.grace),
+            ("late until", &before.late.late_until, &self.late.late_until),
+            ("late percent", &before.late.late_percent, &self.late.late_percent),
+            ("late span", &before.late.late_span, &self.late.late_span),
+            ("late floor", &before.late.late_floor, &self.late.late_floor),
+            ("counting", &before.counting, &self.counting),
+        ];
+        let shown = |text: &String| if text.trim().is_empty() { "–".to_owned() } else { text.trim().to_owned() };
+        let changed = pairs.into_iter().filter(|(_, before, after)| before.trim() != after.trim());
+        let lines = changed.map(|(name, before, after)| format!("{name}: {} → {}", shown(before), shown(after)));
+        lines.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The settings that the form asks for.
+    pub(super) fn read(&self, frame: &Frame, before: Assignment) -> Result<Assignment, &'static str> {
+        let date = |field: &str| {
+            datetime::parse(field, frame.course.zone()).map_err(|_| {
+                frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+            })
+        };
+        let attempts = match self.attempts.trim() {
+            "" => None,
+            number => Some(number.parse().ok().filter(|number| *number > 0).ok_or(frame.say(
+                "Attempts: a whole number above 0, or nothing.",
+                "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+            ))?),
+        };
+        let (opens_at, closes_at) = (date(&self.opens)?, date(&self.closes)?);
+        if let (Some(opens), Some(closes)) = (opens_at, closes_at)
+            && closes <= opens
+        {
+            return Err(frame.say("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
+        }
+        let (hints, audience) = (read_hints(&self.hints), read_audience(&self.audience));
+        let practice = !self.practice.is_empty();
+        let late = self.late.read(frame, closes_at, date(&self.late.late_until)?)?;
+        let counting = match self.counting.as_str() {
+            "last" => Counting::Last,
+            "chosen" => Counting::Chosen,
+            _ => Counting::Best,
+        };
+        Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, late, counting, ..before })
+    }
+}
+
+impl LateFields {
+    fn read(&self, frame: &Frame, due: Option<Millis>, until: Option<Millis>) -> Result<LateRules, &'static str> {
+        let number = |field: &str, most: f64| match field.trim() {
+            "" => Some(0.0),
+            text => text.parse().ok().filter(|number: &f64| (0.0..=most).contains(number)),
+        };
+        let percent = |field: &str| {
+            number(field, 100.0)
+                .ok_or(frame.say("A share is a number from 0 to 100.", "割合は 0 から 100 の数で入力してください。"))
+        };
+        let grace = number(&self.grace, LONGEST_GRACE).ok_or(frame.say(
+            "The grace is a number of minutes, at most 10080 (a week).",
+            "猶予は 0 から 10080（1 週間）までの分数で入力してください。",
+        ))?;
+        if until.is_some_and(|until| due.is_none_or(|due| until <= due)) {
+            return Err(frame.say(
+                "Late hand-ins end after the due date: set that first, or leave the field empty.",
+                "遅延提出の終了日時は締切より後にしてください。締切がない場合は空欄にしてください。",
+            ));
+        }
+        Ok(LateRules {
+            grace: (grace * MINUTE as f64).round() as Millis,
+            until,
+            percent: percent(&self.late_percent)?,
+            span: if self.late_span == "hour" { LateSpan::Hour } else { LateSpan::Day },
+            floor: percent(&self.late_floor)?,
+        })
+    }
+}
+
+fn read_hints(word: &str) -> Hints {
+    match word {
+        "none" => Hints::None,
+        "gentle" => Hints::Gentle,
+        _ => Hints::Full,
+    }
+}
+
+fn read_audience(word: &str) -> Audience {
+    if word == "number" { Audience::Number } else { Audience::Open }
+}
