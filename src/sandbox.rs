@@ -7,10 +7,12 @@
 //! Here, in the parent: [`pool`] grades, [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
 //! pipes, [`library`] what it needs to know of an assignment, [`ending`] what its end means, [`memory`] whether this
 //! machine gives it enough.
-//! There, in the worker: [`worker`] serves, [`confine`], [`files`] and
+//! On both sides: [`check`] says whether an archive has a homework.
+//! There, in the worker: [`worker`] serves, [`unpacked`] is what it reads of such an archive, [`confine`], [`files`] and
 //! [`syscalls`] are the walls, [`preflight`] leans against them.
 
 mod channel;
+mod check;
 mod child;
 mod confine;
 mod ending;
@@ -25,8 +27,10 @@ mod protocol;
 mod roster;
 mod schedule;
 mod syscalls;
+mod unpacked;
 pub mod worker;
 
+pub use check::CheckedFolder;
 pub use child::MOST_ASSIGNMENTS;
 pub use pool::{GradedSubmission, Pool, Submission};
 pub use preflight::Attempt;

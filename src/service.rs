@@ -17,7 +17,7 @@
 //! | `/assets/…` | styles and scripts |
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
-//! [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
+//! [`folders`] are homeworks that come by the browser, [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
 //! [`judgement`] what people judge beside it, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
@@ -33,6 +33,7 @@ pub mod deletion;
 pub mod download;
 pub mod errors;
 pub mod extensions;
+pub mod folders;
 pub mod gallery;
 pub mod grading;
 pub mod idempotency;
@@ -58,15 +59,35 @@ pub use config::Config;
 pub use state::{Scope, Service, Shared, State};
 
 use axum::Router;
-use axum::extract::DefaultBodyLimit;
+use axum::extract::{DefaultBodyLimit, Request};
 use axum::http::{HeaderName, HeaderValue, header};
+use axum::response::Response;
+use std::convert::Infallible;
+use std::sync::{Arc, Mutex, PoisonError};
+use tower::ServiceExt;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
 
-/// The whole service as a router.
+/// The whole service as a router. Its routes are made anew when a homework was published or withdrawn.
 pub fn app(service: Service) -> Router {
-    let routes = Router::new().merge(pages::router(&service)).merge(lti::router()).merge(api::router());
-    layered(service, routes)
+    let made = Arc::new(Mutex::new((service.generation(), whole(&service))));
+    Router::new().fallback(async move |request: Request| -> Result<Response, Infallible> {
+        let routes = {
+            let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+            let generation = service.generation();
+            if made.0 != generation {
+                *made = (generation, whole(&service));
+            }
+            made.1.clone()
+        };
+        routes.oneshot(request).await
+    })
+}
+
+/// All routes of the homeworks that are served now.
+fn whole(service: &Service) -> Router {
+    let routes = Router::new().merge(pages::router(service)).merge(lti::router()).merge(api::router());
+    layered(service.clone(), routes)
 }
 
 /// Routes with everything around them: limits, errors in their form, security headers.

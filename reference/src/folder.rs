@@ -71,7 +71,7 @@ impl Folder {
     ///
     /// # Errors
     /// What it extends is nowhere, or cannot be read.
-    pub(crate) fn with_bases(mut self, beside: Option<&Path>) -> Result<Self, AssignmentError> {
+    pub fn with_bases(mut self, beside: Option<&Path>) -> Result<Self, AssignmentError> {
         let mut from = MANIFEST.to_owned();
         while let Some(base) = self.text(&from).ok().and_then(manifest::extended) {
             let file = manifest::name_of_base(&base);

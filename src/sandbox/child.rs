@@ -38,7 +38,7 @@ const DYING: Duration = Duration::from_millis(300);
 const HELLO: Longest = Longest { head: 64 << 10, body: 0 };
 
 /// The longest report without its frames.
-const REPORT_BYTES: usize = 4 << 20;
+pub(super) const REPORT_BYTES: usize = 4 << 20;
 
 /// A process that is to become a worker, or is one.
 #[derive(Debug)]
@@ -152,28 +152,38 @@ impl Worker {
             load.wants_pictures_above_ms = u64::try_from(settings.keep_above.as_millis()).ok();
         }
         let failed = |fault: Fault, transient| NotStarted { fault, transient }.explained(settings);
-        let message = protocol::encode(&Demand::Load(load), &body);
-        let message = message.map_err(|error| failed(cannot_read(assignment, &error.to_string()), false))?;
         let longest = Longest { head: REPORT_BYTES, body: PICTURES_BYTES };
-        let answered = self.channel.exchange::<Reply>(&message, longest, Instant::now() + LOAD_DEADLINE, &|| None);
-        let (reply, body) = answered.map_err(|lost| {
-            let how = match lost {
-                Lost::Timeout => format!("not read after {} s", LOAD_DEADLINE.as_secs()),
-                Lost::Garbled(detail) => detail,
-                Lost::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
-            };
-            failed(cannot_read(assignment, format!("{how} {}", self.channel.tail()).trim_end()), true)
-        })?;
+        let answered = self.ask(&Demand::Load(load), &body, longest, LOAD_DEADLINE);
+        let (reply, body) = answered.map_err(|how| failed(cannot_read(assignment, &how), true))?;
         match reply.outcome {
             Answered::Loaded => {}
             Answered::Failed(fault) => return Err(failed(fault, false)),
-            Answered::Graded { .. } => return Err(failed(cannot_read(assignment, "another answer"), true)),
+            _ => return Err(failed(cannot_read(assignment, "another answer"), true)),
         }
         if let Turn::ForAll(maker) = turn {
             maker.done(assignment, (!body.is_empty()).then(|| Pack::of_bytes(&body)), settings);
         }
         self.assignments.push(assignment.digest.clone());
         Ok(())
+    }
+
+    /// Has a worker that has met no student's file do something; where no answer comes, what there is to say of that.
+    pub fn ask(
+        &mut self,
+        demand: &Demand,
+        body: &[u8],
+        longest: Longest,
+        deadline: Duration,
+    ) -> Result<(Reply, Body), String> {
+        let message = protocol::encode(demand, body).map_err(|error| error.to_string())?;
+        self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &|| None).map_err(|lost| {
+            let how = match lost {
+                Lost::Timeout => format!("no answer after {} s", deadline.as_secs()),
+                Lost::Garbled(detail) => detail,
+                Lost::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
+            };
+            format!("{how} {}", self.channel.tail()).trim_end().to_owned()
+        })
     }
 
     /// Its process, which is also its process group.

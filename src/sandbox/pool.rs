@@ -1,5 +1,6 @@
 //! Workers kept warm, each submission graded by one of them.
 
+use super::check::{self, CheckedFolder};
 use super::child::Worker;
 use super::ending::{Blame, Ending};
 use super::protection::Protection;
@@ -99,6 +100,12 @@ impl Pool {
     /// The processes of the workers that wait for a submission; each is a process group of its own.
     pub fn idle_processes(&self) -> Vec<u32> {
         self.roster.idle(Worker::id)
+    }
+
+    /// Whether an archive has the folder of a homework, see [`CheckedFolder`]; what to tell its teacher, where it has none. No
+    /// submission waits for it: the worker is one of its own.
+    pub fn check(&self, archive: &[u8]) -> Result<Result<CheckedFolder, Text>, Fault> {
+        check::check(&self.settings, archive)
     }
 
     /// Grades one submission. A fault is ours; whatever the file does to a worker is a verdict.
@@ -207,7 +214,7 @@ impl Grading<'_> {
     fn answered(&mut self, worker: Worker, was_fresh: bool, reply: Reply, body: &[u8]) -> Result<Attempted, Fault> {
         let (report, frames) = match reply.outcome {
             Answered::Graded { report, frames } => (*report, self.submission.paste(&frames, body)),
-            Answered::Loaded => {
+            Answered::Loaded | Answered::Checked { .. } | Answered::Refused(_) => {
                 self.place.give_up(worker);
                 return Ok(Attempted::NotDone(Ending::Garbled("the answer to another question".into()).fault()));
             }

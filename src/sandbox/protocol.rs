@@ -4,6 +4,7 @@ use super::protection::Protection;
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::{HandIn, HandedInFile};
+use crate::language::Text;
 use crate::report::{Environment, Report};
 use reference::Folder;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -20,6 +21,8 @@ const PIECE: usize = 256 << 10;
 pub(super) enum Demand {
     Load(Load),
     Grade(Request),
+    /// Unpack the archive that is the body, read the folder of a homework in it, and grade that folder's own files.
+    Check,
 }
 
 /// Read this assignment; the body is the files of its folder, one behind the other, and then its packed pictures.
@@ -55,16 +58,16 @@ pub(super) struct FileHead {
 }
 
 impl FileHead {
-    fn of(name: &str, bytes: &[u8]) -> Self {
+    pub fn of(name: &str, bytes: &[u8]) -> Self {
         Self { name: name.to_owned(), bytes: bytes.len() }
     }
 }
 
 /// A file in a body: its name, and its bytes.
-type FilePart<'b> = (&'b str, &'b [u8]);
+pub(super) type FilePart<'b> = (&'b str, &'b [u8]);
 
 /// The files at the beginning of a body, and the rest of it.
-fn files<'b>(heads: &'b [FileHead], body: &'b [u8]) -> io::Result<(Vec<FilePart<'b>>, &'b [u8])> {
+pub(super) fn files<'b>(heads: &'b [FileHead], body: &'b [u8]) -> io::Result<(Vec<FilePart<'b>>, &'b [u8])> {
     let mut rest = body;
     let mut files = Vec::with_capacity(heads.len());
     for FileHead { name, bytes } in heads {
@@ -137,6 +140,14 @@ pub(super) enum Answered {
         report: Box<Report>,
         frames: Vec<Tile>,
     },
+    /// The archive has a homework; the body is the files of its folder, with what it extends.
+    Checked {
+        files: Vec<FileHead>,
+        solution: Box<Report>,
+        handed_out: Box<Report>,
+    },
+    /// It has none.
+    Refused(Text),
     Failed(Fault),
 }
 

@@ -5,7 +5,7 @@ use super::confine::{self, Confined, Meter, lower};
 use super::preflight::{self, Attempt};
 use super::protection::{Layer, Protection};
 use super::protocol::{Answered, Demand, Hello, Load, REQUEST, Reply, Request, Tile, receive, send};
-use super::{Limits, syscalls};
+use super::{Limits, check, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
 use crate::grade::{self, Graded, Grader, Order};
@@ -79,6 +79,7 @@ fn serve(job: WorkerTask, confined: Confined) -> io::Result<()> {
         match demand {
             Demand::Load(load) => desk.load(&load, &body)?,
             Demand::Grade(request) => desk.grade(&request, &body)?,
+            Demand::Check => desk.check(&body)?,
         }
         if job.rehearsal {
             return Ok(());
@@ -149,6 +150,13 @@ impl Desk {
         }
         self.graders.insert(assignment.digest.clone(), grader);
         Ok(pack)
+    }
+
+    /// Reads a stranger's archive, and grades the files in it.
+    fn check(&mut self, archive: &[u8]) -> io::Result<()> {
+        self.meter.give(LOADING, self.job.adapter)?;
+        let (outcome, body) = check::answer(&self.device, archive);
+        send(&mut self.output, &Reply { id: 0, spent: true, outcome }, body.len(), |to| to.write_all(&body))
     }
 
     /// Grades one submission.

@@ -48,6 +48,8 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/teacher/course") => "course",
         ("POST", "/teacher/settings/link") => "link",
         ("POST", "/teacher/roster") => "roster",
+        ("POST", "/teacher/folders" | "/teacher/folders/{id}") | ("POST", "/api/v1/folders") => "folder",
+        ("POST", "/api/v1/folders/{id}/publication") | ("DELETE", "/api/v1/folders/{id}/publication") => "folder",
         ("POST", "/teacher/codes") => "code",
         ("POST", "/teacher/people") => "person-added",
         ("POST", "/teacher/people/{id}") => "person",

@@ -7,6 +7,7 @@ pub(super) mod body;
 mod deletions;
 mod docs;
 mod extensions;
+mod folders;
 mod judgements;
 mod operations;
 pub(super) mod pictures;
@@ -59,6 +60,7 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(batches::events))
         .routes(routes!(batches::file, batches::filled))
         .routes(routes!(batches::class_file))
+        .routes(routes!(folders::publish, folders::withdraw))
         .routes(routes!(extensions::list, extensions::set))
         .routes(routes!(extensions::choose))
         .routes(routes!(judgements::override_line, judgements::clear_override))
@@ -77,7 +79,10 @@ fn described() -> OpenApiRouter<Service> {
 /// The routes.
 pub fn router() -> Router<Service> {
     let (router, document) = described().split_for_parts();
-    let (archives, with_archives) = OpenApiRouter::new().routes(routes!(batches::create)).split_for_parts();
+    let (archives, with_archives) = OpenApiRouter::new()
+        .routes(routes!(batches::create))
+        .routes(routes!(folders::list, folders::create))
+        .split_for_parts();
     // Archives are counted as they come.
     let router = router.merge(archives.layer(DefaultBodyLimit::disable()));
     let document = document.merge_from(with_archives);

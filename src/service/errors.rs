@@ -78,7 +78,7 @@ impl Problem {
     }
 
     /// There is no homework of this id among those that are served.
-    pub fn not_served(id: &str, served: &[&str]) -> Self {
+    pub fn not_served(id: &str, served: &[String]) -> Self {
         let id: String = id.chars().filter(|c| !c.is_control()).take(LONGEST_ID).collect();
         let (en, ja) = listed(served);
         Self::new(
@@ -90,7 +90,7 @@ impl Problem {
     }
 
     /// A request does not say which of several homeworks it is for.
-    pub fn which_homework(served: &[&str]) -> Self {
+    pub fn which_homework(served: &[String]) -> Self {
         let (en, ja) = listed(served);
         Self::unprocessable(
             format!("Which homework is it for? Say so with `assignment=NAME`. {en}"),
@@ -208,7 +208,7 @@ impl From<super::store::StoreError> for Problem {
 const LONGEST_ID: usize = 64;
 
 /// The homeworks that are served, in a sentence of each language.
-fn listed(served: &[&str]) -> (String, String) {
+fn listed(served: &[String]) -> (String, String) {
     let names = served.iter().map(|id| format!("`{id}`")).collect::<Vec<_>>().join(", ");
     (format!("The homeworks of this service: {names}."), format!("このサービスの課題: {names}。"))
 }

@@ -2,12 +2,14 @@
 
 use super::State;
 use super::errors::Problem;
+use super::folders;
 use super::identity::new_id;
 use super::store::Regrading;
 use axum::http::StatusCode;
 
-/// Begins to grade everything again in the background, behind all else; with another seed, where that is wished.
-pub async fn start(state: &State, new_seed: bool) -> Result<Regrading, Problem> {
+/// Begins to grade everything again in the background, behind all else; with another seed, where that is wished, and by an
+/// uploaded folder, where `folder` is the id of one.
+pub async fn start(state: &State, new_seed: bool, folder: Option<String>) -> Result<Regrading, Problem> {
     let assignment = state.store.assignment(&state.assignment.id).await?;
     let regrading = Regrading {
         id: new_id(),
@@ -16,6 +18,7 @@ pub async fn start(state: &State, new_seed: bool) -> Result<Regrading, Problem> 
         hints: assignment.hints,
         created_at: state.clock.now(),
         adopted_at: None,
+        folder,
     };
     state.store.add_regrading(&regrading).await?;
     state.queue.look();
@@ -28,7 +31,7 @@ pub async fn found(state: &State, id: &str) -> Result<Regrading, Problem> {
     state.store.regrading(id).await?.filter(of_this).ok_or_else(Problem::not_found)
 }
 
-/// Lets the results take the place of the reports.
+/// Lets the results take the place of the reports, and publishes the folder by which they were graded.
 pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
     let regrading = found(state, id).await?;
     if regrading.adopted_at.is_some() {
@@ -42,7 +45,29 @@ pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
             "再採点がまだ終わっていません。終わるまで待ってください。",
         ));
     }
+    let mut published = None;
+    if let Some(folder) = &regrading.folder {
+        published = Some(folders::read(state, folder).await?);
+        // No report by the folder of before is left among those of the new one.
+        let since = state.store.extend_regrading(&regrading).await?;
+        if since > 0 {
+            state.queue.look();
+            return Err(Problem::new(
+                StatusCode::CONFLICT,
+                "not-done",
+                format!(
+                    "{since} more were handed in since this began. They are graded by the new folder now: adopt once more in a moment."
+                ),
+                format!(
+                    "再採点を始めた後に {since} 件の提出がありました。新しいフォルダで採点しています。少し待ってから、もう一度採用してください。"
+                ),
+            ));
+        }
+    }
     state.store.adopt(&regrading, state.clock.now()).await?;
+    if let Some(assignment) = published {
+        state.serve(assignment);
+    }
     state.cross_checks.look();
     Ok(())
 }

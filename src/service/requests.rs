@@ -17,7 +17,7 @@ const TEACHERS_PATIENCE: f64 = 8.0;
 /// Whether a request is about a whole class. Others than teachers get a short answer there.
 fn is_about_a_class(route: &str) -> bool {
     let route = route.strip_prefix(HOMEWORK).unwrap_or(route);
-    ["/api/v1/batches", "/api/v1/class", "/teacher"].iter().any(|start| route.starts_with(start))
+    ["/api/v1/batches", "/api/v1/class", "/api/v1/folders", "/teacher"].iter().any(|start| route.starts_with(start))
 }
 
 /// What the routes of a homework begin with.

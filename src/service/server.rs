@@ -9,7 +9,7 @@ use super::clock::Clock;
 use super::grading::Graders;
 use super::identity::new_token;
 use super::store::{Store, StoreError};
-use super::{Config, Service, app, lti, metrics, upkeep};
+use super::{Config, Service, app, folders, lti, metrics, upkeep};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{Pool, Settings};
@@ -47,7 +47,8 @@ pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Res
         config.teacher_token.clone_from(&one_time_token);
     }
     let (listener, address) = listen(config.listen).await?;
-    let pool = pool(&config, &assignments).await?;
+    let served = folders::served(&store, &assignments).await.map_err(|error| database(&error))?;
+    let pool = pool(&config, &served).await?;
     let service = Service::serving(assignments, config, store, Arc::new(pool), Clock::system()).await?;
     let graders = Graders::start(&service).await.map_err(|error| database(&error))?;
     tokio::spawn(upkeep::run(service.clone()));

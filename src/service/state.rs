@@ -4,6 +4,7 @@ use super::Config;
 use super::classes::Jobs;
 use super::clock::Clock;
 use super::errors::Problem;
+use super::folders::{self, FolderCache};
 use super::gallery::{Gallery, RightPictures};
 use super::grading::{CrossChecks, Judge, Queue};
 use super::identity::{new_id, new_token};
@@ -14,7 +15,8 @@ use super::store::{Store, Stored, Submission};
 use crate::fault::Fault;
 use crate::language::Text;
 use reference::Assignment;
-use std::sync::{Arc, OnceLock};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 use tokio::sync::{Semaphore, watch};
 
 /// What every request shares, whatever homework it is about; cheap to clone.
@@ -70,8 +72,16 @@ pub struct Shared {
     pub limits: Limits,
     /// What is kept of learning platforms between requests.
     pub lti: Connections,
+    /// The homeworks that the command line names.
+    named: Vec<Arc<Assignment>>,
     /// The homeworks that are served, each with its right pictures.
-    homeworks: Vec<(Arc<Assignment>, Arc<RightPictures>)>,
+    homeworks: RwLock<Vec<(Arc<Assignment>, Arc<RightPictures>)>>,
+    /// Counts how often they have changed.
+    generation: AtomicU64,
+    /// The folders that were read to grade everything again by them.
+    pub(super) folders: FolderCache,
+    /// One uploaded folder is checked at a time.
+    pub(super) check_turn: Semaphore,
     /// The teacher's token, where there is one.
     pub teacher_token: Option<String>,
     /// What a preview of a folder says beside the student's page; nothing in a service for students.
@@ -90,7 +100,8 @@ pub struct Shared {
 }
 
 impl Service {
-    /// A service for these homeworks, whose ids differ.
+    /// A service for these homeworks, whose ids differ, and for those that were published. What was published goes before what
+    /// is named.
     pub async fn serving(
         assignments: Vec<Arc<Assignment>>,
         config: Config,
@@ -100,13 +111,10 @@ impl Service {
     ) -> Result<Self, Fault> {
         let failed = |error| Fault::new(Text::verbatim(format!("the database: {error}")));
         let key = store.setting_or("csrf_key", &new_token()).await.map_err(failed)?;
-        for assignment in &assignments {
+        let served = folders::served(&store, &assignments).await.map_err(failed)?;
+        for assignment in &served {
             store.assignment(&assignment.id).await.map_err(failed)?;
         }
-        let with_pictures = |assignment: Arc<Assignment>| {
-            let right = Arc::new(RightPictures::new(Arc::clone(&assignment)));
-            (assignment, right)
-        };
         Ok(Self(Arc::new(Shared {
             limits: Limits::new(&config, &clock),
             lti: Connections::default(),
@@ -122,7 +130,11 @@ impl Service {
             login_turn: Semaphore::new(1),
             instance: new_id(),
             ending: watch::Sender::new(false),
-            homeworks: assignments.into_iter().map(with_pictures).collect(),
+            named: assignments,
+            homeworks: RwLock::new(served.into_iter().map(with_pictures).collect()),
+            generation: AtomicU64::new(0),
+            folders: FolderCache::default(),
+            check_turn: Semaphore::new(1),
             config,
             store,
             pool,
@@ -130,28 +142,63 @@ impl Service {
         })))
     }
 
-    /// Every homework that is served, in the order in which they were named.
+    /// Every homework that is served: those of the command line in their order, and then the others.
     pub fn homeworks(&self) -> impl Iterator<Item = State> + '_ {
-        self.homeworks.iter().map(|(assignment, right)| State {
-            service: self.clone(),
-            assignment: Arc::clone(assignment),
-            right: Arc::clone(right),
-        })
+        let homeworks = self.homeworks.read().unwrap_or_else(PoisonError::into_inner).clone();
+        homeworks.into_iter().map(|(assignment, right)| State { service: self.clone(), assignment, right })
     }
 
     /// The ids of the homeworks that are served.
-    pub fn ids(&self) -> Vec<&str> {
-        self.homeworks.iter().map(|(assignment, _)| assignment.id.as_str()).collect()
+    pub fn ids(&self) -> Vec<String> {
+        self.homeworks().map(|state| state.assignment.id.clone()).collect()
     }
 
     /// The homework that is served, where it is one.
     pub fn only(&self) -> Option<State> {
-        if self.has_several() { None } else { self.homeworks().next() }
+        let mut homeworks = self.homeworks();
+        homeworks.next().filter(|_| homeworks.next().is_none())
     }
 
     /// Whether several homeworks are served.
     pub fn has_several(&self) -> bool {
-        self.homeworks.len() > 1
+        self.homeworks().count() > 1
+    }
+
+    /// A homework that is not served, to be looked at.
+    pub(super) fn unserved(&self, assignment: Arc<Assignment>) -> State {
+        let (assignment, right) = with_pictures(assignment);
+        State { service: self.clone(), assignment, right }
+    }
+
+    /// How often the homeworks have changed that are served.
+    pub fn generation(&self) -> u64 {
+        self.generation.load(Ordering::Acquire)
+    }
+
+    /// Serves a homework from now on, in the place of the one with the same id.
+    pub(super) fn serve(&self, assignment: Arc<Assignment>) {
+        let mut homeworks = self.homeworks.write().unwrap_or_else(PoisonError::into_inner);
+        let place = homeworks.iter().position(|(known, _)| known.id == assignment.id);
+        match place {
+            Some(place) => homeworks[place] = with_pictures(assignment),
+            None => homeworks.push(with_pictures(assignment)),
+        }
+        drop(homeworks);
+        self.generation.fetch_add(1, Ordering::Release);
+    }
+
+    /// Serves the homework with this id no more, or as the command line names it.
+    pub(super) fn withdraw(&self, id: &str) {
+        if let Some(named) = self.named_as(id) {
+            return self.serve(Arc::clone(named));
+        }
+        self.homeworks.write().unwrap_or_else(PoisonError::into_inner).retain(|(known, _)| known.id != id);
+        self.generation.fetch_add(1, Ordering::Release);
+    }
+
+    /// The homework with this id as the command line names it.
+    pub(super) fn named_as(&self, id: &str) -> Option<&Arc<Assignment>> {
+        self.named.iter().find(|known| known.id == id)
     }
 
     /// The homework with this id.
@@ -202,6 +249,12 @@ impl Service {
         // The sender lives as long as this service.
         let _ = ending.wait_for(|ending| *ending).await;
     }
+}
+
+/// A homework with what a right answer draws.
+fn with_pictures(assignment: Arc<Assignment>) -> (Arc<Assignment>, Arc<RightPictures>) {
+    let right = Arc::new(RightPictures::new(Arc::clone(&assignment)));
+    (assignment, right)
 }
 
 impl State {

@@ -8,6 +8,7 @@ mod chromium;
 mod course;
 mod drafts;
 mod editor;
+mod folders;
 mod offline;
 mod preview;
 mod several;

@@ -169,7 +169,7 @@ async fn everything_graded_again_stands_beside_until_it_is_adopted(database: Dat
     let id = hand_in(&bench, "s1", right_and_new()).await.id();
     hand_in(&bench, "s2", sample("rejected/brace-missing-at-end.vert")).await;
     let before = bench.state.store.stored(&id).await.expect("a store").expect("a submission");
-    let regrading = regrade::start(&bench.state, true).await.expect("begun");
+    let regrading = regrade::start(&bench.state, true, None).await.expect("begun");
     assert_ne!(regrading.seed, before.submission.seed);
     for _ in 0..600 {
         if bench.state.store.regrading_progress(&regrading.id).await.expect("progress").is_done() {

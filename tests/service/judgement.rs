@@ -132,7 +132,7 @@ async fn an_overridden_line_counts_and_its_reason_is_read(database: Database) {
 
 /// Has everything graded again, and waits until it is.
 async fn again(bench: &Bench) -> Regrading {
-    let regrading = regrade::start(&bench.state, true).await.expect("begun");
+    let regrading = regrade::start(&bench.state, true, None).await.expect("begun");
     for _ in 0..600 {
         if bench.state.store.regrading_progress(&regrading.id).await.expect("progress").is_done() {
             return regrading;

@@ -8,6 +8,7 @@ mod codes;
 mod cross_checks;
 mod deletions;
 mod extensions;
+mod folders;
 mod gallery;
 mod handing_in;
 mod hints;

@@ -98,7 +98,7 @@ async fn next(service: &Service, receiver: &mut mpsc::Receiver<String>) -> Resul
         }
         if checks.more.swap(false, Ordering::Relaxed) {
             for assignment in service.ids() {
-                let found = service.store.not_cross_checked(assignment, PAGE).await.inspect_err(|_| checks.look())?;
+                let found = service.store.not_cross_checked(&assignment, PAGE).await.inspect_err(|_| checks.look())?;
                 // A full page may not be all.
                 checks.more.fetch_or(found.len() == PAGE as usize, Ordering::Relaxed);
                 found.into_iter().for_each(|id| drop(checks.sender.try_send(id)));

@@ -8,7 +8,8 @@ use crate::report::Report;
 use crate::sandbox;
 use crate::service::clock::{Millis, millis};
 use crate::service::store::{StoreError, Submission};
-use crate::service::{Config, Service, State, metrics};
+use crate::service::{Config, Service, State, folders, metrics};
+use reference::Assignment;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -94,12 +95,19 @@ async fn take_from_database(service: &Service) -> Result<bool, StoreError> {
         return Ok(true);
     }
     let (now, until) = lease(service);
-    let Some(again) = service.store.claim_again(&service.ids(), &service.instance, now, until).await? else {
+    let ids = service.ids();
+    let Some(again) = service.store.claim_again(&served(&ids), &service.instance, now, until).await? else {
         return Ok(false);
     };
     let id = again.submission.id.clone();
-    let judged =
-        judge(service, Job { submission: again.submission, hand_in: again.hand_in, since: Instant::now() }).await;
+    let job = Job { submission: again.submission, hand_in: again.hand_in, since: Instant::now() };
+    let judged = match again.folder {
+        None => judge(service, job).await,
+        Some(folder) => match folders::read(service, &folder).await {
+            Ok(assignment) => judge_by(service, assignment, job).await,
+            Err(problem) => Err(Fault::new(problem.detail)),
+        },
+    };
     if let Err(fault) = &judged {
         tracing::error!(fault = kind_of(fault), submission = id, "grading again failed");
     }
@@ -114,6 +122,10 @@ async fn take_from_database(service: &Service) -> Result<bool, StoreError> {
     Ok(true)
 }
 
+fn served(ids: &[String]) -> Vec<&str> {
+    ids.iter().map(String::as_str).collect()
+}
+
 /// Now, and when a claim made now ends.
 fn lease(service: &Service) -> (Millis, Millis) {
     let now = service.clock.now();
@@ -122,7 +134,8 @@ fn lease(service: &Service) -> (Millis, Millis) {
 
 async fn claim(service: &Service) -> Result<Option<Job>, StoreError> {
     let (now, until) = lease(service);
-    let claimed = service.store.claim(&service.ids(), &service.instance, now, until).await?;
+    let ids = service.ids();
+    let claimed = service.store.claim(&served(&ids), &service.instance, now, until).await?;
     Ok(claimed.map(|claimed| Job { submission: claimed.submission, hand_in: claimed.hand_in, since: Instant::now() }))
 }
 
@@ -160,6 +173,11 @@ async fn grade(service: &Service, job: Job) {
 async fn judge(service: &Service, job: Job) -> Result<Report, Fault> {
     let not_served = || Fault::new(Text::verbatim("a claimed file is of no homework that is served"));
     let State { assignment, .. } = service.homework(&job.submission.assignment).ok_or_else(not_served)?;
+    judge_by(service, assignment, job).await
+}
+
+/// Grades by a version of the homework's folder.
+async fn judge_by(service: &Service, assignment: Arc<Assignment>, job: Job) -> Result<Report, Fault> {
     let pool = Arc::clone(&service.pool);
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { seed, hints, .. } = &job.submission;

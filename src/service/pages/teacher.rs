@@ -5,7 +5,7 @@
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
 //! they choose a password, [`codes`] the students' personal codes, [`platforms`] learning
-//! platforms, [`acts`] the log of what was done.
+//! platforms, [`folders`] the homeworks themselves, [`acts`] the log of what was done.
 
 mod acts;
 mod appeals;
@@ -16,6 +16,7 @@ mod codes;
 mod delete;
 mod downloads;
 mod extensions;
+mod folders;
 mod live;
 pub(super) mod login;
 mod people;
@@ -76,6 +77,9 @@ pub(super) fn of_course() -> Router<Service> {
         .route("/teacher/codes", get(codes::page).post(codes::renew))
         .route("/teacher/codes/file", get(codes::file))
         .route("/teacher/platforms", get(platforms::page).post(platforms::change))
+        .route("/teacher/folders", get(folders::list).post(folders::upload).layer(DefaultBodyLimit::disable()))
+        .route("/teacher/folders/{id}", get(folders::one).post(folders::change))
+        .route("/teacher/folders/{id}/goal.png", get(folders::goal))
         .route("/teacher/log", get(acts::page))
 }
 
@@ -90,6 +94,8 @@ pub(super) enum Tab {
     Batches,
     /// Settings.
     Settings,
+    /// The homeworks' folders.
+    Folders,
     /// Personal codes.
     Codes,
     /// Who teaches.

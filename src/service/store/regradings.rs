@@ -25,6 +25,8 @@ pub struct Regrading {
     pub created_at: Millis,
     /// When its results took the place of the reports.
     pub adopted_at: Option<Millis>,
+    /// Id of the uploaded folder by which everything is graded; none: by the one that is served.
+    pub folder: Option<String>,
 }
 
 /// What became of one submission.
@@ -51,13 +53,22 @@ pub struct Again {
     pub submission: Submission,
     /// Its files.
     pub hand_in: HandIn,
+    /// The regrading's folder.
+    pub folder: Option<String>,
 }
 
-type Row = (String, String, i64, String, i64, Option<i64>);
+type Row = (String, String, i64, String, i64, Option<i64>, Option<String>);
+
+/// Selects a [`Row`].
+macro_rules! select {
+    ($rest:literal) => {
+        concat!("SELECT id, assignment, seed, hints, created_at, adopted_at, folder_id FROM regradings ", $rest)
+    };
+}
 
 impl Regrading {
-    fn of((id, assignment, seed, hints, created_at, adopted_at): Row) -> Result<Self> {
-        Ok(Self { id, assignment, seed: seed.unsigned_abs(), hints: from_word(hints)?, created_at, adopted_at })
+    fn of((id, assignment, seed, hints, created_at, adopted_at, folder): Row) -> Result<Self> {
+        Ok(Self { id, assignment, seed: seed.unsigned_abs(), hints: from_word(hints)?, created_at, adopted_at, folder })
     }
 }
 
@@ -89,14 +100,17 @@ where
     }
 }
 
+/// Adds what has a report to a regrading; drafts are left out, and what is in it already.
+const ITEMS: &str = "INSERT INTO regraded (regrading_id, submission_id, state, claimed_until) \
+                     SELECT $1, s.id, 'queued', 0 FROM submissions s \
+                     WHERE s.assignment = $2 AND s.state = 'graded' AND s.via <> 'editor' \
+                     ON CONFLICT (regrading_id, submission_id) DO NOTHING";
+
 impl Store {
     /// Begins to grade everything of an assignment again that has a report; drafts are left out.
     pub async fn add_regrading(&self, regrading: &Regrading) -> Result<()> {
-        const INSERT: &str = "INSERT INTO regradings (id, assignment, seed, hints, created_at) \
-                              VALUES ($1, $2, $3, $4, $5)";
-        const ITEMS: &str = "INSERT INTO regraded (regrading_id, submission_id, state, claimed_until) \
-                             SELECT $1, s.id, 'queued', 0 FROM submissions s \
-                             WHERE s.assignment = $2 AND s.state = 'graded' AND s.via <> 'editor'";
+        const INSERT: &str = "INSERT INTO regradings (id, assignment, seed, hints, created_at, folder_id) \
+                              VALUES ($1, $2, $3, $4, $5, $6)";
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(INSERT)
@@ -105,6 +119,7 @@ impl Store {
                 .bind(signed(regrading.seed))
                 .bind(word(&regrading.hints))
                 .bind(regrading.created_at)
+                .bind(&regrading.folder)
                 .execute(&mut *transaction)
                 .await?;
             sqlx::query(ITEMS).bind(&regrading.id).bind(&regrading.assignment).execute(&mut *transaction).await?;
@@ -113,17 +128,23 @@ impl Store {
         Ok(())
     }
 
+    /// Adds what was graded since a regrading began; how many these are.
+    pub async fn extend_regrading(&self, regrading: &Regrading) -> Result<u64> {
+        Ok(on!(&self.write, db => {
+            sqlx::query(ITEMS).bind(&regrading.id).bind(&regrading.assignment).execute(db).await?.rows_affected()
+        }))
+    }
+
     /// Every regrading of an assignment, the newest first.
     pub async fn regradings(&self, assignment: &str) -> Result<Vec<Regrading>> {
-        const SQL: &str = "SELECT id, assignment, seed, hints, created_at, adopted_at FROM regradings \
-                           WHERE assignment = $1 ORDER BY created_at DESC, id";
+        const SQL: &str = select!("WHERE assignment = $1 ORDER BY created_at DESC, id");
         let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
         rows.into_iter().map(Regrading::of).collect()
     }
 
     /// The regrading with this id.
     pub async fn regrading(&self, id: &str) -> Result<Option<Regrading>> {
-        const SQL: &str = "SELECT id, assignment, seed, hints, created_at, adopted_at FROM regradings WHERE id = $1";
+        const SQL: &str = select!("WHERE id = $1");
         let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(Regrading::of).transpose()
     }
@@ -188,7 +209,7 @@ impl Store {
         submission.seed = regrading.seed;
         submission.hints = submission.hints.min(regrading.hints);
         let Some(hand_in) = self.hand_in(&submission_id).await? else { return Ok(None) };
-        Ok(Some(Again { regrading_id, submission, hand_in }))
+        Ok(Some(Again { regrading_id, submission, hand_in, folder: regrading.folder }))
     }
 
     /// Keeps what a submission got when it was graded again; none: that failed by our fault.
@@ -211,7 +232,8 @@ impl Store {
         Ok(())
     }
 
-    /// Lets the results of a regrading take the place of the reports, and its seed that of the assignment's.
+    /// Lets the results of a regrading take the place of the reports, its seed that of the assignment's, and its folder that of
+    /// the one that is served.
     pub async fn adopt(&self, regrading: &Regrading, now: Millis) -> Result<()> {
         const REPORTS: &str = "UPDATE reports SET graded_at = $2, verdict = g.verdict, score = g.score, \
                                mistakes = g.mistakes, report = g.report, ggrade = $3, reused = 0 FROM regraded g \
@@ -223,6 +245,7 @@ impl Store {
         const OVERRIDDEN: &str = "SELECT DISTINCT o.submission_id FROM overrides o JOIN regraded g \
                                   ON g.submission_id = o.submission_id WHERE g.regrading_id = $1";
         const DONE: &str = "UPDATE regradings SET adopted_at = $2 WHERE id = $1";
+        const PUBLISHED: &str = "UPDATE folders SET published_at = $2 WHERE id = $1";
         let seed = signed(regrading.seed);
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
@@ -240,6 +263,7 @@ impl Store {
             sqlx::query(SUBMISSIONS).bind(&regrading.id).bind(seed).execute(&mut *transaction).await?;
             sqlx::query(ASSIGNMENT).bind(&regrading.assignment).bind(seed).execute(&mut *transaction).await?;
             sqlx::query(DONE).bind(&regrading.id).bind(now).execute(&mut *transaction).await?;
+            sqlx::query(PUBLISHED).bind(&regrading.folder).bind(now).execute(&mut *transaction).await?;
             transaction.commit().await?;
         });
         Ok(())

@@ -101,7 +101,7 @@ pub(in crate::service::pages) async fn start(
     Form(wish): Form<Wish>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &wish.csrf)?;
-    let regrading = regrade::start(&state, wish.new_seed == "on").await?;
+    let regrading = regrade::start(&state, wish.new_seed == "on", None).await?;
     Ok(Redirect::to(&format!("{}/teacher/regradings/{}", state.base(), regrading.id)).into_response())
 }
 

@@ -1,0 +1,180 @@
+//! `/api/v1/folders`: homeworks that come by the network.
+
+use super::archive::Archive;
+use super::batches::CSRF;
+use super::refusals::{Errors, NotFound, Refusals};
+use super::schema::time;
+use crate::service::Service;
+use crate::service::acts::Detail;
+use crate::service::errors::{Problem, ProblemJson};
+use crate::service::folders::{self, Publication};
+use crate::service::identity::Teacher;
+use crate::service::store::{Role, UploadedFolder};
+use axum::Json;
+use axum::extract::{Path, Request, State as Shared};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+
+/// A homework's folder that was uploaded and checked.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct FolderJson {
+    /// Id.
+    id: String,
+    /// Id of the homework.
+    assignment: String,
+    /// Digest of its files: another version has another.
+    digest: String,
+    /// When it was uploaded.
+    #[schema(format = DateTime)]
+    uploaded_at: String,
+    /// Whether students see it now.
+    is_served: bool,
+    /// Points that its own solution got.
+    solution_score: f64,
+    /// Points that the files got which it hands out.
+    handed_out_score: f64,
+    /// Points of a right answer.
+    max_score: f64,
+}
+
+impl FolderJson {
+    fn of(service: &Service, folder: &UploadedFolder) -> Self {
+        Self {
+            id: folder.id.clone(),
+            assignment: folder.assignment.clone(),
+            digest: folder.digest.clone(),
+            uploaded_at: time(folder.uploaded_at),
+            is_served: folders::is_served(service, folder),
+            solution_score: folder.solution.score,
+            handed_out_score: folder.handed_out.score,
+            max_score: folder.solution.max_score,
+        }
+    }
+}
+
+/// The uploaded folders.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct FoldersJson {
+    /// The newest first.
+    folders: Vec<FolderJson>,
+}
+
+/// A form with a folder.
+#[derive(Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "only its description is used")]
+pub(super) struct FolderForm {
+    /// The ZIP of a folder with an `assignment.toml`.
+    #[schema(content_media_type = "application/zip", min_length = 1)]
+    file: String,
+}
+
+/// What became of a folder that was to be published.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct PublicationJson {
+    /// Whether students see it now.
+    is_served: bool,
+    /// Id of the regrading by it, whose adoption publishes it; none where nothing was handed in before.
+    regrading: Option<String>,
+}
+
+/// Who asks: a teacher, with the headers of the request.
+type Caller = (Teacher, HeaderMap);
+
+/// Lets a lecturer of the whole course pass whose page or program sends this.
+fn check((teacher, headers): &Caller, service: &Service) -> Result<(), Problem> {
+    teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
+    teacher.check_role(Role::Lecturer)?;
+    teacher.check_course()
+}
+
+fn done(folder: &UploadedFolder, act: &str, answer: Response) -> Response {
+    let digest: String = folder.digest.chars().take(8).collect();
+    Detail { assignment: Some(folder.assignment.clone()), ..Detail::of(format!("{act} {digest}")) }.on(answer)
+}
+
+/// The uploaded folders
+#[utoipa::path(
+    get, operation_id = "list_folders", path = "/api/v1/folders", tag = "batches", security(("teacher" = [])),
+    responses((status = 200, description = "Each with what its own files got", body = FoldersJson), Refusals, Errors)
+)]
+pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
+    teacher.check_role(Role::Lecturer)?;
+    teacher.check_course()?;
+    let folders = service.store.folders().await?;
+    let folders = folders.iter().map(|folder| FolderJson::of(&service, folder)).collect();
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(FoldersJson { folders })).into_response())
+}
+
+/// Upload the folder of a homework
+///
+/// It is unpacked, read and its own files are graded in a process of its own; what is no homework that grades is refused (422) with
+/// the file and the line. Nobody sees it before it is published. The same folder, sent again, is there once.
+#[utoipa::path(
+    post, operation_id = "create_folder", path = "/api/v1/folders", tag = "batches", security(("teacher" = [])),
+    request_body(content((FolderForm = "multipart/form-data"), (Vec<u8> = "application/zip"))),
+    responses((status = 201, description = "Checked and kept", body = FolderJson), Refusals, Errors)
+)]
+pub(super) async fn create(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    request: Request,
+) -> Result<Response, Problem> {
+    check(&caller, &service)?;
+    let archive = Archive::read(request, &service).await?;
+    let staff = caller.0.staff().map(|member| member.id.as_str());
+    let folder = folders::upload(&service, &archive.path, staff).await?;
+    let answer = (StatusCode::CREATED, Json(FolderJson::of(&service, &folder))).into_response();
+    Ok(done(&folder, "uploaded", answer))
+}
+
+/// Publish a folder
+///
+/// Students see it from now on (200). Where something was handed in for another version, that is graded by this one first (202):
+/// adopting the results publishes it.
+#[utoipa::path(
+    post, operation_id = "publish_folder", path = "/api/v1/folders/{id}/publication", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the folder")),
+    responses(
+        (status = 200, description = "Students see it", body = PublicationJson),
+        (status = 202, description = "Everything is graded by it first", body = PublicationJson), NotFound, Refusals, Errors
+    )
+)]
+pub(super) async fn publish(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    check(&caller, &service)?;
+    let folder = folders::found(&service, &id).await?;
+    let (status, regrading) = match folders::publish(&service, &id).await? {
+        Publication::Served => (StatusCode::OK, None),
+        Publication::Regrading(regrading) => (StatusCode::ACCEPTED, Some(regrading.id)),
+    };
+    let body = PublicationJson { is_served: regrading.is_none(), regrading };
+    Ok(done(&folder, "publish", (status, Json(body)).into_response()))
+}
+
+/// Take a homework out of service
+///
+/// As far as it was published here: what the command line names is served as it is there. Nothing that was handed in is lost.
+#[utoipa::path(
+    delete, operation_id = "withdraw_folder", path = "/api/v1/folders/{id}/publication", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the folder")),
+    responses(
+        (status = 204, description = "It is not served any more"),
+        (status = 409, description = "It is the only homework, or files were graded by it", body = ProblemJson, content_type = "application/problem+json"),
+        NotFound, Refusals, Errors
+    )
+)]
+pub(super) async fn withdraw(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    check(&caller, &service)?;
+    let folder = folders::found(&service, &id).await?;
+    folders::withdraw(&service, &id).await?;
+    Ok(done(&folder, "withdraw", StatusCode::NO_CONTENT.into_response()))
+}

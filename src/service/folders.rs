@@ -1,0 +1,229 @@
+//! Homeworks that come by the browser: a folder is uploaded, checked, looked at and published.
+//!
+//! The archive is a stranger's. A worker of its own unpacks it, reads its TOML, meshes and pictures and grades its own files;
+//! this process reads only the bytes that a worker has read before, to their end and within its limits. The folders are in the
+//! database: of each homework the one that was published last is served, in the place of what the command line names.
+
+use super::Service;
+use super::errors::Problem;
+use super::identity::new_id;
+use super::regrade;
+use super::store::{Regrading, Result as StoreResult, Store, UploadedFolder};
+use crate::language::Text;
+use crate::report::{Report, Verdict};
+use crate::sandbox::{CheckedFolder, MOST_ASSIGNMENTS};
+use axum::http::StatusCode;
+use moka::future::Cache;
+use reference::{Assignment, Folder};
+use std::path::Path;
+use std::sync::Arc;
+
+/// How many folders are kept in memory that are looked at, or by which is graded again.
+const KEPT: u64 = 8;
+
+/// Folders that were read, by their ids.
+#[derive(Debug)]
+pub(super) struct FolderCache(Cache<String, Arc<Assignment>>);
+
+impl Default for FolderCache {
+    fn default() -> Self {
+        Self(Cache::new(KEPT))
+    }
+}
+
+/// What became of a folder that was to be published.
+#[derive(Clone, Debug)]
+pub enum Publication {
+    /// It is served.
+    Served,
+    /// What was handed in is graded by it beside the reports that stand; adopting the results publishes it.
+    Regrading(Regrading),
+}
+
+/// Reads a folder that was checked. What it says of a broken one is the folder's file, and what is wrong in it.
+async fn loaded(folder: Folder) -> Result<Arc<Assignment>, Text> {
+    let read = tokio::task::spawn_blocking(move || Assignment::load(folder)).await;
+    match read {
+        Ok(Ok(assignment)) => Ok(Arc::new(assignment)),
+        Ok(Err(error)) => {
+            let why = error.text();
+            Err(Text::new(why.en, why.ja))
+        }
+        Err(panic) => Err(Text::verbatim(panic.to_string())),
+    }
+}
+
+/// The homeworks that are served: those that are named, each by its published folder where it has one, and then the others that
+/// were published. One whose folder this version of ggrade does not read any more is left out.
+pub async fn served(store: &Store, named: &[Arc<Assignment>]) -> StoreResult<Vec<Arc<Assignment>>> {
+    let mut served = named.to_vec();
+    for (id, folder) in store.published().await? {
+        let place = served.iter().position(|known| known.id == id);
+        match (loaded(store.folder_files(&folder).await?).await, place) {
+            (Ok(assignment), Some(place)) => served[place] = assignment,
+            (Ok(assignment), None) => served.push(assignment),
+            (Err(why), place) => {
+                tracing::error!(homework = id, why = why.en, "a published folder cannot be read: it is not served");
+                place.map(|place| served.remove(place));
+            }
+        }
+    }
+    Ok(served)
+}
+
+/// The homework in an uploaded folder.
+pub async fn read(service: &Service, id: &str) -> Result<Arc<Assignment>, Problem> {
+    let FolderCache(cache) = &service.folders;
+    if let Some(known) = cache.get(id).await {
+        return Ok(known);
+    }
+    let files = service.store.folder_files(id).await?;
+    let assignment = loaded(files).await.map_err(|why| refused(&why))?;
+    cache.insert(id.to_owned(), Arc::clone(&assignment)).await;
+    Ok(assignment)
+}
+
+/// The folder with this id.
+pub async fn found(service: &Service, id: &str) -> Result<UploadedFolder, Problem> {
+    service.store.folder(id).await?.ok_or_else(Problem::not_found)
+}
+
+/// Whether a folder is the one that is served.
+pub fn is_served(service: &Service, folder: &UploadedFolder) -> bool {
+    service.homework(&folder.assignment).is_some_and(|state| state.assignment.digest == folder.digest)
+}
+
+/// Checks an archive and keeps the folder in it; nothing is served otherwise for it. `staff_id` is who uploads it.
+pub async fn upload(service: &Service, archive: &Path, staff_id: Option<&str>) -> Result<UploadedFolder, Problem> {
+    let bytes = tokio::fs::read(archive).await.map_err(|error| Problem::internal(&error))?;
+    let turn = service.check_turn.acquire().await;
+    let pool = Arc::clone(&service.pool);
+    let checked = tokio::task::spawn_blocking(move || pool.check(&bytes)).await;
+    drop(turn);
+    let checked = checked.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::of_fault(&fault))?;
+    let CheckedFolder { folder, solution, handed_out } = checked.map_err(|why| refused(&why))?;
+    if let Some(why) = flaw(service, &solution, &handed_out) {
+        return Err(refused(&why));
+    }
+    let assignment = loaded(folder).await.map_err(|why| refused(&why))?;
+    let uploaded = UploadedFolder {
+        id: new_id(),
+        assignment: assignment.id.clone(),
+        digest: assignment.digest.clone(),
+        uploaded_at: service.clock.now(),
+        uploader: None,
+        solution,
+        handed_out,
+        published_at: None,
+    };
+    service.store.add_folder(&uploaded, &assignment.folder, staff_id).await?;
+    service.store.folder_of_digest(&uploaded.digest).await?.ok_or_else(Problem::not_found)
+}
+
+/// What is wrong with a folder that is read and drawn: `ggrade assignment check` holds it to the same.
+fn flaw(service: &Service, solution: &Report, handed_out: &Report) -> Option<Text> {
+    let scored = |report: &Report| format!("{:?}, {} / {}", report.verdict, report.score, report.max_score);
+    let first = |report: &Report| report.diagnostics.first().map(|one| one.message.clone()).unwrap_or_default();
+    let deadline = service.config.deadline;
+    if solution.verdict != Verdict::Correct {
+        let (scored, why) = (scored(solution), first(solution));
+        return Some(Text::new(
+            format!("its own solution does not get full marks ({scored}). {}", why.en),
+            format!("付属の解答が満点になりません（{scored}）。{}", why.ja),
+        ));
+    }
+    if solution.elapsed_ms > deadline * 1e3 {
+        let took = solution.elapsed_ms / 1e3;
+        return Some(Text::new(
+            format!(
+                "its own solution took {took:.1} s, and a hand-in has {deadline} s: draw fewer poses or a smaller window"
+            ),
+            format!(
+                "付属の解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすか、ウィンドウを小さくしてください"
+            ),
+        ));
+    }
+    if handed_out.verdict != Verdict::Wrong {
+        let (scored, why) = (scored(handed_out), first(handed_out));
+        return Some(Text::new(
+            format!("what it hands out must run and leave something to do, and is graded as {scored}. {}", why.en),
+            format!("配布ファイルは、実行でき、未完成である必要がありますが、判定が {scored} になりました。{}", why.ja),
+        ));
+    }
+    None
+}
+
+/// Serves a folder, or has what was handed in graded by it first, where there is something.
+pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem> {
+    let folder = found(service, id).await?;
+    let state = service.homework(&folder.assignment);
+    if is_served(service, &folder) {
+        return Ok(Publication::Served);
+    }
+    if state.is_none() && service.ids().len() >= MOST_ASSIGNMENTS {
+        return Err(Problem::unprocessable(
+            format!(
+                "One service has at most {MOST_ASSIGNMENTS} homeworks. Take one out of service, or start another service."
+            ),
+            format!(
+                "1 つのサービスで公開できる課題は {MOST_ASSIGNMENTS} 個までです。ほかの課題の公開をやめるか、サービスを分けてください。"
+            ),
+        ));
+    }
+    let assignment = read(service, id).await?;
+    if let Some(state) = state
+        && service.store.has_reports(&folder.assignment).await?
+    {
+        return Ok(Publication::Regrading(regrade::start(&state, false, Some(folder.id)).await?));
+    }
+    // Its settings are there before anybody asks for them.
+    service.store.assignment(&assignment.id).await?;
+    service.store.publish(id, service.clock.now()).await?;
+    service.serve(assignment);
+    service.queue.look();
+    Ok(Publication::Served)
+}
+
+/// Takes a homework out of service, as far as it was published here: what the command line names is served as it is there.
+/// Nothing that was handed in is lost.
+pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
+    let folder = found(service, id).await?;
+    let conflict = |en: &str, ja: &str| Err(Problem::new(StatusCode::CONFLICT, "in-use", en, ja));
+    let is_named = service.named_as(&folder.assignment).is_some();
+    if is_named && service.store.has_reports(&folder.assignment).await? {
+        return conflict(
+            "Files were graded by this folder. Upload the one that should take its place: what was handed in is graded by it first.",
+            "このフォルダで採点された提出があります。代わりにするフォルダをアップロードしてください。提出されたファイルが先に再採点されます。",
+        );
+    }
+    if !is_named && service.homework(&folder.assignment).is_some() && !service.has_several() {
+        return conflict(
+            "This is the only homework of the service. Publish another one first.",
+            "このサービスの唯一の課題です。先に別の課題を公開してください。",
+        );
+    }
+    service.store.withdraw(&folder.assignment).await?;
+    service.withdraw(&folder.assignment);
+    Ok(())
+}
+
+/// Forgets a folder that is not published.
+pub async fn remove(service: &Service, id: &str) -> Result<(), Problem> {
+    let folder = found(service, id).await?;
+    if folder.published_at.is_some() {
+        return Err(Problem::new(
+            StatusCode::CONFLICT,
+            "in-use",
+            "This folder was published, and reports were made by it: it is kept.",
+            "公開したことのあるフォルダは、採点結果の根拠になるため削除できません。",
+        ));
+    }
+    Ok(service.store.remove_folder(id).await?)
+}
+
+fn refused(why: &Text) -> Problem {
+    Problem::unprocessable(
+        format!("This archive is not the folder of a homework that grades: {}", why.en),
+        format!("採点できる課題のフォルダではありません: {}", why.ja),
+    )
+}
