@@ -1,5 +1,6 @@
 //! The service's configuration: flags before environment before file.
 
+use super::sign_in::Provider;
 use super::store::Location;
 use crate::cli::{LogFormat, Serve};
 use crate::fault::Fault;
@@ -25,6 +26,7 @@ pub struct Config {
     pub trusted_proxies: Vec<String>,
     pub identity_header: Option<String>,
     pub identity_proxies: Vec<String>,
+    pub sign_in: Vec<Provider>,
     #[serde(deserialize_with = "one_or_several")]
     pub assignment: Vec<String>,
     pub workers: usize,
@@ -76,6 +78,7 @@ impl Default for Config {
             trusted_proxies: Vec::new(),
             identity_header: None,
             identity_proxies: Vec::new(),
+            sign_in: Vec::new(),
             assignment: Vec::new(),
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
@@ -173,6 +176,16 @@ impl Config {
         for (name, secret) in secrets.chain(self.homework_tokens.values().map(|secret| ("homework_tokens", secret))) {
             if secret.len() < SHORTEST_SECRET {
                 return wrong(name, "takes at least 16 characters", "は 16 文字以上にしてください");
+            }
+        }
+        for (place, provider) in self.sign_in.iter().enumerate() {
+            let is_second = self.sign_in[..place].iter().any(|other| other.id == provider.id);
+            if let Some(field) = provider.check().err().or(is_second.then_some("id")) {
+                return wrong(
+                    &format!("sign_in.{field}"),
+                    "cannot be used: see docs/service.md, “Signing in by OpenID Connect”",
+                    "が正しくありません。docs/service.md の「Signing in by OpenID Connect」を参照してください",
+                );
             }
         }
         self.location()?;

@@ -17,7 +17,7 @@ mod visitor;
 
 pub use codes::{code_needed, personal_code};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
-pub(super) use cookies::{has_launch, set_launch};
+pub(super) use cookies::{has_launch, set_launch, set_sign_in};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
 pub(super) use join::become_student;
 pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code};

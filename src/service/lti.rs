@@ -17,6 +17,7 @@ pub mod registration;
 pub mod scores;
 
 pub use platform::Connections;
+pub(super) use platform::checked;
 
 use super::Service;
 use super::errors::Problem;

@@ -87,6 +87,7 @@ fn of_service() -> Router<Service> {
         .route("/lti/register/{secret}", get(lti::register))
         .merge(teacher::of_course())
         .merge(super::lti::launches())
+        .merge(super::sign_in::router())
 }
 
 /// A year, in seconds.

@@ -1,6 +1,6 @@
 //! Learning platforms: registration, launches and every refusal of one, choosing a homework, scores, the roster.
 
-mod platform;
+pub mod platform;
 
 use crate::bench::{Bench, Reply, config};
 use crate::cluster::Database;
@@ -290,10 +290,10 @@ async fn every_forged_launch_is_refused(database: Database) {
     let version = "https://purl.imsglobal.org/spec/lti/claim/version";
     let kind = "https://purl.imsglobal.org/spec/lti/claim/message_type";
     let changes: [(&str, Value, &str); 12] = [
-        ("iss", json!("https://evil.example"), "another platform"),
-        ("aud", json!("another-client"), "another tool"),
-        ("aud", json!([CLIENT, "another-client"]), "another tool"),
-        ("azp", json!("another-client"), "another tool"),
+        ("iss", json!("https://evil.example"), "another issuer"),
+        ("aud", json!("another-client"), "another client"),
+        ("aud", json!([CLIENT, "another-client"]), "another client"),
+        ("azp", json!("another-client"), "another client"),
         ("nonce", json!("another nonce"), "not the answer to this launch"),
         ("nonce", Value::Null, "not the answer to this launch"),
         ("exp", json!(now - 120), "too old"),

@@ -27,6 +27,7 @@ mod roster;
 mod server;
 mod several_files;
 mod several_homeworks;
+mod sign_in;
 mod staff;
 mod static_files;
 mod student_page;

@@ -90,7 +90,12 @@ pub(in crate::service) fn set_launch(service: &Service, state: &str, seconds: u6
     cookie.to_str().ok()?.replace("SameSite=Lax", "SameSite=None").parse().ok()
 }
 
-/// Whether a request comes from the browser in which a launch began.
+/// The same for a sign-in, whose answer is a link: cookies that are `Lax` come with it.
+pub(in crate::service) fn set_sign_in(service: &Service, state: &str, seconds: u64) -> Option<HeaderValue> {
+    set(service, &of_launch(state), state, seconds, Jar::Own)
+}
+
+/// Whether a request comes from the browser in which a launch or a sign-in began.
 pub(in crate::service) fn has_launch(service: &Service, headers: &HeaderMap, state: &str) -> bool {
     read(service, headers, &of_launch(state)).is_some_and(|value| super::same(&value, state))
 }

@@ -1,16 +1,12 @@
-//! What a platform vouches for: an id token, checked to the last word before anything in it is believed.
+//! What a platform vouches for: the claims of its id token.
 
 use super::super::Service;
 use super::super::store::Platform;
 use super::refused;
 use crate::service::errors::Problem;
-use jsonwebtoken::errors::ErrorKind;
-use jsonwebtoken::{Algorithm, DecodingKey, Validation, decode, decode_header};
+use crate::service::id_tokens::{self, Issuer};
 use serde::Deserialize;
 use serde_json::{Map, Value};
-
-/// Seconds by which clocks may differ. Tokens live for a minute.
-const LEEWAY: u64 = 30;
 
 /// What the messages are called.
 pub(super) const RESOURCE_LINK: &str = "LtiResourceLinkRequest";
@@ -20,9 +16,6 @@ pub(super) const DEEP_LINKING: &str = "LtiDeepLinkingRequest";
 #[derive(Debug, Deserialize)]
 pub(super) struct Claims {
     pub nonce: Option<String>,
-    azp: Option<String>,
-    aud: Value,
-    iat: Option<f64>,
     pub sub: Option<String>,
     pub name: Option<String>,
     pub given_name: Option<String>,
@@ -101,45 +94,12 @@ pub(super) struct DeepLinking {
 impl Claims {
     /// The claims of an id token of this platform.
     pub async fn read(service: &Service, platform: &Platform, token: &str) -> Result<Self, Problem> {
-        // `none` is no algorithm that this knows, and a secret in the place of a key is no RSA.
-        let header = decode_header(token).map_err(|error| untrusted(&error))?;
-        if header.alg != Algorithm::RS256 {
-            return Err(wrong("it is not signed with RS256", "RS256 で署名されていません"));
-        }
-        let Some(id) = header.kid else { return Err(wrong("it names no key", "鍵の指定がありません")) };
-        let key = service.lti.key(platform, &id).await.map_err(|failure| {
-            tracing::warn!(failure, "the key of a launch");
-            wrong(
-                &format!("the platform has published no key `{id}`, or cannot be reached"),
-                "プラットフォームの公開鍵を取得できません",
-            )
-        })?;
-        let key = DecodingKey::from_jwk(&key).map_err(|error| untrusted(&error))?;
-        let mut rules = Validation::new(Algorithm::RS256);
-        rules.leeway = LEEWAY;
-        rules.set_audience(&[&platform.client_id]);
-        rules.set_issuer(&[&platform.issuer]);
-        rules.set_required_spec_claims(&["exp", "aud", "iss"]);
-        let claims: Self = decode(token, &key, &rules).map_err(|error| untrusted(&error))?.claims;
-        claims.check(platform)?;
-        Ok(claims)
-    }
-
-    /// What the library does not check.
-    fn check(&self, platform: &Platform) -> Result<(), Problem> {
-        let is_for_several = self.aud.as_array().is_some_and(|audience| audience.len() > 1);
-        let party = self.azp.as_deref();
-        if party.map_or(is_for_several, |party| party != platform.client_id) {
-            return Err(wrong("it is for another tool (azp)", "別のツール宛てです (azp)"));
-        }
-        let now = jsonwebtoken::get_current_timestamp();
-        if self.iat.is_none_or(|at| at > (now + LEEWAY) as f64) {
-            return Err(wrong("it is of the future, or has no time (iat)", "発行時刻 (iat) が正しくありません"));
-        }
-        if self.version.as_deref() != Some("1.3.0") {
+        let of = Issuer { issuer: &platform.issuer, client_id: &platform.client_id, keys_url: &platform.keys_url };
+        let claims: Self = id_tokens::read(&service.lti, of, token).await.map_err(|why| wrong(&why.en, &why.ja))?;
+        if claims.version.as_deref() != Some("1.3.0") {
             return Err(wrong("it is not of LTI 1.3.0", "LTI 1.3.0 のメッセージではありません"));
         }
-        Ok(())
+        Ok(claims)
     }
 
     /// Whether one of the roles is of this kind, in the course or anywhere.
@@ -174,16 +134,4 @@ fn wrong(en: &str, ja: &str) -> Problem {
             "学習プラットフォームからの情報を受け付けられません（{ja}）。プラットフォームに戻り、課題を開き直してください。"
         ),
     )
-}
-
-fn untrusted(error: &jsonwebtoken::errors::Error) -> Problem {
-    let (en, ja) = match error.kind() {
-        ErrorKind::ExpiredSignature => ("it is too old (exp)", "有効期限が切れています"),
-        ErrorKind::InvalidAudience => ("it is for another tool (aud)", "別のツール宛てです (aud)"),
-        ErrorKind::InvalidIssuer => ("it is of another platform (iss)", "別のプラットフォームのものです (iss)"),
-        ErrorKind::InvalidSignature => ("its signature is wrong", "署名が正しくありません"),
-        ErrorKind::MissingRequiredClaim(_) => ("a claim is missing", "必要な項目がありません"),
-        _ => ("it is no signed token", "署名されたトークンではありません"),
-    };
-    wrong(en, ja)
 }

@@ -5,6 +5,7 @@ use super::super::identity::new_id;
 use super::super::store::Platform;
 use super::keys::sign;
 use jsonwebtoken::jwk::{Jwk, JwkSet};
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use reqwest::{Method, Response, StatusCode, Url};
 use serde::Deserialize;
 use serde_json::json;
@@ -44,7 +45,7 @@ impl Default for Connections {
 pub type Failure = String;
 
 /// An address of a platform's: https, or this very machine.
-pub(super) fn checked(address: &str) -> Result<Url, Failure> {
+pub(in crate::service) fn checked(address: &str) -> Result<Url, Failure> {
     let url = Url::parse(address).map_err(|error| format!("{address}: {error}"))?;
     let is_here = matches!(url.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"));
     if url.scheme() == "https" || (url.scheme() == "http" && is_here) {
@@ -60,7 +61,7 @@ impl Connections {
     }
 
     /// The JSON at an address.
-    pub(super) async fn json(&self, address: &str) -> Result<serde_json::Value, Failure> {
+    pub(in crate::service) async fn json(&self, address: &str) -> Result<serde_json::Value, Failure> {
         let response = answered(address, self.request(Method::GET, address)?).await?;
         parsed(address, response).await
     }
@@ -79,9 +80,24 @@ impl Connections {
         parsed(address, answered(address, request).await?).await
     }
 
-    /// The public key of a platform with this id.
-    pub(super) async fn key(&self, platform: &Platform, id: &str) -> Result<Jwk, Failure> {
-        let address = &platform.keys_url;
+    /// Sends a form, and reads the JSON that comes back; `login` is who this service is there, and its secret.
+    pub(in crate::service) async fn post_form(
+        &self,
+        address: &str,
+        form: &[(&str, &str)],
+        login: Option<(&str, &str)>,
+    ) -> Result<serde_json::Value, Failure> {
+        let mut request = self.request(Method::POST, address)?.form(form);
+        if let Some((name, secret)) = login {
+            // Both are encoded as in a form before they go into the header (RFC 6749, section 2.3.1).
+            let encoded = |text: &str| utf8_percent_encode(text, NON_ALPHANUMERIC).to_string();
+            request = request.basic_auth(encoded(name), Some(encoded(secret)));
+        }
+        parsed(address, answered(address, request).await?).await
+    }
+
+    /// The public key with this id, of those that are published at an address.
+    pub(in crate::service) async fn key(&self, address: &str, id: &str) -> Result<Jwk, Failure> {
         let kept = lock(&self.keys).get(address).cloned();
         if let Some((since, keys)) = kept {
             if let Some(key) = keys.find(id) {
@@ -93,7 +109,7 @@ impl Connections {
         }
         let keys: JwkSet = serde_json::from_value(self.json(address).await?).map_err(|e| format!("{address}: {e}"))?;
         let found = keys.find(id).cloned();
-        lock(&self.keys).insert(address.clone(), (Instant::now(), Arc::new(keys)));
+        lock(&self.keys).insert(address.to_owned(), (Instant::now(), Arc::new(keys)));
         found.ok_or_else(|| format!("{address} has no key `{id}`"))
     }
 

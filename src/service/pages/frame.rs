@@ -9,8 +9,9 @@ use crate::service::clock::Millis;
 use crate::service::course::Course;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
+use crate::service::sign_in::Provider;
 use crate::service::store::Role;
-use crate::service::{Scope, State};
+use crate::service::{Scope, Service, State};
 use axum::extract::{FromRequestParts, OriginalUri};
 use axum::http::Uri;
 use axum::http::request::Parts;
@@ -41,6 +42,24 @@ pub(super) struct Tongue {
     pub name: &'static str,
     pub href: String,
     pub is_current: bool,
+}
+
+/// A way to sign in by an OpenID issuer.
+pub(super) struct SignInLink {
+    pub name: String,
+    pub href: String,
+}
+
+impl SignInLink {
+    /// Those of the configuration; `homework` is the id of the one to go on with.
+    pub fn all(service: &Service, homework: Option<&str>) -> Vec<Self> {
+        let query = homework.map(|id| format!("?homework={id}")).unwrap_or_default();
+        let link = |provider: &Provider| Self {
+            name: provider.name.clone(),
+            href: format!("/sign-in/{}{query}", provider.id),
+        };
+        service.config.sign_in.iter().map(link).collect()
+    }
 }
 
 impl Frame {

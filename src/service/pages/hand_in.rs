@@ -1,7 +1,7 @@
 //! The student's page and its forms: looking, trying, handing in.
 
 use super::form::Form;
-use super::frame::Frame;
+use super::frame::{Frame, SignInLink};
 use super::standing::StudentStanding;
 use super::student::{Desk, LISTED};
 use super::{preview, result, shown};
@@ -105,6 +105,7 @@ pub(super) async fn desk(
         appeal,
         own,
         notice: notice.or(lost).map(str::to_owned),
+        sign_ins: SignInLink::all(&state, Some(id)),
     };
     shown(desk.render())
 }

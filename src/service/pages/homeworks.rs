@@ -1,6 +1,6 @@
 //! The list of the homeworks, where a service has several: for students, and for teachers.
 
-use super::frame::Frame;
+use super::frame::{Frame, SignInLink};
 use super::standing::{Fact, StudentStanding};
 use super::{internal, shown, student};
 use crate::language::Language;
@@ -33,6 +33,7 @@ struct HomeworksPage {
     homeworks: Vec<Homework>,
     /// Student number.
     who: Option<String>,
+    sign_ins: Vec<SignInLink>,
     /// The token of the teacher's forms; none on the page for students.
     csrf: Option<String>,
 }
@@ -75,7 +76,8 @@ async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) 
     }
     let heading = frame.say("Homework", "課題の一覧");
     let who = visitor.identity.student().map(|student| student.number.clone());
-    shown(HomeworksPage { frame, heading, homeworks, who, csrf: None }.render())
+    let sign_ins = SignInLink::all(&service, None);
+    shown(HomeworksPage { frame, heading, homeworks, who, sign_ins, csrf: None }.render())
 }
 
 /// Dates, attempts, and the best of what this browser has handed in.
@@ -117,7 +119,7 @@ async fn classes(
     }
     let heading = frame.say("Classes", "クラスの一覧");
     let csrf = Some(teacher.csrf(&service));
-    shown(HomeworksPage { frame, heading, homeworks, who: None, csrf }.render())
+    shown(HomeworksPage { frame, heading, homeworks, who: None, sign_ins: Vec::new(), csrf }.render())
 }
 
 /// An address of a homework that there is not.

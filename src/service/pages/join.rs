@@ -1,6 +1,6 @@
 //! The course link: a student says by which number they are known, and proves it by their personal code.
 
-use super::frame::Frame;
+use super::frame::{Frame, SignInLink};
 use super::{shown, student};
 use crate::service::Service;
 use crate::service::errors::Problem;
@@ -31,6 +31,7 @@ struct JoinPage {
     /// The code that another browser needs, for who has it from nobody else.
     own_code: Option<String>,
     desk: String,
+    sign_ins: Vec<SignInLink>,
 }
 
 /// The form of the page.
@@ -70,6 +71,7 @@ async fn view(
         who,
         own_code,
         desk: desk(service),
+        sign_ins: SignInLink::all(service, None),
         frame,
     };
     shown(page.render())

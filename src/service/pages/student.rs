@@ -2,7 +2,7 @@
 
 use super::assets;
 use super::attempts::{Attempt, Choice};
-use super::frame::Frame;
+use super::frame::{Frame, SignInLink};
 use super::judgement;
 use super::preview::PreviewPanel;
 use super::report_fragment;
@@ -43,6 +43,8 @@ pub(super) struct Desk<'a> {
     pub notice: Option<String>,
     /// What a preview says to the teacher who writes the homework.
     pub preview: Option<PreviewPanel>,
+    /// How to say who one is.
+    pub sign_ins: Vec<SignInLink>,
 }
 
 #[derive(Template)]
@@ -64,6 +66,7 @@ struct StudentPage<'a> {
     draft_word: &'static str,
     notice: Option<String>,
     who: Option<String>,
+    sign_ins: Vec<SignInLink>,
     action: String,
     draft: String,
     /// Where all that is handed out is downloaded.
@@ -134,6 +137,7 @@ impl Desk<'_> {
             notice: self.notice,
             preview: self.preview,
             who: self.who,
+            sign_ins: self.sign_ins,
             action: format!("/a/{id}"),
             draft: format!("/a/{id}/draft"),
             starter: starter(id),

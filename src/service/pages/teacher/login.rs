@@ -1,6 +1,6 @@
 //! The way in, and out.
 
-use super::super::frame::Frame;
+use super::super::frame::{Frame, SignInLink};
 use super::super::shown;
 use crate::service::Service;
 use crate::service::errors::Problem;
@@ -22,6 +22,7 @@ struct LoginPage {
     /// Whether there are accounts to log in with.
     has_accounts: bool,
     login: String,
+    sign_ins: Vec<SignInLink>,
 }
 
 async fn view(
@@ -32,7 +33,8 @@ async fn view(
     problem: Option<String>,
 ) -> Result<Response, Problem> {
     let has_accounts = service.store.has_administrator().await?;
-    shown(LoginPage { frame, csrf: visitor.csrf(service), problem, has_accounts, login }.render())
+    let sign_ins = SignInLink::all(service, None);
+    shown(LoginPage { frame, csrf: visitor.csrf(service), problem, has_accounts, login, sign_ins }.render())
 }
 
 /// `GET /teacher/login`.

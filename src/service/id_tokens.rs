@@ -1,0 +1,92 @@
+//! Id tokens (OpenID Connect Core, section 3.1.3.7): who vouches for somebody, checked to the last word before anything in a token
+//! is believed. Learning platforms and issuers for signing in send them.
+
+use super::lti::Connections;
+use crate::language::Text;
+use jsonwebtoken::errors::ErrorKind;
+use jsonwebtoken::{Algorithm, DecodingKey, Validation, decode, decode_header};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+/// Seconds by which clocks may differ. Tokens live for a minute.
+const LEEWAY: u64 = 30;
+
+/// Whose tokens are believed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Issuer<'a> {
+    /// Its name for itself.
+    pub issuer: &'a str,
+    /// Its name for this service.
+    pub client_id: &'a str,
+    /// Where its public keys are.
+    pub keys_url: &'a str,
+}
+
+/// What the library does not check.
+#[derive(Deserialize)]
+struct Common {
+    aud: Value,
+    azp: Option<String>,
+    iat: Option<f64>,
+}
+
+/// The claims of a token of this issuer; why it is not believed, where it is not.
+pub(super) async fn read<C: DeserializeOwned>(
+    connections: &Connections,
+    of: Issuer<'_>,
+    token: &str,
+) -> Result<C, Text> {
+    // `none` is no algorithm that this knows, and a secret in the place of a key is no RSA.
+    let header = decode_header(token).map_err(|error| untrusted(&error))?;
+    if header.alg != Algorithm::RS256 {
+        return Err(Text::new("it is not signed with RS256", "RS256 で署名されていません"));
+    }
+    let Some(id) = header.kid else { return Err(Text::new("it names no key", "鍵の指定がありません")) };
+    let key = connections.key(of.keys_url, &id).await.map_err(|failure| {
+        tracing::warn!(failure, "the key of an id token");
+        Text::new(
+            format!("who sent it has published no key `{id}`, or cannot be reached"),
+            "発行元の公開鍵を取得できません",
+        )
+    })?;
+    let key = DecodingKey::from_jwk(&key).map_err(|error| untrusted(&error))?;
+    let mut rules = Validation::new(Algorithm::RS256);
+    rules.leeway = LEEWAY;
+    rules.set_audience(&[of.client_id]);
+    rules.set_issuer(&[of.issuer]);
+    rules.set_required_spec_claims(&["exp", "aud", "iss"]);
+    let claims: Value = decode(token, &key, &rules).map_err(|error| untrusted(&error))?.claims;
+    let unreadable = |error| {
+        tracing::warn!(%error, "the claims of an id token");
+        Text::new("its claims cannot be read", "内容を読み取れません")
+    };
+    Common::deserialize(&claims).map_err(unreadable)?.check(of.client_id)?;
+    C::deserialize(claims).map_err(unreadable)
+}
+
+impl Common {
+    fn check(&self, client_id: &str) -> Result<(), Text> {
+        let is_for_several = self.aud.as_array().is_some_and(|audience| audience.len() > 1);
+        if self.azp.as_deref().map_or(is_for_several, |party| party != client_id) {
+            return Err(Text::new("it is for another client (azp)", "別の利用者宛てです (azp)"));
+        }
+        let now = jsonwebtoken::get_current_timestamp();
+        if self.iat.is_none_or(|at| at > (now + LEEWAY) as f64) {
+            return Err(Text::new("it is of the future, or has no time (iat)", "発行時刻 (iat) が正しくありません"));
+        }
+        Ok(())
+    }
+}
+
+fn untrusted(error: &jsonwebtoken::errors::Error) -> Text {
+    let (en, ja) = match error.kind() {
+        ErrorKind::ExpiredSignature => ("it is too old (exp)", "有効期限が切れています"),
+        ErrorKind::InvalidAudience => ("it is for another client (aud)", "別の利用者宛てです (aud)"),
+        ErrorKind::InvalidIssuer => ("it is of another issuer (iss)", "別の発行元のものです (iss)"),
+        ErrorKind::InvalidSignature => ("its signature is wrong", "署名が正しくありません"),
+        ErrorKind::MissingRequiredClaim(_) => ("a claim is missing", "必要な項目がありません"),
+        _ => ("it is no signed token", "署名されたトークンではありません"),
+    };
+    Text::new(en, ja)
+}

@@ -1,0 +1,318 @@
+//! Signing in by OpenID Connect: an issuer (a university, Google, Microsoft) says who somebody is.
+//!
+//! The code flow with PKCE, state and nonce. What the issuer's addresses are is discovered from its name. The state is used once,
+//! within ten minutes, and in the browser in which it was made. `jsonwebtoken` and `reqwest` of the LTI launches do the work.
+
+use super::clock::millis;
+use super::errors::Problem;
+use super::id_tokens::{self, Issuer};
+use super::identity::{
+    Jar, Visitor, become_student, has_launch, member_of, new_token, normal_number, open_for, set_sign_in, token_hash,
+};
+use super::store::{Proof, SignIn};
+use super::{Service, lti};
+use axum::Router;
+use axum::extract::{Path, Query, State as Shared};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Redirect, Response};
+use axum::routing::get;
+use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
+use reqwest::Url;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use sha2::{Digest, Sha256};
+use std::time::Duration;
+
+/// How long signing in may take.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+/// Longest value of a claim that is looked at, in bytes.
+const LONGEST_VALUE: usize = 255;
+
+/// Who says who somebody is: `[[sign_in]]` of the configuration.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provider {
+    /// A word for addresses.
+    pub id: String,
+    /// What the button says.
+    pub name: String,
+    /// The issuer's name for itself: an https address, below which its configuration is.
+    pub issuer: String,
+    /// The issuer's name for this service.
+    pub client_id: String,
+    /// The secret that they share; none for a public client.
+    #[serde(default)]
+    pub client_secret: Option<String>,
+    /// The claim that has the student number, or the login of an account.
+    #[serde(default = "email")]
+    pub claim: String,
+    /// The domain of mail addresses that are let in. What stands before it is the student number.
+    #[serde(default)]
+    pub domain: Option<String>,
+}
+
+fn email() -> String {
+    "email".to_owned()
+}
+
+/// What an issuer says of itself (OpenID Connect Discovery).
+#[derive(Debug, Deserialize)]
+struct Discovered {
+    issuer: String,
+    authorization_endpoint: String,
+    token_endpoint: String,
+    jwks_uri: String,
+    #[serde(default)]
+    token_endpoint_auth_methods_supported: Vec<String>,
+}
+
+/// The routes, which are among the pages.
+pub fn router() -> Router<Service> {
+    Router::new().route("/sign-in/{provider}", get(begin)).route("/signed-in", get(finish))
+}
+
+impl Provider {
+    /// Whether it can be used; what is wrong otherwise.
+    pub(super) fn check(&self) -> Result<(), &'static str> {
+        let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+        match self {
+            Self { id, .. } if id.is_empty() || !id.chars().all(is_word) => Err("id"),
+            Self { name, .. } if name.trim().is_empty() => Err("name"),
+            Self { issuer, .. } if lti::checked(issuer).is_err() => Err("issuer"),
+            Self { client_id, .. } if client_id.is_empty() => Err("client_id"),
+            Self { claim, .. } if claim.is_empty() => Err("claim"),
+            Self { domain: Some(domain), .. } if domain.is_empty() || domain.contains('@') => Err("domain"),
+            _ => Ok(()),
+        }
+    }
+
+    async fn discovered(&self, service: &Service) -> Result<Discovered, Problem> {
+        let address = format!("{}/.well-known/openid-configuration", self.issuer.trim_end_matches('/'));
+        let failed = |failure: String| {
+            tracing::error!(failure, provider = self.id, "an issuer cannot be used");
+            let name = &self.name;
+            Problem::new(
+                StatusCode::BAD_GATEWAY,
+                "sign-in",
+                format!("{name} does not answer as it should. Please try again later."),
+                format!("{name} から正しい応答がありません。しばらくしてからもう一度試してください。"),
+            )
+        };
+        let found = service.lti.json(&address).await.map_err(failed)?;
+        let found: Discovered = serde_json::from_value(found).map_err(|error| failed(format!("{address}: {error}")))?;
+        if found.issuer != self.issuer {
+            return Err(failed(format!("{address} is of the issuer {}", found.issuer)));
+        }
+        for address in [&found.authorization_endpoint, &found.token_endpoint, &found.jwks_uri] {
+            lti::checked(address).map_err(failed)?;
+        }
+        Ok(found)
+    }
+
+    /// The id token for a code.
+    async fn token(
+        &self,
+        service: &Service,
+        found: &Discovered,
+        code: &str,
+        begun: &SignIn,
+    ) -> Result<String, Problem> {
+        let mut form = vec![
+            ("grant_type", "authorization_code"),
+            ("code", code),
+            ("code_verifier", &begun.verifier),
+            ("client_id", &self.client_id),
+        ];
+        let back = address_back(service);
+        form.push(("redirect_uri", &back));
+        let methods = &found.token_endpoint_auth_methods_supported;
+        let has = |method: &str| methods.iter().any(|known| known == method);
+        let mut login = self.client_secret.as_deref().map(|secret| (self.client_id.as_str(), secret));
+        // Where it says nothing, it takes the secret in the header.
+        if let Some((_, secret)) = login.filter(|_| has("client_secret_post") && !has("client_secret_basic")) {
+            form.push(("client_secret", secret));
+            login = None;
+        }
+        let answer = service.lti.post_form(&found.token_endpoint, &form, login).await.map_err(|failure| {
+            tracing::warn!(failure, provider = self.id, "a code was not taken");
+            self.distrusted("its code is not taken", "認可コードが受け付けられませんでした")
+        })?;
+        let token = answer.get("id_token").and_then(Value::as_str).map(str::to_owned);
+        token.ok_or_else(|| self.distrusted("there is no id token", "ID トークンがありません"))
+    }
+
+    fn distrusted(&self, en: &str, ja: &str) -> Problem {
+        let name = &self.name;
+        refused(
+            format!("What {name} says is not accepted: {en}. Sign in once more."),
+            format!("{name} からの情報を受け付けられません（{ja}）。もう一度ログインしてください。"),
+        )
+    }
+
+    /// The names by which somebody may be known here: as the issuer says it, and without the domain.
+    fn names(&self, claims: &Map<String, Value>) -> Result<(String, String), Problem> {
+        let value = match claims.get(&self.claim) {
+            Some(Value::String(text)) => text.trim().to_owned(),
+            Some(Value::Number(number)) => number.to_string(),
+            _ => String::new(),
+        };
+        if value.is_empty() || value.len() > LONGEST_VALUE {
+            let claim = &self.claim;
+            return Err(self.distrusted(&format!("it has no claim `{claim}`"), &format!("項目「{claim}」がありません")));
+        }
+        let is_verified = matches!(claims.get("email_verified"), Some(Value::Bool(true)))
+            || claims.get("email_verified").and_then(Value::as_str) == Some("true");
+        if self.claim == "email" && !is_verified {
+            return Err(self.distrusted("the mail address is not verified", "メールアドレスが確認されていません"));
+        }
+        let Some(domain) = &self.domain else { return Ok((value.clone(), value)) };
+        match value.rsplit_once('@') {
+            Some((local, of)) if of.eq_ignore_ascii_case(domain) && !local.is_empty() => {
+                Ok((value.clone(), local.to_owned()))
+            }
+            _ => Err(refused(
+                format!(
+                    "You are signed in as {value}. Only addresses of {domain} are let in: sign in with another account."
+                ),
+                format!(
+                    "{value} でログインしています。利用できるのは {domain} のアカウントだけです。別のアカウントでログインしてください。"
+                ),
+            )),
+        }
+    }
+}
+
+/// Where issuers send browsers back to.
+fn address_back(service: &Service) -> String {
+    format!("{}/signed-in", lti::address(service))
+}
+
+fn refused(en: impl Into<String>, ja: impl Into<String>) -> Problem {
+    Problem::new(StatusCode::FORBIDDEN, "sign-in", en, ja)
+}
+
+/// Where to go on afterwards.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Wish {
+    /// Id of a homework.
+    homework: String,
+}
+
+/// `GET /sign-in/{provider}`: leads to the issuer.
+async fn begin(
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+    Query(wish): Query<Wish>,
+) -> Result<Response, Problem> {
+    let provider = service.config.sign_in.iter().find(|provider| provider.id == id).ok_or_else(Problem::not_found)?;
+    let found = provider.discovered(&service).await?;
+    let (state, nonce, verifier) = (new_token(), new_token(), new_token());
+    let challenge = BASE64_URL_SAFE_NO_PAD.encode(Sha256::digest(verifier.as_bytes()));
+    let now = service.clock.now();
+    let homework = service.homework(&wish.homework).map(|state| state.assignment.id.clone());
+    let begun = SignIn { provider: id, nonce: nonce.clone(), verifier, homework };
+    service.store.begin_sign_in(&token_hash(&state), &begun, now, now + millis(PATIENCE)).await?;
+    let mut next = Url::parse(&found.authorization_endpoint).map_err(|error| Problem::internal(&error))?;
+    next.query_pairs_mut().extend_pairs([
+        ("response_type", "code"),
+        ("scope", "openid profile email"),
+        ("client_id", &provider.client_id),
+        ("redirect_uri", &address_back(&service)),
+        ("state", &state),
+        ("nonce", &nonce),
+        ("code_challenge", &challenge),
+        ("code_challenge_method", "S256"),
+    ]);
+    let mut response = Redirect::to(next.as_str()).into_response();
+    if let Some(cookie) = set_sign_in(&service, &state, PATIENCE.as_secs()) {
+        response.headers_mut().append(header::SET_COOKIE, cookie);
+    }
+    Ok(response)
+}
+
+/// What an issuer sends a browser back with.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Answer {
+    code: String,
+    state: String,
+    iss: Option<String>,
+    error: String,
+    error_description: String,
+}
+
+/// `GET /signed-in`: takes what the issuer vouches for.
+async fn finish(
+    Shared(service): Shared<Service>,
+    headers: HeaderMap,
+    visitor: Visitor,
+    Query(answer): Query<Answer>,
+) -> Result<Response, Problem> {
+    let begun = service.store.take_sign_in(&token_hash(&answer.state), service.clock.now()).await?;
+    let begun = begun.filter(|_| has_launch(&service, &headers, &answer.state)).ok_or_else(|| {
+        refused(
+            "This sign-in has been used, took longer than ten minutes, or began in another browser. Sign in once more.",
+            "このログインはすでに使用されたか、10 分を過ぎたか、別のブラウザで始めたものです。もう一度ログインしてください。",
+        )
+    })?;
+    let provider = service.config.sign_in.iter().find(|provider| provider.id == begun.provider);
+    let provider = provider.ok_or_else(Problem::not_found)?;
+    if !answer.error.is_empty() {
+        let said = format!("{} {}", answer.error, answer.error_description);
+        let said: String = said.chars().filter(|c| !c.is_control()).take(300).collect();
+        return Err(refused(
+            format!("{} does not let you in: {said}", provider.name),
+            format!("{} で認証できませんでした: {said}", provider.name),
+        ));
+    }
+    if answer.iss.as_deref().is_some_and(|iss| iss != provider.issuer) {
+        return Err(provider.distrusted("it comes from another issuer (iss)", "別の発行元からのものです (iss)"));
+    }
+    let found = provider.discovered(&service).await?;
+    let token = provider.token(&service, &found, &answer.code, &begun).await?;
+    let of = Issuer { issuer: &provider.issuer, client_id: &provider.client_id, keys_url: &found.jwks_uri };
+    let claims: Map<String, Value> =
+        id_tokens::read(&service.lti, of, &token).await.map_err(|why| provider.distrusted(&why.en, &why.ja))?;
+    if claims.get("nonce").and_then(Value::as_str) != Some(begun.nonce.as_str()) {
+        return Err(provider.distrusted(
+            "it is not the answer to this sign-in (nonce)",
+            "このログインに対するものではありません (nonce)",
+        ));
+    }
+    let (full, short) = provider.names(&claims)?;
+    enter(&service, visitor, (&full, &short), begun.homework.as_deref()).await
+}
+
+/// Lets somebody in by their name: with the account of this login, or as the student with this number.
+async fn enter(
+    service: &Service,
+    visitor: Visitor,
+    (full, short): (&str, &str),
+    homework: Option<&str>,
+) -> Result<Response, Problem> {
+    for login in [full, short] {
+        if let Some(member) = member_of(service, login).await? {
+            return open_for(service, member, "/teacher", Jar::Own).await;
+        }
+    }
+    let student = match normal_number(short) {
+        Some(number) => service.store.student(&number, service.clock.now()).await?,
+        None => None,
+    };
+    let student = student.ok_or_else(|| {
+        refused(
+            format!("You are signed in as {full}, who is not on the roster and has no account here. Ask your teacher."),
+            format!(
+                "{full} でログインしていますが、名簿にもアカウントにもありません。担当教員に問い合わせてください。"
+            ),
+        )
+    })?;
+    let visitor = become_student(service, visitor, student, Proof::Platform).await?;
+    let state = homework.and_then(|id| service.homework(id)).or_else(|| service.only());
+    let page = state.map_or_else(|| "/".to_owned(), |state| state.page());
+    let mut response = Redirect::to(&page).into_response();
+    visitor.set_cookie(service, &mut response);
+    Ok(response)
+}

@@ -1,0 +1,146 @@
+//! An OpenID issuer, written from the specifications: OpenID Connect Core 1.0 (code flow), Discovery 1.0, PKCE (RFC 7636). It has a
+//! server and keys of its own.
+
+use crate::lti::platform::key;
+use axum::extract::State;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Form, Json, Router};
+use base64::prelude::{BASE64_STANDARD, BASE64_URL_SAFE_NO_PAD, Engine};
+use jsonwebtoken::jwk::{Jwk, JwkSet};
+use jsonwebtoken::{Algorithm, EncodingKey, Header};
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+pub const CLIENT: &str = "ggrade of the course";
+pub const SECRET: &str = "a secret: with a colon & more";
+const KEY: &str = "issuer-key";
+
+/// The issuer.
+#[derive(Clone)]
+pub struct Issuer {
+    pub address: String,
+    key: Arc<EncodingKey>,
+    seen: Arc<Mutex<Seen>>,
+}
+
+/// What it knows of sign-ins under way, and how it behaves.
+#[derive(Default)]
+pub struct Seen {
+    /// Challenge and id token of each code that was not taken yet.
+    codes: HashMap<String, (String, String)>,
+    /// Another name than its own, where it lies.
+    pub alias: Option<String>,
+    /// Whether it takes the secret in the form alone.
+    pub takes_post: bool,
+}
+
+impl Issuer {
+    pub async fn start() -> Self {
+        let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.expect("a port");
+        let address = format!("http://{}/realm", listener.local_addr().expect("an address"));
+        let issuer = Self { address, key: Arc::new(key()), seen: Arc::default() };
+        let routes = Router::new()
+            .route("/realm/.well-known/openid-configuration", get(configuration))
+            .route("/realm/jwks", get(jwks))
+            .route("/realm/token", post(token))
+            .with_state(issuer.clone());
+        tokio::spawn(async move { axum::serve(listener, routes).await });
+        issuer
+    }
+
+    pub fn seen(&self) -> std::sync::MutexGuard<'_, Seen> {
+        self.seen.lock().expect("a lock")
+    }
+
+    /// The claims of somebody who has signed in.
+    pub fn claims(&self, asked: &HashMap<String, String>, email: &str) -> Value {
+        let now = jsonwebtoken::get_current_timestamp();
+        json!({
+            "iss": self.address, "aud": CLIENT, "sub": "248289761001", "nonce": asked["nonce"], "iat": now, "exp": now + 300,
+            "email": email, "email_verified": true,
+        })
+    }
+
+    /// Signs claims as the issuer does.
+    pub fn sign(&self, claims: &Value) -> String {
+        let header = Header { kid: Some(KEY.to_owned()), ..Header::new(Algorithm::RS256) };
+        jsonwebtoken::encode(&header, claims, &self.key).expect("a token")
+    }
+
+    /// The modulus of its public key, which somebody may take for a secret.
+    pub fn public_modulus(&self) -> String {
+        serde_json::to_value(self.jwk()).expect("JSON")["n"].as_str().expect("a modulus").to_owned()
+    }
+
+    fn jwk(&self) -> Jwk {
+        let mut jwk = Jwk::from_encoding_key(&self.key, Algorithm::RS256).expect("a key");
+        jwk.common.key_id = Some(KEY.to_owned());
+        jwk
+    }
+
+    /// Signs somebody in who was sent with this question: the code for this id token.
+    pub fn code(&self, asked: &HashMap<String, String>, token: &str) -> String {
+        for (name, value) in
+            [("response_type", "code"), ("client_id", CLIENT), ("redirect_uri", "http://ggrade.example/signed-in")]
+        {
+            assert_eq!(asked[name], value);
+        }
+        assert_eq!(asked["code_challenge_method"], "S256");
+        assert!(asked["scope"].split(' ').any(|scope| scope == "openid"), "{asked:?}");
+        assert!(asked["state"].len() >= 43 && asked["nonce"].len() >= 43, "{asked:?}");
+        let code = ggrade::service::identity::new_id();
+        self.seen().codes.insert(code.clone(), (asked["code_challenge"].clone(), token.to_owned()));
+        code
+    }
+}
+
+async fn configuration(State(issuer): State<Issuer>) -> Json<Value> {
+    let at = |path: &str| format!("{}/{path}", issuer.address);
+    let seen = issuer.seen();
+    let methods = if seen.takes_post { json!(["client_secret_post"]) } else { json!(["client_secret_basic"]) };
+    Json(json!({
+        "issuer": seen.alias.as_ref().unwrap_or(&issuer.address), "authorization_endpoint": at("authorize?theme=dark"),
+        "token_endpoint": at("token"), "jwks_uri": at("jwks"), "token_endpoint_auth_methods_supported": methods,
+        "response_types_supported": ["code"], "id_token_signing_alg_values_supported": ["RS256"],
+    }))
+}
+
+async fn jwks(State(issuer): State<Issuer>) -> Json<JwkSet> {
+    Json(JwkSet { keys: vec![issuer.jwk()] })
+}
+
+/// Whether a request to the token endpoint is this client's.
+fn is_client(headers: &HeaderMap, form: &HashMap<String, String>, takes_post: bool) -> bool {
+    if takes_post {
+        return form.get("client_secret").is_some_and(|secret| secret == SECRET)
+            && !headers.contains_key(header::AUTHORIZATION);
+    }
+    let encoded =
+        |text: &str| percent_encoding::utf8_percent_encode(text, percent_encoding::NON_ALPHANUMERIC).to_string();
+    let expected = BASE64_STANDARD.encode(format!("{}:{}", encoded(CLIENT), encoded(SECRET)));
+    headers.get(header::AUTHORIZATION).is_some_and(|value| value == format!("Basic {expected}").as_str())
+}
+
+async fn token(
+    State(issuer): State<Issuer>,
+    headers: HeaderMap,
+    Form(form): Form<HashMap<String, String>>,
+) -> Response {
+    let mut seen = issuer.seen();
+    let refused = |why: &str| (StatusCode::BAD_REQUEST, Json(json!({ "error": why }))).into_response();
+    if !is_client(&headers, &form, seen.takes_post) {
+        return refused("invalid_client");
+    }
+    assert_eq!(form["grant_type"], "authorization_code");
+    assert_eq!(form["redirect_uri"], "http://ggrade.example/signed-in");
+    // A code is taken once.
+    let Some((challenge, token)) = seen.codes.remove(&form["code"]) else { return refused("invalid_grant") };
+    if BASE64_URL_SAFE_NO_PAD.encode(Sha256::digest(&form["code_verifier"])) != challenge {
+        return refused("invalid_grant");
+    }
+    Json(json!({ "access_token": "unused", "token_type": "Bearer", "id_token": token })).into_response()
+}
