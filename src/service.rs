@@ -51,6 +51,7 @@ pub mod proxied;
 pub mod regrade;
 mod requests;
 pub mod roster;
+mod scope;
 pub mod server;
 pub mod sign_in;
 mod state;
@@ -59,7 +60,8 @@ pub mod submit;
 pub mod upkeep;
 
 pub use config::Config;
-pub use state::{Scope, Service, Shared, State};
+pub use scope::Scope;
+pub use state::{Service, Shared, State};
 
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, Request};

@@ -2,6 +2,11 @@
 //!
 //! The code flow with PKCE, state and nonce. What the issuer's addresses are is discovered from its name. The state is used once,
 //! within ten minutes, and in the browser in which it was made. `jsonwebtoken` and `reqwest` of the LTI launches do the work.
+//! [`provider`] is one issuer.
+
+mod provider;
+
+pub use provider::Provider;
 
 use super::clock::millis;
 use super::errors::Problem;
@@ -18,7 +23,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::get;
 use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 use reqwest::Url;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::time::Duration;
@@ -26,161 +31,9 @@ use std::time::Duration;
 /// How long signing in may take.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Longest value of a claim that is looked at, in bytes.
-const LONGEST_VALUE: usize = 255;
-
-/// Who says who somebody is: `[[sign_in]]` of the configuration.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Provider {
-    /// A word for addresses.
-    pub id: String,
-    /// What the button says.
-    pub name: String,
-    /// The issuer's name for itself: an https address, below which its configuration is.
-    pub issuer: String,
-    /// The issuer's name for this service.
-    pub client_id: String,
-    /// The secret that they share; none for a public client.
-    #[serde(default)]
-    pub client_secret: Option<String>,
-    /// The claim that has the student number, or the login of an account.
-    #[serde(default = "email")]
-    pub claim: String,
-    /// The domain of mail addresses that are let in. What stands before it is the student number.
-    #[serde(default)]
-    pub domain: Option<String>,
-}
-
-fn email() -> String {
-    "email".to_owned()
-}
-
-/// What an issuer says of itself (OpenID Connect Discovery).
-#[derive(Debug, Deserialize)]
-struct Discovered {
-    issuer: String,
-    authorization_endpoint: String,
-    token_endpoint: String,
-    jwks_uri: String,
-    #[serde(default)]
-    token_endpoint_auth_methods_supported: Vec<String>,
-}
-
 /// The routes, which are among the pages.
 pub fn router() -> Router<Service> {
     Router::new().route("/sign-in/{provider}", get(begin)).route("/signed-in", get(finish))
-}
-
-impl Provider {
-    /// Whether it can be used; what is wrong otherwise.
-    pub(super) fn check(&self) -> Result<(), &'static str> {
-        let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
-        match self {
-            Self { id, .. } if id.is_empty() || !id.chars().all(is_word) => Err("id"),
-            Self { name, .. } if name.trim().is_empty() => Err("name"),
-            Self { issuer, .. } if lti::checked(issuer).is_err() => Err("issuer"),
-            Self { client_id, .. } if client_id.is_empty() => Err("client_id"),
-            Self { claim, .. } if claim.is_empty() => Err("claim"),
-            Self { domain: Some(domain), .. } if domain.is_empty() || domain.contains('@') => Err("domain"),
-            _ => Ok(()),
-        }
-    }
-
-    async fn discovered(&self, service: &Service) -> Result<Discovered, Problem> {
-        let address = format!("{}/.well-known/openid-configuration", self.issuer.trim_end_matches('/'));
-        let failed = |failure: String| {
-            tracing::error!(failure, provider = self.id, "an issuer cannot be used");
-            let name = &self.name;
-            Problem::new(
-                StatusCode::BAD_GATEWAY,
-                "sign-in",
-                format!("{name} does not answer as it should. Please try again later."),
-                format!("{name} から正しい応答がありません。しばらくしてからもう一度試してください。"),
-            )
-        };
-        let found = service.lti.json(&address).await.map_err(failed)?;
-        let found: Discovered = serde_json::from_value(found).map_err(|error| failed(format!("{address}: {error}")))?;
-        if found.issuer != self.issuer {
-            return Err(failed(format!("{address} is of the issuer {}", found.issuer)));
-        }
-        for address in [&found.authorization_endpoint, &found.token_endpoint, &found.jwks_uri] {
-            lti::checked(address).map_err(failed)?;
-        }
-        Ok(found)
-    }
-
-    /// The id token for a code.
-    async fn token(
-        &self,
-        service: &Service,
-        found: &Discovered,
-        code: &str,
-        begun: &SignIn,
-    ) -> Result<String, Problem> {
-        let mut form = vec![
-            ("grant_type", "authorization_code"),
-            ("code", code),
-            ("code_verifier", &begun.verifier),
-            ("client_id", &self.client_id),
-        ];
-        let back = address_back(service);
-        form.push(("redirect_uri", &back));
-        let methods = &found.token_endpoint_auth_methods_supported;
-        let has = |method: &str| methods.iter().any(|known| known == method);
-        let mut login = self.client_secret.as_deref().map(|secret| (self.client_id.as_str(), secret));
-        // Where it says nothing, it takes the secret in the header.
-        if let Some((_, secret)) = login.filter(|_| has("client_secret_post") && !has("client_secret_basic")) {
-            form.push(("client_secret", secret));
-            login = None;
-        }
-        let answer = service.lti.post_form(&found.token_endpoint, &form, login).await.map_err(|failure| {
-            tracing::warn!(failure, provider = self.id, "a code was not taken");
-            self.distrusted("its code is not taken", "認可コードが受け付けられませんでした")
-        })?;
-        let token = answer.get("id_token").and_then(Value::as_str).map(str::to_owned);
-        token.ok_or_else(|| self.distrusted("there is no id token", "ID トークンがありません"))
-    }
-
-    fn distrusted(&self, en: &str, ja: &str) -> Problem {
-        let name = &self.name;
-        refused(
-            format!("What {name} says is not accepted: {en}. Sign in once more."),
-            format!("{name} からの情報を受け付けられません（{ja}）。もう一度ログインしてください。"),
-        )
-    }
-
-    /// The names by which somebody may be known here: as the issuer says it, and without the domain.
-    fn names(&self, claims: &Map<String, Value>) -> Result<(String, String), Problem> {
-        let value = match claims.get(&self.claim) {
-            Some(Value::String(text)) => text.trim().to_owned(),
-            Some(Value::Number(number)) => number.to_string(),
-            _ => String::new(),
-        };
-        if value.is_empty() || value.len() > LONGEST_VALUE {
-            let claim = &self.claim;
-            return Err(self.distrusted(&format!("it has no claim `{claim}`"), &format!("項目「{claim}」がありません")));
-        }
-        let is_verified = matches!(claims.get("email_verified"), Some(Value::Bool(true)))
-            || claims.get("email_verified").and_then(Value::as_str) == Some("true");
-        if self.claim == "email" && !is_verified {
-            return Err(self.distrusted("the mail address is not verified", "メールアドレスが確認されていません"));
-        }
-        let Some(domain) = &self.domain else { return Ok((value.clone(), value)) };
-        match value.rsplit_once('@') {
-            Some((local, of)) if of.eq_ignore_ascii_case(domain) && !local.is_empty() => {
-                Ok((value.clone(), local.to_owned()))
-            }
-            _ => Err(refused(
-                format!(
-                    "You are signed in as {value}. Only addresses of {domain} are let in: sign in with another account."
-                ),
-                format!(
-                    "{value} でログインしています。利用できるのは {domain} のアカウントだけです。別のアカウントでログインしてください。"
-                ),
-            )),
-        }
-    }
 }
 
 /// Where issuers send browsers back to.
