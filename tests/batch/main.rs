@@ -3,6 +3,7 @@
 mod anonymous;
 mod begin;
 mod class;
+mod clusters;
 mod grades;
 mod hostile;
 mod interrupted;

@@ -1,6 +1,7 @@
 //! The formats of autograders and CI as their systems call ggrade: by the command line, and by the scripts in `deploy/`.
 
 mod gradescope;
+mod kubernetes;
 mod moodle;
 
 use assert_cmd::Command;
