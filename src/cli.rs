@@ -14,7 +14,7 @@ pub use assignment::{Action, Assignment, Check, New, Show};
 pub use batch::{Batch, BatchAction, BatchCommand, Merge};
 pub use format::{Format, ViewFormat};
 #[cfg(feature = "service")]
-pub use serve::{LogFormat, Serve};
+pub use serve::{LogFormat, Role, Serve};
 #[cfg(feature = "watch")]
 pub use watch::Watch;
 

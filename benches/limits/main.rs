@@ -5,8 +5,10 @@
 
 mod bare;
 mod class;
+mod crowd;
 mod machine;
 mod measure;
+mod queue;
 mod surfaces;
 mod table;
 
@@ -26,13 +28,21 @@ struct Size {
     commands: usize,
     /// Uploads.
     uploads: usize,
+    /// Seconds for which a crowd is watched.
+    watched: f64,
 }
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     let has = |name: &str| arguments.iter().any(|argument| argument == name);
-    if let Some(unknown) = arguments.iter().find(|a| !["--check", "--write", "--quick"].contains(&a.as_str())) {
-        eprintln!("unknown argument {unknown}: there are --check, --write and --quick");
+    if let Some(unknown) =
+        arguments.iter().find(|a| !["--check", "--write", "--quick", "--queue", "--crowd"].contains(&a.as_str()))
+    {
+        eprintln!("unknown argument {unknown}: there are --check, --write, --quick, --queue and --crowd");
+        return ExitCode::from(2);
+    }
+    if (has("--queue") || has("--crowd")) && has("--write") {
+        eprintln!("--write takes the whole table");
         return ExitCode::from(2);
     }
     // The driver reads its settings from the environment: both sides of the comparison run with the workers' own.
@@ -40,21 +50,27 @@ fn main() -> ExitCode {
         return measure::again_with_driver_settings(&arguments);
     }
     let size = if has("--quick") {
-        Size { shaders: 12, class: 100, gradings: 400, commands: 5, uploads: 40 }
+        Size { shaders: 12, class: 100, gradings: 400, commands: 5, uploads: 40, watched: 10.0 }
     } else {
-        Size { shaders: 100, class: 1000, gradings: 10_000, commands: 20, uploads: 400 }
+        Size { shaders: 100, class: 1000, gradings: 10_000, commands: 20, uploads: 400, watched: 60.0 }
     };
     let mut machine = machine::describe();
     machine.push(format!(
-        "{} shaders, classes of {} and {}, {} gradings for memory, {} commands, {} uploads",
+        "{} shaders, classes of {} and {}, {} gradings for memory, {} commands, {} uploads, crowds for {} s",
         size.shaders,
         size.class / 4,
         size.class,
         size.gradings,
         size.commands,
-        size.uploads
+        size.uploads,
+        size.watched
     ));
-    let table = Table { machine, rows: rows(size) };
+    let rows = match () {
+        () if has("--queue") => queue::rows(),
+        () if has("--crowd") => crowd::rows(size.watched),
+        () => rows(size),
+    };
+    let table = Table { machine, rows };
     print!("{}", table.text());
     if has("--check") {
         return table.check();
@@ -86,6 +102,8 @@ fn rows(size: Size) -> Vec<Row> {
         Row::ratio("growth", large.cpu / small.cpu, 4.2),
     ]);
     rows.extend(on_surfaces(size));
+    rows.extend(queue::rows());
+    rows.extend(crowd::rows(size.watched));
     rows.push(Row::at_most("command", "ms", measure::command(&shaders[..size.commands]), 300.0));
     rows.extend([
         Row::at_most("memory", "MiB", memory.most, 400.0),

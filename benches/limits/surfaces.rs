@@ -70,16 +70,26 @@ async fn upload_all(client: &reqwest::Client, address: &str, submissions: &[Subm
 }
 
 /// A running service.
-struct Server {
+pub struct Server {
     child: Child,
-    address: String,
+    pub address: String,
 }
 
 impl Server {
     fn start(folder: &std::path::Path) -> Self {
+        let rates = ["--uploads-per-student", "100000", "--uploads-per-address", "100000"];
+        Self::with(folder, ["--deadline", "60"].iter().chain(&rates))
+    }
+
+    /// One that tells people apart by their addresses, and has the usual deadline.
+    pub fn of_people(folder: &std::path::Path, rates: &[&str]) -> Self {
+        Self::with(folder, ["--trusted-proxy", "127.0.0.1", "--queue", "1000"].iter().chain(rates))
+    }
+
+    fn with<'a>(folder: &std::path::Path, options: impl Iterator<Item = &'a &'a str>) -> Self {
         let mut command = clean(program());
-        command.args(["serve", "--listen", "127.0.0.1:0", "--workers", &WORKERS.to_string(), "--deadline", "60"]);
-        command.args(["--uploads-per-student", "100000", "--uploads-per-address", "100000", "--wait", "60"]);
+        command.args(["serve", "--listen", "127.0.0.1:0", "--workers", &WORKERS.to_string(), "--wait", "60"]);
+        command.args(options).env("GGRADE_LIMITS_REQUEST_TIMEOUT", "300");
         command.arg("--database").arg(folder.join("ggrade.db")).env("LC_ALL", "C").env_remove("GGRADE_LANG");
         let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().expect("ggrade starts");
         let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines().map_while(Result::ok);

@@ -10,7 +10,7 @@ const END: &str = "<!-- end of table -->";
 const TOLERANCE: f64 = 1.25;
 
 /// What each figure is.
-const MEANINGS: [(&str, &str); 19] = [
+const MEANINGS: [(&str, &str); 30] = [
     ("bare-driver", "CPU time of the bare driver for one submission, median"),
     ("grade", "CPU time of a whole grading in one process, in turns with the above"),
     ("grade-to-bare", "the one against the other"),
@@ -29,6 +29,23 @@ const MEANINGS: [(&str, &str); 19] = [
     ),
     ("upload-p99", "the longest but one in a hundred of these"),
     ("upload-known-p50", "the same of a file that was graded before, median"),
+    ("queue-1", "gradings of 20 ms of sleep that one grader takes from PostgreSQL, 20,000 waiting"),
+    ("queue-4", "the same of 4 services on one database, against that"),
+    ("queue-16", "the same of 16"),
+    ("queue-database", "CPU time of PostgreSQL for each of these"),
+    (
+        "queue-start",
+        "from the end of an upload's storing to the beginning of its grading in another process that is idle, the longest but one in a hundred",
+    ),
+    (
+        "hostile-p50",
+        "how much longer 33 people wait for a report, each with a new file every 2 s, beside 17 who send the hostile samples, median",
+    ),
+    ("hostile-p99", "the same of the longest but one in a hundred"),
+    ("hostile-busy-p50", "how much longer they wait when all send the next file as soon as a report is there, median"),
+    ("hostile-busy-p99", "the same of the longest but one in a hundred"),
+    ("flood-p50", "how much longer 20 people wait beside one who sends as fast as the rates allow, median"),
+    ("flood-p99", "the same of the longest but one in a hundred"),
     ("command", "`ggrade grade FILE` by the clock, median"),
     ("memory", "resident memory of parent and two workers, the most at any time; what they share counts for each"),
     ("memory-with-spare", "the same with the worker that is kept ready"),

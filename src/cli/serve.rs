@@ -56,6 +56,10 @@ pub struct Serve {
     #[arg(long, value_name = "NAME|FOLDER")]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<String>,
+    /// What this process does; with PostgreSQL any number of them share the work of one service [default: all]
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub role: Option<Role>,
     /// Files graded at once [default: one per processor]
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -126,6 +130,31 @@ pub struct Serve {
     #[arg(long, value_name = "FILTER")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub log: Option<String>,
+}
+
+/// What a process of the service does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Role {
+    /// Serve the pages and grade
+    #[default]
+    All,
+    /// Serve the pages, and leave the grading to others
+    Web,
+    /// Grade; of the addresses it has /healthz, /readyz and /metrics only
+    Grader,
+}
+
+impl Role {
+    /// Whether it has the pages and the API.
+    pub fn serves_pages(self) -> bool {
+        self != Self::Grader
+    }
+
+    /// Whether it grades.
+    pub fn grades(self) -> bool {
+        self != Self::Web
+    }
 }
 
 /// How a log is written.

@@ -64,6 +64,10 @@ fn of_tokens(config: &Config, assignments: Vec<Arc<Assignment>>) -> Result<Vec<A
 /// Says where the service is, for whoever started it.
 fn welcome(started: &server::Started) {
     let address = &started.address;
+    if !started.service.config.role.serves_pages() {
+        anstream::eprintln!("Grader:    http://{address}/healthz");
+        return;
+    }
     let database = &started.service.config.location().map(|location| location.to_string()).unwrap_or_default();
     let public = started.service.config.public_url.clone().unwrap_or_else(|| format!("http://{address}"));
     let public = public.trim_end_matches('/');

@@ -71,9 +71,19 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(deletions::delete_submission))
         .routes(routes!(deletions::delete_batch))
         .routes(routes!(deletions::delete_student))
+        .merge(operational())
+}
+
+fn operational() -> OpenApiRouter<Service> {
+    OpenApiRouter::new()
         .routes(routes!(operations::healthz))
         .routes(routes!(operations::readyz))
         .routes(routes!(operations::metrics))
+}
+
+/// The routes for who runs the service, and no others.
+pub(super) fn for_operators() -> Router<Service> {
+    operational().split_for_parts().0
 }
 
 /// The routes.

@@ -13,18 +13,16 @@ pub use people::{People, Person, PersonStanding, of_batch, people};
 
 use super::State;
 use super::errors::Problem;
+use super::grading;
 use super::idempotency;
 use super::identity::new_id;
 use super::roster::Matcher;
-use super::store::{Batch, BatchEntry, Key, NewSubmission, Via};
+use super::store::{Batch, BatchEntry, Key, NewSubmission, Priority, Via};
 use super::submit::file_name;
 use crate::batch::intake::{self, Content, Intake, StudentWork};
 use crate::language::Text;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Behind every student who hands in.
-const PRIORITY: i64 = 10;
 
 /// The title of an archive that came without a name.
 const NAMELESS: &str = "archive";
@@ -113,8 +111,8 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
                     seed: settings.seed,
                     hints: settings.hints,
                     received_at: now,
-                    priority: PRIORITY,
-                    claim: None,
+                    priority: Priority::Archive,
+                    senders: Vec::new(),
                 });
             }
         }
@@ -123,6 +121,6 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
     if !state.store.add_batch(&batch, &entries, &files, key).await? {
         return Ok(None);
     }
-    state.queue.look();
+    grading::files_wait(state).await;
     Ok(Some(batch))
 }

@@ -2,7 +2,7 @@
 
 use super::sign_in::Provider;
 use super::store::Location;
-use crate::cli::{LogFormat, Serve};
+use crate::cli::{LogFormat, Role, Serve};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::Policy;
@@ -29,6 +29,7 @@ pub struct Config {
     pub sign_in: Vec<Provider>,
     #[serde(deserialize_with = "one_or_several")]
     pub assignment: Vec<String>,
+    pub role: Role,
     pub workers: usize,
     pub sandbox: Policy,
     pub single_use_workers: bool,
@@ -80,6 +81,7 @@ impl Default for Config {
             identity_proxies: Vec::new(),
             sign_in: Vec::new(),
             assignment: Vec::new(),
+            role: Role::All,
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
             single_use_workers: false,
@@ -207,6 +209,13 @@ impl Config {
                 );
             }
             _ => {}
+        }
+        if self.role != Role::All && matches!(self.location()?, Location::File(_)) {
+            return wrong(
+                "role",
+                "divides the work among processes, which takes PostgreSQL: an SQLite file has one process",
+                "で処理を分けるには PostgreSQL が必要です (SQLite のファイルを使えるのは 1 プロセスだけです)",
+            );
         }
         Ok(())
     }

@@ -1,19 +1,28 @@
 //! Grading in the background: what is stored is graded, by whichever way it came.
 //!
-//! An upload is claimed by the process that stores it and waits in its [`Queue`]; what nobody holds (a teacher's batch,
-//! files that a process left behind when it ended) is claimed from the database one by one.
+//! The queue is in the database. Graders of any process on it claim what is next, one by one. [`Queue`] is what a process
+//! knows of it, and [`news`] what the processes tell each other.
 
 mod cross_checks;
 mod graders;
+mod news;
 mod queue;
 
 pub use cross_checks::CrossChecks;
 pub use graders::Graders;
-pub use queue::{Full, GradingResult, Job, Queue};
+pub use queue::{Full, GradingResult, Queue};
 
+use super::Service;
+use super::store::News;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{CheckedFolder, GradedSubmission, Pool, Submission};
+
+/// Tells graders, here and in other processes, that files wait.
+pub async fn files_wait(service: &Service) {
+    service.queue.wakes.notify_one();
+    news::tell(service, &News::Waiting).await;
+}
 
 /// What grades a file: the pool of workers, or what a test puts in its place.
 pub trait Judge: Send + Sync + std::fmt::Debug {

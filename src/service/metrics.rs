@@ -93,9 +93,10 @@ pub(super) fn request(route: &str, method: &str, status: u16, took: Duration) {
 
 /// Everything, in Prometheus' text form.
 pub(super) async fn render(service: &Service) -> String {
-    let (waiting, running) = service.queue.lengths();
-    metrics::gauge!("ggrade_queue_length").set(waiting as f64);
-    metrics::gauge!("ggrade_gradings_running").set(running as f64);
+    if let Ok(waiting) = service.store.queue_length(service.clock.now(), usize::MAX).await {
+        metrics::gauge!("ggrade_queue_length").set(waiting as f64);
+    }
+    metrics::gauge!("ggrade_gradings_running").set(service.queue.running() as f64);
     metrics::gauge!("ggrade_workers").set(service.config.workers as f64);
     if let Ok((queued, failed)) = service.store.waiting().await {
         metrics::gauge!("ggrade_submissions_waiting").set(queued as f64);

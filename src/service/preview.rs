@@ -161,7 +161,8 @@ impl Preview {
 /// Grades the folder's own files, each as somebody who tries it.
 async fn own_files(state: &State) -> Result<OwnFiles, Fault> {
     let receipt = async |hand_in: HandIn| {
-        let upload = Upload { hand_in, identity: Identity::Nobody, via: Via::Editor, hints: None, key: None };
+        let address = std::net::Ipv6Addr::LOCALHOST.into();
+        let upload = Upload { hand_in, identity: Identity::Nobody, via: Via::Editor, hints: None, key: None, address };
         submit(state, upload).await.map_err(|problem| Fault::new(problem.detail))
     };
     let solution = receipt(solution(&state.assignment)).await?;

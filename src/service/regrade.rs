@@ -3,6 +3,7 @@
 use super::State;
 use super::errors::Problem;
 use super::folders;
+use super::grading;
 use super::identity::new_id;
 use super::store::Regrading;
 use axum::http::StatusCode;
@@ -21,7 +22,7 @@ pub async fn start(state: &State, new_seed: bool, folder: Option<String>) -> Res
         folder,
     };
     state.store.add_regrading(&regrading).await?;
-    state.queue.look();
+    grading::files_wait(state).await;
     Ok(regrading)
 }
 

@@ -9,7 +9,7 @@ use super::clock::Clock;
 use super::grading::Graders;
 use super::identity::new_token;
 use super::store::{Store, StoreError};
-use super::{Config, Service, app, folders, lti, metrics, upkeep};
+use super::{Config, Service, api, app, folders, layered, lti, metrics, upkeep};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{Pool, Settings};
@@ -39,7 +39,7 @@ pub struct Started {
 pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Result<Started, Fault> {
     metrics::install();
     let store = open(&config).await?;
-    let one_time_token = match has_teacher(&config, &store).await? {
+    let one_time_token = match !config.role.serves_pages() || has_teacher(&config, &store).await? {
         true => None,
         false => Some(new_token()[..32].to_owned()),
     };
@@ -52,7 +52,9 @@ pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Res
     let service = Service::serving(assignments, config, store, Arc::new(pool), Clock::system()).await?;
     let graders = Graders::start(&service).await.map_err(|error| database(&error))?;
     tokio::spawn(upkeep::run(service.clone()));
-    tokio::spawn(lti::scores::run(service.clone()));
+    if service.config.role.serves_pages() {
+        tokio::spawn(lti::scores::run(service.clone()));
+    }
     Ok(Started { address, service, one_time_token, listener, graders })
 }
 
@@ -69,7 +71,11 @@ impl Started {
             service.end();
         });
         let Self { service, listener, graders, .. } = self;
-        accept(listener, app(service.clone()), service.clone()).await;
+        let routes = match service.config.role.serves_pages() {
+            true => app(service.clone()),
+            false => layered(service.clone(), api::for_operators()),
+        };
+        accept(listener, routes, service.clone()).await;
         graders.finish().await;
         service.store.close().await;
         tracing::info!("ended");
@@ -104,7 +110,7 @@ async fn has_teacher(config: &Config, store: &Store) -> Result<bool, Fault> {
     Ok(password.is_some() || has_administrator)
 }
 
-/// One worker more than files are graded at once draws pictures for who looks at reports.
+/// One worker more than files are graded at once draws pictures for who looks at reports, and has the second opinions.
 pub(super) async fn pool(config: &Config, assignments: &[Arc<Assignment>]) -> Result<Pool, Fault> {
     let Some((first, further)) = assignments.split_first() else {
         return Err(Fault::new(Text::verbatim("there is no assignment to serve")));
@@ -116,7 +122,7 @@ pub(super) async fn pool(config: &Config, assignments: &[Arc<Assignment>]) -> Re
         ..Settings::new(Arc::clone(first))
     };
     let settings = if config.single_use_workers { settings.with_single_use_workers() } else { settings };
-    let workers = config.workers + 1;
+    let workers = if config.role.grades() { config.workers + 1 } else { 1 };
     let started = tokio::task::spawn_blocking(move || start_pool(&settings, workers)).await;
     let pool = started.map_err(|error| Fault::new(Text::verbatim(error.to_string())))??;
     if let Some(notice) = pool.notice() {

@@ -5,12 +5,11 @@ mod files;
 mod allowed;
 
 use super::State;
-use super::clock::millis;
 use super::errors::Problem;
-use super::grading::{GradingResult, Job};
+use super::grading::{self, GradingResult};
 use super::idempotency;
 use super::identity::{Identity, new_id};
-use super::store::{Key, NewSubmission, Stored, Submission, Via};
+use super::store::{Key, NewSubmission, Priority, Sender, Stored, Submission, Via};
 use super::{Config, metrics, store};
 use crate::diagnose::Hints;
 use crate::fault::Fault;
@@ -24,8 +23,8 @@ use axum::http::StatusCode;
 use files::checked;
 pub(super) use files::{check_text, for_slots};
 use sha2::{Digest, Sha256};
+use std::net::IpAddr;
 use std::sync::Arc;
-use std::time::Instant;
 use tokio::sync::broadcast;
 
 /// Longest file that is taken, in bytes: a longer one is not read as text.
@@ -47,6 +46,8 @@ pub struct Upload {
     pub hints: Option<Hints>,
     /// The key with which it may come again.
     pub key: Option<idempotency::RequestKey>,
+    /// The address that it comes from.
+    pub address: IpAddr,
 }
 
 /// A hand-in that is stored.
@@ -138,7 +139,7 @@ async fn in_time(state: &State, listener: &mut broadcast::Receiver<GradingResult
 /// Stores a file, and waits a while for its report; none where the key is taken.
 async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<Option<Receipt>, Problem> {
     let (assignment, hand_in) = checked(state, &upload).await?;
-    let new = new_submission(state, &assignment, &upload, hand_in);
+    let mut new = new_submission(state, &assignment, &upload, hand_in);
     let known = state.store.known_report(&new.assignment, &new.hand_in.sha256(), new.seed, new.hints).await?;
     // One of a folder that was changed since is of another assignment. Those of old do not say which they are of.
     let is_of =
@@ -146,7 +147,11 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
     if let Some(report) = known.filter(is_of) {
         return keep_known(state, new, key, report).await;
     }
-    let place = state.queue.reserve().map_err(|full| {
+    if let Some(sender) = new.senders.first() {
+        new.priority = state.store.priority(&new.hand_in.sha256(), sender, new.received_at).await?;
+    }
+    let waiting = state.store.queue_length(new.received_at, state.queue.capacity()).await?;
+    let place = state.queue.reserve(waiting).map_err(|full| {
         let mut problem = Problem::new(
             StatusCode::TOO_MANY_REQUESTS,
             "queue-full",
@@ -168,7 +173,8 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
     }
     let submission = submission_of(&new, store::State::Queued);
     metrics::uploaded(&submission, false);
-    place.fill(Job { submission: submission.clone(), hand_in: new.hand_in, since: Instant::now() });
+    drop(place);
+    grading::files_wait(state).await;
     let outcome = in_time(state, &mut listener).await;
     Ok(Some(Receipt { submission, outcome }))
 }
@@ -185,7 +191,7 @@ pub(super) fn too_large() -> Problem {
 
 fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload, hand_in: HandIn) -> NewSubmission {
     let now = state.clock.now();
-    let until = now + millis(Config::span(state.config.limits.lease));
+    let owner = upload.identity.student_id().or(upload.identity.owner_id()).map(|id| Sender::Owner(id.to_owned()));
     NewSubmission {
         id: new_id(),
         assignment: state.assignment.id.clone(),
@@ -197,8 +203,8 @@ fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload
         seed: assignment.seed,
         hints: upload.hints.map_or(assignment.hints, |hints| hints.min(assignment.hints)),
         received_at: now,
-        priority: 0,
-        claim: Some((state.instance.clone(), until)),
+        priority: Priority::Student,
+        senders: owner.into_iter().chain([Sender::Address(upload.address)]).collect(),
     }
 }
 

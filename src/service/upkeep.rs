@@ -17,6 +17,9 @@ pub(super) async fn run(service: Service) {
         if minute.is_multiple_of(REMOVALS) {
             remove(&service).await;
         }
+        if let Err(error) = service.store.forget_senders(service.clock.now()).await {
+            tracing::error!(%error, "senders of long ago could not be removed");
+        }
         service.limits.tidy();
         service.queue.tidy();
         metrics::upkeep();

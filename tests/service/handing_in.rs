@@ -10,7 +10,7 @@ use ggrade::fault::Fault;
 use ggrade::language::Text;
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
-use ggrade::service::store::{Audience, Store};
+use ggrade::service::store::{Audience, Priority, Store};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
@@ -149,10 +149,11 @@ async fn nothing_is_graded_twice_and_nothing_is_left(database: Database) {
             seed: assignment.seed,
             hints: Hints::Full,
             received_at: 0,
-            priority: 0,
-            claim: Some(("gone".into(), 1)),
+            priority: Priority::Student,
+            senders: Vec::new(),
         };
         store.add_submission(&new, None).await.expect("stored");
+        assert!(store.claim(&["ggsample06"], None, "gone", 0, 1).await.expect("a claim").is_some());
     }
     store.close().await;
     drop(store);

@@ -23,6 +23,7 @@ mod lti;
 mod places;
 mod process;
 mod proxied;
+mod queue;
 mod roster;
 mod server;
 mod several_files;

@@ -46,8 +46,8 @@ impl Server {
         for line in lines.by_ref() {
             let line = line.expect("text");
             said.lock().expect("a lock").push_str(&format!("{line}\n"));
-            if let Some(url) = line.strip_prefix("Students:") {
-                address = Some(url.trim().trim_end_matches('/').to_owned());
+            if let Some(url) = line.strip_prefix("Students:").or_else(|| line.strip_prefix("Grader:")) {
+                address = Some(url.trim().trim_end_matches("/healthz").trim_end_matches('/').to_owned());
                 break;
             }
         }

@@ -11,7 +11,7 @@ use ggrade::diagnose::Hints;
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::identity::course_secret;
-use ggrade::service::store::{NewSubmission, Via};
+use ggrade::service::store::{NewSubmission, Priority, Via};
 use reference::{Assignment, Folder};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -209,8 +209,8 @@ async fn what_is_not_served_waits(database: Database) {
         seed: 7,
         hints: Hints::default(),
         received_at,
-        priority: 0,
-        claim: None,
+        priority: Priority::Student,
+        senders: Vec::new(),
     };
     store.assignment("waves").await.expect("settings");
     // What came first would be graded first.
@@ -218,7 +218,7 @@ async fn what_is_not_served_waits(database: Database) {
     for new in [&wave, &lambert] {
         store.add_submission(new, None).await.expect("stored");
     }
-    bench.state.queue.look();
+    ggrade::service::grading::files_wait(&bench.state).await;
     assert_eq!(outcome(&bench, &lambert.id).await["report"]["verdict"], "correct");
     assert_eq!(bench.get(&format!("/api/v1/submissions/{}", wave.id)).await.json()["state"], "queued");
     let bench = bench.restarted(vec![ggsample06(), waves()]).await;

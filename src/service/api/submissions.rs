@@ -132,10 +132,11 @@ pub(super) async fn create(
             via: if about.draft == Some(true) { Via::Editor } else { Via::Api },
             hints: about.hints,
             key,
+            address: client.address,
         },
     )
     .await?;
-    let answer = answer(&state, &receipt, language);
+    let answer = answer(&state, &receipt, language).await?;
     // What a teacher hands in for somebody is in the log of acts.
     let assignment = Some(state.assignment.id.clone());
     Ok(match student_id {
@@ -205,10 +206,13 @@ async fn browser(state: &State, visitor: Visitor, headers: &HeaderMap) -> Result
     Ok(visitor.known(state).await?.identity)
 }
 
-fn answer(state: &State, receipt: &Receipt, language: Language) -> Response {
+async fn answer(state: &State, receipt: &Receipt, language: Language) -> Result<Response, Problem> {
     let submission = &receipt.submission;
     let (report, fault) = (receipt.report(), receipt.fault());
-    let position = state.queue.position(&submission.id);
+    let position = match (report, fault) {
+        (None, None) => state.store.position(&submission.id, state.clock.now()).await?,
+        _ => None,
+    };
     let body = SubmissionJson::of(submission, report.map(|r| &**r), fault.map(|f| &**f), position, language);
     let location = body.links.itself.clone();
     let status = if report.is_some() { StatusCode::CREATED } else { StatusCode::ACCEPTED };
@@ -221,7 +225,7 @@ fn answer(state: &State, receipt: &Receipt, language: Language) -> Response {
         headers.insert(header::RETRY_AFTER, HeaderValue::from(if fault.is_some() { 10 } else { 1 }));
     }
     headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
-    response
+    Ok(response)
 }
 
 /// Language of the messages.
@@ -253,7 +257,10 @@ pub(super) async fn read(
     if let Some(report) = report.as_mut().filter(|_| is_teachers) {
         report.cross_check = cross_check;
     }
-    let position = service.queue.position(&id);
+    let position = match report {
+        None => service.store.position(&id, service.clock.now()).await?,
+        Some(_) => None,
+    };
     let body = SubmissionJson::of(&submission, report.as_ref(), submission.fault.as_ref(), position, language);
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response())
 }

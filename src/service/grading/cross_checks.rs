@@ -20,6 +20,8 @@ use tokio::sync::{Mutex, mpsc};
 const QUIET: Duration = Duration::from_secs(1);
 /// How often that is asked.
 const LOOK: Duration = Duration::from_millis(200);
+/// How often the database is asked for reports of other processes, which nobody here told of.
+const OTHERS: Duration = Duration::from_secs(60);
 /// Pause after the database failed.
 const PAUSE: Duration = Duration::from_secs(5);
 /// Reports that are taken from the database at once.
@@ -106,8 +108,10 @@ async fn next(service: &Service, receiver: &mut mpsc::Receiver<String>) -> Resul
             continue;
         }
         // The sender lives as long as this service.
-        if let Some(id) = receiver.recv().await.filter(|id| !id.is_empty()) {
-            return Ok(id);
+        match tokio::time::timeout(OTHERS, receiver.recv()).await {
+            Ok(Some(id)) if !id.is_empty() => return Ok(id),
+            Ok(_) => {}
+            Err(_) => checks.more.store(!service.store.is_exclusive(), Ordering::Relaxed),
         }
     }
 }

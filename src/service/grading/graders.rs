@@ -1,21 +1,21 @@
 //! The graders: one task for each file that is graded at once.
 
-use super::{GradingResult, Job, cross_checks};
+use super::{GradingResult, cross_checks, news};
 use crate::fault::Fault;
 use crate::grade::Order;
+use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::report::Report;
 use crate::sandbox;
 use crate::service::clock::{Millis, millis};
-use crate::service::store::{StoreError, Submission};
+use crate::service::store::{Claimed, News, Priority, StoreError, Submission};
 use crate::service::{Config, Service, State, folders, metrics};
 use reference::Assignment;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use tokio::task::JoinSet;
 
-/// How often graders look for files that nobody told them of: those of processes that have gone.
+/// How often graders look for files that nobody tells of: those of processes that have gone, and those that failed.
 const LOOK: Duration = Duration::from_secs(2);
 
 /// Pause after the database failed.
@@ -38,10 +38,14 @@ impl Graders {
             }
         }
         // What failed by a fault of the machine or of an earlier version may succeed now.
-        service.store.retry_failed().await?;
+        service.store.retry_failed(service.clock.now()).await?;
         let workers = service.config.workers;
         service.queue.set_workers(workers);
         let mut tasks = JoinSet::new();
+        tasks.spawn(news::hear(service.clone()));
+        if !service.config.role.grades() {
+            return Ok(Self { service: service.clone(), tasks });
+        }
         for _ in 0..workers {
             tasks.spawn(run(service.clone()));
         }
@@ -64,47 +68,44 @@ impl Graders {
 async fn run(service: Service) {
     while !service.is_ending() {
         let woken = service.queue.wakes.notified();
-        if let Some(job) = service.queue.next() {
-            grade(&service, job).await;
-            continue;
-        }
-        if service.queue.more.load(Ordering::Relaxed) {
-            match take_from_database(&service).await {
-                Ok(true) => continue,
-                Ok(false) => service.queue.more.store(false, Ordering::Relaxed),
-                Err(error) => {
-                    tracing::error!(%error, "no file could be claimed");
-                    tokio::time::sleep(PAUSE).await;
-                    continue;
-                }
+        match take(&service).await {
+            Ok(true) => continue,
+            Ok(false) => {}
+            Err(error) => {
+                tracing::error!(%error, "no file could be claimed");
+                tokio::time::sleep(PAUSE).await;
+                continue;
             }
         }
         tokio::select! {
             () = woken => {}
             () = service.ended() => {}
-            () = tokio::time::sleep(LOOK) => service.queue.more.store(true, Ordering::Relaxed),
+            () = tokio::time::sleep(LOOK) => {}
         }
     }
 }
 
 /// Grades one file that nobody holds, or one that is to be graded again; whether there was one.
-async fn take_from_database(service: &Service) -> Result<bool, StoreError> {
-    if let Some(job) = claim(service).await? {
-        service.queue.begin();
-        grade(service, job).await;
+async fn take(service: &Service) -> Result<bool, StoreError> {
+    let (now, until) = lease(service);
+    if let Some((claimed, is_suspect)) = claim(service, now, until).await? {
+        // Where there was one there may be more, and one wake may have stood for several.
+        service.queue.wakes.notify_one();
+        grade(service, claimed, now).await;
+        if is_suspect {
+            service.queue.leave_suspects();
+        }
         return Ok(true);
     }
-    let (now, until) = lease(service);
-    let ids = service.ids();
-    let Some(again) = service.store.claim_again(&served(&ids), &service.instance, now, until).await? else {
+    let Some(again) = service.store.claim_again(&served(&service.ids()), &service.instance, now, until).await? else {
         return Ok(false);
     };
+    service.queue.wakes.notify_one();
     let id = again.submission.id.clone();
-    let job = Job { submission: again.submission, hand_in: again.hand_in, since: Instant::now() };
     let judged = match again.folder {
-        None => judge(service, job).await,
+        None => judge(service, again.submission, again.hand_in).await,
         Some(folder) => match folders::read(service, &folder).await {
-            Ok(assignment) => judge_by(service, assignment, job).await,
+            Ok(assignment) => judge_by(service, assignment, again.submission, again.hand_in).await,
             Err(problem) => Err(Fault::new(problem.detail)),
         },
     };
@@ -126,17 +127,23 @@ fn served(ids: &[String]) -> Vec<&str> {
     ids.iter().map(String::as_str).collect()
 }
 
+/// Claims what is next, and says whether the grader counts among those that hold a suspect file: files that take the whole
+/// deadline never hold all graders.
+async fn claim(service: &Service, now: Millis, until: Millis) -> Result<Option<(Claimed, bool)>, StoreError> {
+    let with_suspects = service.queue.enter_suspects();
+    let but = (!with_suspects).then_some(Priority::Suspect);
+    let claimed = service.store.claim(&served(&service.ids()), but, &service.instance, now, until).await;
+    let is_suspect = matches!(&claimed, Ok(Some(claimed)) if claimed.is_suspect);
+    if with_suspects && !is_suspect {
+        service.queue.leave_suspects();
+    }
+    Ok(claimed?.map(|claimed| (claimed, is_suspect)))
+}
+
 /// Now, and when a claim made now ends.
 fn lease(service: &Service) -> (Millis, Millis) {
     let now = service.clock.now();
     (now, now + millis(Config::span(service.config.limits.lease)))
-}
-
-async fn claim(service: &Service) -> Result<Option<Job>, StoreError> {
-    let (now, until) = lease(service);
-    let ids = service.ids();
-    let claimed = service.store.claim(&served(&ids), &service.instance, now, until).await?;
-    Ok(claimed.map(|claimed| Job { submission: claimed.submission, hand_in: claimed.hand_in, since: Instant::now() }))
 }
 
 /// Keeps the claims of this process from ending while their files wait.
@@ -154,36 +161,55 @@ async fn keep_claims(service: Service) {
     }
 }
 
-async fn grade(service: &Service, job: Job) {
+async fn grade(service: &Service, claimed: Claimed, now: Millis) {
     let start = Instant::now();
-    let submission = job.submission.clone();
-    metrics::stage("wait", job.since.elapsed());
-    let judged = judge(service, job).await;
+    service.queue.begin();
+    let submission = claimed.submission.clone();
+    metrics::stage("wait", Duration::from_millis((now - submission.received_at).max(0).unsigned_abs()));
+    let judged = match claimed.is_given_up {
+        true => Err(given_up()),
+        false => judge(service, claimed.submission, claimed.hand_in).await,
+    };
     metrics::stage("grade", start.elapsed());
     let stored = Instant::now();
     let outcome = keep(service, &submission, judged).await;
     metrics::stage("store", stored.elapsed());
     metrics::graded(&submission, outcome.as_ref());
-    if let Some(GradingResult::Graded(report)) = &outcome {
+    service.queue.end(start.elapsed());
+    let Some(outcome) = outcome else { return };
+    if let GradingResult::Graded(report) = &outcome {
         service.cross_checks.expect(&submission, report);
     }
-    service.queue.done(&submission.id, outcome, start.elapsed());
+    service.queue.tell(&submission.id, outcome);
+    news::tell(service, &News::Finished(submission.id)).await;
 }
 
-async fn judge(service: &Service, job: Job) -> Result<Report, Fault> {
+/// What is said of a file whose graders have ended again and again.
+fn given_up() -> Fault {
+    Fault::new(Text::new(
+        "every process that began to grade this file has ended",
+        "このファイルの採点を始めたプロセスが毎回終了しました",
+    ))
+}
+
+async fn judge(service: &Service, submission: Submission, hand_in: HandIn) -> Result<Report, Fault> {
     let not_served = || Fault::new(Text::verbatim("a claimed file is of no homework that is served"));
-    let State { assignment, .. } = service.homework(&job.submission.assignment).ok_or_else(not_served)?;
-    judge_by(service, assignment, job).await
+    let State { assignment, .. } = service.homework(&submission.assignment).ok_or_else(not_served)?;
+    judge_by(service, assignment, submission, hand_in).await
 }
 
 /// Grades by a version of the homework's folder.
-async fn judge_by(service: &Service, assignment: Arc<Assignment>, job: Job) -> Result<Report, Fault> {
+async fn judge_by(
+    service: &Service,
+    assignment: Arc<Assignment>,
+    submission: Submission,
+    hand_in: HandIn,
+) -> Result<Report, Fault> {
     let pool = Arc::clone(&service.pool);
     let graded = tokio::task::spawn_blocking(move || {
-        let Submission { seed, hints, .. } = &job.submission;
-        let order = Order { seed: *seed, hints: *hints, ..Order::default() };
-        let hand_in = &job.hand_in;
-        pool.grade(sandbox::Submission { assignment: &assignment, hand_in, order, wants_frames: false })
+        let Submission { seed, hints, .. } = submission;
+        let order = Order { seed, hints, ..Order::default() };
+        pool.grade(sandbox::Submission { assignment: &assignment, hand_in: &hand_in, order, wants_frames: false })
     });
     match graded.await {
         Ok(answer) => answer.map(|answer| answer.report),

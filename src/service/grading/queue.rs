@@ -1,11 +1,9 @@
-//! The files that wait, in the order in which they came, and who waits for their reports.
+//! What a process knows of the queue, which itself is in the database: who waits here for which report, and what is under
+//! way here.
 
 use crate::fault::Fault;
-use crate::hand_in::HandIn;
 use crate::report::Report;
-use crate::service::store::Submission;
-use std::collections::{HashMap, VecDeque};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::{Notify, broadcast};
@@ -19,17 +17,6 @@ pub enum GradingResult {
     Failed(Arc<Fault>),
 }
 
-/// A hand-in to grade.
-#[derive(Clone, Debug)]
-pub struct Job {
-    /// What was handed in.
-    pub submission: Submission,
-    /// Its files.
-    pub hand_in: HandIn,
-    /// Since when it waits in this process.
-    pub since: Instant,
-}
-
 /// No further file is taken now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Full {
@@ -39,23 +26,23 @@ pub struct Full {
     pub retry_after: u64,
 }
 
-/// The queue.
+/// The queue, as this process sees it.
 #[derive(Debug)]
 pub struct Queue {
     capacity: usize,
     inner: Mutex<Inner>,
+    /// Wakes one idle grader of this process.
     pub(super) wakes: Notify,
-    /// Whether there may be files in the database that nobody holds.
-    pub(super) more: AtomicBool,
 }
 
 #[derive(Debug, Default)]
 struct Inner {
     /// Places that are promised to files on their way into the database.
     reserved: usize,
-    waiting: VecDeque<Job>,
-    /// Files that are graded right now.
+    /// Files that are graded here right now.
     running: usize,
+    /// Graders that hold a suspect file, or look for one.
+    suspects: usize,
     listeners: HashMap<String, broadcast::Sender<GradingResult>>,
     /// When the last grading ended; none before the first.
     ended: Option<Instant>,
@@ -71,10 +58,10 @@ pub struct Reservation<'a> {
 }
 
 impl Queue {
-    /// An empty queue.
+    /// A queue with room for so many uploads.
     pub fn new(capacity: usize) -> Self {
         let inner = Inner { pace: 0.05, workers: 1, ..Inner::default() };
-        Self { capacity, inner: Mutex::new(inner), wakes: Notify::new(), more: AtomicBool::new(true) }
+        Self { capacity, inner: Mutex::new(inner), wakes: Notify::new() }
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
@@ -82,10 +69,15 @@ impl Queue {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a place for a file that is about to be stored, or says how full it is.
-    pub fn reserve(&self) -> Result<Reservation<'_>, Full> {
+    /// How many uploads may wait.
+    pub fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// Takes a place for a file that is about to be stored, behind `waiting` others, or says how full it is.
+    pub fn reserve(&self, waiting: usize) -> Result<Reservation<'_>, Full> {
         let mut inner = self.lock();
-        let ahead = inner.waiting.len() + inner.reserved;
+        let ahead = waiting + inner.reserved;
         if ahead >= self.capacity {
             let seconds = ahead as f64 * inner.pace / inner.workers.max(1) as f64;
             return Err(Full { position: ahead as u64 + 1, retry_after: seconds.ceil().clamp(1.0, 60.0) as u64 });
@@ -94,28 +86,16 @@ impl Queue {
         Ok(Reservation { queue: self })
     }
 
-    /// Tells the graders that there are files in the database that nobody holds.
-    pub fn look(&self) {
-        self.more.store(true, Ordering::Relaxed);
-        self.wakes.notify_waiters();
+    /// Files that are graded here right now.
+    pub fn running(&self) -> usize {
+        self.lock().running
     }
 
-    /// Files that wait, and files that are graded right now.
-    pub fn lengths(&self) -> (usize, usize) {
-        let inner = self.lock();
-        (inner.waiting.len(), inner.running)
-    }
-
-    /// Whether nobody has waited for a grading for so long.
+    /// Whether nobody has waited here for a grading for so long: a file that waits is taken at once where nothing runs.
     pub fn is_quiet(&self, span: Duration) -> bool {
         let inner = self.lock();
-        let is_idle = inner.waiting.is_empty() && inner.reserved == 0 && inner.running == 0;
+        let is_idle = inner.reserved == 0 && inner.running == 0;
         is_idle && inner.ended.is_none_or(|ended| ended.elapsed() >= span)
-    }
-
-    /// The position of a file that waits, from 1.
-    pub fn position(&self, id: &str) -> Option<u64> {
-        self.lock().waiting.iter().position(|job| job.submission.id == id).map(|index| index as u64 + 1)
     }
 
     /// Listens for what comes of a file.
@@ -123,45 +103,58 @@ impl Queue {
         self.lock().listeners.entry(id.to_owned()).or_insert_with(|| broadcast::Sender::new(1)).subscribe()
     }
 
+    /// Whether somebody here listens for what comes of a file.
+    pub(super) fn has_listener(&self, id: &str) -> bool {
+        self.lock().listeners.get(id).is_some_and(|sender| sender.receiver_count() > 0)
+    }
+
+    /// The files that somebody here listens for.
+    pub(super) fn expected(&self) -> Vec<String> {
+        self.lock().listeners.keys().cloned().collect()
+    }
+
     /// Forgets listeners who have gone.
     pub fn tidy(&self) {
         self.lock().listeners.retain(|_, sender| sender.receiver_count() > 0);
     }
 
-    pub(super) fn next(&self) -> Option<Job> {
+    /// Tells who listens what came of a file.
+    pub(super) fn tell(&self, id: &str, outcome: GradingResult) {
+        if let Some(sender) = self.lock().listeners.remove(id) {
+            // Nobody may be waiting any more.
+            let _ = sender.send(outcome);
+        }
+    }
+
+    /// Whether a grader may look for a suspect file as well: as long as one other grader is left for everybody else.
+    /// [`Self::leave_suspects`] gives it back.
+    pub(super) fn enter_suspects(&self) -> bool {
         let mut inner = self.lock();
-        let job = inner.waiting.pop_front()?;
-        inner.running += 1;
-        Some(job)
+        let may = inner.workers == 1 || inner.suspects + 1 < inner.workers;
+        inner.suspects += usize::from(may);
+        may
+    }
+
+    pub(super) fn leave_suspects(&self) {
+        let mut inner = self.lock();
+        inner.suspects = inner.suspects.saturating_sub(1);
     }
 
     pub(super) fn begin(&self) {
         self.lock().running += 1;
     }
 
-    pub(super) fn done(&self, id: &str, outcome: Option<GradingResult>, took: Duration) {
+    pub(super) fn end(&self, took: Duration) {
         /// The share of the newest grading in the mean.
         const SHARE: f64 = 0.1;
         let mut inner = self.lock();
         inner.running = inner.running.saturating_sub(1);
         inner.ended = Some(Instant::now());
         inner.pace += SHARE * (took.as_secs_f64() - inner.pace);
-        if let (Some(sender), Some(outcome)) = (inner.listeners.remove(id), outcome) {
-            // Nobody may be waiting any more.
-            let _ = sender.send(outcome);
-        }
     }
 
     pub(super) fn set_workers(&self, workers: usize) {
         self.lock().workers = workers;
-    }
-}
-
-impl Reservation<'_> {
-    /// Puts the stored file there.
-    pub fn fill(self, job: Job) {
-        self.queue.lock().waiting.push_back(job);
-        self.queue.wakes.notify_one();
     }
 }
 
@@ -181,24 +174,24 @@ mod tests {
         let queue = Queue::new(2);
         let is_quiet = || queue.is_quiet(Duration::ZERO);
         assert!(queue.is_quiet(Duration::MAX));
-        let place = queue.reserve().expect("a place");
+        let place = queue.reserve(0).expect("a place");
         assert!(!is_quiet());
         drop(place);
         queue.begin();
         assert!(!is_quiet());
-        queue.done("", None, Duration::ZERO);
+        queue.end(Duration::ZERO);
         assert!(is_quiet() && !queue.is_quiet(Duration::MAX));
     }
 
     #[test]
     fn the_place_after_the_last_is_refused_with_its_number() {
-        let queue = Queue::new(2);
-        let first = queue.reserve().expect("a place");
-        let _second = queue.reserve().expect("a place");
-        let full = queue.reserve().expect_err("no place");
-        assert_eq!(full.position, 3);
+        let queue = Queue::new(3);
+        let first = queue.reserve(1).expect("a place");
+        let _second = queue.reserve(1).expect("a place");
+        let full = queue.reserve(1).expect_err("no place");
+        assert_eq!(full.position, 4);
         assert!(full.retry_after >= 1);
         drop(first);
-        assert!(queue.reserve().is_ok());
+        assert!(queue.reserve(1).is_ok());
     }
 }

@@ -225,7 +225,7 @@ async fn take(
     // A page that stays open may be sent again with another text, and first to try it: those are other requests.
     let field = field.map(|field| format!("{field} {} {}", store::word(&via), hand_in.sha256()));
     let key = RequestKey::read(headers, field.as_deref(), &client)?;
-    submit(state, Upload { hand_in, identity: visitor.identity, via, hints: None, key }).await
+    submit(state, Upload { hand_in, identity: visitor.identity, via, hints: None, key, address: client.address }).await
 }
 
 /// The form by which somebody chooses what counts.

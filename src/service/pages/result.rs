@@ -60,7 +60,7 @@ pub(super) async fn page(
     let frame = frame.of(&state);
     let judgement = Judgement::of(&state, &frame, &stored, teacher.as_ref(), &visitor).await?;
     let Stored { submission, report, cross_check } = stored;
-    let Some(mut report) = report else { return waiting(&state, frame, &submission) };
+    let Some(mut report) = report else { return waiting(&state, frame, &submission).await };
     if teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment)) {
         report.cross_check = cross_check;
     }
@@ -104,9 +104,9 @@ fn about(frame: &Frame, submission: &Submission) -> String {
     format!("{what} · {at}")
 }
 
-fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Response, Problem> {
+async fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Response, Problem> {
     let failed = submission.state == Progress::Failed;
-    let position = state.queue.position(&submission.id).unwrap_or(1);
+    let position = state.store.position(&submission.id, state.clock.now()).await?.unwrap_or(1);
     let detail = match (failed, frame.tag()) {
         (true, "ja") => {
             "採点サーバ側の障害で採点できませんでした。提出は保存されており、まもなく再採点します。減点にはなりません。"

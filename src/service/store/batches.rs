@@ -101,7 +101,7 @@ impl Store {
                 .await?;
             keep_key!(transaction, key, None, Some(&batch.id), batch.created_at);
             for new in files {
-                insert_submission!(transaction, new, "queued");
+                insert_submission!(transaction, new, new.received_at, "queued");
             }
             for entry in entries {
                 sqlx::query(ENTRY)

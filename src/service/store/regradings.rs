@@ -193,15 +193,22 @@ impl Store {
         now: Millis,
         until: Millis,
     ) -> Result<Option<Again>> {
-        const CLAIM: &str = concat!(
-            "UPDATE regraded SET claimed_by = $1, claimed_until = $2 \
+        macro_rules! claim {
+            ($lock:literal) => {
+                concat!(
+                    "UPDATE regraded SET claimed_by = $1, claimed_until = $2 \
              WHERE (regrading_id, submission_id) = (SELECT regrading_id, submission_id FROM regraded \
              WHERE state = 'queued' AND claimed_until <= $3 AND regrading_id IN (SELECT id FROM regradings WHERE ",
-            is_among!("$4"),
-            ") LIMIT 1) AND state = 'queued' AND claimed_until <= $3 RETURNING regrading_id, submission_id"
-        );
+                    is_among!("$4"),
+                    ") LIMIT 1 ",
+                    $lock,
+                    ") AND state = 'queued' AND claimed_until <= $3 RETURNING regrading_id, submission_id"
+                )
+            };
+        }
+        let claim = if self.is_exclusive() { claim!("") } else { claim!("FOR UPDATE SKIP LOCKED") };
         let claimed: Option<(String, String)> = on!(&self.write, db => {
-            sqlx::query_as(CLAIM).bind(by).bind(until).bind(now).bind(list(assignments)).fetch_optional(db).await?
+            sqlx::query_as(claim).bind(by).bind(until).bind(now).bind(list(assignments)).fetch_optional(db).await?
         });
         let Some((regrading_id, submission_id)) = claimed else { return Ok(None) };
         let (regrading, submission) = (self.regrading(&regrading_id).await?, self.submission(&submission_id).await?);

@@ -3,6 +3,7 @@
 use super::cross_checks::differs;
 use super::late::lateness;
 use super::rows::{from_word, submission_columns, word};
+use super::senders::{SUSPECT, suspected_until};
 use super::{Result, Store, Submission, on};
 use crate::cross_check::CrossCheck;
 use crate::report::{Lateness, Report, Verdict};
@@ -219,10 +220,15 @@ impl Store {
     /// Keeps a report, and says whether it is the first one of its submission. Nothing is kept of a submission that was
     /// deleted while it was graded.
     pub async fn finish(&self, submission_id: &str, report: &Report, graded_at: Millis) -> Result<bool> {
-        const STATE: &str = "UPDATE submissions SET state = 'graded', fault = NULL, claimed_by = NULL WHERE id = $1";
+        const STATE: &str = "UPDATE submissions SET state = 'graded', fault = NULL, claimed_by = NULL, sender = NULL \
+                             WHERE id = $1";
         let row = ReportRow::of(report)?;
         let is_first = on!(&self.write, db => {
             let mut transaction = db.begin().await?;
+            if report.verdict == Verdict::Stopped {
+                let until = suspected_until(graded_at);
+                sqlx::query(SUSPECT).bind(submission_id).bind(until).execute(&mut *transaction).await?;
+            }
             let found = sqlx::query(STATE).bind(submission_id).execute(&mut *transaction).await?;
             let mut is_first = false;
             if found.rows_affected() > 0 {

@@ -2,10 +2,11 @@
 
 use super::keys::keep_key;
 use super::rows::{submission_columns, word};
-use super::{Key, Result, Store, Submission, Via, on, signed};
+use super::senders::{Sender, TAKE_TURN};
+use super::{Key, Priority, Result, Store, Submission, Via, on, signed};
 use crate::diagnose::Hints;
 use crate::hand_in::{HandIn, HandedInFile};
-use crate::report::Report;
+use crate::report::{Report, Verdict};
 use crate::service::clock::Millis;
 
 /// A hand-in to be stored.
@@ -31,33 +32,30 @@ pub struct NewSubmission {
     pub hints: Hints,
     /// When it came.
     pub received_at: Millis,
-    /// Smaller is graded sooner.
-    pub priority: i64,
-    /// Who grades it at once, and until when nobody else does.
-    pub claim: Option<(String, Millis)>,
+    /// What it waits behind.
+    pub priority: Priority,
+    /// With whose files it takes turns among those of the same priority: nobody's, where it is graded in the order of arrival.
+    /// The first of them is suspected where it has to be stopped.
+    pub senders: Vec<Sender>,
 }
 
 pub(super) const INSERT_UPLOAD: &str =
     "INSERT INTO uploads (sha256, bytes) VALUES ($1, $2) ON CONFLICT (sha256) DO NOTHING";
 pub(super) const INSERT: &str = "INSERT INTO submissions (id, assignment, sha256, digest, name, owner_id, student_id, \
-                                 batch_id, via, seed, hints, received_at, state, tries, priority, claimed_by, \
+                                 batch_id, via, seed, hints, received_at, state, tries, priority, turn, sender, \
                                  claimed_until) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, 0, \
-                                 $14, $15, $16)";
+                                 $14, $15, $16, 0)";
 pub(super) const INSERT_FILE: &str =
     "INSERT INTO submission_files (submission_id, position, name, sha256) VALUES ($1, $2, $3, $4)";
 
 /// Stores a submission with its files.
 macro_rules! insert_submission {
-    ($transaction:expr, $new:expr, $state:expr) => {{
+    ($transaction:expr, $new:expr, $turn:expr, $state:expr) => {{
         use $crate::service::store::submissions::{INSERT, INSERT_FILE, INSERT_UPLOAD};
         let files = &$new.hand_in.files;
         for file in files {
             sqlx::query(INSERT_UPLOAD).bind(file.sha256()).bind(&file.bytes).execute(&mut *$transaction).await?;
         }
-        let (claimed_by, claimed_until) = match &$new.claim {
-            Some((by, until)) => (Some(by.as_str()), *until),
-            None => (None, 0),
-        };
         sqlx::query(INSERT)
             .bind(&$new.id)
             .bind(&$new.assignment)
@@ -72,9 +70,9 @@ macro_rules! insert_submission {
             .bind($crate::service::store::rows::word(&$new.hints))
             .bind($new.received_at)
             .bind($state)
-            .bind($new.priority)
-            .bind(claimed_by)
-            .bind(claimed_until)
+            .bind($new.priority as i64)
+            .bind($turn)
+            .bind($new.senders.first().map($crate::service::store::Sender::key))
             .execute(&mut *$transaction)
             .await?;
         for (file, position) in files.iter().zip(0_i64..) {
@@ -95,7 +93,17 @@ impl Store {
     pub async fn add_submission(&self, new: &NewSubmission, key: Option<&Key>) -> Result<bool> {
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
-            insert_submission!(transaction, new, "queued");
+            let mut turn = new.received_at;
+            for sender in &new.senders {
+                let own: Millis = sqlx::query_scalar(TAKE_TURN)
+                    .bind(sender.key())
+                    .bind(new.received_at)
+                    .bind(sender.cost())
+                    .fetch_one(&mut *transaction)
+                    .await?;
+                turn = turn.max(own);
+            }
+            insert_submission!(transaction, new, turn, "queued");
             keep_key!(transaction, key, Some(&new.id), None, new.received_at);
             transaction.commit().await?;
         });
@@ -114,7 +122,7 @@ impl Store {
         let row = super::reports::ReportRow::of(report)?;
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
-            insert_submission!(transaction, new, "graded");
+            insert_submission!(transaction, new, new.received_at, "graded");
             super::reports::bind_report!(sqlx::query(super::reports::INSERT), &new.id, graded_at, row, 1_i64)
                 .execute(&mut *transaction)
                 .await?;
@@ -196,7 +204,7 @@ impl Store {
     }
 
     /// A report of the very same files, graded in the very same way by this version, where there is one. What was
-    /// stopped is graded anew: the machine may have been busy.
+    /// stopped once is graded anew, because the machine may have been busy. What was stopped twice is known.
     pub async fn known_report(
         &self,
         assignment: &str,
@@ -206,17 +214,21 @@ impl Store {
     ) -> Result<Option<Report>> {
         const SQL: &str = "SELECT r.report FROM submissions s JOIN reports r ON r.submission_id = s.id \
                            WHERE s.digest = $1 AND s.assignment = $2 AND s.seed = $3 AND s.hints = $4 \
-                           AND r.ggrade = $5 AND r.verdict <> 'stopped' LIMIT 1";
-        let json: Option<String> = on!(&self.read, db => {
+                           AND r.ggrade = $5 AND (r.verdict <> 'stopped' OR r.reused = 0) \
+                           ORDER BY r.verdict = 'stopped' LIMIT 2";
+        let found: Vec<String> = on!(&self.read, db => {
             sqlx::query_scalar(SQL)
                 .bind(sha256)
                 .bind(assignment)
                 .bind(signed(seed))
                 .bind(word(&hints))
                 .bind(env!("CARGO_PKG_VERSION"))
-                .fetch_optional(db)
+                .fetch_all(db)
                 .await?
         });
-        Ok(json.map(|json| serde_json::from_str(&json)).transpose()?)
+        let Some(json) = found.first() else { return Ok(None) };
+        let report: Report = serde_json::from_str(json)?;
+        let is_known = report.verdict != Verdict::Stopped || found.len() > 1;
+        Ok(Some(report).filter(|_| is_known))
     }
 }
