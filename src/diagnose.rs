@@ -17,7 +17,7 @@ use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, po
 use crate::language::Text;
 use crate::render::Sample;
 pub use crate::report::Hints;
-use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, RubricLine};
+use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, Repair, RubricLine};
 use crate::source::Source;
 use advice::Beyond;
 pub use cause::UNEXPLAINED;
@@ -84,6 +84,8 @@ pub struct Diagnosis {
     pub mistakes: Vec<String>,
     /// What would break elsewhere, where all is right.
     pub advice: Vec<Advice>,
+    /// The changes of the text by which all becomes right, where they are known.
+    pub repairs: Vec<Repair>,
     /// The equation that computes what the shader computes, where one is known.
     pub explanation: Option<Vec<Hypothesis>>,
     /// The probes in figures.
@@ -119,6 +121,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
         rubric,
         advice,
         mistakes,
+        repairs: cause.repairs().map(|repaired| repaired.shown(evidence)).collect(),
         explanation: cause.explanation(),
         probes: probes.result,
     }

@@ -335,6 +335,7 @@ impl Grader {
             rubric: diagnosis.rubric,
             mistakes: diagnosis.mistakes,
             advice: diagnosis.advice,
+            repairs: diagnosis.repairs,
             explanation: diagnosis.explanation,
             diagnostics,
             frames,

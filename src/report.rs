@@ -107,6 +107,22 @@ pub struct Hypothesis {
     pub parameter: Option<f64>,
 }
 
+/// A change of a file by which all becomes right, together with the others that a report has.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+pub struct Repair {
+    /// Id of the mistake that it undoes.
+    pub mistake: String,
+    /// The file.
+    pub file: String,
+    /// The line of it, from 1.
+    pub line: u32,
+    /// What is written there, as an expression of GLSL.
+    pub written: String,
+    /// What belongs there; empty where nothing does.
+    pub right: String,
+}
+
 /// Something true and worth saying that costs no points.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Advice {
@@ -196,6 +212,10 @@ pub struct Report {
     pub mistakes: Vec<String>,
     /// The equation with these mistakes in it computes what the shader computes; none where no equation known does.
     pub explanation: Option<Vec<Hypothesis>>,
+    /// The changes by which the files become right, where nothing else explains what is wrong. They are the answer itself, so
+    /// that only who teaches sees them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub repairs: Vec<Repair>,
     /// What would break elsewhere in a right answer.
     #[serde(default)]
     pub advice: Vec<Advice>,
@@ -298,13 +318,17 @@ impl Report {
         self.sources = sources;
     }
 
-    /// The report as its student may see it. The name of a mistake is the answer in words, so where messages say only
+    /// The report as its student may see it: no repair is. The name of a mistake is the answer in words, so where messages say only
     /// what is seen, it is left out; a class's own pages and tables have it for the teacher.
     pub fn for_student(&self) -> Cow<'_, Self> {
-        if self.hints > Hints::None {
+        if self.hints > Hints::None && self.repairs.is_empty() {
             return Cow::Borrowed(self);
         }
         let mut report = self.clone();
+        report.repairs.clear();
+        if self.hints > Hints::None {
+            return Cow::Owned(report);
+        }
         report.mistakes.clear();
         for line in &mut report.rubric {
             (line.mistake, line.file, line.line) = (None, None, None);

@@ -147,6 +147,13 @@ fn differs(a: f64, b: f64) -> bool {
 }
 
 impl Assignment {
+    /// What is said of a mistake, and what it costs, where it is known by what makes the text right: the operator that a student
+    /// slipped by, and the definition that it is in, where it is one. `is_bound_by_zero`: a bound of 0 is concerned.
+    pub fn repaired(&self, operator: Operator, definition: Option<&str>, is_bound_by_zero: bool) -> Mistake {
+        let definition = definition.and_then(|name| self.equation.index(name));
+        wording::of_repair(self, operator, definition, is_bound_by_zero)
+    }
+
     /// The homework with its derived mistakes. They are made when they are first asked for.
     pub fn derived(&self) -> &Derived {
         self.derived.get_or_init(|| Arc::new(Derived::of(self)))
@@ -162,6 +169,13 @@ pub fn is_derived(id: &str) -> bool {
 /// that is kept.
 pub fn costs() -> impl Iterator<Item = (String, &'static crate::Text, f64)> {
     operators().iter().map(|said| (format!("{PREFIX}{}", said.id), &said.title, said.keeps))
+}
+
+/// What a derived mistake is, by the operator in its id: a repair may name one that no change of the solution makes.
+pub fn title(id: &str) -> Option<&'static crate::Text> {
+    let rest = id.strip_prefix(PREFIX)?;
+    let is_it = |said: &&OperatorText| rest.strip_prefix(&*said.id).is_some_and(|name| name.starts_with('-'));
+    operators().iter().filter(is_it).max_by_key(|said| said.id.len()).map(|said| &said.title)
 }
 
 fn places(probes: &ProbeSet) -> Vec<(Vec<Value>, Vec<Value>)> {

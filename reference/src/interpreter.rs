@@ -54,7 +54,7 @@ mod types;
 #[cfg(test)]
 mod tests;
 
-pub use change::{FREE, Operator, ProgramSlip, program_slips};
+pub use change::{FREE, Ingredients, Operator, ProgramSlip, Repair, Repairable, program_slips};
 pub use code::{Interpolation, Variable};
 pub use compile::{Draft, Slip};
 pub use nature::{Copied, Nature};

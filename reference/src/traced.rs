@@ -91,6 +91,19 @@ impl TracedProgram {
         Self::new(assignment, &texts)
     }
 
+    /// The same program with another one in the place of a stage. `None` where the two stages do not go together.
+    pub fn with(&self, stage: Stage, program: Program) -> Option<Self> {
+        let mut other = self.clone();
+        match stage {
+            Stage::Vertex => other.vertex = Arc::new(program),
+            Stage::Fragment => other.fragment = Arc::new(program),
+        }
+        if self.pipeline.is_some() {
+            other.pipeline = Some(Pipeline::link(&other.vertex, &other.fragment, None).ok()?);
+        }
+        Some(other)
+    }
+
     /// A stage.
     pub fn stage(&self, stage: Stage) -> &Program {
         match stage {

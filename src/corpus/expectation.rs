@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Severity, Stage};
 use crate::language::Text;
-use crate::report::{Report, Verdict};
+use crate::report::{Repair, Report, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -18,6 +18,9 @@ pub struct Expectation {
     pub mistakes: Vec<String>,
     /// What each rubric line says, by its id.
     pub rubric: BTreeMap<String, ExpectedLine>,
+    /// What would make it right, for who teaches.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub repairs: Vec<Repair>,
     /// What would break elsewhere, by its id.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub advice: BTreeMap<String, ExpectedAdvice>,
@@ -109,6 +112,7 @@ impl Expectation {
             score: report.score,
             mistakes: report.mistakes.clone(),
             rubric: rubric.collect(),
+            repairs: report.repairs.clone(),
             advice: advice.collect(),
             diagnostics: diagnostics.collect(),
         }

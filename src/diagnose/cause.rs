@@ -1,7 +1,7 @@
 //! Why the colours are as they are, and what that leaves of each line's points.
 
 use super::constants::{self, ChangedConstant};
-use super::inside::{self, Finding};
+use super::inside::{self, Finding, Repaired};
 use super::locate::{self, Points};
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
@@ -15,7 +15,7 @@ use reference::fit::{
     Alternatives, Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_derived, explain_parts, is_right,
     judge_factor, judge_features, judge_terms, program_of,
 };
-use reference::mistake::FoundMistake;
+use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
 
 const HARD_CODED: &str = "hard-coded";
@@ -49,6 +49,8 @@ pub(super) enum Cause {
     HardCoded,
     /// Nothing known explains it, but it is never off by much.
     NearlyRight,
+    /// Nothing known explains it, and these changes of the text make it right; the ids of the lines that each one costs points.
+    Repaired(Vec<(Vec<String>, Repaired)>),
     /// Nothing known explains it; each term as far as it stands alone, and where in the text the mistakes stand.
     Unexplained {
         terms: Vec<TermJudgement>,
@@ -131,15 +133,23 @@ fn unexplained(
     if let Some(cause) = derived(evidence, samples) {
         return cause;
     }
-    if let Some(terms) = judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
-        return Cause::Unexplained { terms, findings: inside::find(evidence) };
+    let (findings, repairs) = inside::account(evidence);
+    let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
+        Some(terms) => terms,
+        None => {
+            for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
+                terms.retain(|term| term.line != feature.line);
+                terms.push(feature);
+            }
+            spared(evidence, addends::credit(evidence, terms), &findings)
+        }
+    };
+    let repairs = repairs.into_iter().map(|repaired| (charged(assignment, &terms, &repaired), repaired));
+    let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
+    if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
+        return Cause::Unexplained { terms, findings };
     }
-    for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
-        terms.retain(|term| term.line != feature.line);
-        terms.push(feature);
-    }
-    let findings = inside::find(evidence);
-    Cause::Unexplained { terms: spared(evidence, addends::credit(evidence, terms), &findings), findings }
+    Cause::Repaired(repairs)
 }
 
 /// The judgements; right are also the terms that no place of a mistake has to do with: with the right values in these places,
@@ -255,7 +265,7 @@ impl Cause {
             }),
             Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
             Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
-            Self::HardCoded | Self::Parts(_) | Self::Unexplained { .. } => false,
+            Self::HardCoded | Self::Parts(_) | Self::Repaired(_) | Self::Unexplained { .. } => false,
         }
     }
 
@@ -269,8 +279,20 @@ impl Cause {
                     .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
                     .collect(),
             ),
-            Self::HardCoded | Self::Parts(_) | Self::NearlyRight | Self::Unexplained { .. } => None,
+            Self::HardCoded | Self::Parts(_) | Self::NearlyRight | Self::Repaired(_) | Self::Unexplained { .. } => None,
         }
+    }
+
+    /// The changes that make it right.
+    pub(super) fn repairs(&self) -> impl Iterator<Item = &Repaired> {
+        let repairs: &[_] = if let Self::Repaired(repairs) = self { repairs } else { &[] };
+        repairs.iter().map(|(_, repaired)| repaired)
+    }
+
+    /// A mistake by its id: one that a repair names, or one of the homework.
+    pub(super) fn mistake<'a>(&'a self, assignment: &'a Assignment, id: &str) -> Option<&'a Mistake> {
+        let repaired = self.repairs().map(|repaired| &repaired.mistake).find(|mistake| mistake.id == id);
+        repaired.or_else(|| assignment.mistake(id))
     }
 
     /// Ids of the mistakes.
@@ -290,6 +312,11 @@ impl Cause {
             }
             Self::HardCoded => vec![HARD_CODED.into()],
             Self::NearlyRight => vec![NEARLY_RIGHT.into()],
+            Self::Repaired(_) => {
+                let mut ids: Vec<String> = self.repairs().map(|repaired| repaired.mistake.id.clone()).collect();
+                ids.dedup();
+                ids
+            }
             Self::Unexplained { .. } => vec![UNEXPLAINED.into()],
         }
     }
@@ -315,6 +342,10 @@ pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, caus
         (Cause::Parts(Parts { parts, .. }), PART_MISSING | PART_SCALED) => {
             parts.iter().any(|(at, part)| assignment.rubric[*at].id == line.id && part_id(*part) == id)
         }
+        (Cause::Repaired(repairs), _) if repairs.iter().any(|(_, repaired)| repaired.mistake.id == id) => {
+            let own = repairs.iter().filter(|(lines, repaired)| repaired.mistake.id == id && lines.contains(&line.id));
+            return own.map(|(_, repaired)| repaired.mistake.keeps(&line.id)).fold(1.0, f64::min);
+        }
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
@@ -326,6 +357,22 @@ pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, caus
         _ => true,
     };
     if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
+}
+
+/// The lines that a repaired mistake costs points: those of which it spoils what they judge, but for terms that are right by
+/// themselves. Where it spoils none of these, such as a sum, all that are not right.
+fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
+    let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
+    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
+    let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    let lines = || assignment.rubric.iter().filter(is_colour);
+    let choices: [Vec<&RubricLine>; 3] = [
+        lines().filter(|line| is_wrong(line) && is_spoilt(line)).collect(),
+        lines().filter(is_wrong).collect(),
+        lines().filter(is_spoilt).collect(),
+    ];
+    let chosen = choices.into_iter().find(|lines| !lines.is_empty()).unwrap_or_default();
+    chosen.into_iter().map(|line| line.id.clone()).collect()
 }
 
 /// Whether the constant is one of the line's.

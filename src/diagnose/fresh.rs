@@ -40,7 +40,7 @@ impl Fresh<'_> {
     }
 
     /// `is_wrong`: of the probe in this place.
-    fn is_contradicted(&self, is_wrong: impl Fn(usize) -> bool) -> bool {
+    pub(super) fn is_contradicted(&self, is_wrong: impl Fn(usize) -> bool) -> bool {
         let wrong = |group: usize| {
             let places = 0..self.samples.len().min(self.probes.probes.len());
             places.filter(|place| self.probes.probes[*place].group == group && is_wrong(*place)).count()

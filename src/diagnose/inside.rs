@@ -9,6 +9,7 @@ mod additive;
 mod blame;
 mod finding;
 mod quantities;
+mod repair;
 mod search;
 mod walk;
 mod words;
@@ -26,6 +27,7 @@ use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
 use reference::mistake::FoundMistake;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
+pub(super) use repair::Repaired;
 use search::{Search, is_right};
 
 /// Where a mistake stands.
@@ -75,7 +77,17 @@ pub(super) enum Flaw {
 
 /// Looks for the one place that has to be mended for what is seen to be right.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
-    within(evidence, evidence.assignment, None).unwrap_or_default()
+    within(evidence, evidence.assignment, None, |search| search.findings()).unwrap_or_default()
+}
+
+/// The same, and the changes of the text by which all becomes right, where there are such.
+pub(super) fn account(evidence: &Evidence<'_>) -> (Vec<Finding>, Vec<Repaired>) {
+    let both = |search: &mut Search<'_, '_>| {
+        let findings = search.findings();
+        let repairs = search.repairs(&findings);
+        (findings, repairs)
+    };
+    within(evidence, evidence.assignment, None, both).unwrap_or_default()
 }
 
 /// Looks for the place of one of the mistakes that were found: where a right answer is the one with the others in it.
@@ -88,8 +100,8 @@ pub(super) fn find_one(
     let others: Vec<FoundMistake> =
         found.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, other)| other.clone()).collect();
     let findings = match others.is_empty() {
-        true => within(evidence, assignment, None)?,
-        false => within(evidence, assignment, Some(&assignment.variant(&others)?))?,
+        true => within(evidence, assignment, None, |search| search.findings())?,
+        false => within(evidence, assignment, Some(&assignment.variant(&others)?), |search| search.findings())?,
     };
     // A mistake may be made in two places: each is one that is to be mended.
     findings.into_iter().next()
@@ -97,7 +109,7 @@ pub(super) fn find_one(
 
 /// The one place that all is mended at, where there is such a place.
 pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<Finding> {
-    let findings = within(evidence, assignment, None)?;
+    let findings = within(evidence, assignment, None, |search| search.findings())?;
     match <[Finding; 1]>::try_from(findings) {
         Ok([finding]) if finding.is_settled && !finding.is_whole => Some(finding),
         _ => None,
@@ -125,7 +137,13 @@ pub(super) fn variable(sites: &[Site], site: usize) -> Option<String> {
     }
 }
 
-fn within(evidence: &Evidence<'_>, assignment: &Assignment, right: Option<&Variant<'_>>) -> Option<Vec<Finding>> {
+/// Looks into the text by `look`; what it finds where nothing is wrong at the probes that are looked at, is nothing.
+fn within<T: Default>(
+    evidence: &Evidence<'_>,
+    assignment: &Assignment,
+    right: Option<&Variant<'_>>,
+    look: impl FnOnce(&mut Search<'_, '_>) -> T,
+) -> Option<T> {
     let theirs = evidence.traced?;
     let solution = TracedProgram::solution(assignment).ok()?;
     let chosen = chosen(evidence);
@@ -147,6 +165,9 @@ fn within(evidence: &Evidence<'_>, assignment: &Assignment, right: Option<&Varia
     let trials = Trials::new(assignment, theirs, &places, in_quads)?;
     let mut search = Search {
         evidence,
+        assignment,
+        places: &places,
+        in_quads,
         theirs,
         traces: &traces,
         own: &own,
@@ -157,7 +178,7 @@ fn within(evidence: &Evidence<'_>, assignment: &Assignment, right: Option<&Varia
         base: Default::default(),
     };
     if is_right(&wanted, &own, places.len()) {
-        return Some(Vec::new());
+        return Some(T::default());
     }
-    Some(search.findings())
+    Some(look(&mut search))
 }

@@ -34,7 +34,7 @@ pub(super) fn tell(
 ) -> Told {
     let told: Vec<Told> = culprits
         .iter()
-        .filter_map(|id| evidence.assignment.mistake(id))
+        .filter_map(|id| cause.mistake(evidence.assignment, id))
         .map(|mistake| of_mistake(evidence, facts, line, cause, mistake))
         .collect();
     if told.is_empty() {
@@ -116,7 +116,7 @@ impl Facts {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found } if constants.is_empty() && found.is_empty() => inside::find(evidence),
             Cause::Right | Cause::Parts(_) | Cause::NearlyRight => inside::find(evidence),
-            Cause::Known { .. } | Cause::HardCoded => Vec::new(),
+            Cause::Known { .. } | Cause::HardCoded | Cause::Repaired(_) => Vec::new(),
             Cause::Unexplained { findings, .. } => findings.clone(),
         };
         let mut names = Self::handed_out(evidence);
@@ -197,6 +197,10 @@ impl<'f> Blanks<'f> {
                 }
             }
             (Cause::Parts(_), _) => {}
+            (Cause::Repaired(_), id) => {
+                let repaired = cause.repairs().find(|repaired| repaired.mistake.id == id);
+                blanks.place(evidence, mistake, repaired.map(|repaired| repaired.located.clone()));
+            }
             (Cause::Known { found, .. }, id) => {
                 let met = evidence.undefined.filter(|line| mistake.undefined_power && *line != NO_LINE);
                 let met = met.map(Located::at);

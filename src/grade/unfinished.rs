@@ -47,6 +47,7 @@ pub fn unfinished(
         rubric,
         mistakes: Vec::new(),
         advice: Vec::new(),
+        repairs: Vec::new(),
         explanation: None,
         diagnostics,
         frames: Vec::new(),

@@ -1,7 +1,8 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
 use super::{
-    Advice, Comment, Environment, FrameResult, Hints, Lateness, ProbeResult, Report, RubricLine, SourceInfo, Verdict,
+    Advice, Comment, Environment, FrameResult, Hints, Lateness, ProbeResult, Repair, Report, RubricLine, SourceInfo,
+    Verdict,
 };
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};
@@ -21,7 +22,7 @@ pub fn render(report: &Report, language: Language) -> String {
 
 /// The same object, to be embedded in a larger answer, as its student may see it ([`Report::for_student`]).
 pub fn view(report: &Report, language: Language) -> JsonReport<'_> {
-    let view = staff_view(report, language);
+    let view = JsonReport { repairs: &[], ..staff_view(report, language) };
     if report.hints > Hints::None {
         return view;
     }
@@ -45,6 +46,7 @@ pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
         rubric: report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect(),
         comments: &report.comments,
         mistakes: &report.mistakes,
+        repairs: &report.repairs,
         advice: report.advice.iter().map(|advice| Remark::of(advice, language)).collect(),
         diagnostics: report.diagnostics.iter().map(|d| Message::of(report, d, language)).collect(),
         frames: report.frames.iter().map(Frame::of).collect(),
@@ -98,6 +100,9 @@ pub struct JsonReport<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     comments: &'a [Comment],
     mistakes: &'a [String],
+    /// The changes by which the files become right; only for who teaches.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    repairs: &'a [Repair],
     advice: Vec<Remark<'a>>,
     diagnostics: Vec<Message<'a>>,
     frames: Vec<Frame>,

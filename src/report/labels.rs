@@ -9,9 +9,10 @@ use reference::Assignment;
 
 /// The title of a mistake, as lists name it; its id where the assignment does not know it, as in an old report.
 pub(crate) fn mistake_title<'a>(assignment: &'a Assignment, id: &'a str, language: Language) -> &'a str {
-    assignment.mistake(id).map_or(id, |mistake| match language {
-        Language::En => &mistake.title.en,
-        Language::Ja => &mistake.title.ja,
+    let title = assignment.mistake(id).map(|mistake| &mistake.title).or_else(|| reference::derived::title(id));
+    title.map_or(id, |title| match language {
+        Language::En => &title.en,
+        Language::Ja => &title.ja,
     })
 }
 

@@ -73,6 +73,7 @@ pub(crate) fn correct() -> Report {
             line("specular", "Specular", "鏡面反射光", 40.0),
         ],
         mistakes: vec![],
+        repairs: Vec::new(),
         explanation: None,
         advice: vec![],
         diagnostics: vec![],

@@ -38,6 +38,23 @@ pub(super) fn of_program(assignment: &Assignment, operator: Operator, name: &str
     Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) }
 }
 
+/// What is said of a mistake that is known by what makes it right: the operator, and the definition that it is in, where it is one.
+pub(super) fn of_repair(
+    assignment: &Assignment,
+    operator: Operator,
+    definition: Option<usize>,
+    is_bound_by_zero: bool,
+) -> Mistake {
+    let quantity =
+        definition.map_or_else(|| Quantity::of_program(assignment), |definition| Quantity::of(assignment, definition));
+    let name = definition.map_or("result", |definition| &assignment.equation.definitions[definition].name);
+    let said = operator_of(operator);
+    let only = alternative(0, said, &quantity, &quantity.named, is_bound_by_zero);
+    let mistake = blank(assignment, said, name, quantity.seen());
+    let [equation, look] = [only.equation.unwrap_or_default(), only.look.unwrap_or_default()];
+    Mistake { equation, look, ..mistake }
+}
+
 fn alternative(
     form: usize,
     said: &OperatorText,

@@ -4,13 +4,16 @@
 
 mod calls;
 mod chains;
+mod inverse;
 mod leaves;
 mod programs;
+mod repairs;
 mod tree;
 mod wrappers;
 mod write;
 
 pub use programs::{ProgramSlip, program_slips};
+pub use repairs::{Ingredients, Repair, Repairable};
 pub use write::written;
 
 use super::syntax::{Expression, ExpressionKind, Name};
@@ -141,6 +144,8 @@ pub struct Change {
     pub expression: Expression,
     /// The name that is concerned, where it is a single one.
     pub about: Option<Name>,
+    /// Where it is in the expression.
+    pub path: tree::Path,
     /// Whether it is in the whole expression, not in a part of it.
     pub is_whole: bool,
     /// Whether it is a bound of 0 that is concerned.
@@ -180,6 +185,7 @@ pub fn changes(root: &Expression, scope: &mut Scope<'_>) -> Vec<Change> {
             operator,
             expression: tree::with(root, &path, expression),
             about,
+            path: path.clone(),
             is_whole: place.is_root(),
             is_bound_by_zero,
         }));

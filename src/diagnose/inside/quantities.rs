@@ -116,6 +116,22 @@ impl Quantities {
         of.stage == on.stage && of.events.iter().any(finishes)
     }
 
+    /// The name of a variable, and those of what is computed from it.
+    pub fn spoilt_by(&self, stage: Stage, name: &str) -> Vec<String> {
+        let Some(trace) = &self.traces[stage as usize] else { return vec![name.to_owned()] };
+        let names = &self.names[stage as usize];
+        let mut is_spoilt = vec![false; trace.events.len()];
+        for (number, event) in trace.events.iter().enumerate() {
+            is_spoilt[number] = names[number].as_deref() == Some(name)
+                || event.from.iter().chain(&event.under).any(|from| is_spoilt[*from]);
+        }
+        let named = names.iter().zip(&is_spoilt).filter(|(_, is)| **is);
+        let mut found: Vec<String> = named.filter_map(|(name, _)| name.clone()).collect();
+        found.sort();
+        found.dedup();
+        found
+    }
+
     /// The names of what a quantity is computed from, its own, and those of what is computed from it.
     pub fn touched_by(&self, quantity: &Quantity) -> Vec<String> {
         let Some(trace) = &self.traces[quantity.stage as usize] else { return Vec::new() };

@@ -16,6 +16,9 @@ pub(super) const ONES: [f64; 2] = [1.0, 0.0];
 
 pub(super) struct Search<'s, 'a> {
     pub evidence: &'s Evidence<'a>,
+    pub assignment: &'s Assignment,
+    pub places: &'s [Place<'s>],
+    pub in_quads: bool,
     pub theirs: &'s TracedProgram,
     pub traces: &'s [Option<Trace>; 2],
     pub own: &'s Seen,

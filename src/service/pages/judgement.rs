@@ -4,7 +4,7 @@ use super::datetime::Moment;
 use super::frame::Frame;
 use super::report_fragment;
 use crate::report::Report;
-use crate::report::labels::rubric_label;
+use crate::report::labels::{mistake_title, rubric_label};
 use crate::report::text::number;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
@@ -24,6 +24,17 @@ pub(super) struct StaffForms {
     /// The names of the files.
     pub files: Vec<String>,
     pub comments: Vec<CommentLine>,
+    pub repairs: Vec<ShownRepair>,
+}
+
+/// What would make a file right.
+pub(super) struct ShownRepair {
+    pub place: String,
+    /// Id and title of the mistake.
+    pub id: String,
+    pub title: String,
+    pub written: String,
+    pub right: String,
 }
 
 /// A line of the rubric, and what it is given.
@@ -129,11 +140,12 @@ impl StaffForms {
                 (graded, given.reason.clone(), given.author.clone().unwrap_or_default())
             }),
         };
+        let place = |file: &str, line: i64| match frame.tag() {
+            "ja" => format!("{file} {line} 行目"),
+            _ => format!("{file}, line {line}"),
+        };
         let comments = state.store.comments(id).await?.into_iter().map(|comment| CommentLine {
-            place: match frame.tag() {
-                "ja" => format!("{} {} 行目", comment.file, comment.line),
-                _ => format!("{}, line {}", comment.file, comment.line),
-            },
+            place: place(&comment.file, comment.line),
             id: comment.id,
             text: comment.text,
             author: comment.author.unwrap_or_default(),
@@ -143,6 +155,17 @@ impl StaffForms {
             lines: report.rubric.iter().map(line).collect(),
             files: report.sources.iter().map(|source| source.name.clone()).collect(),
             comments: comments.collect(),
+            repairs: report
+                .repairs
+                .iter()
+                .map(|repair| ShownRepair {
+                    place: place(&repair.file, repair.line.into()),
+                    title: mistake_title(&state.assignment, &repair.mistake, frame.language).to_owned(),
+                    id: repair.mistake.clone(),
+                    written: repair.written.clone(),
+                    right: repair.right.clone(),
+                })
+                .collect(),
         })
     }
 }

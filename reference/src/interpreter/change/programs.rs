@@ -109,12 +109,12 @@ fn changes_of(own: &Expression, names: &Names) -> Vec<Change> {
     changes(own, &mut Scope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false })
 }
 
-fn of_name(name: &Name, line: u32) -> Expression {
+pub(super) fn of_name(name: &Name, line: u32) -> Expression {
     Expression { line, changes: false, kind: ExpressionKind::Name(Name::clone(name)) }
 }
 
 /// Whether a statement may be left out, and the variable that then has no other value.
-fn left_out(statement: &Statement) -> Option<Option<Name>> {
+pub(super) fn left_out(statement: &Statement) -> Option<Option<Name>> {
     match &statement.kind {
         StatementKind::Expression(expression) => match &expression.kind {
             ExpressionKind::Assign(_, to, _) => match &to.kind {
@@ -164,7 +164,7 @@ fn with(items: &[Item], slip: &Slip, is_part: &dyn Fn(&str) -> bool) -> Vec<Item
 }
 
 /// The type of an expression, as far as it is easily seen; the compiler knows better.
-fn guess(expression: &Expression, names: &[(Expression, Type)]) -> Option<Type> {
+pub(super) fn guess(expression: &Expression, names: &[(Expression, Type)]) -> Option<Type> {
     match &expression.kind {
         ExpressionKind::Floating(_, false) => Some(Type::FLOAT),
         ExpressionKind::Integer(_, false) => Some(Type::INT),

@@ -5,7 +5,7 @@ use crate::interpreter::syntax::{
 };
 
 /// A place in an expression: which operand of which operand.
-pub(super) type Path = Vec<usize>;
+pub type Path = Vec<usize>;
 
 /// An expression within another.
 pub(super) struct Place<'a> {
@@ -41,7 +41,7 @@ pub(super) fn paths(root: &Expression) -> Vec<Path> {
 }
 
 /// What an expression is made of; what is written to is no part of it.
-fn operands(expression: &Expression) -> Vec<&Expression> {
+pub(super) fn operands(expression: &Expression) -> Vec<&Expression> {
     match &expression.kind {
         ExpressionKind::Unary(_, of) | ExpressionKind::Member(of, _) => vec![of],
         ExpressionKind::Chain(first, others) => {

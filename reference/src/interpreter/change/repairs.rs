@@ -1,0 +1,261 @@
+//! Ways to make a wrong program right: one change of its text at a time.
+//!
+//! These are the slips of the text itself, for most slips undo another one, and what the right answer is made of: its values,
+//! its functions with what else they are given, its numbers.
+
+mod ingredients;
+
+use super::inverse::{mistake_of, of_statement};
+use super::programs::{guess, left_out, of_name};
+use super::tree::{Names, Path, Place, Walk, operands, paths, walk, with};
+use super::{Change, Operator, Scope, changes, written};
+use crate::interpreter::syntax::{Expression, ExpressionKind, Item, StatementKind};
+use crate::interpreter::types::Type;
+use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
+pub use ingredients::Ingredients;
+use std::collections::HashSet;
+
+/// A program that is to be repaired.
+#[derive(Clone, Debug)]
+pub struct Repairable {
+    items: Vec<Item>,
+    version: u32,
+    stage: Stage,
+}
+
+/// One change of it.
+#[derive(Clone, Debug)]
+pub struct Repair {
+    /// What the student did, where this makes it right.
+    pub mistake: Operator,
+    /// The line of what is changed, from 1.
+    pub line: u32,
+    /// Whether a bound of 0 is missing or there.
+    pub is_bound_by_zero: bool,
+    /// The name in the right answer, or in the text, of the value that is missing, where it is one.
+    pub added: Option<String>,
+    /// What is written there, and what belongs there; empty for a statement that goes.
+    pub texts: [String; 2],
+    place: Where,
+}
+
+#[derive(Clone, Debug)]
+enum Where {
+    /// The expression with this number, in the order of a walk, the place in it, and what it is instead.
+    Expression(usize, Path, Expression),
+    /// The statement with this number goes.
+    Statement(usize),
+}
+
+impl Repair {
+    /// The line of what was changed, in a program that was made to be traced.
+    pub const MARK: u32 = u32::MAX;
+}
+
+/// Most changes of the expressions of one line.
+const MOST_OF_LINE: usize = 500;
+
+/// No slip takes away or adds more words and signs.
+const LARGEST: usize = 24;
+
+impl Repairable {
+    /// Reads it. Lines are those on which something is written, also within a macro.
+    ///
+    /// # Errors
+    /// It is no program.
+    pub fn read(source: &str, stage: Stage) -> Result<Self, Refusal> {
+        let preprocessed = text::preprocess(source)?;
+        let tokens: Vec<_> = preprocessed.tokens.into_iter().map(text::Token::on_its_line).collect();
+        Ok(Self { items: parse::parse(&tokens)?, version: preprocessed.version, stage })
+    }
+
+    /// The changes of what stands on these lines: those of the first line first, the smaller ones before others.
+    pub fn repairs(&self, lines: &[u32], right: &Ingredients) -> Vec<Repair> {
+        let mut found: Vec<(usize, usize, Repair)> = Vec::new();
+        let (mut expression, mut statement) = (0, 0);
+        let rank = |own: &[u32]| lines.iter().position(|line| own.contains(line));
+        let mut statements = Vec::new();
+        walk(
+            &mut self.items.clone(),
+            &mut Walk {
+                is_part: &|_| true,
+                bound: &mut |_, _| {},
+                statement: &mut |own, _| {
+                    let name = left_out(own).filter(|_| !matches!(own.kind, StatementKind::Empty));
+                    if let Some(rank) = name.and_then(|_| rank(&[own.line])) {
+                        let written = match &own.kind {
+                            StatementKind::Expression(expression) => written(expression),
+                            _ => String::new(),
+                        };
+                        statements.push((
+                            rank,
+                            tokens(&written).len(),
+                            Repair {
+                                mistake: of_statement(own),
+                                line: own.line,
+                                is_bound_by_zero: false,
+                                added: None,
+                                texts: [written, String::new()],
+                                place: Where::Statement(statement),
+                            },
+                        ));
+                    }
+                    statement += 1;
+                },
+                expression: &mut |own, _, names| {
+                    let number = expression;
+                    expression += 1;
+                    let own_lines: Vec<u32> = paths(own).iter().map(|path| Place::of(own, path).own.line).collect();
+                    if let Some(rank) = rank(&own_lines) {
+                        let all = of_expression(own, number, names, right);
+                        let sized = all.into_iter().map(|repair| (rank, size(&repair.texts), repair));
+                        found.extend(sized.filter(|(_, size, _)| *size <= LARGEST));
+                    }
+                },
+            },
+        );
+        found.extend(statements);
+        found.sort_by_key(|(rank, size, repair)| (*rank, *size, repair.mistake));
+        let mut counts = vec![0; lines.len()];
+        found.retain(|(rank, ..)| {
+            counts[*rank] += 1;
+            counts[*rank] <= MOST_OF_LINE
+        });
+        found.into_iter().map(|(.., repair)| repair).collect()
+    }
+
+    /// The program with a change in it; none where it is no program.
+    pub fn program(&self, repair: &Repair) -> Option<Program> {
+        let items = self.items_with(repair, false);
+        Some(Program::of(compile::compile(&items, self.version, self.stage).ok()?))
+    }
+
+    /// The same so that it can be traced, with what was changed on the line [`Repair::MARK`].
+    pub fn traced(&self, repair: &Repair) -> Option<Program> {
+        let items = self.items_with(repair, true);
+        Some(Program::of(compile::compile_traced(&items, self.version, self.stage).ok()?))
+    }
+
+    /// What is to be repaired further.
+    pub fn with(&self, repair: &Repair) -> Self {
+        Self { items: self.items_with(repair, false), ..*self }
+    }
+
+    fn items_with(&self, repair: &Repair, is_marked: bool) -> Vec<Item> {
+        let mut items = self.items.clone();
+        let (mut expression, mut statement) = (0, 0);
+        walk(
+            &mut items,
+            &mut Walk {
+                is_part: &|_| true,
+                bound: &mut |_, _| {},
+                statement: &mut |own, _| {
+                    if matches!(repair.place, Where::Statement(at) if at == statement) {
+                        own.kind = StatementKind::Empty;
+                    }
+                    statement += 1;
+                },
+                expression: &mut |own, _, _| {
+                    if let Where::Expression(at, path, changed) = &repair.place
+                        && *at == expression
+                    {
+                        let line = if is_marked { Repair::MARK } else { changed.line };
+                        *own = with(own, path, Expression { line, ..changed.clone() });
+                    }
+                    expression += 1;
+                },
+            },
+        );
+        items
+    }
+}
+
+/// The changes of an expression.
+fn of_expression(own: &Expression, number: usize, names: &Names, right: &Ingredients) -> Vec<Repair> {
+    let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
+    let typed: Vec<(Expression, Type)> = known.collect();
+    let theirs = &typed;
+    let mut kind = |expression: &Expression| guess(expression, theirs);
+    let scope = &mut Scope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
+    let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
+    let mut found: Vec<Repair> = slips.map(|change| of_slip(own, number, change)).collect();
+    for path in paths(own) {
+        let place = Place::of(own, &path);
+        let Some(kind) = guess(place.own, theirs) else { continue };
+        let is_whole = place.parent.is_none_or(is_statement);
+        for added in right.changes(&place, &kind, is_whole, theirs) {
+            found.push(Repair {
+                mistake: added.mistake,
+                line: place.own.line,
+                is_bound_by_zero: added.is_bound_by_zero,
+                added: added.name,
+                texts: [written(place.own), written(&added.expression)],
+                place: Where::Expression(number, path.clone(), added.expression),
+            });
+        }
+    }
+    let mut known = HashSet::new();
+    found.sort_by_key(|repair| repair.mistake);
+    found.retain(|repair| match &repair.place {
+        Where::Expression(_, path, changed) => known.insert(written(&with(own, path, changed.clone()))),
+        Where::Statement(_) => true,
+    });
+    found
+}
+
+/// Whether an expression is a whole statement, so that its operand is a whole value.
+fn is_statement(parent: &Expression) -> bool {
+    matches!(parent.kind, ExpressionKind::Assign(..))
+}
+
+/// How many words and signs a change takes away and puts there.
+fn size(texts: &[String; 2]) -> usize {
+    let [mut before, mut after] = [tokens(&texts[0]), tokens(&texts[1])];
+    before.retain(|token| match after.iter().position(|other| other == token) {
+        Some(place) => {
+            after.remove(place);
+            false
+        }
+        None => true,
+    });
+    before.len() + after.len()
+}
+
+fn tokens(text: &str) -> Vec<&str> {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "_.".contains(c);
+    let mut found = Vec::new();
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let end = match is_word(first) {
+            true => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+            false => first.len_utf8(),
+        };
+        found.extend(Some(&rest[..end]).filter(|token| !token.trim().is_empty()));
+        rest = &rest[end..];
+    }
+    found
+}
+
+fn of_slip(own: &Expression, number: usize, change: Change) -> Repair {
+    let mistake = mistake_of(own, &change);
+    let at = |root: &Expression| {
+        let mut place = root;
+        for step in &change.path {
+            match operands(place).get(*step) {
+                Some(next) => place = next,
+                None => break,
+            }
+        }
+        place.clone()
+    };
+    let (before, after) = (at(own), at(&change.expression));
+    let is_bound_by_zero = change.is_bound_by_zero || super::calls::is_bound_by_zero(&after);
+    Repair {
+        mistake,
+        line: before.line,
+        is_bound_by_zero,
+        added: None,
+        texts: [written(&before), written(&after)],
+        place: Where::Expression(number, change.path, after),
+    }
+}

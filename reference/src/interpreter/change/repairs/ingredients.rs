@@ -1,0 +1,271 @@
+//! What a right answer is made of, so that it can stand in another program.
+
+use super::super::tree::{Place, Walk, operands, paths, walk, with};
+use super::super::{Operator, bare, calls, floats, is_literal, written};
+use super::{guess, of_name};
+use crate::interpreter::syntax::{Base, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
+use crate::interpreter::types::Type;
+use crate::interpreter::{is_builtin, parse, text};
+use std::collections::HashSet;
+
+/// What is longer than this is not written by a slip.
+const LONGEST: usize = 300;
+
+/// The values, functions and numbers of a right answer.
+#[derive(Debug, Default)]
+pub struct Ingredients {
+    /// What `main` computes, each by what is declared outside of functions.
+    pub(super) values: Vec<Value>,
+    wrappers: Vec<Wrapper>,
+    numbers: Vec<f64>,
+}
+
+#[derive(Debug)]
+pub(super) struct Value {
+    pub expression: Expression,
+    pub kind: Type,
+    name: String,
+    /// Whether it is declared outside, as it is.
+    is_given: bool,
+}
+
+/// A function with all that it is given but for one value.
+#[derive(Debug)]
+struct Wrapper {
+    call: Expression,
+    /// The place of that value, and its type.
+    hole: usize,
+    kind: Type,
+    operator: Operator,
+}
+
+/// A change that takes something from a right answer.
+pub(super) struct Added {
+    pub mistake: Operator,
+    pub expression: Expression,
+    pub name: Option<String>,
+    pub is_bound_by_zero: bool,
+}
+
+impl Ingredients {
+    /// Those of the texts of a right answer.
+    pub fn of(texts: &[&str]) -> Self {
+        let mut found = Self::default();
+        for source in texts {
+            let Ok(preprocessed) = text::preprocess(source) else { continue };
+            let Ok(items) = parse::parse(&preprocessed.tokens) else { continue };
+            found.read(items);
+        }
+        let mut known = HashSet::new();
+        found.values.retain(|value| known.insert(written(&value.expression)));
+        let mut known = HashSet::new();
+        found.wrappers.retain(|wrapper| known.insert((written(&wrapper.call), wrapper.hole)));
+        found.numbers.sort_by(f64::total_cmp);
+        found.numbers.dedup();
+        found
+    }
+
+    fn read(&mut self, mut items: Vec<Item>) {
+        let mut given: HashSet<Name> = HashSet::new();
+        for item in &items {
+            if let Item::Declaration(declaration) = item {
+                for variable in declaration.variables.iter().filter(|variable| variable.lengths.is_empty()) {
+                    given.insert(Name::clone(&variable.name));
+                    let Base::Named(kind) = &declaration.kind.base else { continue };
+                    let (Some(kind), name) = (Type::named(kind), &variable.name) else { continue };
+                    let expression = of_name(name, declaration.line);
+                    self.values.push(Value { expression, kind, name: name.to_string(), is_given: true });
+                }
+            }
+        }
+        // The locals of `main` that have one value only, by what is given.
+        let mut locals: Vec<(Name, Expression)> = Vec::new();
+        for item in &items {
+            let Item::Function(function) = item else { continue };
+            if *function.name != *"main" {
+                continue;
+            }
+            for statement in function.body.iter().flatten() {
+                let StatementKind::Declaration(declaration) = &statement.kind else { continue };
+                let Base::Named(kind) = &declaration.kind.base else { continue };
+                for variable in &declaration.variables {
+                    let (Some(value), Some(kind)) = (&variable.value, Type::named(kind)) else { continue };
+                    let expression = inlined(value, &locals);
+                    if written(&expression).len() > LONGEST || !is_everywhere(&expression) {
+                        continue;
+                    }
+                    locals.push((Name::clone(&variable.name), expression.clone()));
+                    self.values.push(Value { expression, kind, name: variable.name.to_string(), is_given: false });
+                }
+            }
+        }
+        walk(
+            &mut items,
+            &mut Walk {
+                is_part: &|_| true,
+                bound: &mut |_, _| {},
+                statement: &mut |_, _| {},
+                expression: &mut |own, _, names| {
+                    let typed = names.iter().rev();
+                    let typed: Vec<(Expression, Type)> =
+                        typed.filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?))).collect();
+                    for path in paths(own) {
+                        self.of_place(Place::of(own, &path).own, &typed, &given);
+                    }
+                },
+            },
+        );
+    }
+
+    fn of_place(&mut self, own: &Expression, typed: &[(Expression, Type)], given: &HashSet<Name>) {
+        match &own.kind {
+            ExpressionKind::Floating(number, _) => self.numbers.push(*number),
+            ExpressionKind::Call(name, arguments) if Type::named(name).is_none() && is_builtin(name) => {
+                let is_given = |one: &Expression| {
+                    is_literal(one) || matches!(&bare(one).kind, ExpressionKind::Name(name) if given.contains(name))
+                };
+                for (hole, argument) in arguments.iter().enumerate() {
+                    let mut others = arguments.iter().enumerate().filter(|(at, _)| *at != hole);
+                    let Some(kind) = guess(argument, typed) else { continue };
+                    if is_literal(argument) || !others.all(|(_, other)| is_given(other)) {
+                        continue;
+                    }
+                    // What goes in comes out.
+                    if guess(own, typed).is_some_and(|result| result != kind) {
+                        continue;
+                    }
+                    let operator = match &**name {
+                        "max" | "min" | "clamp" => Operator::ClampLeftOut,
+                        "normalize" => Operator::NormalizeLeftOut,
+                        "pow" => Operator::PowerLeftOut,
+                        _ => Operator::CallLeftOut,
+                    };
+                    self.wrappers.push(Wrapper { call: own.clone(), hole, kind, operator });
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The changes at a place with what a right answer is made of. `is_whole`: it is all that a variable is given.
+    pub(super) fn changes(
+        &self,
+        place: &Place<'_>,
+        kind: &Type,
+        is_whole: bool,
+        theirs: &[(Expression, Type)],
+    ) -> Vec<Added> {
+        let own = place.own;
+        let mut found = Vec::new();
+        let plain = |mistake, expression| Added { mistake, expression, name: None, is_bound_by_zero: false };
+        if let ExpressionKind::Floating(value, _) = own.kind {
+            let others = self.numbers.iter().filter(|number| **number != value);
+            let number = |number: &f64| Expression { kind: ExpressionKind::Floating(*number, false), ..own.clone() };
+            found.extend(others.map(|other| plain(Operator::OtherNumber, number(other))));
+            let names = self.values.iter().filter(|value| value.is_given && value.kind == Type::FLOAT);
+            found.extend(names.map(|name| plain(Operator::OtherNumber, name.expression.clone())));
+            return found;
+        }
+        let Some(count) = floats(Some(kind)) else { return found };
+        if is_literal(own) || matches!(own.kind, ExpressionKind::Assign(..)) {
+            return found;
+        }
+        for wrapper in self.wrappers.iter().filter(|wrapper| wrapper.kind == *kind) {
+            let expression = with(&wrapper.call, &[wrapper.hole], own.clone());
+            let is_bound_by_zero = calls::is_bound_by_zero(&wrapper.call);
+            found.push(Added { is_bound_by_zero, ..plain(wrapper.operator, expression) });
+        }
+        let has = |parent: &Expression, which: &[Binary]| match &parent.kind {
+            ExpressionKind::Chain(_, others) => others.iter().any(|(operator, ..)| which.contains(operator)),
+            _ => false,
+        };
+        let sums = [Binary::Add, Binary::Subtract];
+        // A value is added to all that is added up, and multiplied with what is an addend, or given to something.
+        let is_sum = is_whole || has(own, &sums);
+        let is_addend = is_whole || place.parent.is_some_and(|parent| has(parent, &sums) || is_given_on(parent));
+        if !is_sum && !is_addend {
+            return found;
+        }
+        let it = || match &own.kind {
+            ExpressionKind::Chain(..) | ExpressionKind::Conditional(..) => {
+                Expression { kind: ExpressionKind::Comma(vec![own.clone()]), ..own.clone() }
+            }
+            _ => own.clone(),
+        };
+        let between = |operator, other: Expression| Expression {
+            line: own.line,
+            changes: false,
+            kind: ExpressionKind::Chain(Box::new(it()), vec![(operator, own.line, other)]),
+        };
+        let their_values = theirs.iter().map(|(value, kind)| (value, kind, written(value)));
+        let right_values = self
+            .values
+            .iter()
+            .filter(|value| !value.is_given || !theirs.iter().any(|(name, _)| written(name) == value.name));
+        let right_values = right_values.map(|value| (&value.expression, &value.kind, value.name.clone()));
+        for (value, its, name) in their_values.chain(right_values) {
+            let Some(width) = floats(Some(its)) else { continue };
+            let fitting = match (width, count) {
+                (a, b) if a == b || a == 1 => value.clone(),
+                (4, 3) => Expression {
+                    kind: ExpressionKind::Member(Box::new(bracketed(value)), "xyz".into()),
+                    ..value.clone()
+                },
+                _ => continue,
+            };
+            let named = |mistake, expression| Added { name: Some(name.clone()), ..plain(mistake, expression) };
+            if is_sum && width >= count {
+                found.push(named(Operator::AddendLeftOut, between(Binary::Add, bracketed(&fitting))));
+                found.push(named(Operator::AddendLeftOut, between(Binary::Subtract, bracketed(&fitting))));
+            }
+            if is_addend {
+                found.push(named(Operator::FactorLeftOut, between(Binary::Multiply, bracketed(&fitting))));
+                if width == 1 {
+                    found.push(named(Operator::DivisorLeftOut, between(Binary::Divide, bracketed(&fitting))));
+                }
+            }
+            if (is_whole || matches!(own.kind, ExpressionKind::Name(_))) && width == count {
+                found.push(named(Operator::OtherValue, fitting));
+            }
+        }
+        found
+    }
+}
+
+/// Whether an expression gives its operands to a function.
+fn is_given_on(parent: &Expression) -> bool {
+    matches!(parent.kind, ExpressionKind::Call(..) | ExpressionKind::Comma(_))
+}
+
+fn bracketed(value: &Expression) -> Expression {
+    match &value.kind {
+        ExpressionKind::Chain(..) | ExpressionKind::Conditional(..) => {
+            Expression { kind: ExpressionKind::Comma(vec![value.clone()]), ..value.clone() }
+        }
+        _ => value.clone(),
+    }
+}
+
+/// An expression with what some names stand for in their place.
+fn inlined(expression: &Expression, locals: &[(Name, Expression)]) -> Expression {
+    let mut found = expression.clone();
+    // The innermost first: what is put there is not gone through again.
+    for path in paths(expression).into_iter().rev() {
+        if let ExpressionKind::Name(name) = &Place::of(expression, &path).own.kind
+            && let Some((_, value)) = locals.iter().rev().find(|(known, _)| known == name)
+        {
+            found = with(&found, &path, bracketed(value));
+        }
+    }
+    found
+}
+
+/// Whether an expression uses no functions of the program, which others do not have.
+fn is_everywhere(expression: &Expression) -> bool {
+    let is_known = match &expression.kind {
+        ExpressionKind::Call(name, _) => Type::named(name).is_some() || is_builtin(name),
+        ExpressionKind::Assign(..) | ExpressionKind::Step(..) => false,
+        _ => true,
+    };
+    is_known && operands(expression).into_iter().all(is_everywhere)
+}
