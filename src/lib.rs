@@ -18,6 +18,7 @@ pub mod translate;
 
 pub mod expected;
 pub mod grade;
+pub mod likeness;
 #[cfg(feature = "opengl")]
 pub mod opengl;
 pub mod pictures;

@@ -67,11 +67,29 @@ pub struct Entry {
     pub portrait: Option<Vec<u8>>,
     /// The full report as a self-contained HTML page, on disk.
     pub page: Option<PathBuf>,
-    /// Keys of the other students whose files are the same, comments, spacing and the hand-out's text left aside.
-    pub shares_with: Vec<String>,
+    /// Whose answers are alike, the most alike first: a hint, and no verdict.
+    pub alike: Vec<Alike>,
+}
+
+/// Somebody whose answer is like another's.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Alike {
+    /// The student's key; of an earlier term, where the files were.
+    pub key: String,
+    /// How much of what the two wrote themselves is common to both.
+    pub percent: u32,
+    /// Whether the two have the same code throughout.
+    pub is_same: bool,
+    /// Whether it is somebody of an earlier term.
+    pub is_earlier: bool,
 }
 
 impl Entry {
+    /// Keys of the others of the class who have the same code.
+    pub fn shares_with(&self) -> impl Iterator<Item = &str> {
+        self.alike.iter().filter(|it| it.is_same && !it.is_earlier).map(|it| it.key.as_str())
+    }
+
     /// Where the files were, in one line.
     pub fn path(&self) -> Option<String> {
         FileLocation::joined(&self.places)

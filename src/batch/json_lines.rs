@@ -1,6 +1,6 @@
 //! One JSON object for each finished entry, for programs that follow a run.
 
-use super::class::{Entry, Outcome, Student};
+use super::class::{Alike, Entry, Outcome, Student};
 use super::standing::Standing;
 use crate::language::Language;
 use crate::report::json;
@@ -18,7 +18,8 @@ struct JsonLine<'a> {
     standing: Standing,
     /// Why there is no report.
     message: Option<&'a str>,
-    shares_with: &'a [String],
+    shares_with: Vec<&'a str>,
+    alike: &'a [Alike],
     report: Option<json::JsonReport<'a>>,
 }
 
@@ -35,7 +36,8 @@ pub fn line(entry: &Entry, language: Language) -> String {
         path: entry.path(),
         standing: Standing::of(&entry.outcome),
         message,
-        shares_with: &entry.shares_with,
+        shares_with: entry.shares_with().collect(),
+        alike: &entry.alike,
         report: entry.report().map(|report| json::staff_view(report, language)),
     };
     // Strings, numbers and unit enums under constant keys: there is nothing that could fail.

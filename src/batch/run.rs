@@ -1,16 +1,17 @@
 //! Grades what was handed in: all processors busy, each result written as it comes.
 
-use super::class::{Entry, Outcome};
+use super::class::{Alike, Entry, Outcome};
+use super::content::Content;
 use super::folder::Folder;
 use super::intake::{self, StudentWork};
 use super::journal::{Journal, Record, RecordOf};
 use super::page::Pages;
 use super::portrait::Portraits;
-use super::shared_answers::{self, Content, HandOut};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
 use crate::hand_in::HandIn;
 use crate::language::Text;
+use crate::likeness::{Comparison, Likeness, Pair};
 use crate::parallel;
 use crate::report::Verdict;
 use crate::sandbox::{GradedSubmission, Pool, Submission};
@@ -32,48 +33,76 @@ pub struct Candidate {
     /// The files that can be read as text.
     sources: Vec<Source>,
     content: Option<Content>,
-    shares_with: Vec<String>,
+    alike: Vec<Alike>,
 }
 
-/// Reads what was handed in as text, and finds who shares an answer.
-pub fn candidates(hand_ins: Vec<StudentWork>, assignment: &Assignment) -> Vec<Candidate> {
-    let hand_out = HandOut::new(&code(&grade::handed_out(assignment).readable()));
-    let mut answers = Vec::with_capacity(hand_ins.len());
-    let mut candidates: Vec<Candidate> = Vec::with_capacity(hand_ins.len());
-    for hand_in in hand_ins {
-        let (candidate, answer) = candidate(hand_in, &hand_out);
-        candidates.push(candidate);
-        answers.push(answer);
+/// What was handed in, read, and who is alike.
+#[derive(Debug)]
+pub struct Roll {
+    /// Everyone.
+    pub candidates: Vec<Candidate>,
+    /// Those whose answers are alike, the most alike first.
+    pub comparisons: Vec<Comparison>,
+}
+
+/// Most pairs that are shown side by side.
+const MOST_COMPARISONS: usize = 200;
+
+/// Reads what was handed in as text, and finds who is alike: of the class, or one of the class and one of an earlier term.
+pub fn roll(hand_ins: Vec<StudentWork>, earlier: Vec<StudentWork>, assignment: &Assignment) -> Roll {
+    let class = hand_ins.len();
+    let mut all: Vec<Candidate> = hand_ins.into_iter().chain(earlier).map(Candidate::new).collect();
+    let likeness = Likeness::of(assignment);
+    let answers: Vec<_> = all.iter().map(|candidate| likeness.read(&candidate.sources)).collect();
+    let pairs = likeness.pairs(&answers, class);
+    let called = |place: usize| {
+        let student = &all[place].hand_in.student;
+        match (place < class, &all[place].hand_in.content) {
+            // Of an earlier term, the place of the files says which one it is.
+            (false, intake::Content::Files { .. }) => all[place].hand_in.path().unwrap_or_else(|| student.name.clone()),
+            _ => student.name.clone(),
+        }
+    };
+    let comparison = |pair: &Pair| {
+        let (one, other) = pair.places;
+        let side = |place: usize| (&answers[place], all[place].sources.as_slice());
+        let sides = likeness.compare(side(one), side(other)).into();
+        Comparison { pair: pair.clone(), names: [called(one), called(other)], sides }
+    };
+    let comparisons = pairs.iter().take(MOST_COMPARISONS).map(comparison).collect();
+    // Each student's own list begins with who is most alike.
+    let keys: Vec<String> = all.iter().map(|candidate| candidate.hand_in.student.key.clone()).collect();
+    let names: Vec<String> = (0..all.len()).map(called).collect();
+    for pair in &pairs {
+        for (place, other) in [pair.places, (pair.places.1, pair.places.0)] {
+            let is_earlier = other >= class;
+            let key = if is_earlier { names[other].clone() } else { keys[other].clone() };
+            all[place].alike.push(Alike { key, percent: pair.percent(), is_same: pair.is_same, is_earlier });
+        }
     }
-    for (index, others) in shared_answers::others(&answers).into_iter().enumerate() {
-        let keys = others.into_iter().map(|other| candidates[other].hand_in.student.key.clone());
-        candidates[index].shares_with = keys.collect();
-    }
-    candidates
-}
-
-fn candidate(work: StudentWork, hand_out: &HandOut) -> (Candidate, Option<shared_answers::Print>) {
-    let none =
-        |hand_in| Candidate { hand_in, sha256: None, sources: Vec::new(), content: None, shares_with: Vec::new() };
-    let intake::Content::Files { hand_in, .. } = &work.content else { return (none(work), None) };
-    let read: Vec<Option<Source>> = hand_in.files.iter().map(source::readable).collect();
-    let contents = hand_in.files.iter().zip(&read).map(|(file, source)| match source {
-        Some(source) => Content::of_text(source),
-        None => Content::of_bytes(&file.sha256()),
-    });
-    let content = Content::of_all(contents);
-    let sha256 = hand_in.sha256();
-    let sources: Vec<Source> = read.into_iter().flatten().collect();
-    let answer = hand_out.answer(&code(&sources));
-    (Candidate { sha256: Some(sha256), sources, content: Some(content), ..none(work) }, answer)
-}
-
-/// The code of all files, one behind the other.
-fn code(sources: &[Source]) -> String {
-    sources.iter().map(Source::code).collect()
+    all.truncate(class);
+    Roll { candidates: all, comparisons }
 }
 
 impl Candidate {
+    fn new(work: StudentWork) -> Self {
+        let none = |hand_in| Self { hand_in, sha256: None, sources: Vec::new(), content: None, alike: Vec::new() };
+        let intake::Content::Files { hand_in, .. } = &work.content else { return none(work) };
+        let read: Vec<Option<Source>> = hand_in.files.iter().map(source::readable).collect();
+        let contents = hand_in.files.iter().zip(&read).map(|(file, source)| match source {
+            Some(source) => Content::of_text(source),
+            None => Content::of_bytes(&file.sha256()),
+        });
+        let content = Content::of_all(contents);
+        let sha256 = hand_in.sha256();
+        Self {
+            sha256: Some(sha256),
+            sources: read.into_iter().flatten().collect(),
+            content: Some(content),
+            ..none(work)
+        }
+    }
+
     fn files(&self) -> Option<&HandIn> {
         match &self.hand_in.content {
             intake::Content::Files { hand_in, .. } => Some(hand_in),
@@ -107,7 +136,7 @@ impl Candidate {
             sources: self.sources.clone(),
             portrait,
             page,
-            shares_with: self.shares_with.clone(),
+            alike: self.alike.clone(),
         }
     }
 

@@ -62,6 +62,9 @@ pub struct Batch {
     /// Show what changed since an earlier grading; takes its seed as well
     #[arg(long, value_name = "OLD/results.jsonl")]
     pub compare: Option<PathBuf>,
+    /// Hand-ins of an earlier term, to which the class is compared as well: who is alike
+    #[arg(long, value_name = "INPUT", conflicts_with = "anonymous")]
+    pub earlier: Vec<PathBuf>,
     /// Pseudonyms in place of all names; the same in this folder every time
     #[arg(long)]
     pub anonymous: bool,

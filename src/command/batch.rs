@@ -10,6 +10,7 @@ use crate::batch::intake;
 use crate::batch::output::{self, OutputOptions};
 use crate::batch::portrait::Portraits;
 use crate::batch::resume::{self, Mode, NotBegun};
+use crate::batch::run::Roll;
 use crate::batch::standing::Standing;
 use crate::batch::{run, shard};
 use crate::choice;
@@ -82,8 +83,12 @@ fn grade(
         resume::same_conditions(arguments.out(), &found.header, &header)?;
     }
     let intake = if arguments.anonymous { begin::hide(arguments, intake, &folder, &options.slots)? } else { intake };
+    let earlier = match arguments.earlier.is_empty() {
+        true => Vec::new(),
+        false => intake::read(&arguments.earlier, &options)?.hand_ins,
+    };
     let title = arguments.title.clone().unwrap_or(intake.title);
-    let mut candidates = run::candidates(intake.hand_ins, &assignment);
+    let Roll { mut candidates, comparisons } = run::roll(intake.hand_ins, earlier, &assignment);
     if let Some(shard) = arguments.shard {
         candidates = shard.of(candidates);
     }
@@ -107,7 +112,12 @@ fn grade(
         language: header.language,
     };
     let hint = output::hint(&arguments.formats, given);
-    session.finish(&candidates, &class, &ClassOutputs { formats: &formats, sheet: sheet.as_deref(), hint }, before)
+    session.finish(
+        &candidates,
+        &class,
+        &ClassOutputs { formats: &formats, sheet: sheet.as_deref(), hint, comparisons: &comparisons },
+        before,
+    )
 }
 
 /// How a graded class ends the program.

@@ -44,7 +44,7 @@ fn class(wish: &GradeRequest<'_>, format: Format) -> Class {
         sources: vec![],
         portrait: None,
         page: None,
-        shares_with: vec![],
+        alike: vec![],
     };
     let mut class = Class {
         assignment: Arc::clone(assignment),

@@ -154,6 +154,9 @@ fn the_same_file_is_graded_once_and_both_share_the_answer() {
     assert_eq!(shares("c"), serde_json::json!(["a", "b"]));
     assert_eq!(shares("d"), serde_json::json!([]));
     assert_eq!(shares("e"), serde_json::json!([]), "the hand-out is nobody's own");
+    assert_eq!(of("a")["alike"][0]["is_same"], true);
+    let page = fs::read_to_string(place.at("out/likeness.html")).unwrap();
+    assert!(page.contains("<mark>") && page.contains("Content-Security-Policy"), "{page}");
     // One grading has one duration.
     let elapsed = |key: &str| of(key)["report"]["elapsed_ms"].clone();
     assert_eq!(elapsed("a"), elapsed("b"));
@@ -164,6 +167,26 @@ fn the_same_file_is_graded_once_and_both_share_the_answer() {
     let line = |key: &str| of(key)["report"]["rubric"][3]["line"].as_u64();
     assert_eq!(of("c")["report"]["score"], of("a")["report"]["score"]);
     assert!(line("c") >= line("a"));
+}
+
+#[test]
+fn an_earlier_term_is_compared_and_not_graded() {
+    let place = Place::of(&[("a", &sample("accepted/answers/dot-by-hand.vert")), ("b", &sample(RIGHT))]);
+    fs::create_dir_all(place.at("earlier/somebody")).unwrap();
+    let copy = String::from_utf8(sample("accepted/answers/dot-by-hand.vert")).unwrap().replace("naiseki", "inner");
+    fs::write(place.at("earlier/somebody/ggsample06.vert"), copy).unwrap();
+    let mut command = place.batch("out");
+    command.args(["--json-lines", "--formats", "html,csv", "--earlier"]).arg(place.at("earlier"));
+    let output = command.output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 2, "{text}");
+    let of = |key: &str| lines.iter().find(|line| line["student"]["key"] == key).unwrap()["alike"].clone();
+    assert_eq!(of("b"), serde_json::json!([]));
+    assert_eq!((&of("a")[0]["is_earlier"], of("a").as_array().unwrap().len()), (&Value::Bool(true), 1), "{text}");
+    assert!(of("a")[0]["key"].as_str().unwrap().contains("somebody"), "{text}");
+    let grades = fs::read_to_string(place.at("out/grades.csv")).unwrap();
+    assert!(grades.lines().any(|line| line.starts_with("a,") && line.contains("somebody")), "{grades}");
 }
 
 #[test]

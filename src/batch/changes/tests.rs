@@ -43,7 +43,7 @@ fn changes(before: &[(&str, Outcome)], after: &[(&str, Outcome)]) -> Changes {
         sources: Vec::new(),
         portrait: None,
         page: None,
-        shares_with: Vec::new(),
+        alike: Vec::new(),
     });
     let class = Class {
         assignment: reference::assignment("ggsample06").unwrap().clone(),

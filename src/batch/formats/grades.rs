@@ -14,7 +14,7 @@ use csv::{QuoteStyle, Terminator, WriterBuilder};
 
 const BOM: &[u8] = b"\xef\xbb\xbf";
 const BEFORE_RUBRIC: [&str; 6] = ["key", "name", "moodle_id", "verdict", "score", "max_score"];
-const AFTER_RUBRIC: [&str; 9] = [
+const AFTER_RUBRIC: [&str; 10] = [
     "mistakes",
     "feedback",
     "shares_with",
@@ -24,6 +24,7 @@ const AFTER_RUBRIC: [&str; 9] = [
     "late_minutes",
     "late_penalty",
     "total",
+    "alike",
 ];
 
 /// The table: a row a student, in the order of the class. The column names are the same in both languages.
@@ -69,13 +70,14 @@ fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
     row.extend([
         report.map(|report| cell(&report.mistakes.join(" "))).unwrap_or_default(),
         cell(&summary(entry, class.language).replace('`', "")),
-        cell(&entry.shares_with.join(" ")),
+        cell(&entry.shares_with().collect::<Vec<_>>().join(" ")),
         cell(&entry.path().unwrap_or_default()),
         report.map(|report| cell(&report.sha256())).unwrap_or_default(),
         report.map(|report| cell(&titles(report, class))).unwrap_or_default(),
         lateness.map(|lateness| lateness.milliseconds.div_ceil(60_000).to_string()).unwrap_or_default(),
         lateness.map(|lateness| exact(lateness.penalty)).unwrap_or_default(),
         report.map(|report| exact(report.total())).unwrap_or_default(),
+        cell(&entry.alike.iter().map(|it| format!("{} {}%", it.key, it.percent)).collect::<Vec<_>>().join(" / ")),
     ]);
     row
 }

@@ -44,7 +44,7 @@ pub(super) fn entry(index: usize, outcome: Outcome) -> Entry {
         sources: vec![samples::source("ggsample06.vert")],
         portrait: None,
         page: None,
-        shares_with: vec![],
+        alike: vec![],
     }
 }
 

@@ -47,7 +47,7 @@ pub(super) fn class(language: Language) -> Class {
             sources: vec![samples::source("ggsample06.vert")],
             portrait: None,
             page: None,
-            shares_with: vec![],
+            alike: vec![],
             outcome,
         }
     });

@@ -22,7 +22,7 @@ fn grades_open_in_a_spreadsheet_without_a_formula() {
         assert_eq!(
             table[0].join(","),
             "key,name,moodle_id,verdict,score,max_score,shape,ambient,diffuse,specular,mistakes,feedback,shares_with,\
-             file,sha256,mistake_titles,late_minutes,late_penalty,total"
+             file,sha256,mistake_titles,late_minutes,late_penalty,total,alike"
         );
         assert_eq!(table.len(), 1 + NASTY.len());
         for cell in table.iter().flatten() {
@@ -55,8 +55,8 @@ fn lateness_is_a_line_of_its_own_in_every_format() {
     let class = late();
     let entry = &class.entries[1];
     let grades = table(grades::render(&class).expect("a table").strip_prefix(b"\xef\xbb\xbf").expect("a mark"));
-    assert_eq!((&*grades[2][4], &grades[2][16..]), ("80", &["1500", "30", "50"].map(str::to_owned)[..]));
-    assert_eq!(grades[1][16..], ["", "", "100"]);
+    assert_eq!((&*grades[2][4], &grades[2][16..]), ("80", &["1500", "30", "50", ""].map(str::to_owned)[..]));
+    assert_eq!(grades[1][16..], ["", "", "100", ""]);
     let nbgrader = table(&nbgrader::render(&class).expect("a table"));
     assert_eq!(nbgrader[2][7..], ["80.0", "30.0", "50.0", "100.0"]);
     let vpl = vpl::render(entry, vpl::Scale::default(), Language::En);

@@ -13,7 +13,7 @@ fn entry(name: &str, outcome: Outcome) -> Entry {
         sources: Vec::new(),
         portrait: None,
         page: None,
-        shares_with: Vec::new(),
+        alike: Vec::new(),
     }
 }
 

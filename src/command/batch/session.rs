@@ -11,13 +11,14 @@ use crate::batch::progress::Progress;
 use crate::batch::resume::{self, NotBegun};
 use crate::batch::run::{Candidate, Run, Wants};
 use crate::batch::shard::Shard;
-use crate::batch::{anonymous, json_lines, output, summary};
+use crate::batch::{anonymous, json_lines, likeness, output, summary};
 use crate::cli::Batch;
 use crate::command::interrupt::Interrupt;
 use crate::command::{ExitStatus, report_fault, warn, width};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::language::Text;
+use crate::likeness::Comparison;
 use crate::parallel;
 use crate::sandbox::{Pool, Settings};
 use reference::Assignment;
@@ -43,6 +44,8 @@ pub(super) struct ClassOutputs<'a> {
     pub sheet: Option<&'a [u8]>,
     /// What a teacher may miss.
     pub hint: Option<Text>,
+    /// Whose answers are alike.
+    pub comparisons: &'a [Comparison],
 }
 
 impl Session<'_> {
@@ -214,6 +217,16 @@ impl Session<'_> {
         self.write_journal(candidates, &class.entries)?;
         let changes = before.map(|found| Changes::between((found.header, found.records), self.header, class));
         let (mut written, fault) = output::write(class, wanted.formats, wanted.sheet, changes.as_ref(), self.folder);
+        let likeness = wanted
+            .formats
+            .contains(&Format::Html)
+            .then(|| likeness::write(&class.title, wanted.comparisons, self.header.language, self.folder));
+        let (likeness, fault) = match likeness {
+            Some(Ok(file)) => (file, fault),
+            Some(Err(other)) => (None, fault.or(Some(other))),
+            None => (None, fault),
+        };
+        written.files.extend(likeness);
         written.notes.extend(wanted.hint.clone());
         let what = Text::new(
             "Every result, for --resume, --compare and programs",

@@ -20,7 +20,7 @@ pub(super) fn groups(class: &Class) -> Vec<Vec<usize>> {
             if group_of[at].is_none() {
                 group_of[at] = Some(groups.len());
                 members.push(at);
-                open.extend(class.entries[at].shares_with.iter().filter_map(|key| index.get(key.as_str())));
+                open.extend(class.entries[at].shares_with().filter_map(|key| index.get(key)));
             }
         }
         members.sort_unstable();

@@ -1,0 +1,122 @@
+//! Answers of the class that are alike, and two of them side by side.
+
+use super::super::frame::Frame;
+use super::super::shown;
+use super::Tab;
+use crate::likeness::{Comparison, Pair};
+use crate::service::State;
+use crate::service::classes::people;
+use crate::service::errors::Problem;
+use crate::service::identity::{Teacher, TeacherPage};
+use crate::service::likeness::{self, Member};
+use askama::Template;
+use axum::extract::{Query, State as Shared};
+use axum::response::Response;
+use serde::Deserialize;
+use std::collections::HashMap;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/likeness.html")]
+struct LikenessPage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    class: usize,
+    others: usize,
+    left_out: usize,
+    rows: Vec<Row>,
+}
+
+/// Two that are alike.
+struct Row {
+    pair: Pair,
+    members: [Member; 2],
+    href: String,
+}
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/side_by_side.html")]
+struct SideBySidePage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    comparison: Comparison,
+    ids: [String; 2],
+}
+
+/// `GET /teacher/likeness`.
+pub(in crate::service::pages) async fn page(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let found = likeness::find(&state).await?;
+    let hidden = hidden(&state, &teacher, &frame).await?;
+    let row = |(pair, members): (Pair, [Member; 2])| {
+        let members = members.map(|member| hidden.shown(member));
+        let [one, other] = &members;
+        let href = format!("{}/likeness/pair?one={}&other={}", frame.teacher(), one.submission, other.submission);
+        Row { pair, members, href }
+    };
+    shown(
+        LikenessPage {
+            place: Tab::Likeness,
+            csrf: teacher.csrf(&state),
+            class: found.class,
+            others: found.others,
+            left_out: found.left_out,
+            rows: found.pairs.into_iter().map(row).collect(),
+            frame,
+        }
+        .render(),
+    )
+}
+
+/// Which two.
+#[derive(Debug, Deserialize)]
+pub(in crate::service::pages) struct Two {
+    one: String,
+    other: String,
+}
+
+/// `GET /teacher/likeness/pair?one=&other=`.
+pub(in crate::service::pages) async fn side_by_side(
+    Shared(state): Shared<State>,
+    TeacherPage(teacher): TeacherPage,
+    Query(Two { one, other }): Query<Two>,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    let hidden = hidden(&state, &teacher, &frame).await?;
+    let members = [likeness::member_of(&state, &one).await?, likeness::member_of(&state, &other).await?];
+    let names = members.map(|member| hidden.shown(member).called());
+    let comparison = likeness::compare(&state, [&one, &other], names).await?;
+    shown(
+        SideBySidePage { place: Tab::Likeness, csrf: teacher.csrf(&state), comparison, ids: [one, other], frame }
+            .render(),
+    )
+}
+
+/// The names of a class as the one who looks reads them.
+struct Names(Option<HashMap<String, String>>);
+
+impl Names {
+    fn shown(&self, member: Member) -> Member {
+        match &self.0 {
+            None => member,
+            Some(pseudonyms) => {
+                let number = pseudonyms.get(&member.key).cloned().unwrap_or_default();
+                Member { number, name: String::new(), ..member }
+            }
+        }
+    }
+}
+
+/// With pseudonyms, everybody is called as in the table of the class.
+async fn hidden(state: &State, teacher: &Teacher, frame: &Frame) -> Result<Names, Problem> {
+    if teacher.sees_names() {
+        return Ok(Names(None));
+    }
+    let mut keys: Vec<String> = people(state).await?.class.into_iter().map(|person| person.key).collect();
+    keys.sort();
+    Ok(Names(Some(keys.into_iter().enumerate().map(|(place, key)| (key, frame.pseudonym(place))).collect())))
+}
