@@ -1,0 +1,44 @@
+//! What a homework shows of its class: for teachers.
+
+use super::batches::OfQuery;
+use super::refusals::{Errors, NotFound, Refusals};
+use crate::batch::formats::plain::cell;
+use crate::service::Service;
+use crate::service::download::saved;
+use crate::service::errors::Problem;
+use crate::service::identity::Teacher;
+use crate::service::insights::{self, Table};
+use crate::service::language::Lang;
+use axum::extract::rejection::{PathRejection, QueryRejection};
+use axum::extract::{Path, Query, State as Shared};
+use axum::response::Response;
+
+/// What a homework shows of its class
+///
+/// A table as CSV: how many students had their first right answer at which attempt; which mistakes were handed in when; which
+/// messages were said, and what the same student handed in next. Nobody is named.
+#[utoipa::path(
+    get, operation_id = "read_insights", path = "/api/v1/insights/{table}", tag = "batches", security(("teacher" = [])),
+    params(("table" = Table, Path, description = "Which table"), OfQuery),
+    responses((status = 200, description = "The table", body = String, content_type = "text/csv"), NotFound, Refusals, Errors)
+)]
+pub(super) async fn read(
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
+    Lang(language): Lang,
+    table: Result<Path<Table>, PathRejection>,
+    of: Result<Query<OfQuery>, QueryRejection>,
+) -> Result<Response, Problem> {
+    let Path(table) = table.map_err(|_| Problem::not_found())?;
+    let Query(of) = of.map_err(super::body::other)?;
+    let state = service.named(of.assignment.as_deref())?;
+    teacher.check(&state.assignment.id)?;
+    let insights = insights::of(&state).await?;
+    let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(b"\xef\xbb\xbf".to_vec());
+    for row in table.rows(&insights, language) {
+        let row: Vec<String> = row.iter().map(|text| cell(text)).collect();
+        writer.write_record(row).map_err(|error| Problem::internal(&error))?;
+    }
+    let bytes = writer.into_inner().map_err(|error| Problem::internal(&error))?;
+    Ok(saved(&format!("{}-{}.csv", state.assignment.id, table.id()), "text/csv; charset=utf-8", bytes))
+}
