@@ -1,8 +1,10 @@
 //! A class in a format of `ggrade batch`.
 
+mod archive;
 mod members;
-
 mod written;
+
+pub use archive::archive;
 
 use crate::batch::class::Outcome;
 use crate::batch::formats::{Format, worksheet};

@@ -1,8 +1,7 @@
 //! Downloads that take seconds: made in the background, kept on the disk for a while.
 
-use super::download::{Download, Steps, Wanted, Whose, download};
-use crate::batch::formats::Format;
-use crate::language::Text;
+use super::download::{Download, Steps, Wanted, Whose, archive, download};
+use crate::language::{Language, Text};
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::identity::new_id;
@@ -21,8 +20,10 @@ pub struct Job {
     pub id: String,
     /// Id of the homework whose class it is of.
     pub assignment: String,
-    /// The format.
-    pub format: Format,
+    /// What it is.
+    pub what: Text,
+    /// Whether it is the archive of the term.
+    pub is_archive: bool,
     /// The page of the class that it is of.
     pub back: String,
     steps: Arc<Steps>,
@@ -68,20 +69,36 @@ impl Jobs {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().find(|job| job.id == id).cloned()
     }
 
-    /// Begins to make one.
+    /// Begins to make one of a homework's class.
     pub fn start(&self, state: &State, whose: Whose, wanted: Wanted, back: String) -> Arc<Job> {
-        let (id, steps, made) = (new_id(), Arc::default(), OnceLock::new());
-        let job =
-            Arc::new(Job { id, assignment: state.assignment.id.clone(), format: wanted.format, back, steps, made });
+        let of = state.clone();
+        let what = wanted.format.description();
+        self.begin(state, (what, false), back, |steps| async move { make(&of, whose, wanted, &steps).await })
+    }
+
+    /// Begins to make the archive of the term; it is looked for at the pages of this homework.
+    pub fn archive(&self, state: &State, language: Language, back: String) -> Arc<Job> {
+        let service = state.service().clone();
+        let what = Text::new("The term as one file", "学期全体のアーカイブ");
+        self.begin(state, (what, true), back, |steps| async move { archive(&service, language, &steps).await })
+    }
+
+    fn begin<F, M>(&self, state: &State, (what, is_archive): (Text, bool), back: String, making: M) -> Arc<Job>
+    where
+        M: FnOnce(Arc<Steps>) -> F,
+        F: Future<Output = Result<Made, Problem>> + Send + 'static,
+    {
+        let (id, steps, made) = (new_id(), Arc::<Steps>::default(), OnceLock::new());
+        let making = making(Arc::clone(&steps));
+        let job = Arc::new(Job { id, assignment: state.assignment.id.clone(), what, is_archive, back, steps, made });
         let mut jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         jobs.truncate(MOST - 1);
         jobs.push_front(Arc::clone(&job));
         drop(jobs);
-        let (state, begun) = (state.clone(), Arc::clone(&job));
+        let begun = Arc::clone(&job);
         tokio::spawn(async move {
-            let made = make(&state, whose, wanted, &begun.steps).await;
             // Nobody else sets it.
-            let _ = begun.made.set(made);
+            let _ = begun.made.set(making.await);
         });
         job
     }

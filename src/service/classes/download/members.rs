@@ -105,7 +105,7 @@ pub(super) fn class(
         outcomes.push(stored.map(outcome));
         hand_ins.push(StudentWork { student, content });
     }
-    let candidates = run::candidates(hand_ins, &state.assignment);
+    let candidates = run::roll(hand_ins, Vec::new(), &state.assignment).candidates;
     let entries = candidates.iter().zip(outcomes).zip(portraits).map(|((candidate, outcome), portrait)| {
         candidate.entry(outcome.unwrap_or_else(|| candidate.nothing()), portrait, None)
     });

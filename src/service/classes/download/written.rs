@@ -74,7 +74,14 @@ pub(super) fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path:
 
 /// Every file below a folder, in the order of their names.
 pub(super) fn zipped(folder: &Path) -> std::io::Result<Vec<u8>> {
-    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    zip_into(folder, &mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+/// The same into a file.
+pub(super) fn zip_into(folder: &Path, to: impl std::io::Write + std::io::Seek) -> std::io::Result<()> {
+    let mut zip = zip::ZipWriter::new(to);
     for entry in walkdir::WalkDir::new(folder).sort_by_file_name() {
         let entry = entry?;
         let Ok(name) = entry.path().strip_prefix(folder) else { continue };
@@ -83,7 +90,8 @@ pub(super) fn zipped(folder: &Path) -> std::io::Result<Vec<u8>> {
             std::io::copy(&mut std::fs::File::open(entry.path())?, &mut zip)?;
         }
     }
-    Ok(zip.finish()?.into_inner())
+    zip.finish()?;
+    Ok(())
 }
 
 pub(super) fn disk(error: &std::io::Error) -> Fault {

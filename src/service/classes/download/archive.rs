@@ -1,0 +1,216 @@
+//! A term as one file that opens without ggrade: of every homework the class page, everyone's feedback page, everything that
+//! was handed in, the grades as CSV and JSON; and the log of what teachers did.
+
+use super::members::{class, members, student};
+use super::written::{disk, page, zip_into};
+use super::{Pick, Steps, Whose};
+use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::formats::plain::cell;
+use crate::batch::formats::{grades, page as class_page};
+use crate::fault::Fault;
+use crate::language::{Language, Text};
+use crate::report::html::BASE_STYLE;
+use crate::report::json;
+use crate::report::text::number;
+use crate::service::State;
+use crate::service::classes::Made;
+use crate::service::classes::people::people;
+use crate::service::clock::rfc3339;
+use crate::service::errors::Problem;
+use crate::service::gallery::blocking;
+use crate::service::store::word;
+use crate::service::{Service, download};
+use askama::Template;
+use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The page that the archive opens with.
+#[derive(Template)]
+#[template(path = "service/classes/download/templates/index.html")]
+struct Index {
+    language: Language,
+    tag: &'static str,
+    style: &'static str,
+    at: String,
+    homeworks: Vec<Homework>,
+}
+
+impl Index {
+    fn say(&self, en: &'static str, ja: &'static str) -> &'static str {
+        match self.language {
+            Language::En => en,
+            Language::Ja => ja,
+        }
+    }
+}
+
+/// A homework in the archive.
+struct Homework {
+    id: String,
+    title: String,
+    students: Vec<Listed>,
+}
+
+/// A student of a homework.
+struct Listed {
+    key: String,
+    name: String,
+    points: String,
+    has_page: bool,
+    /// Paths of what they handed in, the oldest first, and when each came.
+    files: Vec<(String, String)>,
+}
+
+/// Makes the archive of all homeworks.
+pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) -> Result<Made, Problem> {
+    let folder = tempfile::tempdir().map_err(|error| Problem::of_fault(&disk(&error)))?;
+    let mut homeworks = Vec::new();
+    for state in service.homeworks() {
+        homeworks.push(homework(&state, folder.path(), language, steps).await?);
+    }
+    let log = log(service).await?;
+    let index = Index {
+        language,
+        tag: match language {
+            Language::En => "en",
+            Language::Ja => "ja",
+        },
+        style: BASE_STYLE,
+        at: rfc3339(service.clock.now()),
+        homeworks,
+    };
+    let index = index.render().map_err(|error| Problem::internal(&error))?;
+    let written = tokio::task::spawn_blocking(move || {
+        std::fs::write(folder.path().join("index.html"), index)?;
+        std::fs::write(folder.path().join("log.csv"), log)?;
+        let file = tempfile::NamedTempFile::new()?;
+        zip_into(folder.path(), file.as_file())?;
+        let bytes = file.as_file().metadata()?.len();
+        std::io::Result::Ok((file.into_temp_path(), bytes))
+    });
+    let written = written.await.map_err(|panic| Problem::internal(&panic))?;
+    let (path, bytes) = written.map_err(|error| Problem::of_fault(&disk(&error)))?;
+    let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
+    Ok(Made { name: "term.zip".to_owned(), path, bytes, notes: Vec::new() })
+}
+
+/// Writes one homework into its folder.
+async fn homework(state: &State, root: &Path, language: Language, steps: &Arc<Steps>) -> Result<Homework, Problem> {
+    let id = state.assignment.id.clone();
+    let folder = root.join(&id);
+    let failed = |error: std::io::Error| Problem::of_fault(&disk(&error));
+    std::fs::create_dir_all(folder.join("students")).map_err(failed)?;
+    let (title, refused, members) = members(state, Whose::Students(Pick::Counted)).await?;
+    let submissions: Vec<_> =
+        members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
+    steps.expect(2 * submissions.iter().flatten().count());
+    let mut portraits = Vec::new();
+    for submission in &submissions {
+        portraits.push(match submission {
+            Some(submission) => {
+                let portrait = state.gallery.portrait(state, submission).await?;
+                steps.done();
+                portrait
+            }
+            None => None,
+        });
+    }
+    let mut class = blocking(state, move |state| class(state, title, refused, members, portraits, language)).await?;
+    for (entry, submission) in class.entries.iter_mut().zip(&submissions) {
+        if let (Outcome::Graded(report), Some(submission)) = (&entry.outcome, submission) {
+            let path = folder.join(format!("students/{}.html", entry.student.key));
+            entry.page = Some(page(state, submission, report, entry.sources.clone(), language, path).await?);
+            steps.done();
+        }
+    }
+    let mut listed = Vec::new();
+    let mut keys = HashSet::new();
+    for person in people(state).await?.class {
+        let student = student(person.number, person.name, person.moodle, &person.key, &mut keys);
+        let mut files = Vec::new();
+        for (place, row) in person.rows.iter().rev().enumerate() {
+            let submission = &row.row.submission;
+            let into = format!("hand-ins/{}/{:02}", student.key, place + 1);
+            std::fs::create_dir_all(folder.join(&into)).map_err(failed)?;
+            for file in state.store.hand_in(&submission.id).await?.unwrap_or_default().files {
+                let path = format!("{into}/{}", download::plain_name(&file.name));
+                std::fs::write(folder.join(&path), &file.bytes).map_err(failed)?;
+                files.push((path, rfc3339(submission.received_at)));
+            }
+            if let Some(report) = state.store.stored(&submission.id).await?.and_then(|stored| stored.report) {
+                std::fs::write(folder.join(&into).join("report.json"), json::render(&report, language))
+                    .map_err(failed)?;
+            }
+        }
+        let entry = class.entries.iter().find(|entry| entry.student.key == student.key);
+        listed.push(Listed {
+            points: entry.and_then(Entry::report).map(|it| points(it.total(), it.max_score)).unwrap_or_default(),
+            has_page: entry.is_some_and(|entry| entry.page.is_some()),
+            key: student.key,
+            name: student.name,
+            files,
+        });
+    }
+    listed.sort_by(|a, b| a.key.cmp(&b.key));
+    let title = state.assignment.title.clone();
+    let written = blocking(state, move |_| written(&class, &folder));
+    written.await?;
+    Ok(Homework { id, title: language.of(&title).to_owned(), students: listed })
+}
+
+fn points(total: f64, most: f64) -> String {
+    format!("{} / {}", number(total), number(most))
+}
+
+/// The class page and the grades.
+fn written(class: &Class, folder: &Path) -> Result<(), Fault> {
+    let grades_json = serde_json::to_vec_pretty(&class.entries.iter().map(line).collect::<Vec<_>>());
+    let grades_json = grades_json.map_err(|error| Fault::new(Text::verbatim(error.to_string())))?;
+    for (name, bytes) in [
+        ("report.html", class_page::render(class)?),
+        ("grades.csv", grades::render(class)?),
+        ("grades.json", grades_json),
+    ] {
+        std::fs::write(folder.join(name), bytes).map_err(|error| disk(&error))?;
+    }
+    Ok(())
+}
+
+/// A student's line of `grades.json`.
+fn line(entry: &Entry) -> Value {
+    let report = entry.report();
+    let lines = report.map(|report| {
+        let line = |line: &crate::report::RubricLine| {
+            json!({ "id": line.id, "points": line.points, "max_points": line.max_points, "graded_points": line.graded })
+        };
+        report.rubric.iter().map(line).collect::<Vec<_>>()
+    });
+    json!({
+        "key": entry.student.key,
+        "name": entry.student.name,
+        "verdict": report.map(|report| word(&report.verdict)),
+        "score": report.map(|report| report.score),
+        "max_score": report.map(|report| report.max_score),
+        "late_penalty": report.and_then(|report| report.lateness).map(|lateness| lateness.penalty),
+        "total": report.map(|report| report.total()),
+        "rubric": lines,
+        "mistakes": report.map(|report| &report.mistakes),
+    })
+}
+
+/// The log as CSV, the latest first.
+async fn log(service: &Service) -> Result<Vec<u8>, Problem> {
+    let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(b"\xef\xbb\xbf".to_vec());
+    let mut write = |row: [&str; 6]| writer.write_record(row.map(cell)).map_err(|error| Problem::internal(&error));
+    write(["at", "who", "act", "assignment", "student", "detail"])?;
+    let count = service.store.count_acts(None).await?;
+    for act in service.store.acts(None, 0, count).await? {
+        let at = rfc3339(act.act.at);
+        let who = act.login.as_deref().unwrap_or(&act.act.way);
+        let (homework, student) = (act.act.assignment.as_deref(), act.number.as_deref());
+        write([&at, who, &act.act.act, homework.unwrap_or_default(), student.unwrap_or_default(), &act.act.detail])?;
+    }
+    writer.into_inner().map_err(|error| Problem::internal(&error))
+}
