@@ -12,6 +12,7 @@
 //! | `/r/{id}/override`, `comments`, `appeal` | POST: what people judge, and what a student asks |
 //! | `/join/{secret}` | the course link |
 //! | `/sign-in/{provider}`, `/signed-in` | the way to an OpenID issuer, and back |
+//! | `/privacy` | what is kept, and for how long |
 //! | `/lti/…` | launches from learning platforms, and the keys with which this service signs |
 //! | `/teacher/…` | the teacher's pages; of each of several homeworks `/a/{assignment}/teacher/…`; `/teacher/login`, `/teacher/logout` |
 //! | `/api/v1/…` | the API; `/api/v1/openapi.json`, to be read at `/api/docs` |
@@ -19,7 +20,7 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`folders`] are homeworks that come by the browser, [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
-//! [`judgement`] what people judge beside it, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`sign_in`] that of an OpenID issuer, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
+//! [`judgement`] what people judge beside it, [`likeness`] who has handed in what others have, [`insights`] what the class shows, [`export`] everything of one student, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`sign_in`] that of an OpenID issuer, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
 
@@ -33,6 +34,7 @@ pub mod course;
 pub mod deletion;
 pub mod download;
 pub mod errors;
+pub mod export;
 pub mod extensions;
 pub mod folders;
 pub mod gallery;
@@ -40,8 +42,10 @@ pub mod grading;
 mod id_tokens;
 pub mod idempotency;
 pub mod identity;
+pub mod insights;
 pub mod judgement;
 pub mod language;
+pub mod likeness;
 pub mod limits;
 pub mod lti;
 pub(crate) mod metrics;

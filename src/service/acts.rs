@@ -51,6 +51,9 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/teacher/folders" | "/teacher/folders/{id}") | ("POST", "/api/v1/folders") => "folder",
         ("POST", "/api/v1/folders/{id}/publication") | ("DELETE", "/api/v1/folders/{id}/publication") => "folder",
         ("POST", "/teacher/codes") => "code",
+        ("POST", "/teacher/data") => "pseudonyms",
+        ("POST", "/teacher/data/export") => "exported",
+        ("POST", "/teacher/data/archive" | "/api/v1/archive") => "download",
         ("POST", "/teacher/people") => "person-added",
         ("POST", "/teacher/people/{id}") => "person",
         ("POST", "/teacher/platforms") => "platform",
@@ -73,7 +76,8 @@ fn act(method: &Method, route: &str) -> Option<String> {
 }
 
 /// Acts that are about the course, on whatever page they are done.
-const OF_COURSE: [&str; 8] = ["platform", "course", "link", "roster", "code", "person-added", "person", "logout"];
+const OF_COURSE: [&str; 10] =
+    ["pseudonyms", "exported", "platform", "course", "link", "roster", "code", "person-added", "person", "logout"];
 
 /// Routes that students use as well: what a teacher does there is an act where the handler says so.
 fn is_of_everybody(route: &str) -> bool {

@@ -6,14 +6,18 @@ pub(super) mod batches;
 pub(super) mod body;
 mod deletions;
 mod docs;
+mod export;
 mod extensions;
 mod folders;
+mod insights;
 mod judgements;
+mod likeness;
 mod operations;
 pub(super) mod pictures;
 mod refusals;
 mod schema;
 pub(super) mod submissions;
+mod term;
 
 use super::Service;
 use axum::Router;
@@ -36,7 +40,7 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
                        (RFC 9457), in the language of `?lang=` or `Accept-Language`.",
         license(name = "MIT OR Apache-2.0")
     ),
-    components(schemas(super::errors::ProblemJson, FormatName, FilledFormatName)),
+    components(schemas(super::errors::ProblemJson, FormatName, FilledFormatName, super::insights::Table)),
     modifiers(&Security),
     tags(
         (name = "submissions", description = "One hand-in. Its id opens it: who has the id may read the report."),
@@ -68,9 +72,15 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(judgements::remove_comment))
         .routes(routes!(judgements::appeals))
         .routes(routes!(judgements::answer))
+        .routes(routes!(insights::read))
+        .routes(routes!(likeness::list))
+        .routes(routes!(likeness::compare))
         .routes(routes!(deletions::delete_submission))
         .routes(routes!(deletions::delete_batch))
         .routes(routes!(deletions::delete_student))
+        .routes(routes!(export::export_student))
+        .routes(routes!(term::make))
+        .routes(routes!(term::read))
         .merge(operational())
 }
 

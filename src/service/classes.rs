@@ -5,8 +5,8 @@ mod download;
 mod jobs;
 mod people;
 
-pub use download::{Download, Pick, Steps, Wanted, Whose, download, is_slow, language};
-pub use jobs::{Job, Jobs};
+pub use download::{Download, Pick, Steps, Wanted, Whose, archive, download, is_slow, language};
+pub use jobs::{Job, Jobs, Made};
 #[cfg(test)]
 pub(in crate::service) use people::samples;
 pub use people::{People, Person, PersonStanding, of_batch, people};

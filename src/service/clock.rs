@@ -47,6 +47,11 @@ impl Clock {
     }
 }
 
+/// A moment as RFC 3339 writes it, in UTC.
+pub fn rfc3339(at: Millis) -> String {
+    jiff::Timestamp::from_millisecond(at).map(|time| time.to_string()).unwrap_or_default()
+}
+
 /// A span of time in milliseconds.
 pub fn millis(span: Duration) -> Millis {
     Millis::try_from(span.as_millis()).unwrap_or(Millis::MAX)

@@ -21,14 +21,19 @@ pub fn files(title: &str, hand_in: &HandIn) -> Result<Response, Problem> {
         [only] => (only.name.clone(), only.bytes.clone()),
         _ => (format!("{title}.zip"), zipped(hand_in).map_err(|error| Problem::internal(&error))?),
     };
+    Ok(saved(&name, "application/octet-stream", bytes))
+}
+
+/// Bytes to be saved under a name.
+pub fn saved(name: &str, content_type: &'static str, bytes: Vec<u8>) -> Response {
     let mut response = bytes.into_response();
     let headers = response.headers_mut();
-    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/octet-stream"));
+    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(content_type));
     headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("private, no-store"));
-    if let Ok(disposition) = HeaderValue::from_str(&attachment(&name)) {
+    if let Ok(disposition) = HeaderValue::from_str(&attachment(name)) {
         headers.insert(header::CONTENT_DISPOSITION, disposition);
     }
-    Ok(response)
+    response
 }
 
 fn zipped(hand_in: &HandIn) -> zip::result::ZipResult<Vec<u8>> {
@@ -38,6 +43,13 @@ fn zipped(hand_in: &HandIn) -> zip::result::ZipResult<Vec<u8>> {
         zip.write_all(&file.bytes)?;
     }
     Ok(zip.finish()?.into_inner())
+}
+
+/// The name of a file that a student named, as a file in a folder: nothing of it leads elsewhere.
+pub fn plain_name(name: &str) -> String {
+    let plain: String = name.chars().map(|c| if matches!(c, '/' | '\\') || c.is_control() { '_' } else { c }).collect();
+    let plain = plain.trim_start_matches('.');
+    if plain.is_empty() { "file".to_owned() } else { plain.to_owned() }
 }
 
 /// A `Content-Disposition` under which a browser saves a file, whatever its name has in it (RFC 6266).

@@ -4,6 +4,7 @@
 //! this process reads only the bytes that a worker has read before, to their end and within its limits. The folders are in the
 //! database: of each homework the one that was published last is served, in the place of what the command line names.
 
+use super::grading;
 use super::Service;
 use super::errors::Problem;
 use super::identity::new_id;
@@ -180,7 +181,7 @@ pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem
     service.store.assignment(&assignment.id).await?;
     service.store.publish(id, service.clock.now()).await?;
     service.serve(assignment);
-    service.queue.look();
+    grading::files_wait(service).await;
     Ok(Publication::Served)
 }
 

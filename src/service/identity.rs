@@ -10,6 +10,7 @@ mod cookies;
 mod csrf;
 mod join;
 mod login;
+mod pseudonyms;
 mod secrets;
 mod staff;
 mod teacher;

@@ -1,7 +1,7 @@
 //! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
 //! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one, [`mod@form`] what it sends, [`student`] what that page says, [`attempts`] the cards of what was handed in, [`result`] the page of a report
-//! and its pictures, [`judgement`] what people judge there, [`join`] the course link, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
+//! and its pictures, [`judgement`] what people judge there, [`join`] the course link, [`privacy`] what is kept, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
@@ -15,6 +15,7 @@ mod join;
 mod judgement;
 mod lti;
 mod preview;
+mod privacy;
 mod problem;
 mod receipt;
 mod report_fragment;
@@ -84,6 +85,7 @@ fn of_service() -> Router<Service> {
         .route("/teacher/appeals/{id}", post(judgement::handled))
         .route("/join/{secret}", get(join::page).post(join::join))
         .route("/leave", post(join::leave))
+        .route("/privacy", get(privacy::page))
         .route("/lti/register/{secret}", get(lti::register))
         .merge(teacher::of_course())
         .merge(super::lti::launches())

@@ -52,7 +52,7 @@ pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
         // No report by the folder of before is left among those of the new one.
         let since = state.store.extend_regrading(&regrading).await?;
         if since > 0 {
-            state.queue.look();
+            grading::files_wait(state).await;
             return Err(Problem::new(
                 StatusCode::CONFLICT,
                 "not-done",

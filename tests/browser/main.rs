@@ -10,6 +10,7 @@ mod drafts;
 mod editor;
 mod folders;
 mod offline;
+mod people;
 mod preview;
 mod several;
 mod staying;

@@ -30,7 +30,7 @@ on_both!(
 
 /// Gives the points that stand in the file's first line, and some more that a test chooses.
 #[derive(Debug, Default)]
-struct Lenient(AtomicU32);
+pub struct Lenient(AtomicU32);
 
 impl Judge for Lenient {
     fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {

@@ -1,6 +1,7 @@
 //! The upload service: its router in this process, its server in another one, on both databases.
 
 mod api;
+mod archive;
 mod bench;
 mod classes;
 mod cluster;
@@ -15,12 +16,15 @@ mod hints;
 mod hostile;
 mod idempotency;
 mod identity;
+mod insights;
 mod judgement;
 mod killed;
 mod late;
+mod likeness;
 mod limits;
 mod lti;
 mod places;
+mod privacy;
 mod process;
 mod proxied;
 mod queue;
@@ -32,6 +36,7 @@ mod sign_in;
 mod staff;
 mod static_files;
 mod student_page;
+mod term;
 mod worksheets;
 
 use ggrade::sandbox::{Pool, Settings};

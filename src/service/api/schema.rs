@@ -110,7 +110,7 @@ impl<'a> SubmissionJson<'a> {
 
 /// A time in RFC 3339.
 pub(super) fn time(millis: i64) -> String {
-    jiff::Timestamp::from_millisecond(millis).map(|time| time.to_string()).unwrap_or_default()
+    crate::service::clock::rfc3339(millis)
 }
 
 /// A whole class that a teacher handed in.

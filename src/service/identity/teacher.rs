@@ -21,17 +21,29 @@ pub struct Teacher {
     homework: Option<String>,
     /// Who it is; none with a secret of the whole service or of a homework.
     staff: Option<StaffMember>,
+    /// Whether they read names and numbers of students, or pseudonyms.
+    sees_names: bool,
 }
 
 impl Teacher {
     /// The teacher of a request, where one sends it.
     pub(in crate::service) async fn of(service: &Service, headers: &HeaderMap) -> Result<Option<Self>, Problem> {
         if let Some(token) = bearer(headers) {
-            return Ok(of_token(service, token).map(|homework| Self { session: None, homework, staff: None }));
+            let of = |homework| Self { session: None, homework, staff: None, sees_names: true };
+            return Ok(of_token(service, token).map(of));
         }
         let Some(session) = read(service, headers, TEACHER_COOKIE) else { return Ok(None) };
         let open = service.store.session(&token_hash(&session), service.clock.now()).await?;
-        Ok(open.map(|Session { assignment, staff }| Self { session: Some(session), homework: assignment, staff }))
+        let Some(Session { assignment, staff }) = open else { return Ok(None) };
+        let is_assistant = staff.as_ref().is_some_and(|member| member.role == Role::Assistant);
+        let sees_names = !(is_assistant && service.store.has_pseudonyms().await?);
+        Ok(Some(Self { session: Some(session), homework: assignment, staff, sees_names }))
+    }
+
+    /// Whether they read names and numbers of students; where not, pages that have these show pseudonyms, and whatever else
+    /// names people is not theirs ([`pseudonyms`](super::pseudonyms)).
+    pub fn sees_names(&self) -> bool {
+        self.sees_names
     }
 
     /// Who it is; none with a secret of the whole service or of a homework.
@@ -165,6 +177,9 @@ impl<S: Scope> FromRequestParts<S> for Teacher {
         })?;
         if let Some(service) = scope.own() {
             teacher.check(&service.assignment.id)?;
+        }
+        if !teacher.sees_names {
+            super::pseudonyms::check(parts)?;
         }
         Ok(teacher)
     }

@@ -48,6 +48,7 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("report.js", SCRIPT),
         Asset::text("pages.css", include_str!("assets/pages.css")),
         Asset::text("teacher.css", include_str!("assets/teacher.css")),
+        Asset::text("side_by_side.css", crate::likeness::view::STYLE),
         Asset::text("editor.css", include_str!("assets/editor.css")),
         Asset::text("editor.js", include_str!("assets/editor.js")),
         Asset::text("sheets.js", include_str!("assets/sheets.js")),

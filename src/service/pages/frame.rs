@@ -93,6 +93,16 @@ impl Frame {
         self.is_lecturers() && self.teacher.as_ref().is_some_and(Teacher::has_course)
     }
 
+    /// Whether the teacher who looks reads names of students, or pseudonyms.
+    pub fn sees_names(&self) -> bool {
+        self.teacher.as_ref().is_none_or(Teacher::sees_names)
+    }
+
+    /// What somebody is called where no names are read: by their place in an order that says nothing of names, from 0.
+    pub(super) fn pseudonym(&self, place: usize) -> String {
+        format!("{} {}", self.say("Student", "学生"), place + 1)
+    }
+
     /// The name of the teacher who looks; none with a secret of the whole service.
     pub fn teachers_name(&self) -> Option<&str> {
         let staff = self.teacher.as_ref()?.staff()?;

@@ -1,10 +1,10 @@
 //! The teacher's pages, behind the login.
 //!
-//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`extensions`] later deadlines, [`appeals`] what students ask to be looked at again, [`batches`]
+//! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`extensions`] later deadlines, [`appeals`] what students ask to be looked at again, [`likeness`] answers that are alike, [`insights`] what the homework shows of its class, [`batches`]
 //! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
-//! they choose a password, [`codes`] the students' personal codes, [`platforms`] learning
+//! they choose a password, [`codes`] the students' personal codes, [`data`] what is kept of people, [`platforms`] learning
 //! platforms, [`folders`] the homeworks themselves, [`acts`] the log of what was done.
 
 mod acts;
@@ -13,10 +13,13 @@ mod batches;
 mod charts;
 mod class;
 mod codes;
+mod data;
 mod delete;
 mod downloads;
 mod extensions;
 mod folders;
+mod insights;
+mod likeness;
 mod live;
 pub(super) mod login;
 mod people;
@@ -44,6 +47,9 @@ pub(super) fn router() -> Router<State> {
     Router::new()
         .route("/teacher", get(class::page))
         .route("/teacher/appeals", get(appeals::page))
+        .route("/teacher/insights", get(insights::page))
+        .route("/teacher/likeness", get(likeness::page))
+        .route("/teacher/likeness/pair", get(likeness::side_by_side))
         .route("/teacher/events", get(live::events))
         .route("/teacher/person", get(person::page))
         .route("/teacher/extension", post(extensions::of_student))
@@ -74,6 +80,9 @@ pub(super) fn of_course() -> Router<Service> {
         .route("/teacher/welcome/{secret}", get(welcome::page).post(welcome::choose))
         .route("/teacher/people", get(people::page).post(people::add))
         .route("/teacher/people/{id}", post(people::change))
+        .route("/teacher/data", get(data::page).post(data::set))
+        .route("/teacher/data/export", post(data::export))
+        .route("/teacher/data/archive", post(data::archive))
         .route("/teacher/codes", get(codes::page).post(codes::renew))
         .route("/teacher/codes/file", get(codes::file))
         .route("/teacher/platforms", get(platforms::page).post(platforms::change))
@@ -90,6 +99,10 @@ pub(super) enum Tab {
     Class,
     /// What students ask to be looked at again.
     Appeals,
+    /// What the class shows.
+    Insights,
+    /// Answers that are alike.
+    Likeness,
     /// Archives.
     Batches,
     /// Settings.
@@ -98,6 +111,8 @@ pub(super) enum Tab {
     Folders,
     /// Personal codes.
     Codes,
+    /// What is kept of people.
+    Data,
     /// Who teaches.
     People,
     /// The log of what they did.

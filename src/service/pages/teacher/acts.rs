@@ -53,6 +53,8 @@ fn named(frame: &Frame, act: &str) -> String {
         "roster" => frame.say("Imported a roster", "名簿を取り込み"),
         "code" => frame.say("Replaced a personal code", "個人コードを再発行"),
         "person-added" => frame.say("Let somebody in", "担当者を追加"),
+        "pseudonyms" => frame.say("Set what assistants read", "アシスタントへの氏名の表示を変更"),
+        "exported" => frame.say("Saved everything of a student", "学生のデータを一括保存"),
         "person" => frame.say("Changed an account", "アカウントを変更"),
         "platform" => frame.say("Changed a learning platform", "学習プラットフォームを変更"),
         "extension" => frame.say("Set an own deadline", "締切の延長を変更"),

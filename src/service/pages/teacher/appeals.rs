@@ -35,10 +35,14 @@ pub(in crate::service::pages) async fn page(
     TeacherPage(teacher): TeacherPage,
     frame: Frame,
 ) -> Result<Response, Problem> {
+    let shown_name = |name: &Option<String>| name.clone().filter(|_| teacher.sees_names()).unwrap_or_default();
     let row = |appeal: Appeal| Row {
         href: format!("/r/{}#judgement", appeal.submission_id),
-        number: appeal.number.clone().unwrap_or_default(),
-        name: appeal.name.clone().unwrap_or_default(),
+        number: match teacher.sees_names() {
+            true => appeal.number.clone().unwrap_or_default(),
+            false => frame.say("A student", "学生").to_owned(),
+        },
+        name: shown_name(&appeal.name),
         asked: ShownAppeal::of(&state, &frame, appeal),
     };
     let rows = state.store.appeals(&state.assignment.id).await?.into_iter().map(row).collect();

@@ -67,9 +67,12 @@ struct Tally {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    Query(filter): Query<Filter>,
+    Query(mut filter): Query<Filter>,
     frame: Frame,
 ) -> Result<Response, Problem> {
+    if !teacher.sees_names() {
+        filter.anonymous = "on".to_owned();
+    }
     let People { mut class, mut apart } = people(&state).await?;
     // Pseudonyms follow an order that says nothing of names, and stay as they are when others join.
     class.sort_by(|a, b| a.key.cmp(&b.key));

@@ -116,7 +116,7 @@ pub(in crate::service::pages) async fn page(
         DownloadsPage {
             place: Tab::Class,
             csrf: teacher.csrf(&state),
-            format: said(&job.format.description()),
+            format: said(&job.what),
             back: job.back.clone(),
             address: format!("{}/downloads/{id}", frame.teacher()),
             progress: job.progress(),

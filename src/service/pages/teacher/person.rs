@@ -131,7 +131,7 @@ pub(super) async fn view(
     let people = people(state).await?;
     let person = people.all().find(|person| person.key == whom.key).cloned().ok_or_else(Problem::not_found)?;
     let counted = person.counted().map(|row| row.row.submission.id.as_str());
-    let hidden = whom.anonymous == "on";
+    let hidden = whom.anonymous == "on" || !teacher.sees_names();
     let group = state.store.student_by_id(&person.key).await?.map(|student| student.group_name).unwrap_or_default();
     let choice = Choice { counting: person.counting, counted, may_choose: frame.is_lecturers() && !hidden };
     shown(

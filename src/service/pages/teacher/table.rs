@@ -255,16 +255,12 @@ fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
     let counted = person.counted();
     let shown = counted.or(person.rows.first());
     let anonymous = filter.is_anonymous();
-    let pseudonym = || match frame.tag() {
-        "ja" => format!("学生 {}", index + 1),
-        _ => format!("Student {}", index + 1),
-    };
     let portrait = counted.filter(|row| attempts::draws(row.row.verdict));
     let key = utf8_percent_encode(&person.key, NON_ALPHANUMERIC);
     let note = person.note.as_ref().filter(|_| shown.is_none());
     Row {
         href: format!("{}/person?key={key}{}", frame.teacher(), if anonymous { "&anonymous=on" } else { "" }),
-        number: if anonymous { pseudonym() } else { person.number.clone() },
+        number: if anonymous { frame.pseudonym(index) } else { person.number.clone() },
         name: if anonymous { String::new() } else { person.name.clone() },
         portrait: portrait.map(|row| frame.picture(&row.row.submission.id, "portrait")),
         mark: counted.and_then(|row| Some(attempts::mark(row.row.verdict?, row.row.score).id())),

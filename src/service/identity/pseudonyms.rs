@@ -1,0 +1,43 @@
+//! Assistants who read pseudonyms: what is theirs all the same.
+
+use crate::service::errors::Problem;
+use crate::service::requests::of_any_homework;
+use axum::extract::MatchedPath;
+use axum::http::StatusCode;
+use axum::http::request::Parts;
+
+/// What shows no name, or a pseudonym in its place. Everything else of a teacher's is refused: a page that is added names
+/// nobody before somebody has looked at it.
+const NAMELESS: [&str; 16] = [
+    "/teacher",
+    "/teacher/events",
+    "/teacher/person",
+    "/teacher/appeals",
+    "/teacher/appeals/{id}",
+    "/teacher/insights",
+    "/teacher/likeness",
+    "/teacher/likeness/pair",
+    "/teacher/logout",
+    "/r/{id}/override",
+    "/r/{id}/comments",
+    "/api/v1/insights/{table}",
+    "/api/v1/submissions/{id}/rubric/{line}",
+    "/api/v1/submissions/{id}/comments",
+    "/api/v1/submissions/{id}/comments/{comment}",
+    "/api/v1/submissions/{id}/likeness/{other}",
+];
+
+/// Lets a request pass whose answer names nobody.
+pub(super) fn check(parts: &Parts) -> Result<(), Problem> {
+    let route = parts.extensions.get::<MatchedPath>().map(of_any_homework).unwrap_or_default();
+    let route = route.strip_prefix("/a/{assignment}").unwrap_or(&route);
+    if NAMELESS.contains(&route) {
+        return Ok(());
+    }
+    Err(Problem::new(
+        StatusCode::FORBIDDEN,
+        "names",
+        "This names students, and assistants of this course see pseudonyms. Ask a lecturer.",
+        "この内容には学生の氏名が含まれます。この授業ではアシスタントには仮名だけを表示します。担当教員に依頼してください。",
+    ))
+}

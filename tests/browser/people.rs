@@ -1,0 +1,52 @@
+//! What a course knows of its people: likeness, insights, data; on a phone, a laptop and a wide screen.
+
+use crate::chromium::Browser;
+use crate::chromium::server::{Server, TOKEN};
+use crate::{BROKEN, RIGHT, WRONG};
+
+const SIZES: [(u32, u32); 3] = [(390, 844), (1280, 900), (1920, 1080)];
+
+#[tokio::test(flavor = "multi_thread")]
+async fn likeness_insights_and_data_fit_every_screen() {
+    let (server, browser) = (Server::start(), Browser::start().await);
+    browser.languages("en").await;
+    let class = [
+        ("S1001", "wrong/ambient-added--plus.vert"),
+        ("S1001", "wrong/unexplained--ambient-minus.vert"),
+        ("S1002", "wrong/unexplained--cosine-divided-by-itself.vert"),
+        ("S1003", BROKEN),
+        ("S1003", WRONG),
+        ("S1003", RIGHT),
+        ("S1004", "accepted/answers/dot-by-hand.vert"),
+    ];
+    for (student, file) in class {
+        server.hand_in(student, file).await;
+    }
+    browser.open(&server.at("/teacher")).await;
+    browser.keys("#password", TOKEN).await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname === '/teacher'").await;
+    let pages = [
+        ("likeness", "/teacher/likeness", "document.querySelectorAll('.people tbody tr').length === 1"),
+        (
+            "insights",
+            "/teacher/insights",
+            "document.querySelector('.chart') && document.querySelector('.after tbody tr')",
+        ),
+        ("data", "/teacher/data", "document.querySelector('#number')"),
+        ("privacy", "/privacy", "document.querySelector('.kept')"),
+    ];
+    for (width, height) in SIZES {
+        browser.size(width, height).await;
+        for (name, page, is_there) in pages {
+            browser.open(&server.at(page)).await;
+            browser.until(is_there).await;
+            browser.js("document.querySelectorAll('details').forEach(it => it.open = true)").await;
+            browser.check(&format!("{name}-{width}")).await;
+        }
+        browser.open(&server.at("/teacher/likeness")).await;
+        browser.click(".people tbody td a").await;
+        browser.until("document.querySelectorAll('.side-by-side mark').length > 5").await;
+        browser.check(&format!("side-by-side-{width}")).await;
+    }
+}
