@@ -1,0 +1,23 @@
+#version 410 core
+
+// The light of the vertices, interpolated.
+
+uniform sampler2D moments;
+
+in vec4 iamb;
+in vec4 idiff;
+in vec4 ispec;
+in vec4 ps;
+
+layout (location = 0) out vec4 fc;
+
+void main()
+{
+    vec3 q = ps.xyz / ps.w;
+    vec2 m = texture(moments, q.xy).rg;
+    float mu = m.x;
+    float v = max(m.y - mu * mu, 0.000001);
+    float d = q.z - mu;
+    float s = q.z <= mu ? 1.0 : v / (v + d * d);
+    fc = iamb + s * (idiff + ispec);
+}
