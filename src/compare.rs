@@ -235,6 +235,45 @@ impl FrameResult {
     }
 }
 
+/// The pixels of a frame that are judged and differ by more than the tolerance: for each, row by row from above, whether it does.
+pub fn wrong_pixels(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> Vec<bool> {
+    let drawn = candidate.picture(index);
+    let width = expected.width as usize;
+    let mut wrong = vec![false; drawn.pixels().len()];
+    for (y, runs) in expected.rows.iter().enumerate() {
+        for run in expected.runs[runs.clone()].iter().filter(|run| run.coverage == Coverage::Interior) {
+            for (column, right) in run.columns.clone().zip(&run.pixels) {
+                let place = y * width + column;
+                let (right, found) = (right.to_ne_bytes(), drawn.pixels()[place]);
+                wrong[place] = (0..3).any(|channel| right[channel].abs_diff(found[channel]) > PIXEL_TOLERANCE);
+            }
+        }
+    }
+    wrong
+}
+
+/// The pixel that is farthest from all that are not wrong, in steps along rows and columns; none where none is.
+pub fn innermost(wrong: &[bool], width: u32) -> Option<[u32; 2]> {
+    let width = width.max(1) as usize;
+    let mut steps: Vec<u32> = wrong.iter().map(|wrong| if *wrong { u32::MAX } else { 0 }).collect();
+    let rows = wrong.len() / width;
+    // What lies beyond the frame is not wrong. Two sweeps find the way to what is nearest.
+    let nearer = |steps: &mut Vec<u32>, place: usize, beside: Option<usize>| {
+        let way = beside.map_or(0, |beside| steps[beside]).saturating_add(1);
+        steps[place] = steps[place].min(way);
+    };
+    for place in 0..rows * width {
+        nearer(&mut steps, place, (place % width > 0).then(|| place - 1));
+        nearer(&mut steps, place, place.checked_sub(width));
+    }
+    for place in (0..rows * width).rev() {
+        nearer(&mut steps, place, (place % width + 1 < width).then_some(place + 1));
+        nearer(&mut steps, place, (place / width + 1 < rows).then_some(place + width));
+    }
+    let (place, most) = steps.iter().enumerate().rev().max_by_key(|(_, steps)| **steps)?;
+    (*most > 0).then(|| [(place % width) as u32, (place / width) as u32])
+}
+
 /// The largest difference of a channel; infinite where the candidate is not a number.
 pub fn colour_difference(expected: glam::DVec3, candidate: &Sample) -> f64 {
     let candidate = candidate.colour_f64();

@@ -6,6 +6,7 @@ mod frame;
 pub mod html;
 pub mod json;
 pub(crate) mod labels;
+mod map_lookup;
 mod next;
 pub mod pictures;
 #[cfg(test)]
@@ -14,6 +15,7 @@ pub mod text;
 pub(crate) mod wrap;
 
 pub use frame::{FrameResult, Picture, Pictures, SILHOUETTE, TermPictures};
+pub use map_lookup::{MapLookup, MapPlace};
 
 use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
@@ -225,6 +227,9 @@ pub struct Report {
     pub frames: Vec<FrameResult>,
     /// The probes.
     pub probes: ProbeResult,
+    /// Where the map that a pass draws is looked up for a pixel that is wrong.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map_lookup: Option<MapLookup>,
     /// What graded it.
     pub environment: Environment,
     /// How much its messages help.

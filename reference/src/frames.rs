@@ -2,7 +2,7 @@
 
 use crate::equation::{Reads, Variant};
 use crate::feature::Feature;
-use crate::interpreter::Program;
+use crate::interpreter::{NotedLookup, Program, Texels};
 use crate::mistake::FoundMistake;
 use crate::pipeline::{Pipeline, Vertices, positions, scalars};
 use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
@@ -137,7 +137,40 @@ impl Assignment {
         stage: VertexStage<'_>,
     ) -> (Frame, bool) {
         let instances = self.scene.instances(pose);
-        let shapes: Vec<ShadedDraw<'_>> = instances
+        let mut frame = Frame::cleared(width, height, self.scene.background);
+        let (visible, scenery) = self.scenery([width, height], &instances, pipeline, stage);
+        let is_defined = scenery.shade(visible, &mut frame);
+        (frame, is_defined)
+    }
+
+    /// Where a program looks up textures that a pass draws, for the pixel of a picture, counted from above.
+    pub fn lookups_of(&self, pose: &Pose, pipeline: &Pipeline, pixel: [u32; 2]) -> Vec<NotedLookup> {
+        let size = [self.scene.width, self.scene.height];
+        let instances = self.scene.instances(pose);
+        let stage = VertexStage::Program(&pipeline.vertex);
+        let (visible, scenery) = self.scenery(size, &instances, pipeline, stage);
+        let mut all = scenery.lookups(&visible, pixel[1] * size[0] + pixel[0]);
+        all.retain(|one| self.drawn_map(one.texture).is_some());
+        all
+    }
+
+    /// The texels of a texture that a pass draws: width, height, and the depths row by row, the lowest first.
+    pub fn drawn_map(&self, texture: usize) -> Option<([usize; 2], Vec<f32>)> {
+        let level = self.textures.get(texture)?.levels.first()?;
+        let Texels::Depths(depths) = &level.texels else { return None };
+        let [width, height, _] = level.size;
+        Some(([width, height], depths.drawn().chunks(depths.each()).map(|texel| texel[0]).collect()))
+    }
+
+    /// What is seen in a picture, before it is coloured.
+    fn scenery<'a>(
+        &'a self,
+        [width, height]: [u32; 2],
+        instances: &'a [Instance<'a>],
+        pipeline: &'a Pipeline,
+        stage: VertexStage<'_>,
+    ) -> (Visible, Scenery<'a>) {
+        let shapes: Vec<ShadedDraw<'a>> = instances
             .iter()
             .map(|instance| {
                 let uniforms = self.uniform_values(&instance.moment);
@@ -160,11 +193,9 @@ impl Assignment {
                 cull: instance.draw.cull,
             })
             .collect();
-        let mut frame = Frame::cleared(width, height, self.scene.background);
         let mut visible = Visible::new(width, height);
         visible.draw(&drawn);
-        let is_defined = Scenery { assignment: self, pipeline, shapes, local: None }.shade(visible, &mut frame);
-        (frame, is_defined)
+        (visible, Scenery { assignment: self, pipeline, shapes, local: None })
     }
 
     /// The vertices of a draw after the vertex stage.

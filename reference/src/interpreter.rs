@@ -58,7 +58,7 @@ pub use change::{FREE, Ingredients, Operator, ProgramSlip, Repair, Repairable, p
 pub use code::{Interpolation, Variable};
 pub use compile::{Draft, Slip};
 pub use nature::{Copied, Nature};
-pub use run::{Cause, Column, FUEL, Mismatch, Outputs, Precision, Prepared, Run, Stopped, Undefined};
+pub use run::{Cause, Column, FUEL, Mismatch, NotedLookup, Outputs, Precision, Prepared, Run, Stopped, Undefined};
 pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
 pub use syntax::Binary;
 pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap};

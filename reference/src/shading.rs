@@ -1,6 +1,6 @@
 //! The colours of what is seen: the fragment stage, run for the pixels that a triangle covers.
 
-use crate::interpreter::Program;
+use crate::interpreter::{NotedLookup, Outputs, Program};
 use crate::pipeline::{Handed, Pipeline, Vertices, scalars, slices};
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
@@ -145,19 +145,7 @@ impl Scenery<'_> {
     /// Runs the fragment stage.
     fn run(&self, visible: &Visible, surface: u32, fragments: &[Fragment], moved: [f64; 2]) -> Vec<Shaded> {
         let undefined = || vec![Shaded::Colour([f64::NAN; 3]); fragments.len()];
-        let program: &Program = &self.pipeline.fragment;
-        let uniforms = &self.shapes[surface as usize].uniforms;
-        let given = self.inputs(visible, program, fragments, moved);
-        let slices: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
-        let Some(mut run) = self.assignment.fed(program, fragments.len(), uniforms) else { return undefined() };
-        for (name, columns) in &slices {
-            match run.input(name, columns) {
-                Ok(fed) => run = fed,
-                Err(_) => return undefined(),
-            }
-        }
-        let locals: Vec<&str> = self.local.into_iter().collect();
-        let Ok(outputs) = run.outputs_and_locals(&locals) else { return undefined() };
+        let Some(outputs) = self.outputs(visible, surface, fragments, moved, false) else { return undefined() };
         let columns = match outputs.locals.first() {
             Some(local) => local.values.clone(),
             None => scalars(&outputs, self.pipeline.colour),
@@ -168,6 +156,38 @@ impl Scenery<'_> {
             false => Shaded::Colour([0, 1, 2].map(|at| channel(at, fragment))),
         };
         (0..fragments.len()).map(shaded).collect()
+    }
+
+    /// What the fragment stage writes, and where it looks textures up, if that is noted; none where it cannot be run.
+    fn outputs(
+        &self,
+        visible: &Visible,
+        surface: u32,
+        fragments: &[Fragment],
+        moved: [f64; 2],
+        notes_lookups: bool,
+    ) -> Option<Outputs> {
+        let program: &Program = &self.pipeline.fragment;
+        let uniforms = &self.shapes[surface as usize].uniforms;
+        let given = self.inputs(visible, program, fragments, moved);
+        let slices: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
+        let mut run = self.assignment.fed(program, fragments.len(), uniforms)?;
+        for (name, columns) in &slices {
+            run = run.input(name, columns).ok()?;
+        }
+        let run = if notes_lookups { run.noting_lookups() } else { run };
+        let locals: Vec<&str> = self.local.into_iter().collect();
+        run.outputs_and_locals(&locals).ok()
+    }
+
+    /// Where the fragment that is seen at a pixel looks textures up.
+    pub fn lookups(&self, visible: &Visible, pixel: u32) -> Vec<NotedLookup> {
+        let fragments = fragments(visible, &[pixel], self.pipeline.needs_quads(&self.assignment.textures));
+        let Some(place) = fragments.iter().position(|fragment| fragment.pixel.is_some()) else { return Vec::new() };
+        let surface = visible.setups()[fragments[place].number as usize].surface;
+        let outputs = self.outputs(visible, surface, &fragments, [0.0, 0.0], true);
+        let all = outputs.into_iter().flat_map(|outputs| outputs.lookups);
+        all.filter(|one| one.sample == place).collect()
     }
 
     /// What the fragment stage reads, as columns.

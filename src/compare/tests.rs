@@ -135,3 +135,31 @@ fn pictures_of_unlike_sizes_are_not_compared() {
     let small = Picture { width: 1, height: 1, rgba: vec![0; 4] };
     compared(small, Area { x: 0, y: 0, width: 1, height: 1 });
 }
+
+#[test]
+fn the_innermost_wrong_pixel_lies_amid_the_largest_patch() {
+    let mut wrong = vec![false; 12 * 8];
+    assert_eq!(innermost(&wrong, 12), None);
+    // One pixel alone, and a patch of 5 × 3 whose middle is (7, 5).
+    wrong[12 + 1] = true;
+    for (x, y) in (5..10).flat_map(|x| (4..7).map(move |y| (x, y))) {
+        wrong[y * 12 + x] = true;
+    }
+    let found = innermost(&wrong, 12).unwrap();
+    assert!((6..=8).contains(&found[0]) && found[1] == 5, "{found:?}");
+    // What is beyond the frame is not wrong: no corner is amid anything.
+    assert!(innermost(&[true; 25], 5).is_some_and(|found| found == [2, 2]));
+}
+
+#[test]
+fn wrong_pixels_are_those_that_are_counted() {
+    let mut drawn = picture(&expected());
+    // Expected is (100, 80, 100); the silhouette and what is outside are not judged.
+    set(&mut drawn, 20, 2, [100, 80, 103, 255]);
+    set(&mut drawn, 21, 2, [102, 80, 100, 255]);
+    set(&mut drawn, 9, 2, [0, 0, 0, 255]);
+    let right = ExpectedFrame::new(0.25, &expected(), BACKGROUND);
+    let wrong = wrong_pixels(&right, &Frames::of(BACKGROUND, &[(drawn, WHOLE)]), 0);
+    let found: Vec<usize> = (0..wrong.len()).filter(|place| wrong[*place]).collect();
+    assert_eq!(found, [2 * WIDTH as usize + 20]);
+}

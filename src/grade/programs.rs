@@ -1,7 +1,7 @@
 //! Homework of which a fragment stage is handed in, or several files: they are linked and run as one program.
 
 use super::extended::Extended;
-use super::{Graded, Grader, Judged, Order};
+use super::{Graded, Grader, Judged, Order, map_lookup};
 use crate::cross_check;
 use crate::diagnose::UNEXPLAINED;
 use crate::diagnostic::{Diagnostic, Stage as Speaker};
@@ -108,6 +108,9 @@ impl Grader {
         let (sources, rendering) = (&given[..], &drawn);
         let judged = Judged { source, sources, assignment, probes, fresh, crossings, rendering };
         let mut report = self.report(judged, diagnostics, order.hints);
+        if report.verdict == Verdict::Wrong {
+            report.map_lookup = map_lookup::of(assignment, &given, &self.expected, &rendering.frames, &report.frames);
+        }
         report.advice.extend(own.into_iter().flat_map(|own| own.notes(&given)));
         if report.mistakes.iter().any(|id| id == UNEXPLAINED) {
             report.diagnostics.extend(overlooked(assignment, &given, &linked));

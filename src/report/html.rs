@@ -5,6 +5,7 @@ mod body;
 mod cache;
 mod film;
 mod listing;
+mod map;
 mod player;
 pub(crate) mod rich;
 mod sheet;

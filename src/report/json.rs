@@ -1,7 +1,8 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
 use super::{
-    Advice, Comment, Environment, FrameResult, Hints, Lateness, ProbeResult, Repair, Report, RubricLine, SourceInfo,
+    Advice, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, ProbeResult, Repair, Report, RubricLine,
+    SourceInfo,
     Verdict,
 };
 use crate::cross_check::{CrossCheck, Opinion};
@@ -51,6 +52,7 @@ pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
         diagnostics: report.diagnostics.iter().map(|d| Message::of(report, d, language)).collect(),
         frames: report.frames.iter().map(Frame::of).collect(),
         probes: Probes::of(&report.probes),
+        map_lookup: report.map_lookup.as_ref(),
         cross_check: report.cross_check.as_ref().map(|checked| CrossChecked::of(checked, language)),
         environment: &report.environment,
         elapsed_ms: Number(report.elapsed_ms),
@@ -107,6 +109,9 @@ pub struct JsonReport<'a> {
     diagnostics: Vec<Message<'a>>,
     frames: Vec<Frame>,
     probes: Probes,
+    /// Where the map that a pass draws is looked up for a pixel that is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map_lookup: Option<&'a MapLookup>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cross_check: Option<CrossChecked<'a>>,
     environment: &'a Environment,

@@ -79,6 +79,7 @@ pub(crate) fn correct() -> Report {
         diagnostics: vec![],
         frames: (0..POSES).map(|k| frame(k, 0.0)).collect(),
         probes: ProbeResult { seed: 20_240_613, samples: 640, mismatched: 0, max_difference: Some(4.1e-7) },
+        map_lookup: None,
         environment: Environment {
             ggrade: "0.1.0".into(),
             renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".into(),

@@ -59,6 +59,22 @@ pub struct Run<'a> {
     textures: &'a [Texture],
     precision: Precision,
     fuel: u64,
+    notes_lookups: bool,
+}
+
+/// Where a sample looks a texture up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotedLookup {
+    /// The sample.
+    pub sample: usize,
+    /// The number of the texture.
+    pub texture: usize,
+    /// The place, from 0 to 1 along each side, the lower left corner first.
+    pub at: [f64; 2],
+    /// What the texel is compared with, where the lookup compares.
+    pub reference: Option<f64>,
+    /// The line that asks.
+    pub line: u32,
 }
 
 /// One output, or variable of `main`, of all samples.
@@ -118,6 +134,8 @@ pub struct Outputs {
     pub locals: Vec<Column>,
     /// Whether a sample was thrown away by `discard`.
     pub discarded: Vec<bool>,
+    /// The lookups of textures with two coordinates, in the order in which they are made, where they are noted.
+    pub lookups: Vec<NotedLookup>,
 }
 
 impl Outputs {
@@ -137,6 +155,7 @@ impl<'a> Run<'a> {
             textures: &[],
             precision: Precision::Exact,
             fuel: FUEL,
+            notes_lookups: false,
         }
     }
 
@@ -202,6 +221,11 @@ impl<'a> Run<'a> {
         Self { fuel, ..self }
     }
 
+    /// Notes where textures are looked up.
+    pub fn noting_lookups(self) -> Self {
+        Self { notes_lookups: true, ..self }
+    }
+
     /// Runs, and gives the outputs.
     ///
     /// # Errors
@@ -221,6 +245,7 @@ impl<'a> Run<'a> {
         let block = (BLOCK_BYTES / (8 * slots)).clamp(4, BLOCK) / 4 * 4;
         let block = block.min(self.samples.max(1));
         let mut machine = Machine::new(code, self.textures, block, self.precision, self.fuel);
+        machine.lookups = self.notes_lookups.then(Vec::new);
         for &(slot, value) in code.defaults.iter().chain(&self.uniforms) {
             machine.memory.column_mut(slot).fill(value);
         }
@@ -237,6 +262,7 @@ impl<'a> Run<'a> {
             outputs: outputs.iter().map(|variable| column(variable)).collect(),
             locals: locals.iter().map(|variable| column(variable)).collect(),
             discarded: Vec::with_capacity(self.samples),
+            lookups: Vec::new(),
         };
         for first in (0..self.samples).step_by(block) {
             let lanes = block.min(self.samples - first);
@@ -247,6 +273,8 @@ impl<'a> Run<'a> {
             machine.run()?;
             outputs.iter().zip(&mut result.outputs).for_each(|(variable, column)| column.collect(&machine, variable));
             locals.iter().zip(&mut result.locals).for_each(|(variable, column)| column.collect(&machine, variable));
+            let noted = machine.lookups.iter_mut().flat_map(std::mem::take);
+            result.lookups.extend(noted.map(|one| NotedLookup { sample: first + one.sample, ..one }));
             result.discarded.extend((0..lanes).map(|lane| machine.discarded.has(lane)));
         }
         Ok(result)

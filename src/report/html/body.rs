@@ -1,6 +1,7 @@
 //! What a report shows, part by part, as the templates need it.
 
 use super::listing::{self, Listing};
+use super::map::MapView;
 use super::player::{self, FrameView, Player, Swatch, TermView};
 use super::rich::{Piece, pieces};
 use super::{Lines, Part};
@@ -280,6 +281,7 @@ pub(super) struct Body<'a> {
     second_opinion: Option<SecondOpinion>,
     equation: Option<EquationView<'a>>,
     terms: Vec<TermView<'a>>,
+    map: Option<MapView>,
     listings: Vec<Listing>,
     has_lines: bool,
     has_footer: bool,
@@ -321,6 +323,7 @@ impl<'a> Body<'a> {
             equation: typeset.filter(|_| is_drawn).map(|equation| EquationView::of(equation, &rubric, language)),
             player: gallery.and_then(|gallery| Player::of(gallery, &report.frames, labels)),
             terms: gallery.map(|gallery| player::terms(gallery, report, language)).unwrap_or_default(),
+            map: report.map_lookup.as_ref().and_then(|lookup| MapView::of(part.assignment, lookup, language)),
             frames: player::frames(report, labels),
             frames_agree: labels.frames_agree(agree, report.frames.len()),
             agreeing,

@@ -1,7 +1,7 @@
 use super::*;
 use crate::report::labels::Labels;
 use crate::report::samples;
-use crate::report::{Picture, TermPictures};
+use crate::report::{MapLookup, MapPlace, Picture, TermPictures};
 use std::sync::Arc;
 
 fn page(report: &Report, language: Language) -> String {
@@ -197,4 +197,47 @@ fn each_of_several_files_has_its_own_listing_and_a_place_leads_into_its_own() {
     assert_eq!(["F2L11", "L11", "L12", "F2L12"].map(noted), [true, false, true, false]);
     assert_eq!(html.matches("<dt>SHA-256</dt>").count(), 2);
     assert!(visible(&html).contains("ggsample11.vert, ggsample11.frag"));
+}
+
+#[test]
+fn the_map_is_shown_with_the_places_where_it_is_looked_up() {
+    let assignment = reference::assignment("ggsample11-map").expect("built in");
+    let place = |at, depth| MapPlace { at, depth, stored: 0.5 };
+    let lookup = MapLookup {
+        frame: 1,
+        pixel: [300, 200],
+        // The first is what probes read.
+        texture: 1,
+        file: None,
+        line: None,
+        yours: vec![place([0.25, 0.25], Some(0.75)), place([1.5, 0.5], None)],
+        right: vec![],
+    };
+    let report = Report { map_lookup: Some(lookup), ..samples::wrong() };
+    for (language, said) in [
+        (
+            Language::En,
+            [
+                "The lookup of the map",
+                "(0.2500, 0.2500), and 1 more: 0.7500 is compared with 0.5000",
+                "does not read the map here",
+            ],
+        ),
+        (
+            Language::Ja,
+            [
+                "マップの参照位置",
+                "(0.2500, 0.2500) ほか 1 か所: 0.7500 を 0.5000 と比較",
+                "ここではマップを参照していません",
+            ],
+        ),
+    ] {
+        let page = Page { assignment, report: &report, sources: &[], pictures: None, language };
+        let html = page.render().expect("a page");
+        let text = visible(&html);
+        assert!(said.iter().all(|said| text.contains(said)), "{text}");
+        // From below becomes from above, and what is outside lies at the edge.
+        assert!(html.contains("m25 75m-2-2") && html.contains("m97.5 50m-2-2"), "the marks");
+        assert!(html.contains("width=\"400\" height=\"400\""), "a map of 800 × 800, smaller");
+    }
 }

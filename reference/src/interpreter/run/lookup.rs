@@ -1,10 +1,14 @@
 //! What a lane computes together with others: derivatives and texture lookups.
 
+use super::NotedLookup;
 use super::machine::Machine;
 use super::memory::{Cause, CauseNumber};
 use super::undefined::Undefined;
 use crate::interpreter::code::{Direction, Slot};
 use crate::interpreter::texture::{Lookup, Mode, Query, Texture};
+
+/// So many lookups are noted.
+const MOST_NOTED: usize = 1_000;
 
 /// What an incomplete texture reads as.
 const INCOMPLETE: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -54,7 +58,31 @@ impl Machine<'_> {
         }
     }
 
+    /// Notes where each lane looks, where lookups are noted.
+    fn note(&mut self, query: &Query) {
+        let is_place = !matches!(query.mode, Mode::Size(_) | Mode::Levels) && query.coordinates.len() >= 2;
+        let Some(mut noted) = self.lookups.take() else { return };
+        for lane in (0..self.lanes).filter(|lane| is_place && self.active.has(*lane)) {
+            let value = |slot: &Slot| self.memory.column(*slot)[lane];
+            let number = value(&query.texture);
+            let Some(texture) = self.textures.get(number as usize).filter(|_| number >= 0.0) else { continue };
+            let at = [0, 1].map(|axis| {
+                let size = texture.levels[0].size[axis] as f64;
+                let own = value(&query.coordinates[axis]);
+                let own = if matches!(query.mode, Mode::Fetch(_)) { (own + 0.5) / size } else { own };
+                own + query.offset.get(axis).map_or(0.0, value) / size
+            });
+            let reference = query.reference.as_ref().map(value);
+            if noted.len() == MOST_NOTED {
+                break;
+            }
+            noted.push(NotedLookup { sample: lane, texture: number as usize, at, reference, line: query.line });
+        }
+        self.lookups = Some(noted);
+    }
+
     pub(super) fn lookup(&mut self, query: &Query) {
+        self.note(query);
         let plain = self.plain(query);
         let mut results = vec![[0.0; 4]; self.lanes];
         let mut open: Vec<Option<Undefined>> = vec![None; self.lanes];

@@ -1,10 +1,10 @@
 //! Control flow: which lanes run, and for how long.
 
-use super::Stopped;
 use super::kernel::Precision;
 use super::mask::Mask;
 use super::memory::{Cause, CauseNumber, Memory};
 use super::undefined::Undefined;
+use super::{NotedLookup, Stopped};
 use crate::interpreter::code::{Code, Node, Slot};
 use crate::interpreter::texture::Texture;
 use crate::interpreter::trace::Recorder;
@@ -30,6 +30,8 @@ pub(super) struct Machine<'a> {
     pub fuel: u64,
     /// What looks at the values of a program that is traced.
     pub recorder: Option<Box<Recorder>>,
+    /// The lookups, where they are noted.
+    pub lookups: Option<Vec<NotedLookup>>,
 }
 
 impl<'a> Machine<'a> {
@@ -48,6 +50,7 @@ impl<'a> Machine<'a> {
             strayed: Vec::new(),
             fuel,
             recorder: None,
+            lookups: None,
         }
     }
 

@@ -93,6 +93,7 @@ impl Prepared<'_> {
             outputs: machine.code.outputs.iter().map(column).collect(),
             locals: Vec::new(),
             discarded: (0..*samples).map(|lane| machine.discarded.has(lane)).collect(),
+            lookups: Vec::new(),
         })
     }
 
