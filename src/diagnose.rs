@@ -69,7 +69,7 @@ impl<'a> Evidence<'a> {
         let source = self.sources.iter().find(|(known, _)| own(*known)).map_or(self.source, |(_, source)| source);
         let files = &self.assignment.files;
         let file = files.iter().find(|file| own(file.stage.into())).unwrap_or(&files[0]);
-        (source, &file.starter)
+        (source, file.starter_shader())
     }
 }
 

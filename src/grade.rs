@@ -1,6 +1,7 @@
 //! The pipeline: the only module that knows all the stages.
 
 mod extended;
+mod map_lookup;
 mod programs;
 mod unfinished;
 
@@ -20,7 +21,7 @@ use crate::language::Text;
 use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
 use crate::report::{Advice, Environment, FrameResult, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
-use crate::source::{self, Source};
+use crate::source::{self, ReadProgram, Source};
 use crate::translate::{self, Interface, Refusal, Shader};
 use reference::Assignment;
 use reference::accepted::{AcceptedAnswer, Reading};
@@ -109,7 +110,7 @@ impl Grader {
         let programs = Programs::of(&assignment)?;
         let fixed = match &programs {
             Some(_) => None,
-            None => Some(translate::fixed_stage(&interface, &assignment.files[0].starter)?),
+            None => Some(translate::fixed_stage(&interface, assignment.files[0].starter_shader())?),
         };
         let renderer = Renderer::new(device, fixed.as_ref())?;
         renderer.prepare(&assignment.textures);
@@ -165,8 +166,15 @@ impl Grader {
             [file] if self.programs.is_none() => file,
             files => return self.judge_program(sources, files, order),
         };
-        let source = match source::read(&file.name, &file.bytes) {
-            Ok(source) => source,
+        let assignment = Arc::clone(&self.assignment);
+        let array = assignment.files[0].program.as_ref().map(|program| &program.array);
+        let read = match array {
+            Some(array) => source::read_program(array, &file.name, &file.bytes)
+                .map(|ReadProgram { source, listing }| (source, self.assignment.written_in(array, &listing))),
+            None => source::read(&file.name, &file.bytes).map(|source| (source, Vec::new())),
+        };
+        let (source, written_in) = match read {
+            Ok(read) => read,
             Err(refusal) => return Ok(self.rejected(sources, refusal.diagnostics)),
         };
         if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
@@ -187,7 +195,15 @@ impl Grader {
         let mut diagnostics = std::mem::take(&mut translation.diagnostics);
         let shader = &translation.shader;
         diagnostics.extend(source.notes.iter().cloned());
-        let probing = self.probing(order.seed);
+        let mut probing = self.probing(order.seed);
+        let mut at_rest = None;
+        if !written_in.is_empty() {
+            let [probes, fresh] =
+                [&self.probes, &probing.fresh].map(|probes| self.assignment.probes_at_rest(probes, &written_in));
+            let scene = Scene::of(&self.assignment, &[&probes, &fresh]);
+            probing = Rc::new(Probing { fresh, scene });
+            at_rest = Some(probes);
+        }
         let Probing { fresh, scene } = &*probing;
         let mut rendering = self.renderer.render(shader, scene)?;
         if let Some(ran_out) = rendering.ran_out {
@@ -202,12 +218,20 @@ impl Grader {
             source: &source,
             sources: &sources_given,
             assignment: &self.assignment,
-            probes: &self.probes,
+            probes: at_rest.as_ref().unwrap_or(&self.probes),
             fresh,
             crossings: self.crossings.as_ref(),
             rendering: &rendering,
         };
-        let report = self.report(judged, diagnostics, order.hints);
+        let mut report = self.report(judged, diagnostics, order.hints);
+        let said = array.and_then(|array| array.written_in.as_ref());
+        let said = said.filter(|_| !written_in.is_empty() && report.verdict == Verdict::Correct);
+        report.advice.extend(said.map(|text| Advice {
+            id: "number-written-in".into(),
+            message: Text::new(&*text.en, &*text.ja),
+            file: file.name.clone(),
+            line: None,
+        }));
         let cross_check = order.cross_check.then(|| self.cross_check(&source, scene, &rendering));
         let report = Report { sources, cross_check, ..report };
         Ok(Graded { report, frames: Some(rendering.frames) })
@@ -340,6 +364,7 @@ impl Grader {
             diagnostics,
             frames,
             probes: diagnosis.probes,
+            map_lookup: None,
             cross_check: None,
             environment: self.environment.clone(),
             hints,

@@ -207,7 +207,12 @@ impl<'a, F: Offered> Filling<'a, F> {
         if rank < Fit::Renamed || rank == Fit::Renamed && fit::tells_stage(self.files[file].name()) {
             return true;
         }
-        let stage = self.files[file].bytes().and_then(|bytes| stage_of(&bytes));
+        let bytes = self.files[file].bytes();
+        if let Some(program) = &slot.program {
+            let text = bytes.and_then(|bytes| source::code(&bytes));
+            return text.is_some_and(|text| program.array.is_in(&text));
+        }
+        let stage = bytes.and_then(|bytes| stage_of(&bytes));
         match stage {
             Some(stage) if stage == slot.stage => true,
             Some(stage) => rank == Fit::Renamed && !self.slots.iter().any(|other| other.stage == stage),

@@ -9,17 +9,20 @@ mod directives;
 mod encoding;
 mod kind;
 pub(crate) mod lookalikes;
+mod program;
 mod stray_characters;
 #[cfg(test)]
 mod tests;
 
 pub use encoding::Encoding;
 pub use kind::fragment_shader;
+pub use program::{ReadProgram, read_program};
 
 use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use comments::SourceComment;
+use reference::assignment::HandedIn;
 use reference::interpreter::Stage;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -79,12 +82,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
 /// As of [`read`].
 pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
     let in_words = |refusal: Diagnostic| of_stage(stage, refusal);
-    let mut facts = Facts {
-        name: name.to_owned(),
-        bytes: bytes.len(),
-        sha256: Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
-        encoding: None,
-    };
+    let mut facts = Facts::of(name, bytes);
     let decoded = match decode(bytes) {
         Ok(decoded) => decoded,
         Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![in_words(*error)] })),
@@ -104,6 +102,13 @@ pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<
     }
     diagnostics.extend(source.notes.iter().cloned());
     Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
+}
+
+impl Facts {
+    fn of(name: &str, bytes: &[u8]) -> Self {
+        let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        Self { name: name.to_owned(), bytes: bytes.len(), sha256, encoding: None }
+    }
 }
 
 impl HandIn {
@@ -126,10 +131,11 @@ pub fn encoding(bytes: &[u8]) -> Option<Encoding> {
     decode(bytes).ok().map(|decoded| decoded.encoding)
 }
 
-/// Why `bytes`, which are to be a shader of this stage, cannot be read as text, where they cannot: too many, a binary
+/// Why `bytes`, which are to be what a slot asks for, cannot be read as text, where they cannot: too many, a binary
 /// format, no sense in any encoding.
-pub fn not_text(stage: Stage, bytes: &[u8]) -> Option<Diagnostic> {
-    decode(bytes).err().map(|error| of_stage(stage, *error))
+pub fn not_text(slot: &HandedIn, bytes: &[u8]) -> Option<Diagnostic> {
+    let error = *decode(bytes).err()?;
+    Some(if slot.program.is_some() { kind::of_program(error) } else { of_stage(slot.stage.into(), error) })
 }
 
 /// A refusal in the words of a homework that asks for this stage.

@@ -46,7 +46,7 @@ impl Bench {
         let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
         let assignment = with_cameras(reference::assignment("ggsample06").unwrap(), CAMERAS);
         let interface = ggrade::translate::Interface::of(&assignment).unwrap();
-        let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
+        let fixed = translate::fixed_stage(&interface, assignment.files[0].starter_shader()).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
         let renderer = Renderer::new(device, Some(&fixed)).unwrap();
         Self { gl, renderer, interface, assignment }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How many samples each homework has. A sample that is lost, and a folder that is no longer walked, are seen here.
-const SAMPLES: [(&str, usize); 28] = [
+const SAMPLES: [(&str, usize); 29] = [
     ("blinn", 190),
     ("bumps", 8),
     ("falloff-linear", 58),
@@ -27,6 +27,7 @@ const SAMPLES: [(&str, usize); 28] = [
     ("ggsample06", 1465),
     ("ggsample11-map", 66),
     ("ggsample11-pcf", 35),
+    ("ggsample11-projection", 53),
     ("ggsample11-vsm", 35),
     ("gouraud-point-light", 176),
     ("interpolation", 63),

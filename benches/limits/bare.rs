@@ -83,7 +83,8 @@ impl Bare {
         let assignment = reference::assignment("ggsample06").expect("the assignment");
         let scene = ggrade::render::Scene::of(assignment, &[&assignment.probes(1)]);
         let interface = ggrade::translate::Interface::of(assignment).expect("the assignment is whole");
-        let fragment = translate::fixed_stage(&interface, &assignment.files[0].starter).expect("the fixed stage");
+        let fragment =
+            translate::fixed_stage(&interface, assignment.files[0].starter_shader()).expect("the fixed stage");
         let fragment = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
             source: wgpu::ShaderSource::Naga(Cow::Owned(fragment.module)),

@@ -10,6 +10,7 @@ use crate::equation::{Equation, Reads, Variant};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::free::Free;
+use crate::host::HostArray;
 use crate::interpreter::{Texture, Type};
 pub use crate::manifest::{RubricLine, Stage, Task};
 use crate::mistake::{Form, FoundMistake, Mistake};
@@ -99,8 +100,33 @@ pub struct HandedIn {
     pub starter_name: String,
     /// A file that computes what is right.
     pub solution: Solution,
+    /// What is read of it, where it is no shader.
+    pub program: Option<HostProgram>,
     /// Other answers that are right as well.
     pub accepted: Vec<AcceptedAnswer>,
+}
+
+/// How a program in C++ is read that is handed in as a stage. The solution's text is that of a shader then.
+#[derive(Clone, Debug)]
+pub struct HostProgram {
+    /// What is read.
+    pub array: HostArray,
+    /// The solution as it is written.
+    pub solution: String,
+    /// The handed-out file as a shader.
+    pub starter: String,
+}
+
+impl HandedIn {
+    /// The text of the handed-out file as a shader.
+    pub fn starter_shader(&self) -> &str {
+        self.program.as_ref().map_or(&self.starter, |program| &program.starter)
+    }
+
+    /// The text of the solution as it is written.
+    pub fn solution_as_written(&self) -> &str {
+        self.program.as_ref().map_or(&self.solution.text, |program| &program.solution)
+    }
 }
 
 /// A stage that every hand-in is linked with.

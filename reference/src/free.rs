@@ -129,7 +129,7 @@ impl Assignment {
         theirs
     }
 
-    fn moment_of(&self, group: &Group) -> Moment {
+    pub(crate) fn moment_of(&self, group: &Group) -> Moment {
         Moment { pass: group.pass, ..self.scene.moment(group.t, group.matrices) }
     }
 }

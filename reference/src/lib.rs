@@ -9,6 +9,7 @@
 //! - [`texture`]: pictures from PNG files, and pictures that are computed
 //! - [`scene`]: meshes, cameras and moments of the course program
 //! - [`feed`]: what the shader is given at a moment
+//! - [`host`]: programs of which numbers are read, as shaders
 //! - [`manifest`], [`mod@assignment`], [`mistake`]: the folder, read and checked
 //! - [`typeset`]: the equation as the lecture writes it
 //! - [`rasteriser`], [`frames`]: the pictures
@@ -36,6 +37,7 @@ pub mod fit;
 mod folder;
 pub mod frames;
 pub mod free;
+pub mod host;
 pub mod interpreter;
 pub mod manifest;
 pub mod mistake;

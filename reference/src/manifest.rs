@@ -3,6 +3,7 @@
 mod advice;
 mod equation;
 mod gradual;
+mod host;
 mod interface;
 mod layers;
 mod mistake;
@@ -16,6 +17,7 @@ mod variant;
 pub use advice::{Advice, Circumstance};
 pub use equation::{Equation, SymbolMeaning, Term};
 pub use gradual::Gradual;
+pub use host::{HostArray, Notice};
 pub use interface::{Free, Input, Uniform};
 pub use layers::{Layers, extended, line_of_extends, name_of_base};
 pub use mistake::{Alternative, Fit, Mistake, TermState, When};
@@ -147,6 +149,8 @@ pub struct File {
     /// The same as [[fixed]] of the whole homework.
     #[serde(default)]
     pub fixed: Vec<Fixed>,
+    /// What is read of the file where it is a program in C++, and no shader.
+    pub array: Option<HostArray>,
 }
 
 /// A file that is right beside the solution.

@@ -72,6 +72,25 @@ fn shadow_maps_are_what_opengl_draws() {
     }
 }
 
+/// The frames of the homework of the projection shadow, by twentieths of the cycle.
+const PROJECTIONS: [&str; 4] = ["above-00", "above-02", "above-04", "above-06"];
+
+#[test]
+fn projection_shadows_are_what_opengl_draws() {
+    let assignment = reference::assignment("ggsample11-projection").expect("built in");
+    let frames = assignment.frames();
+    assert_eq!(frames.len(), PROJECTIONS.len());
+    for (name, frame) in PROJECTIONS.iter().zip(&frames) {
+        let counts = compared(frame, &captured("ggsample11-projection", name));
+        println!("{name}: {counts:?}");
+        assert!(counts[0] > 200_000 && counts[1] < counts[0] / 3, "{name}: {counts:?}");
+        assert_eq!(counts[2], 0, "{name}: {counts:?}");
+        // Ambient light alone, 0.2 · 0.2 of 255: as much of the picture as six silhouettes cover.
+        let dark = frame.pixels.iter().filter(|pixel| pixel[..3] == [10; 3]).count();
+        assert!((10_000..80_000).contains(&dark), "{name}: {dark}");
+    }
+}
+
 #[test]
 fn its_vertices_have_the_colours_that_opengl_computes() {
     let text = std::fs::read_to_string(root().join("data/gouraud-point-light/vertices.json")).expect("captured data");

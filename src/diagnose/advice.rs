@@ -118,7 +118,7 @@ impl Beyond {
         if self.advice.only_about && located.is_none() {
             return None;
         }
-        let starter = &evidence.assignment.files[0].starter;
+        let starter = evidence.assignment.files[0].starter_shader();
         let located = located.filter(|located| !is_handed_out(evidence.source, located.line, starter));
         Some(self.message(evidence, located))
     }

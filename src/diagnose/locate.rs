@@ -148,7 +148,7 @@ impl<'a> Points<'a> {
 
     /// Whether the student wrote the line: what was handed out is right.
     fn is_own(&self, event: &Event) -> bool {
-        !is_handed_out(self.source, self.sites[event.site].line, &self.assignment.files[0].starter)
+        !is_handed_out(self.source, self.sites[event.site].line, self.assignment.files[0].starter_shader())
     }
 
     /// The place of an event.

@@ -52,6 +52,7 @@ pub fn unfinished(
         diagnostics,
         frames: Vec::new(),
         probes: ProbeResult::default(),
+        map_lookup: None,
         cross_check: None,
         environment,
         hints: Hints::default(),
@@ -95,6 +96,6 @@ pub fn handed_out(assignment: &Assignment) -> HandIn {
 
 /// The assignment's solution, as if somebody handed it in.
 pub fn solution(assignment: &Assignment) -> HandIn {
-    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.solution.text.as_bytes());
+    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.solution_as_written().as_bytes());
     HandIn { files: assignment.files.iter().map(file).collect() }
 }

@@ -33,6 +33,14 @@ impl Fit {
 /// Extensions that tools give to a shader of any stage.
 const OF_ANY: [&str; 2] = ["glsl", "shader"];
 
+/// The extensions of programs in C++.
+pub(crate) const OF_PROGRAMS: (&str, &[&str]) = ("cpp", &["cc", "cxx", "c++"]);
+
+/// The extensions of what a slot is for.
+fn of_slot(slot: &Slot) -> (&'static str, &'static [&'static str]) {
+    if slot.program.is_some() { OF_PROGRAMS } else { extensions(slot.stage) }
+}
+
 /// The extensions of a stage: the homework's own, and those that other tools give.
 fn extensions(stage: Stage) -> (&'static str, &'static [&'static str]) {
     match stage {
@@ -48,7 +56,7 @@ pub fn fit(name: &str, slot: &Slot) -> Fit {
     if name == wanted {
         return Fit::Exact;
     }
-    let (own, others) = extensions(slot.stage);
+    let (own, others) = of_slot(slot);
     let is_text = |extension: &str| ["", "txt", "text"].contains(&extension) || OF_ANY.contains(&extension);
     let wanted_stem = wanted.rsplit_once('.').map_or(wanted.as_str(), |(stem, _)| stem);
     let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));

@@ -7,7 +7,7 @@ use reference::assignment::{HandedIn, Solution, Stage};
 pub(crate) fn slot(name: &str, stage: Stage) -> HandedIn {
     let solution = Solution { name: String::new(), text: String::new() };
     let (starter, starter_name) = (String::new(), String::new());
-    HandedIn { name: name.into(), stage, starter, starter_name, solution, accepted: vec![] }
+    HandedIn { name: name.into(), stage, starter, starter_name, solution, program: None, accepted: vec![] }
 }
 
 /// The slots of a homework of two files.

@@ -31,6 +31,22 @@ pub(super) fn of_fragment_shader(mut refusal: Diagnostic) -> Diagnostic {
     Diagnostic { message: own(refusal.message), ..refusal }
 }
 
+/// The refusal in the words of a homework that asks for a program in C++.
+pub(super) fn of_program(mut refusal: Diagnostic) -> Diagnostic {
+    let own = |text: Text| {
+        Text::new(
+            text.en
+                .replace("not a vertex shader", "not a C++ program")
+                .replace("your vertex shader", "your program")
+                .replace("A vertex shader", "Such a program")
+                .replace(".vert file", ".cpp file"),
+            text.ja.replace("頂点シェーダ", "C++ プログラム").replace(".vert", ".cpp"),
+        )
+    };
+    refusal.hint = refusal.hint.map(own);
+    Diagnostic { message: own(refusal.message), ..refusal }
+}
+
 /// The refusal of a file that seems to be `en`, `ja`.
 fn looks_like(en: &str, ja: &str) -> Diagnostic {
     Diagnostic::error(

@@ -108,14 +108,20 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
                     if sample.is_dir() { samples(&sample).into_iter().find(is_it) } else { Some(sample.clone()) };
                 let name = name.unwrap_or_else(|| panic!("{} has no {}", sample.display(), file.name));
                 let bytes = std::fs::read(&name).unwrap_or_else(|error| panic!("{}: {error}", name.display()));
-                source::read_stage(file.stage.into(), &file.name, &bytes).expect("a text").text
+                match &file.program {
+                    Some(program) => {
+                        source::read_program(&program.array, &file.name, &bytes).expect("a program").source
+                    }
+                    None => source::read_stage(file.stage.into(), &file.name, &bytes).expect("a text"),
+                }
+                .text
             };
             let handed_in: Vec<(assignment::Stage, String)> =
                 assignment.files.iter().map(|file| (file.stage, read(file))).collect();
             let own = |file: &assignment::HandedIn| -> &str {
                 handed_in.iter().find(|(stage, _)| *stage == file.stage).map_or("", |(_, text)| text)
             };
-            let [mut vertex, mut fragment] = texts(assignment, |file| &file.starter);
+            let [mut vertex, mut fragment] = texts(assignment, |file| file.starter_shader());
             for file in &assignment.files {
                 match file.stage {
                     assignment::Stage::Vertex => vertex = own(file),

@@ -336,7 +336,7 @@ fn text(body: &str) -> String {
 pub fn renderer() -> Renderer {
     let assignment = reference::assignment("ggsample06").unwrap();
     let interface = ggrade::translate::Interface::of(assignment).unwrap();
-    let fixed = translate::fixed_stage(&interface, &assignment.files[0].starter).unwrap();
+    let fixed = translate::fixed_stage(&interface, assignment.files[0].starter_shader()).unwrap();
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
     Renderer::new(device, Some(&fixed)).unwrap()
 }

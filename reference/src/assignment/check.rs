@@ -4,6 +4,7 @@ mod advice;
 mod answers;
 mod constants;
 mod features;
+mod host;
 mod interface;
 mod meshes;
 mod mistakes;
@@ -51,6 +52,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     let textures = textures::textures(&m.texture, scene.all_poses().len(), folder, place_at)?;
     let interface = interface::interface(&m, &textures, &stages, &solution, place_at)?;
     let free = interface::free(&m, &textures, &stages, place_at)?;
+    host::is_known(&files, solution.why_whole())?;
     passes::pass(&m, &textures, &mut scene, &interface, &read, place_at)?;
     let constants = constants::constants(&files, std::mem::take(&mut m.constant))?;
     let lines = rubric(&mut m.rubric, &solution)?;
@@ -117,12 +119,15 @@ fn files(files: &[manifest::File], read: &dyn Fn(&str) -> Checked<String>) -> Ch
         ));
     }
     let handed_in = |file: &manifest::File| {
+        let solution = super::Solution { text: read(&file.solution)?, name: file.solution.clone() };
+        let (solution, program) = host::program(file, files.len(), solution, read)?;
         Ok(HandedIn {
             // They are read when it is known what they are linked with.
             accepted: Vec::new(),
             starter: read(&file.starter)?,
             starter_name: file.starter.clone(),
-            solution: super::Solution { text: read(&file.solution)?, name: file.solution.clone() },
+            solution,
+            program,
             name: file.name.clone(),
             stage: file.stage,
         })

@@ -206,7 +206,7 @@ impl Search<'_, '_> {
         let starter = self.evidence.assignment.files.iter().find(|file| Stage::from(file.stage) == stage);
         let source = self.evidence.sources.iter().find(|(own, _)| *own == stage);
         let (Some(starter), Some((_, source))) = (starter, source) else { return true };
-        line == 0 || line > source.line_count() || !is_handed_out(source, line, &starter.starter)
+        line == 0 || line > source.line_count() || !is_handed_out(source, line, starter.starter_shader())
     }
 
     /// What has to stand in a place for all to be right, where the place is to blame.

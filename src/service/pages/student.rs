@@ -216,14 +216,18 @@ fn computed(homework: &reference::Assignment, stage: Stage) -> &str {
 /// The extensions of the files of a homework, for the browser's dialogue.
 fn accepted(slots: &[Slot]) -> String {
     let mut extensions: Vec<&str> = Vec::new();
-    for stage in slots.iter().map(|slot| slot.stage) {
-        extensions.extend(match stage {
-            Stage::Vertex => [".vert", ".vs"],
-            Stage::Fragment => [".frag", ".fs"],
+    for slot in slots {
+        extensions.extend(match (&slot.program, slot.stage) {
+            (Some(_), _) => [".cpp", ".cc"],
+            (None, Stage::Vertex) => [".vert", ".vs"],
+            (None, Stage::Fragment) => [".frag", ".fs"],
         });
     }
     extensions.dedup();
-    extensions.extend([".glsl", ".txt", "text/plain", ".zip"]);
+    if slots.iter().any(|slot| slot.program.is_none()) {
+        extensions.push(".glsl");
+    }
+    extensions.extend([".txt", "text/plain", ".zip"]);
     extensions.join(",")
 }
 

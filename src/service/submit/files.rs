@@ -90,7 +90,7 @@ pub fn check_text(slot: &Slot, bytes: &[u8]) -> Result<(), Problem> {
     if bytes.len() > MAX_UPLOAD {
         return Err(too_large());
     }
-    let Some(Diagnostic { message, hint, .. }) = source::not_text(slot.stage.into(), bytes) else { return Ok(()) };
+    let Some(Diagnostic { message, hint, .. }) = source::not_text(slot, bytes) else { return Ok(()) };
     let (en, ja) = hint.map(|hint| (format!("{} ", hint.en), hint.ja)).unwrap_or_default();
     Err(Problem::new(
         StatusCode::UNPROCESSABLE_ENTITY,

@@ -117,6 +117,11 @@ impl<'a> Solution<'a> {
         Ok(Self { file, reads: Reads::Outputs, draft, first, why_whole: Some(why), outputs })
     }
 
+    /// Why the definitions of the solution are not told apart, where they are not.
+    pub(super) fn why_whole(&self) -> Option<&AssignmentError> {
+        self.why_whole.as_ref()
+    }
+
     /// What the equation is computed from.
     pub(super) fn reads(&self) -> Reads {
         self.reads

@@ -1,0 +1,300 @@
+//! A number as it is written: numbers, elements of what the program has beside, names of either, `+ - * /` and parentheses.
+
+use super::found::closing;
+use super::meaning::Meaning;
+use super::token::{Kind, Token};
+use super::{HostArray, Unreadable};
+use crate::assignment::both;
+use std::collections::BTreeSet;
+
+/// Names stand for names at most so deep, and what a number is written as has at most so many parts.
+pub(super) const DEEPEST: usize = 60;
+const MOST_PARTS: usize = 500;
+
+/// What a number is written as.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Expression {
+    Int(i32),
+    Float(f64),
+    /// An element of what the program has beside.
+    Given(String),
+    Negative(Box<Expression>),
+    Of(char, Box<[Expression; 2]>),
+}
+
+impl Expression {
+    /// The same in GLSL.
+    pub fn shader(&self) -> String {
+        match self {
+            // The least number has no positive one.
+            Self::Int(number) if *number < 0 => format!("({}.0)", i64::from(*number)),
+            Self::Int(number) => format!("{number}.0"),
+            Self::Float(number) => {
+                let text = format!("{number:?}");
+                if *number < 0.0 { format!("({text})") } else { text }
+            }
+            Self::Given(text) => format!("({text})"),
+            Self::Negative(of) => format!("(-{})", of.shader()),
+            Self::Of(sign, parts) => format!("({} {sign} {})", parts[0].shader(), parts[1].shader()),
+        }
+    }
+
+    /// The numbers and the names in it.
+    pub fn mention(&self, literals: &mut Vec<f64>, names: &mut BTreeSet<String>) {
+        match self {
+            Self::Int(number) => literals.push(f64::from(*number).abs()),
+            Self::Float(number) => literals.push(number.abs()),
+            Self::Given(text) => {
+                let words = text.split(|c: char| c != '_' && !c.is_ascii_alphanumeric());
+                names.extend(
+                    words.filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic())).map(str::to_owned),
+                );
+            }
+            Self::Negative(of) => of.mention(literals, names),
+            Self::Of(_, parts) => parts.iter().for_each(|part| part.mention(literals, names)),
+        }
+    }
+
+    fn number(&self) -> Option<f64> {
+        match self {
+            Self::Int(number) => Some(f64::from(*number)),
+            Self::Float(number) => Some(*number),
+            _ => None,
+        }
+    }
+}
+
+/// Reads expressions of a program.
+pub(super) struct Reader<'a> {
+    pub(super) array: &'a HostArray,
+    pub(super) tokens: &'a [Token<'a>],
+    pub(super) depth: usize,
+    parts: usize,
+}
+
+pub(super) type Read<T> = Result<T, Unreadable>;
+
+impl<'a> Reader<'a> {
+    pub fn new(array: &'a HostArray, tokens: &'a [Token<'a>]) -> Self {
+        Self { array, tokens, depth: 0, parts: 0 }
+    }
+
+    /// The expression of these tokens; of none it is 0.
+    pub fn read(&mut self, at: usize, end: usize) -> Read<Expression> {
+        if at == end {
+            return Ok(Expression::Int(0));
+        }
+        self.parts = 0;
+        self.whole(at, end)
+    }
+
+    pub(super) fn whole(&mut self, mut at: usize, end: usize) -> Read<Expression> {
+        let found = self.sum(&mut at, end)?;
+        if at < end { Err(self.not_read(at)) } else { Ok(found) }
+    }
+
+    fn sign(&self, at: usize, end: usize, of: &[&str]) -> Option<char> {
+        let token = self.tokens.get(at).filter(|token| at < end && token.kind == Kind::Sign)?;
+        of.contains(&token.text).then(|| token.text.chars().next()).flatten()
+    }
+
+    fn sum(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+        let mut left = self.product(at, end)?;
+        while let Some(sign) = self.sign(*at, end, &["+", "-"]) {
+            let place = *at;
+            *at += 1;
+            let right = self.product(at, end)?;
+            left = self.combined(sign, left, right, place)?;
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+        let mut left = self.signed(at, end)?;
+        while let Some(sign) = self.sign(*at, end, &["*", "/"]) {
+            let place = *at;
+            *at += 1;
+            let right = self.signed(at, end)?;
+            left = self.combined(sign, left, right, place)?;
+        }
+        Ok(left)
+    }
+
+    fn signed(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+        self.parts += 1;
+        self.depth += 1;
+        if self.depth > DEEPEST || self.parts > MOST_PARTS {
+            return Err(self.wrong(
+                *at,
+                both("This number is written in too many parts.", "この数の式が長すぎるか、入れ子が深すぎます。"),
+            ));
+        }
+        let found = match self.sign(*at, end, &["+", "-"]) {
+            Some(sign) => {
+                *at += 1;
+                let of = self.signed(at, end)?;
+                match (sign, of) {
+                    ('+', of) => of,
+                    (_, Expression::Int(number)) => Expression::Int(number.saturating_neg()),
+                    (_, Expression::Float(number)) => Expression::Float(-number),
+                    (_, of) => Expression::Negative(Box::new(of)),
+                }
+            }
+            None => self.single(at, end)?,
+        };
+        self.depth -= 1;
+        Ok(found)
+    }
+
+    /// A number, a name, or something in parentheses.
+    fn single(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+        let place = *at;
+        let Some(token) = self.tokens.get(place).copied().filter(|_| place < end) else {
+            let last = place.min(self.tokens.len()).saturating_sub(1);
+            return Err(self.wrong(last, both("A number is missing here.", "ここに数が必要です。")));
+        };
+        *at += 1;
+        match token.kind {
+            Kind::Number => number(token.text).ok_or_else(|| self.not_read(place)),
+            Kind::Sign if token.is("(") => {
+                let close = closing(self.tokens, place).filter(|close| *close < end);
+                let close = close.ok_or_else(|| self.not_read(place))?;
+                *at = close + 1;
+                let is_type = |token: &Token<'_>| {
+                    is_number_type(token.text) || token.is("const") || token.is("std") || token.is("::")
+                };
+                // `(GLfloat)4`
+                if close > place + 1 && self.tokens[place + 1..close].iter().all(is_type) {
+                    return self.signed(at, end);
+                }
+                self.whole(place + 1, close)
+            }
+            Kind::Name if token.is("static_cast") => {
+                let open = (place..end).find(|at| self.tokens[*at].is("("));
+                self.in_brackets(open.ok_or_else(|| self.not_read(place))?, at, end)
+            }
+            Kind::Name if is_number_type(token.text) && self.sign(*at, end, &["(", "{"]).is_some() => {
+                self.in_brackets(*at, at, end)
+            }
+            Kind::Name => self.named(place, at, end),
+            _ => Err(self.not_read(place)),
+        }
+    }
+
+    fn in_brackets(&mut self, open: usize, at: &mut usize, end: usize) -> Read<Expression> {
+        let close = closing(self.tokens, open).filter(|close| *close < end).ok_or_else(|| self.not_read(open))?;
+        *at = close + 1;
+        self.whole(open + 1, close)
+    }
+
+    /// A name, with what stands behind it: `light.position[0]`, `height`.
+    fn named(&mut self, place: usize, at: &mut usize, end: usize) -> Read<Expression> {
+        let meaning = self.meaning(place, at, end)?;
+        let has_index = self.sign(*at, end, &["["]).is_some();
+        let member = self.sign(*at, end, &["."]).and_then(|_| {
+            let name = self.tokens.get(*at + 1).filter(|_| *at + 1 < end)?.text;
+            ["x", "y", "z", "w"].iter().position(|own| *own == name)
+        });
+        let index = match (has_index, member) {
+            (true, _) => {
+                let close = closing(self.tokens, *at).filter(|close| *close < end).ok_or_else(|| self.not_read(*at))?;
+                let index = self.whole(*at + 1, close)?;
+                *at = close + 1;
+                let Expression::Int(index) = index else { return Err(self.not_read(place)) };
+                Some(usize::try_from(index).map_err(|_| self.not_read(place))?)
+            }
+            (false, Some(member)) => {
+                *at += 2;
+                Some(member)
+            }
+            (false, None) => None,
+        };
+        match (meaning, index) {
+            (Meaning::Value(value), None) => Ok(value),
+            (Meaning::Given(name), Some(index)) => {
+                let element = self.array.given.get(&name).and_then(|all| all.get(index));
+                element.map(|element| Expression::Given(element.clone())).ok_or_else(|| {
+                    self.wrong(
+                        place,
+                        both(
+                            format!("`{name}` has no element {index}; the first one is 0."),
+                            format!("`{name}` に要素 {index} はありません（最初の要素は 0 番です）。"),
+                        ),
+                    )
+                })
+            }
+            (Meaning::List(all), Some(index)) => match all.get(index).cloned() {
+                Some(range) => self.deeper(range.start, range.end, place),
+                None => Err(self.not_read(place)),
+            },
+            _ => Err(self.not_read(place)),
+        }
+    }
+
+    fn combined(&self, sign: char, left: Expression, right: Expression, place: usize) -> Read<Expression> {
+        let none = || self.wrong(place, both("This is no number.", "この式は数になりません。"));
+        if let (Expression::Int(a), Expression::Int(b)) = (&left, &right) {
+            let whole = match sign {
+                '+' => a.checked_add(*b),
+                '-' => a.checked_sub(*b),
+                '*' => a.checked_mul(*b),
+                // Of whole numbers what is left is dropped, as C++ does.
+                _ => a.checked_div(*b),
+            };
+            return whole.map(Expression::Int).ok_or_else(none);
+        }
+        if let (Some(a), Some(b)) = (left.number(), right.number()) {
+            let number = match sign {
+                '+' => a + b,
+                '-' => a - b,
+                '*' => a * b,
+                _ => a / b,
+            };
+            let is_number = (number as f32).is_finite();
+            return if is_number { Ok(Expression::Float(number)) } else { Err(none()) };
+        }
+        if sign == '/' && right.number() == Some(0.0) {
+            return Err(none());
+        }
+        Ok(Expression::Of(sign, Box::new([left, right])))
+    }
+
+    pub(super) fn wrong(&self, at: usize, message: crate::Text) -> Unreadable {
+        Unreadable { line: self.tokens.get(at).map(|token| token.line), message, hint: None }
+    }
+
+    pub(super) fn not_read(&self, at: usize) -> Unreadable {
+        let shown: String = self.tokens.get(at).map_or("", |token| token.text).chars().take(40).collect();
+        let known = self.array.given.keys().map(|name| format!("`{name}[…]`")).collect::<Vec<_>>();
+        Unreadable {
+            hint: Some(both(
+                format!("Numbers, {}, `+ - * /` and parentheses are read; nothing is run.", known.join(", ")),
+                format!("読み取るのは、数、{}、`+ - * /`、括弧だけです。プログラムは実行しません。", known.join("、")),
+            )),
+            ..self.wrong(
+                at,
+                both(format!("`{shown}` cannot be read as a number."), format!("`{shown}` を数として読み取れません。")),
+            )
+        }
+    }
+}
+
+fn is_number_type(name: &str) -> bool {
+    ["GLfloat", "float", "double", "GLdouble"].contains(&name)
+}
+
+/// A number of C++.
+fn number(text: &str) -> Option<Expression> {
+    let plain = text.replace('\'', "").to_ascii_lowercase();
+    if plain.starts_with("0x") || plain.starts_with("0b") {
+        return None;
+    }
+    let is_whole = plain.bytes().all(|byte| byte.is_ascii_digit() || b"ul".contains(&byte));
+    let digits = plain.trim_end_matches(['f', 'l', 'u']);
+    // A nought before other digits means another base.
+    if is_whole && !(digits.len() > 1 && digits.starts_with('0')) {
+        return digits.parse().ok().map(Expression::Int);
+    }
+    let number = digits.parse::<f64>().ok().filter(|number| (*number as f32).is_finite() && !is_whole)?;
+    Some(Expression::Float(number))
+}
