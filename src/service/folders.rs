@@ -4,12 +4,12 @@
 //! this process reads only the bytes that a worker has read before, to their end and within its limits. The folders are in the
 //! database: of each homework the one that was published last is served, in the place of what the command line names.
 
-use super::grading;
-use super::Service;
 use super::errors::Problem;
+use super::grading;
 use super::identity::new_id;
 use super::regrade;
 use super::store::{Regrading, Result as StoreResult, Store, UploadedFolder};
+use super::{Service, State};
 use crate::language::Text;
 use crate::report::{Report, Verdict};
 use crate::sandbox::{CheckedFolder, MOST_ASSIGNMENTS};
@@ -70,6 +70,21 @@ pub async fn served(store: &Store, named: &[Arc<Assignment>]) -> StoreResult<Vec
         }
     }
     Ok(served)
+}
+
+/// Serves what another process on the same database has published, and no more what it took out of service.
+pub(super) async fn follow(service: &Service) -> StoreResult<()> {
+    let now = served(&service.store, service.named_ones()).await?;
+    for id in service.ids().iter().filter(|id| now.iter().all(|assignment| assignment.id != **id)) {
+        service.withdraw(id);
+    }
+    for assignment in now {
+        let is_served = |state: State| state.assignment.digest == assignment.digest;
+        if !service.homework(&assignment.id).is_some_and(is_served) {
+            service.serve(assignment);
+        }
+    }
+    Ok(())
 }
 
 /// The homework in an uploaded folder.
@@ -181,6 +196,7 @@ pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem
     service.store.assignment(&assignment.id).await?;
     service.store.publish(id, service.clock.now()).await?;
     service.serve(assignment);
+    grading::folders_changed(service).await;
     grading::files_wait(service).await;
     Ok(Publication::Served)
 }
@@ -205,6 +221,7 @@ pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
     }
     service.store.withdraw(&folder.assignment).await?;
     service.withdraw(&folder.assignment);
+    grading::folders_changed(service).await;
     Ok(())
 }
 

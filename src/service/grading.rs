@@ -24,6 +24,11 @@ pub async fn files_wait(service: &Service) {
     news::tell(service, &News::Waiting).await;
 }
 
+/// Tells other processes that another folder of a homework is served, or none.
+pub(super) async fn folders_changed(service: &Service) {
+    news::tell(service, &News::Published).await;
+}
+
 /// What grades a file: the pool of workers, or what a test puts in its place.
 pub trait Judge: Send + Sync + std::fmt::Debug {
     /// Grades one file; may take until the deadline.

@@ -68,6 +68,7 @@ pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
     state.store.adopt(&regrading, state.clock.now()).await?;
     if let Some(assignment) = published {
         state.serve(assignment);
+        grading::folders_changed(state).await;
     }
     state.cross_checks.look();
     Ok(())

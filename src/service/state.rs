@@ -196,6 +196,11 @@ impl Service {
         self.generation.fetch_add(1, Ordering::Release);
     }
 
+    /// The homeworks as the command line names them.
+    pub(super) fn named_ones(&self) -> &[Arc<Assignment>] {
+        &self.named
+    }
+
     /// The homework with this id as the command line names it.
     pub(super) fn named_as(&self, id: &str) -> Option<&Arc<Assignment>> {
         self.named.iter().find(|known| known.id == id)

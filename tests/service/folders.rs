@@ -198,7 +198,7 @@ async fn what_is_no_homework_is_refused(database: Database) {
         (manifest("solution = \"solution.vert\"", "solution = \"gone.vert\""), &["gone.vert"]),
         (manifest("id = \"waves\"", "id = \"../waves\""), &["cannot stand in an address"]),
         (other("fixed.frag", "}", "} }"), &["fixed.frag, line 4"]),
-        (other("starter.vert", "void main", "void mein"), &["hands out", "Rejected"]),
+        (other("starter.vert", "void main", "void mein"), &["hands out", "entry point"]),
     ];
     for (archive, words) in cases {
         let reply = post(&bench, "/api/v1/folders", archive).await;
@@ -235,4 +235,25 @@ async fn whoever_may_not_is_kept_out(database: Database) {
     let missing = publish(&bench, "00000000-0000-0000-0000-000000000000").await;
     assert_eq!(missing.status, StatusCode::NOT_FOUND);
     bench.finish().await;
+}
+
+/// Another process on the same database serves what one publishes, and takes out of service what one takes out.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn what_one_process_publishes_another_serves() {
+    let database = Database::postgres().await;
+    let (here, there) = (bench(database.again()).await, bench(database.again()).await);
+    let id = uploaded(&here, first()).await;
+    let address = format!("/api/v1/folders/{id}/publication");
+    for (method, is_served) in [("POST", true), ("DELETE", false)] {
+        let reply = request(&here, (method, &address), TEACHER, Vec::new()).await;
+        assert!(reply.status.is_success(), "{method}: {reply:?}");
+        let mut tries = 0;
+        while there.state.homework("waves").is_some() != is_served {
+            tries += 1;
+            assert!(tries < 3000, "{method}: the other process was not told");
+            tokio::time::sleep(Duration::from_millis(10)).await;
+        }
+    }
+    here.finish().await;
+    there.finish().await;
 }

@@ -1,8 +1,9 @@
-//! What processes on one database tell each other: that a file waits, and what came of one.
+//! What processes on one database tell each other: that a file waits, what came of one, and that another folder is
+//! served.
 
 use super::GradingResult;
-use crate::service::Service;
 use crate::service::store::{Listener, News, StoreError, Stored};
+use crate::service::{Service, folders};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -43,6 +44,7 @@ async fn follow(service: &Service, listener: &mut Listener) -> Result<(), StoreE
                 News::Waiting => service.queue.wakes.notify_one(),
                 News::Finished(id) if service.queue.has_listener(&id) => finished(service, &id).await?,
                 News::Finished(_) => {}
+                News::Published => folders::follow(service).await?,
             }
         }
     }
@@ -50,6 +52,7 @@ async fn follow(service: &Service, listener: &mut Listener) -> Result<(), StoreE
 
 /// What may have been told while nobody listened.
 async fn catch_up(service: &Service) -> Result<(), StoreError> {
+    folders::follow(service).await?;
     service.queue.wakes.notify_one();
     for id in service.queue.expected() {
         finished(service, &id).await?;

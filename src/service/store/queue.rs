@@ -44,10 +44,13 @@ pub enum News {
     Waiting,
     /// Something came of the submission with this id.
     Finished(String),
+    /// Another folder of a homework is served, or none.
+    Published,
 }
 
 const WAITING: &str = "ggrade_waiting";
 const FINISHED: &str = "ggrade_finished";
+const PUBLISHED: &str = "ggrade_published";
 
 /// Whether the column `assignment` is in a [`list`].
 macro_rules! is_among {
@@ -201,6 +204,7 @@ impl Store {
         let (channel, about) = match news {
             News::Waiting => (WAITING, ""),
             News::Finished(id) => (FINISHED, id.as_str()),
+            News::Published => (PUBLISHED, ""),
         };
         sqlx::query("SELECT pg_notify($1, $2)").bind(channel).bind(about).execute(db).await?;
         Ok(())
@@ -210,7 +214,7 @@ impl Store {
     pub async fn listen(&self) -> Result<Option<Listener>> {
         let Pool::Postgres(db) = &self.write else { return Ok(None) };
         let mut listener = PgListener::connect_with(db).await?;
-        listener.listen_all([WAITING, FINISHED]).await?;
+        listener.listen_all([WAITING, FINISHED, PUBLISHED]).await?;
         Ok(Some(Listener(listener)))
     }
 }
@@ -224,6 +228,7 @@ impl Listener {
     pub async fn next(&mut self) -> Result<Option<News>> {
         let news = |told: PgNotification| match told.channel() {
             FINISHED => News::Finished(told.payload().to_owned()),
+            PUBLISHED => News::Published,
             _ => News::Waiting,
         };
         Ok(self.0.try_recv().await?.map(news))
