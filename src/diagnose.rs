@@ -106,7 +106,14 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let shape = shape_agrees(evidence, &probes) || !evidence.assignment.hands_in(Stage::Vertex);
     let cause = cause(evidence, shape).unless_refuted(evidence);
     let mut mistakes = cause.ids();
-    if !shape && !mistakes.iter().any(|id| costs_position(evidence.assignment, id)) {
+    // Where no line of the rubric is about the position, a mistake that is found says what moved.
+    let is_judged = evidence.assignment.rubric.iter().any(|line| evidence.assignment.judges_position(line));
+    let is_said = if is_judged {
+        mistakes.iter().any(|id| costs_position(evidence.assignment, id))
+    } else {
+        !mistakes.is_empty()
+    };
+    if !shape && !is_said {
         mistakes.insert(0, POSITION_CHANGED.into());
     }
     let course = course(evidence, mistakes.is_empty());

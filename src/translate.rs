@@ -39,6 +39,7 @@ pub use undefined::NO_LINE;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::{CompilerOutput, Reached, Request, Rules, StageText, compile};
+use crate::language::Text;
 use crate::source::{self, Source};
 use concessions::Renamed;
 use module::Built;
@@ -273,9 +274,11 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<Shader, Fault>
     // `gl_DepthRange` is missing from it.
     let outcome = warm(interface, vertex);
     if outcome.reached != Reached::Done {
-        return Err(unsupported(
-            &[outcome.log(Stage::Vertex), outcome.log(Stage::Fragment), &outcome.link_log].concat(),
-        ));
+        let log = [outcome.log(Stage::Vertex), outcome.log(Stage::Fragment), &outcome.link_log].concat();
+        return Err(Fault::new(Text::new(
+            format!("the compiler refuses what the homework hands out: {log}"),
+            format!("配布ファイルがコンパイルできません: {log}"),
+        )));
     }
     fixed(Stage::Fragment, &interface.fragment, interface)
 }

@@ -36,15 +36,15 @@ pub struct Piece {
 
 /// Files all of which both have.
 pub(super) fn whole(sources: &[Source]) -> Vec<Side> {
-    sources.iter().map(|source| side(source, &[0..source.text.len()])).collect()
+    sources.iter().map(|source| side(source, std::slice::from_ref(&(0..source.text.len())))).collect()
 }
 
 /// Files with these passages marked.
 pub(super) fn marked<'a>(sources: &[Source], passages: impl Iterator<Item = &'a Passage>) -> Vec<Side> {
     let mut marks: Vec<Vec<Range<usize>>> = vec![Vec::new(); sources.len()];
     for (file, range) in passages.flat_map(|passage| passage.places.iter().cloned()) {
-        if let Some(marks) = marks.get_mut(file) {
-            marks.push(range);
+        if let (Some(source), Some(marks)) = (sources.get(file), marks.get_mut(file)) {
+            marks.extend(code_in(source, range));
         }
     }
     let sides = sources.iter().zip(marks).map(|(source, mut marks)| {
@@ -59,6 +59,20 @@ pub(super) fn marked<'a>(sources: &[Source], passages: impl Iterator<Item = &'a 
         side(source, &marks)
     });
     sides.collect()
+}
+
+/// The parts of a passage that are code: comments within it are nobody's.
+fn code_in(source: &Source, passage: Range<usize>) -> Vec<Range<usize>> {
+    let (text, code) = (source.text.as_bytes(), source.code().as_bytes());
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    for at in passage.filter(|at| text.get(*at) == code.get(*at)) {
+        match parts.last_mut().filter(|part| part.end == at) {
+            Some(part) => part.end += 1,
+            None => parts.push(at..at + 1),
+        }
+    }
+    parts.retain(|part| !source.code()[part.clone()].trim().is_empty());
+    parts
 }
 
 /// The lines of a file; `marks` are in order and apart.

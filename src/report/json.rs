@@ -2,8 +2,7 @@
 
 use super::{
     Advice, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, ProbeResult, Repair, Report, RubricLine,
-    SourceInfo,
-    Verdict,
+    SourceInfo, Verdict,
 };
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};

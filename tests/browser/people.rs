@@ -12,7 +12,7 @@ async fn likeness_insights_and_data_fit_every_screen() {
     browser.languages("en").await;
     let class = [
         ("S1001", "wrong/ambient-added--plus.vert"),
-        ("S1001", "wrong/unexplained--ambient-minus.vert"),
+        ("S1001", "accepted/answers/dot-by-hand.vert"),
         ("S1002", "wrong/unexplained--cosine-divided-by-itself.vert"),
         ("S1003", BROKEN),
         ("S1003", WRONG),

@@ -293,7 +293,7 @@ async fn hostile_files_are_answered_as_any_other(database: Database) {
             serde_json::from_slice(&std::fs::read(path.with_extension("json")).expect("an expectation")).expect("JSON");
         let bytes = std::fs::read(path).expect("a sample");
         assert_eq!(
-            ggrade::source::not_text(reference::interpreter::Stage::Vertex, &bytes),
+            ggrade::source::not_text(&reference::assignment("ggsample06").expect("built in").files[0], &bytes),
             None,
             "{}: no text, so refused at the door",
             path.display()

@@ -51,7 +51,8 @@ async fn hand_in(client: &Client, address: &str, file: &Hostile) -> Result<(), S
     let (status, json) =
         crate::process::hand_in(client, address, file.bytes.clone()).await.ok_or_else(|| "no answer".to_owned())?;
     // Refused at the door, with nothing stored: what is empty, what is too large, and what is no text.
-    let unread = not_text(reference::interpreter::Stage::Vertex, &file.bytes).map(|error| error.message.en);
+    let unread = not_text(&reference::assignment("ggsample06").expect("built in").files[0], &file.bytes)
+        .map(|error| error.message.en);
     let problem = match file.bytes.len() {
         0 => Some((422, "urn:ggrade:problem:unprocessable", "The file is empty")),
         length if length > MAX_UPLOAD => Some((413, "urn:ggrade:problem:too-large", "larger than 64 KiB")),

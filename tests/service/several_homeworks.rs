@@ -283,7 +283,8 @@ async fn a_class_is_of_one_homework(database: Database) {
         // What belongs to the course is the same for all homeworks; everything else stays in its own.
         let text = class.text();
         let leaves = text.split("href=\"/teacher/").skip(1).filter_map(|rest| rest.split('"').next());
-        let leaves: Vec<&str> = leaves.filter(|page| !["codes", "people", "log"].contains(page)).collect();
+        let leaves: Vec<&str> =
+            leaves.filter(|page| !["codes", "data", "folders", "people", "log"].contains(page)).collect();
         assert!(leaves.is_empty(), "links leave the homework: {leaves:?}");
         let list = get(&bench, TEACHER, &format!("{base}/teacher/batches")).await;
         assert_eq!(list.text().contains(&id), is_its_own);

@@ -157,7 +157,7 @@ async fn each_role_does_what_it_may_and_is_in_the_log(database: Database) {
         assert_eq!(assistant.get(page).await.status, StatusCode::OK, "{page}");
     }
     let links = assistant.get("/teacher").await.all(".top nav a");
-    assert_eq!(links, ["Class", "Requests", "Archives", "Student's page"]);
+    assert_eq!(links, ["Class", "Requests", "Insights", "Likeness", "Archives", "Student's page"]);
     let delete = format!("/teacher/delete?submission={handed_in}");
     for page in
         ["/teacher/settings", "/teacher/people", "/teacher/codes", "/teacher/codes/file", "/teacher/log", &delete]

@@ -16,7 +16,8 @@ fn header(response: &Response, name: header::HeaderName) -> &str {
 
 #[tokio::test]
 async fn styles_and_scripts_come_compressed_and_pictures_as_they_are() {
-    let server = Server::start(&Database::sqlite());
+    let database = Database::sqlite();
+    let server = Server::start(&database);
     let client = Client::new();
     let page = client.get(&server.address).send().await.expect("an answer");
     let status = page.status();

@@ -20,7 +20,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 const STUDENTS: usize = 300;
-const HOMEWORKS: [&str; 8] = ["lambert", "phong", "ggsample06", "blinn", "schlick", "threshold", "flat", "spot-soft"];
+const HOMEWORKS: [&str; 8] =
+    ["lambert", "phong", "ggsample06", "blinn", "schlick", "threshold", "falloff-linear", "spot-soft"];
 
 /// 2023-11-15 07:13:20 in Tokyo.
 const NOW: i64 = 1_700_000_000_000;
@@ -171,7 +172,7 @@ async fn a_term_of_300_students_and_8_homeworks() {
 
     // Everything of one homework is graded again, by a judge who finds nothing new: nothing changes, and what was overridden stays.
     let state = bench.state.homework("ggsample06").expect("served");
-    let regrading = regrade::start(&state, true).await.expect("begun");
+    let regrading = regrade::start(&state, true, None).await.expect("begun");
     for _ in 0..1200 {
         if state.store.regrading_progress(&regrading.id).await.expect("progress").is_done() {
             break;
@@ -182,11 +183,11 @@ async fn a_term_of_300_students_and_8_homeworks() {
     check(2, 0.0).await;
 
     // What a course learns, who is alike, and everything of one student, of such a class.
-    let attempts = get(&bench, "/api/v1/insights/attempts?assignment=flat").await.text();
+    let attempts = get(&bench, "/api/v1/insights/attempts?assignment=falloff-linear").await.text();
     assert!(attempts.contains("nothing,0,15"), "{attempts}");
-    let likeness = get(&bench, "/api/v1/likeness?assignment=flat").await.json();
+    let likeness = get(&bench, "/api/v1/likeness?assignment=falloff-linear").await.json();
     assert_eq!((&likeness["class"], &likeness["pairs"]), (&json!(285), &json!([])));
-    let page = get(&bench, "/a/flat/teacher?lang=en").await;
+    let page = get(&bench, "/a/falloff-linear/teacher?lang=en").await;
     assert!(page.all(".lead").concat().contains("285 of 300 have handed in"), "{page:?}");
     let export = get(&bench, "/api/v1/students/S007/export").await.body;
     let mut zip = zip::ZipArchive::new(std::io::Cursor::new(export)).expect("an archive");

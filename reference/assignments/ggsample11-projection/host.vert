@@ -7,7 +7,7 @@ uniform mat4 view;
 uniform mat4 mp;
 uniform mat4 mn;
 
-// Whether a shadow is drawn: 0 or 1.
+// What is drawn: 0 what it is, 1 its shadow, and at probes 2, where the place of the shadow is the colour.
 uniform float shadow;
 
 // The place of the light in the world.
@@ -45,7 +45,10 @@ void main()
     // All matrices that are the same but for a positive factor draw the same.
     vec4 projected = m * world;
     vec4 on_floor = projected / max(length(projected), 1e-9);
-    vec4 place = shadow > 0.5 ? on_floor : world;
+    vec4 place = abs(shadow - 1.0) < 0.5 ? on_floor : world;
+
+    // A place has four numbers, and its length is 1: three of them tell it.
+    vec4 told = vec4(on_floor.x + on_floor.w, on_floor.y, on_floor.z + 2.0 * on_floor.w, 1.0);
 
     // The light of the vertices. What is in shadow has the ambient light alone.
     vec4 p = view * world;
@@ -57,7 +60,8 @@ void main()
     vec4 diffuse = max(dot(n, l), 0.0) * kdiff * ldiff;
     vec4 specular = pow(max(dot(n, h), 0.0), kshi) * kspec * lspec;
 
-    vec4 colour = ambient + diffuse + specular;
+    vec4 shaded = ambient + diffuse + specular;
+    vec4 colour = shadow > 1.5 ? told : shaded;
     vec4 position = mp * (view * place);
     vc = colour;
     gl_Position = position;
