@@ -103,7 +103,7 @@ fn what_cannot_be_read_is_named_by_its_line() {
         ("float m[] = { 1, 2, 3, lp[4] };", Some(2), "no element 4"),
         ("float m[] = { 1, 2, 3, height };", Some(2), "what number `height` is"),
         ("float a = b; float b = a;\nfloat m[] = { 1, 2, 3, b };", Some(3), "what number"),
-        ("float a = a; float m[] = { 1, 2, 3, a };", Some(2), "what number"),
+        ("float a = a; float m[] = { 1, 2, 3, a };", Some(2), "in a circle"),
         ("float m[] = { 1, 2, 3, 1 / 0 };", Some(2), "no number"),
         ("float m[] = { 1, 2, 3, 1e39f };", Some(2), "`1e39f`"),
         ("float m[4];\nm[0] = 1;", Some(2), "`m[1]` has no value"),
