@@ -1,9 +1,11 @@
 //! Deleting a submission, an archive, or a student with everything of theirs.
 
 use super::Service;
+use super::acts::Detail;
 use super::errors::Problem;
 use super::roster::Matcher;
 use super::store::{Counts, DeletionTarget};
+use crate::language::Language;
 
 /// Deletes it for good: rows, files, reports, and the pictures that are kept of them. The log has how much it was, and
 /// nothing of whose.
@@ -19,6 +21,11 @@ pub async fn delete(service: &Service, target: &DeletionTarget) -> Result<Counts
     let Counts { submissions, drafts, entries, browsers } = counts;
     tracing::info!(what = target.word(), submissions, drafts, entries, browsers, "a teacher deleted");
     Ok(counts)
+}
+
+/// What the log of acts says of a deletion; it has no name of who is gone.
+pub(super) fn detail(target: &DeletionTarget, counts: &Counts) -> Detail {
+    Detail::of(format!("{}: {}", target.word(), counts.said(Language::En).join(", ")))
 }
 
 /// The lists of members that archives left out, without those whose path names this student: of each batch that changes.

@@ -3,13 +3,15 @@
 use super::batches::CSRF;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
-use crate::service::deletion::delete;
+use crate::service::acts::Detail;
+use crate::service::deletion;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, normal_number};
 use crate::service::store::{Counts, DeletionTarget};
 use axum::Json;
 use axum::extract::{Path, State as Shared};
 use axum::http::HeaderMap;
+use axum::response::{IntoResponse, Response};
 
 /// Who asks: a teacher, with the headers of the request.
 type Caller = (Teacher, HeaderMap);
@@ -36,7 +38,7 @@ pub(super) async fn delete_submission(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-) -> Result<Json<Counts>, Problem> {
+) -> Result<Response, Problem> {
     deleted(&service, &caller, Named::Submission(id)).await
 }
 
@@ -52,7 +54,7 @@ pub(super) async fn delete_batch(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-) -> Result<Json<Counts>, Problem> {
+) -> Result<Response, Problem> {
     deleted(&service, &caller, Named::Batch(id)).await
 }
 
@@ -69,36 +71,38 @@ pub(super) async fn delete_student(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(number): Path<String>,
-) -> Result<Json<Counts>, Problem> {
+) -> Result<Response, Problem> {
     deleted(&service, &caller, Named::Student(number)).await
 }
 
 /// Deletes what is there under that name. A page's own script brings the token of its forms; a program brings the
 /// teacher's.
-async fn deleted(service: &Service, (teacher, headers): &Caller, named: Named) -> Result<Json<Counts>, Problem> {
+async fn deleted(service: &Service, (teacher, headers): &Caller, named: Named) -> Result<Response, Problem> {
     teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
     let store = &service.store;
-    let target = match named {
-        Named::Submission(id) => match store.submission(&id).await? {
-            Some(found) => {
-                teacher.check(&found.assignment)?;
-                Some(DeletionTarget::Submission(found.id))
-            }
-            None => None,
-        },
-        Named::Batch(id) => match store.batch(&id).await? {
-            Some(found) => {
-                teacher.check(&found.assignment)?;
-                Some(DeletionTarget::Batch(found.id))
-            }
-            None => None,
-        },
+    let found = match named {
+        Named::Submission(id) => {
+            let found = store.submission(&id).await?;
+            found.map(|found| (DeletionTarget::Submission(found.id), Some(found.assignment)))
+        }
+        Named::Batch(id) => {
+            let found = store.batch(&id).await?;
+            found.map(|found| (DeletionTarget::Batch(found.id), Some(found.assignment)))
+        }
         Named::Student(number) => match normal_number(&number) {
-            Some(number) => store.student_by_number(&number).await?.map(|found| DeletionTarget::Student(found.id)),
+            Some(number) => {
+                let found = store.student_by_number(&number).await?;
+                found.map(|found| (DeletionTarget::Student(found.id), None))
+            }
             None => None,
         },
     };
-    let target = target.ok_or_else(Problem::not_found)?;
+    let (target, assignment) = found.ok_or_else(Problem::not_found)?;
+    if let Some(assignment) = &assignment {
+        teacher.check(assignment)?;
+    }
     teacher.may_delete(&target)?;
-    delete(service, &target).await.map(Json)
+    let counts = deletion::delete(service, &target).await?;
+    let detail = Detail { assignment, ..deletion::detail(&target, &counts) };
+    Ok(detail.on(Json(counts).into_response()))
 }

@@ -3,9 +3,7 @@
 use super::super::frame::Frame;
 use super::super::shown;
 use super::{Tab, batches};
-use crate::language::Language;
 use crate::service::State;
-use crate::service::acts::Detail;
 use crate::service::classes::people;
 use crate::service::deletion;
 use crate::service::errors::Problem;
@@ -133,8 +131,7 @@ pub(in crate::service::pages) async fn delete(
     teacher.check_csrf(&state, &chosen.csrf)?;
     let found = found(&state, &frame, &chosen).await?;
     teacher.may_delete(&found.target)?;
-    // The log has no name of who is gone.
-    let counts = deletion::delete(&state, &found.target).await?.said(Language::En).join(", ");
+    let counts = deletion::delete(&state, &found.target).await?;
     let answer = Redirect::to(&format!("{}?done=deleted", frame.teacher())).into_response();
-    Ok(Detail::of(format!("{}: {counts}", found.target.word())).on(answer))
+    Ok(deletion::detail(&found.target, &counts).on(answer))
 }
