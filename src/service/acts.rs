@@ -4,7 +4,7 @@
 use super::Service;
 use super::identity::Teacher;
 use super::requests::of_any_homework;
-use super::store::Act;
+use super::store::{Act, OwnedToken};
 use axum::extract::{MatchedPath, Request, State as Shared};
 use axum::http::Method;
 use axum::middleware::Next;
@@ -57,6 +57,7 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/teacher/people") => "person-added",
         ("POST", "/teacher/people/{id}") => "person",
         ("POST", "/teacher/platforms") => "platform",
+        ("POST", "/teacher/tokens" | "/teacher/tokens/{id}") | ("DELETE", "/api/v1/tokens/{id}") => "token",
         ("POST", "/teacher/batches" | "/api/v1/batches") => "archive",
         ("POST", "/teacher/downloads" | "/teacher/batches/{id}/worksheet") => "download",
         ("POST", "/api/v1/batches/{id}/files/{format}") => "download",
@@ -76,8 +77,19 @@ fn act(method: &Method, route: &str) -> Option<String> {
 }
 
 /// Acts that are about the course, on whatever page they are done.
-const OF_COURSE: [&str; 10] =
-    ["pseudonyms", "exported", "platform", "course", "link", "roster", "code", "person-added", "person", "logout"];
+const OF_COURSE: [&str; 11] = [
+    "pseudonyms",
+    "exported",
+    "platform",
+    "course",
+    "link",
+    "roster",
+    "code",
+    "person-added",
+    "person",
+    "logout",
+    "token",
+];
 
 /// Routes that students use as well: what a teacher does there is an act where the handler says so.
 fn is_of_everybody(route: &str) -> bool {
@@ -125,4 +137,12 @@ pub(super) async fn note(Shared(service): Shared<Service>, request: Request, nex
 /// The homework whose page an address is.
 fn homework_in(path: &str) -> Option<String> {
     Some(path.strip_prefix("/a/")?.split('/').next()?.to_owned())
+}
+
+impl OwnedToken {
+    /// What the log says where the token was ended.
+    pub(super) fn detail(self) -> Detail {
+        let Self { token, login } = self;
+        Detail { assignment: token.assignment, ..Detail::of(format!("− {} ({login})", token.name)) }
+    }
 }

@@ -18,6 +18,7 @@ mod refusals;
 mod schema;
 pub(super) mod submissions;
 mod term;
+mod tokens;
 
 use super::Service;
 use axum::Router;
@@ -81,6 +82,8 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(export::export_student))
         .routes(routes!(term::make))
         .routes(routes!(term::read))
+        .routes(routes!(tokens::list))
+        .routes(routes!(tokens::end))
         .merge(operational())
 }
 

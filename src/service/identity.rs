@@ -14,6 +14,7 @@ mod pseudonyms;
 mod secrets;
 mod staff;
 mod teacher;
+mod tokens;
 mod visitor;
 
 pub use codes::{code_needed, personal_code};
@@ -30,6 +31,7 @@ pub(crate) use staff::SHORTEST_PASSWORD;
 pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, member_of, set_staff};
 pub use teacher::{LecturerPage, Teacher, TeacherPage};
 pub(super) use teacher::{bearer, is_teachers_program};
+pub use tokens::{LONGEST_DAYS, WantedToken, end_token, make_token, tokens_for};
 pub use visitor::{Visitor, visit};
 
 use super::store::{Owner, Student, Submission};

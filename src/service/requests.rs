@@ -38,8 +38,12 @@ pub(super) async fn attend(Shared(service): Shared<Service>, request: Request, n
     let route = request.extensions().get::<MatchedPath>().map_or_else(|| "none".to_owned(), of_any_homework);
     let patience = if is_about_a_class(&route) { TEACHERS_PATIENCE } else { 1.0 };
     let seconds = service.config.limits.request_timeout * patience;
-    // Counted before a byte of the body is read.
-    let (counted, is_within_rate) = counted(&service, &request, &route);
+    // Counted before a byte of the body is read. What changes nothing is not, and neither is what a teacher's program sends.
+    let is_safe = request.method().is_safe();
+    let (counted, is_within_rate) = match is_safe || is_teachers_program(&service, request.headers()).await {
+        true => (Counted::default(), Ok(())),
+        false => counted(&service, &request, &route),
+    };
     let mut response = match is_within_rate {
         Err(problem) => problem.into_response(),
         Ok(()) if !is_about_a_class(&route) && declared_length(&request) > api::MAX_BODY as u64 => {
@@ -65,12 +69,8 @@ pub(super) async fn attend(Shared(service): Shared<Service>, request: Request, n
     response
 }
 
-/// What is left of a request's rates, and whether it may come in. What changes nothing is not counted, and neither is
-/// what the teacher's program sends.
+/// What is left of the rates of a request, and whether it may come in.
 fn counted(service: &Service, request: &Request, route: &str) -> (Counted, Result<(), Problem>) {
-    if request.method().is_safe() || is_teachers_program(service, request.headers()) {
-        return (Counted::default(), Ok(()));
-    }
     let client = service.proxies.client_of(request);
     let cookie = visitor_cookie(service, request.headers());
     service.limits.count(&client, UPLOADS.contains(&route), cookie.as_deref())

@@ -34,6 +34,7 @@ mod sign_ins;
 mod staff;
 mod students;
 mod submissions;
+mod tokens;
 
 pub use acts::{Act, NamedAct};
 pub use appeals::Appeal;
@@ -60,6 +61,7 @@ pub use sign_ins::SignIn;
 pub use staff::{Role, Session, StaffMember};
 pub use students::{EntryMatch, RosterLine, Student};
 pub use submissions::NewSubmission;
+pub use tokens::{AccessToken, OwnedToken, TokenScope};
 
 use sqlx::{PgPool, SqlitePool};
 

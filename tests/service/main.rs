@@ -37,6 +37,7 @@ mod staff;
 mod static_files;
 mod student_page;
 mod term;
+mod tokens;
 mod worksheets;
 
 use ggrade::sandbox::{Pool, Settings};

@@ -19,7 +19,7 @@ on_both!(
 );
 
 const PASSWORD: &str = "the old shared password";
-const OWN: &str = "my own long password";
+pub const OWN: &str = "my own long password";
 
 /// A browser with its cookies.
 pub struct Browser<'a> {
@@ -29,7 +29,7 @@ pub struct Browser<'a> {
 }
 
 impl<'a> Browser<'a> {
-    fn new(bench: &'a Bench) -> Self {
+    pub fn new(bench: &'a Bench) -> Self {
         Self { bench, cookies: Vec::new(), csrf: String::new() }
     }
 
@@ -66,7 +66,7 @@ impl<'a> Browser<'a> {
         self.send("POST", action, fields).await
     }
 
-    async fn login(&mut self, login: &str, password: &str) -> Reply {
+    pub async fn login(&mut self, login: &str, password: &str) -> Reply {
         let fields = format!("login={login}&password={}", password.replace(' ', "+"));
         self.form("/teacher/login", "/teacher/login", &fields).await
     }
@@ -157,7 +157,7 @@ async fn each_role_does_what_it_may_and_is_in_the_log(database: Database) {
         assert_eq!(assistant.get(page).await.status, StatusCode::OK, "{page}");
     }
     let links = assistant.get("/teacher").await.all(".top nav a");
-    assert_eq!(links, ["Class", "Requests", "Insights", "Likeness", "Archives", "Student's page"]);
+    assert_eq!(links, ["Class", "Requests", "Insights", "Likeness", "Archives", "Tokens", "Student's page"]);
     let delete = format!("/teacher/delete?submission={handed_in}");
     for page in
         ["/teacher/settings", "/teacher/people", "/teacher/codes", "/teacher/codes/file", "/teacher/log", &delete]

@@ -261,7 +261,10 @@ pub(super) struct Security;
 
 impl utoipa::Modify for Security {
     fn modify(&self, document: &mut utoipa::openapi::OpenApi) {
-        let scheme = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).description(Some("The teacher's token")).build();
+        let scheme = HttpBuilder::new()
+            .scheme(HttpAuthScheme::Bearer)
+            .description(Some("The teacher's token, or one of a person's own"))
+            .build();
         let components = document.components.get_or_insert_default();
         components.add_security_scheme("teacher", SecurityScheme::Http(scheme));
     }

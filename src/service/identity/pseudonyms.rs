@@ -8,7 +8,7 @@ use axum::http::request::Parts;
 
 /// What shows no name, or a pseudonym in its place. Everything else of a teacher's is refused: a page that is added names
 /// nobody before somebody has looked at it.
-const NAMELESS: [&str; 16] = [
+const NAMELESS: [&str; 20] = [
     "/teacher",
     "/teacher/events",
     "/teacher/person",
@@ -18,6 +18,10 @@ const NAMELESS: [&str; 16] = [
     "/teacher/likeness",
     "/teacher/likeness/pair",
     "/teacher/logout",
+    "/teacher/tokens",
+    "/teacher/tokens/{id}",
+    "/api/v1/tokens",
+    "/api/v1/tokens/{id}",
     "/r/{id}/override",
     "/r/{id}/comments",
     "/api/v1/insights/{table}",

@@ -4,11 +4,11 @@ use super::cookies::{TEACHER_COOKIE, read};
 use super::secrets::same;
 use super::{csrf, token_hash};
 use crate::service::errors::Problem;
-use crate::service::store::{DeletionTarget, Role, Session, StaffMember};
+use crate::service::store::{DeletionTarget, Role, Session, StaffMember, TokenScope};
 use crate::service::{Scope, Service};
 use axum::extract::FromRequestParts;
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 
 /// A teacher. As an argument of a handler it lets nobody else pass; where the handler is not of one homework, it asks which
@@ -23,21 +23,46 @@ pub struct Teacher {
     staff: Option<StaffMember>,
     /// Whether they read names and numbers of students, or pseudonyms.
     sees_names: bool,
+    /// What a token of theirs is good for; everything where they come in by another way.
+    scope: TokenScope,
 }
 
 impl Teacher {
     /// The teacher of a request, where one sends it.
     pub(in crate::service) async fn of(service: &Service, headers: &HeaderMap) -> Result<Option<Self>, Problem> {
-        if let Some(token) = bearer(headers) {
-            let of = |homework| Self { session: None, homework, staff: None, sees_names: true };
-            return Ok(of_token(service, token).map(of));
+        if let Some(secret) = bearer(headers) {
+            return Self::of_program(service, secret).await;
         }
         let Some(session) = read(service, headers, TEACHER_COOKIE) else { return Ok(None) };
         let open = service.store.session(&token_hash(&session), service.clock.now()).await?;
         let Some(Session { assignment, staff }) = open else { return Ok(None) };
-        let is_assistant = staff.as_ref().is_some_and(|member| member.role == Role::Assistant);
-        let sees_names = !(is_assistant && service.store.has_pseudonyms().await?);
-        Ok(Some(Self { session: Some(session), homework: assignment, staff, sees_names }))
+        let sees_names = sees_names(service, staff.as_ref()).await?;
+        Ok(Some(Self { session: Some(session), homework: assignment, staff, sees_names, scope: TokenScope::All }))
+    }
+
+    /// Whose token this is: the service's, that of a homework, or somebody's own.
+    async fn of_program(service: &Service, secret: &str) -> Result<Option<Self>, Problem> {
+        if let Some(homework) = of_token(service, secret) {
+            let all = TokenScope::All;
+            return Ok(Some(Self { session: None, homework, staff: None, sees_names: true, scope: all }));
+        }
+        let Some((token, owner)) = service.store.use_token(&token_hash(secret), service.clock.now()).await? else {
+            return Ok(None);
+        };
+        let sees_names = sees_names(service, Some(&owner)).await?;
+        let (homework, scope) = (token.assignment, token.scope);
+        Ok(Some(Self { session: None, homework, staff: Some(owner), sees_names, scope }))
+    }
+
+    /// Lets a request pass that the token is good for.
+    fn check_scope(&self, parts: &Parts) -> Result<(), Problem> {
+        let hands_in = parts.method == Method::POST && parts.uri.path() == "/api/v1/submissions";
+        match self.scope {
+            TokenScope::All => Ok(()),
+            _ if parts.method.is_safe() => Ok(()),
+            TokenScope::Submit if hands_in => Ok(()),
+            TokenScope::Submit | TokenScope::Read => Err(beyond_its_scope()),
+        }
     }
 
     /// Whether they read names and numbers of students; where not, pages that have these show pseudonyms, and whatever else
@@ -68,9 +93,9 @@ impl Teacher {
     /// How they came in, for the log of acts.
     pub(in crate::service) fn way(&self) -> &'static str {
         match (&self.staff, &self.session) {
-            (Some(_), _) => "account",
+            (Some(_), Some(_)) => "account",
             (None, Some(_)) => "password",
-            (None, None) => "token",
+            (_, None) => "token",
         }
     }
 
@@ -139,13 +164,31 @@ pub(super) fn of_token(service: &Service, token: &str) -> Option<Option<String>>
 }
 
 /// Whether a request brings a teacher's token, as a program of theirs does.
-pub(in crate::service) fn is_teachers_program(service: &Service, headers: &HeaderMap) -> bool {
-    bearer(headers).is_some_and(|token| of_token(service, token).is_some())
+pub(in crate::service) async fn is_teachers_program(service: &Service, headers: &HeaderMap) -> bool {
+    // Who cannot be looked up is counted.
+    bearer(headers).is_some() && matches!(Teacher::of(service, headers).await, Ok(Some(_)))
+}
+
+/// Whether somebody reads names and numbers of students.
+async fn sees_names(service: &Service, member: Option<&StaffMember>) -> Result<bool, Problem> {
+    let is_assistant = member.is_some_and(|member| member.role == Role::Assistant);
+    Ok(!(is_assistant && service.store.has_pseudonyms().await?))
 }
 
 /// The secret of an `Authorization: Bearer`.
 pub(in crate::service) fn bearer(headers: &HeaderMap) -> Option<&str> {
     headers.get(header::AUTHORIZATION)?.to_str().ok()?.strip_prefix("Bearer ").map(str::trim)
+}
+
+/// The answer to a program whose token is good for less.
+fn beyond_its_scope() -> Problem {
+    Problem::new(
+        StatusCode::FORBIDDEN,
+        "scope",
+        "This token is not good for that: it has the scope `read` or `submit`. Its owner makes another one at \
+         /teacher/tokens.",
+        "このトークンの権限（`read` または `submit`）ではこの操作はできません。/teacher/tokens で別のトークンを作成してください。",
+    )
 }
 
 /// The answer to a teacher who may do less.
@@ -181,6 +224,7 @@ impl<S: Scope> FromRequestParts<S> for Teacher {
         if !teacher.sees_names {
             super::pseudonyms::check(parts)?;
         }
+        teacher.check_scope(parts)?;
         Ok(teacher)
     }
 }
@@ -189,7 +233,9 @@ impl<S: Scope> axum::extract::OptionalFromRequestParts<S> for Teacher {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Option<Self>, Problem> {
-        Self::of(scope.whole(), &parts.headers).await
+        let teacher = Self::of(scope.whole(), &parts.headers).await?;
+        teacher.as_ref().map_or(Ok(()), |teacher| teacher.check_scope(parts))?;
+        Ok(teacher)
     }
 }
 

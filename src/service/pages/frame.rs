@@ -109,6 +109,11 @@ impl Frame {
         Some(if staff.name.is_empty() { &staff.login } else { &staff.name })
     }
 
+    /// Whether the teacher who looks has an account, for all homeworks.
+    pub fn has_account(&self) -> bool {
+        self.teacher.as_ref().is_some_and(|teacher| teacher.staff().is_some() && teacher.has_course())
+    }
+
     /// Whether the teacher who looks came in by a secret that others have as well.
     pub fn is_shared_login(&self) -> bool {
         self.teacher.as_ref().is_some_and(Teacher::is_shared)

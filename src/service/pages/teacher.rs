@@ -5,7 +5,7 @@
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
 //! they choose a password, [`codes`] the students' personal codes, [`data`] what is kept of people, [`platforms`] learning
-//! platforms, [`folders`] the homeworks themselves, [`acts`] the log of what was done.
+//! platforms, [`tokens`] what programs come in by, [`folders`] the homeworks themselves, [`acts`] the log of what was done.
 
 mod acts;
 mod appeals;
@@ -29,6 +29,7 @@ mod regradings;
 mod roster;
 mod settings;
 mod table;
+mod tokens;
 mod welcome;
 
 use super::Service;
@@ -89,6 +90,8 @@ pub(super) fn of_course() -> Router<Service> {
         .route("/teacher/folders", get(folders::list).post(folders::upload).layer(DefaultBodyLimit::disable()))
         .route("/teacher/folders/{id}", get(folders::one).post(folders::change))
         .route("/teacher/folders/{id}/goal.png", get(folders::goal))
+        .route("/teacher/tokens", get(tokens::page).post(tokens::make))
+        .route("/teacher/tokens/{id}", post(tokens::end))
         .route("/teacher/log", get(acts::page))
 }
 
@@ -115,6 +118,8 @@ pub(super) enum Tab {
     Data,
     /// Who teaches.
     People,
+    /// Tokens for programs.
+    Tokens,
     /// The log of what they did.
     Acts,
 }

@@ -143,16 +143,17 @@ impl Store {
         Ok(())
     }
 
-    /// Sets what somebody may do, and whether they may log in; who may not has no session and no link any more.
+    /// Sets what somebody may do, and whether they may log in; who may not has no session, no link and no token any more.
     pub async fn set_staff(&self, id: &str, role: Role, is_active: bool) -> Result<()> {
         const SET: &str = "UPDATE staff SET role = $2, is_active = $3 WHERE id = $1";
         const SESSIONS: &str = "DELETE FROM teacher_sessions WHERE staff_id = $1";
         const LINK: &str = "UPDATE staff SET invitation_hash = NULL, invited_until = NULL WHERE id = $1";
+        const TOKENS: &str = "DELETE FROM access_tokens WHERE staff_id = $1";
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(SET).bind(id).bind(word(&role)).bind(i64::from(is_active)).execute(&mut *transaction).await?;
             if !is_active {
-                for sql in [SESSIONS, LINK] {
+                for sql in [SESSIONS, LINK, TOKENS] {
                     sqlx::query(sql).bind(id).execute(&mut *transaction).await?;
                 }
             }

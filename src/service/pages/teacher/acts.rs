@@ -57,6 +57,7 @@ fn named(frame: &Frame, act: &str) -> String {
         "exported" => frame.say("Saved everything of a student", "学生のデータを一括保存"),
         "person" => frame.say("Changed an account", "アカウントを変更"),
         "platform" => frame.say("Changed a learning platform", "学習プラットフォームを変更"),
+        "token" => frame.say("Made or ended a token", "トークンを作成または無効化"),
         "extension" => frame.say("Set an own deadline", "締切の延長を変更"),
         "choice" => frame.say("Chose which hand-in counts", "成績に反映する提出を変更"),
         "override" => frame.say("Overrode points", "得点を変更"),
@@ -75,6 +76,7 @@ fn named(frame: &Frame, act: &str) -> String {
 
 fn who(frame: &Frame, act: &NamedAct) -> String {
     match (&act.login, act.act.way.as_str()) {
+        (Some(login), "token") => format!("{login} ({})", frame.say("by a token", "トークン")),
         (Some(login), _) => login.clone(),
         (None, "token") => frame.say("a program, by a token", "プログラム（トークン）").to_owned(),
         (None, _) => frame.say("by a secret of the service", "サービス共通のパスワード").to_owned(),
