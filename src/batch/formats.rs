@@ -7,13 +7,13 @@ mod comment;
 pub mod exchange;
 pub mod feedback;
 pub mod github;
+pub mod gradebooks;
 pub mod grades;
 pub mod gradescope;
 pub mod junit;
 mod names;
 #[cfg(test)]
 mod nasty;
-pub mod nbgrader;
 pub mod page;
 pub(crate) mod plain;
 #[cfg(test)]
@@ -40,6 +40,10 @@ pub enum Format {
     Csv,
     /// The columns that nbgrader exports.
     Nbgrader,
+    /// The columns that Canvas imports.
+    Canvas,
+    /// The columns that Gradescope exports.
+    GradescopeGrades,
     /// Moodle's offline grading worksheet, filled in.
     MoodleWorksheet,
     /// The archive that Moodle takes as multiple feedback files.
@@ -83,7 +87,7 @@ const fn row(
 }
 
 /// In the order of the variants, which is the order in which help lists them.
-const TABLE: [FormatRow; 12] = [
+const TABLE: [FormatRow; 14] = [
     row(
         Format::Html,
         "html",
@@ -104,6 +108,20 @@ const TABLE: [FormatRow; 12] = [
         &["nbgrader.csv"],
         "The columns of `nbgrader export`",
         "`nbgrader export` と同じ列の成績表",
+    ),
+    row(
+        Format::Canvas,
+        "canvas",
+        &["canvas.csv"],
+        "The grades for Canvas's gradebook, which imports them",
+        "Canvas の成績表にインポートする CSV",
+    ),
+    row(
+        Format::GradescopeGrades,
+        "gradescope-grades",
+        &["gradescope-grades.csv"],
+        "The columns of Gradescope's \"Download grades\"",
+        "Gradescope の成績ダウンロードと同じ列の成績表",
     ),
     row(
         Format::MoodleWorksheet,
@@ -196,7 +214,13 @@ impl Format {
             | Self::ClassroomLegacy
             | Self::Vpl
             | Self::Coderunner => true,
-            Self::Html | Self::Csv | Self::Nbgrader | Self::Junit | Self::Sarif => false,
+            Self::Html
+            | Self::Csv
+            | Self::Nbgrader
+            | Self::Canvas
+            | Self::GradescopeGrades
+            | Self::Junit
+            | Self::Sarif => false,
         }
     }
 

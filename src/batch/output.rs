@@ -3,7 +3,7 @@
 use super::changes::Changes;
 use super::class::Class;
 use super::folder::Folder;
-use super::formats::{Format, KEY, exchange, feedback, grades, nbgrader, page, worksheet};
+use super::formats::{Format, KEY, exchange, feedback, gradebooks, grades, page, worksheet};
 use super::run::Wants;
 use super::summary::Written;
 use crate::fault::Fault;
@@ -72,8 +72,8 @@ fn is_usual(format: Format, given: OutputOptions) -> bool {
         Format::MoodleWorksheet => given.worksheet,
         // Only the worksheet tells participants from groups.
         Format::MoodleFeedback => given.moodle && given.worksheet && !given.anonymous,
-        // Its columns say what grades.csv says, for those who have nbgrader.
-        Format::Nbgrader => false,
+        // Their columns say what grades.csv says, for those who have that gradebook.
+        Format::Nbgrader | Format::Canvas | Format::GradescopeGrades => false,
         _ => true,
     }
 }
@@ -121,7 +121,9 @@ fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> 
     match format {
         Format::Html => whole(page::render(class)?),
         Format::Csv => whole(grades::render(class)?),
-        Format::Nbgrader => whole(nbgrader::render(class)?),
+        Format::Nbgrader => whole(gradebooks::nbgrader(class)?),
+        Format::Canvas => whole(gradebooks::canvas(class)?),
+        Format::GradescopeGrades => whole(gradebooks::gradescope(class)?),
         Format::MoodleWorksheet => {
             let filled = worksheet::fill(class, sheet.unwrap_or_default())?;
             folder.write(file, &filled.bytes)?;
@@ -167,7 +169,7 @@ mod tests {
     fn by_default_everything_is_written_that_can_be() {
         let all = choose(&[], ALL).unwrap();
         let left_out: Vec<_> = Format::value_variants().iter().filter(|format| !all.contains(format)).collect();
-        assert_eq!(left_out, [&Format::Nbgrader]);
+        assert_eq!(left_out, [&Format::Nbgrader, &Format::Canvas, &Format::GradescopeGrades]);
         let none = choose(&[], OutputOptions::default()).unwrap();
         assert!(none.contains(&Format::Html) && !none.contains(&Format::MoodleFeedback));
     }

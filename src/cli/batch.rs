@@ -47,7 +47,7 @@ pub struct Batch {
     /// The folder that everything is written into
     #[arg(long, short, value_name = "DIR", required = true)]
     out: Option<PathBuf>,
-    /// What is written, separated by commas [default: all but nbgrader, as far as the input allows]
+    /// What is written, separated by commas [default: all but nbgrader, canvas and gradescope-grades, as far as the input allows]
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
     pub formats: Vec<Format>,
     /// Moodle's offline grading worksheet, to be filled in

@@ -57,7 +57,7 @@ fn lateness_is_a_line_of_its_own_in_every_format() {
     let grades = table(grades::render(&class).expect("a table").strip_prefix(b"\xef\xbb\xbf").expect("a mark"));
     assert_eq!((&*grades[2][4], &grades[2][16..]), ("80", &["1500", "30", "50", ""].map(str::to_owned)[..]));
     assert_eq!(grades[1][16..], ["", "", "100", ""]);
-    let nbgrader = table(&nbgrader::render(&class).expect("a table"));
+    let nbgrader = table(&gradebooks::nbgrader(&class).expect("a table"));
     assert_eq!(nbgrader[2][7..], ["80.0", "30.0", "50.0", "100.0"]);
     let vpl = vpl::render(entry, vpl::Scale::default(), Language::En);
     assert!(vpl.contains("\nGrade :=>> 50\n"), "{vpl}");
@@ -77,7 +77,7 @@ fn lateness_is_a_line_of_its_own_in_every_format() {
 fn nbgrader_columns_are_those_of_its_exporter() {
     let mut class = class(Language::En);
     class.entries[10].places.clear();
-    let bytes = nbgrader::render(&class).expect("a table");
+    let bytes = gradebooks::nbgrader(&class).expect("a table");
     let table = table(&bytes);
     // nbgrader 0.9.6, plugins/export.py.
     assert_eq!(
@@ -88,6 +88,34 @@ fn nbgrader_columns_are_those_of_its_exporter() {
     assert_eq!(table[5][7..], ["", "", "", "100.0"], "two files: a teacher decides");
     assert_eq!(table[6][7..], ["", "", "", "100.0"], "a fault of ours is no zero");
     assert_eq!(table[11][7..], ["0.0", "0.0", "0.0", "100.0"], "nothing was handed in");
+}
+
+#[test]
+fn canvas_reads_names_numbers_and_points() {
+    let mut class = late();
+    class.entries[10].places.clear();
+    let canvas = table(&gradebooks::canvas(&class).expect("a table"));
+    // canvas-lms, lib/gradebook_importer.rb: the columns before the first assignment, and the row of points.
+    assert_eq!(canvas[0][..5], ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]);
+    assert_eq!(canvas[0][5], class.assignment.title.en);
+    assert_eq!(canvas[1].join("|"), "    Points Possible|||||100.0");
+    assert_eq!(canvas[3].join("|"), "O'Brien, \"Bob\"||s1002|s1002||50.0", "a penalty counts");
+    assert_eq!([&canvas[6][5], &canvas[7][5], &canvas[12][5]], ["", "", ""], "a teacher decides, or nothing came");
+}
+
+#[test]
+fn gradescope_columns_are_those_of_its_export() {
+    let mut class = late();
+    class.entries[10].places.clear();
+    let grades = table(&gradebooks::gradescope(&class).expect("a table"));
+    assert_eq!(
+        grades[0].join(","),
+        "Name,SID,Email,Total Score,Max Points,Status,Submission ID,Submission Time,Lateness (H:M:S)"
+    );
+    assert_eq!(grades[1].join("|"), "山田 太郎|s1001||100.0|100.0|Graded|||00:00:00");
+    assert_eq!(grades[2][3..].join("|"), "50.0|100.0|Graded|||25:00:00");
+    assert_eq!(grades[5][3..].join("|"), "|100.0|Ungraded|||");
+    assert_eq!(grades[11][3..].join("|"), "||Missing|||");
 }
 
 fn packed(class: &Class) -> (zip::ZipArchive<Cursor<Vec<u8>>>, feedback::Packed) {
