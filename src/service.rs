@@ -17,9 +17,10 @@
 //! | `/teacher/…` | the teacher's pages; of each of several homeworks `/a/{assignment}/teacher/…`; `/teacher/login`, `/teacher/logout` |
 //! | `/api/v1/…` | the API; `/api/v1/openapi.json`, to be read at `/api/docs` |
 //! | `/assets/…` | styles and scripts |
+//! | `/c/{course}/…` | all of this once more for another course than the first |
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
-//! [`folders`] are homeworks that come by the browser, [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`store`] keeps everything,
+//! [`courses`] are the courses, [`folders`] are homeworks that come by the browser, [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`gradebook`] is a course's table of all its homeworks, [`store`] keeps everything,
 //! [`judgement`] what people judge beside it, [`likeness`] who has handed in what others have, [`insights`] what the class shows, [`export`] everything of one student, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`sign_in`] that of an OpenID issuer, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
@@ -31,6 +32,7 @@ pub mod clock;
 pub mod config;
 pub mod counting;
 pub mod course;
+pub mod courses;
 pub mod deletion;
 pub mod download;
 pub mod errors;
@@ -38,6 +40,7 @@ pub mod export;
 pub mod extensions;
 pub mod folders;
 pub mod gallery;
+pub mod gradebook;
 pub mod grading;
 mod id_tokens;
 pub mod idempotency;
@@ -81,6 +84,9 @@ use tower_http::set_header::SetResponseHeaderLayer;
 pub fn app(service: Service) -> Router {
     let made = Arc::new(Mutex::new((service.generation(), whole(&service))));
     Router::new().fallback(async move |request: Request| -> Result<Response, Infallible> {
+        if let Some((root, routes)) = courses::within(&service, &request) {
+            return Ok(courses::answer(root, routes, request).await);
+        }
         let routes = {
             let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
             let generation = service.generation();
@@ -107,6 +113,7 @@ pub fn layered(service: Service, routes: Router<Service>) -> Router {
     routes
         .layer(DefaultBodyLimit::max(api::MAX_BODY))
         .layer(CatchPanicLayer::custom(panicked))
+        .layer(axum::middleware::from_fn_with_state(service.clone(), courses::keep))
         .layer(axum::middleware::from_fn_with_state(service.clone(), acts::note))
         .layer(axum::middleware::from_fn_with_state(service.clone(), requests::attend))
         .layer(axum::middleware::from_fn_with_state(service.clone(), proxied::attend))

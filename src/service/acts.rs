@@ -58,6 +58,8 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/teacher/people/{id}") => "person",
         ("POST", "/teacher/platforms") => "platform",
         ("POST", "/teacher/tokens" | "/teacher/tokens/{id}") | ("DELETE", "/api/v1/tokens/{id}") => "token",
+        ("POST", "/teacher/courses") => "courses",
+        ("POST", "/teacher/plan") => "plan",
         ("POST", "/teacher/batches" | "/api/v1/batches") => "archive",
         ("POST", "/teacher/downloads" | "/teacher/batches/{id}/worksheet") => "download",
         ("POST", "/api/v1/batches/{id}/files/{format}") => "download",
@@ -77,7 +79,9 @@ fn act(method: &Method, route: &str) -> Option<String> {
 }
 
 /// Acts that are about the course, on whatever page they are done.
-const OF_COURSE: [&str; 11] = [
+const OF_COURSE: [&str; 13] = [
+    "courses",
+    "plan",
     "pseudonyms",
     "exported",
     "platform",

@@ -38,7 +38,8 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
     info(
         title = "ggrade",
         description = "Hand in a shader, read its report. Every error is an `application/problem+json` object \
-                       (RFC 9457), in the language of `?lang=` or `Accept-Language`.",
+                       (RFC 9457), in the language of `?lang=` or `Accept-Language`. Of another course than the \
+                       first one, every address begins with `/c/COURSE`.",
         license(name = "MIT OR Apache-2.0")
     ),
     components(schemas(super::errors::ProblemJson, FormatName, FilledFormatName, super::insights::Table)),

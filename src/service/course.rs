@@ -1,5 +1,5 @@
-//! What a course sets once for all its homework: the time zone of its dates, and the language in which it speaks to
-//! students. Both are settings of the teacher's, and neither is the machine's.
+//! What a course sets once for all its homework: its title, the time zone of its dates, and the language in which it speaks to
+//! students. All are settings of the teacher's, and neither is the machine's.
 
 use super::store::{Result, Store};
 use crate::language::Language;
@@ -12,6 +12,9 @@ const SETTING: &str = "course";
 /// Where the lecture is held, until a teacher says otherwise.
 const USUAL_ZONE: &str = "Asia/Tokyo";
 
+/// Longest title of a course, in characters.
+const LONGEST_TITLE: usize = 100;
+
 /// The course.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Course {
@@ -19,6 +22,8 @@ pub struct Course {
     /// Language of what students receive through other systems: comments, feedback files, results. A page is in its
     /// reader's language.
     pub language: Language,
+    /// What it is called; empty where nobody said.
+    pub title: String,
 }
 
 /// The course as it is stored.
@@ -26,11 +31,17 @@ pub struct Course {
 struct Stored {
     zone: String,
     language: Language,
+    #[serde(default)]
+    title: String,
 }
 
 impl Default for Course {
     fn default() -> Self {
-        Self::new(USUAL_ZONE, Language::Ja).unwrap_or(Self { zone: TimeZone::UTC, language: Language::Ja })
+        Self::new(USUAL_ZONE, Language::Ja).unwrap_or(Self {
+            zone: TimeZone::UTC,
+            language: Language::Ja,
+            title: String::new(),
+        })
     }
 }
 
@@ -38,7 +49,13 @@ impl Course {
     /// A course in the time zone with this name of the tz database; none where there is no such zone.
     pub fn new(zone: &str, language: Language) -> Option<Self> {
         let zone = TimeZone::get(zone.trim()).ok().filter(|zone| zone.iana_name().is_some())?;
-        Some(Self { zone, language })
+        Some(Self { zone, language, title: String::new() })
+    }
+
+    /// The same with a title, without what is in no title.
+    pub fn titled(mut self, title: &str) -> Self {
+        self.title = title.trim().chars().filter(|c| !c.is_control()).take(LONGEST_TITLE).collect();
+        self
     }
 
     /// The time zone of every date that is shown or typed.
@@ -67,14 +84,16 @@ impl Store {
     /// The course as the teacher set it.
     pub async fn course(&self) -> Result<Course> {
         let Some(json) = self.setting(SETTING).await? else { return Ok(Course::default()) };
-        let Stored { zone, language } = serde_json::from_str(&json)?;
+        let Stored { zone, language, title } = serde_json::from_str(&json)?;
         // A machine without this zone shows the instant itself rather than no page at all.
-        Ok(Course::new(&zone, language).unwrap_or(Course { zone: TimeZone::UTC, language }))
+        let course = Course::new(&zone, language);
+        Ok(course.unwrap_or(Course { zone: TimeZone::UTC, language, title: String::new() }).titled(&title))
     }
 
     /// Sets the course.
     pub async fn set_course(&self, course: &Course) -> Result<()> {
-        let stored = Stored { zone: course.zone_name().to_owned(), language: course.language };
+        let zone = course.zone_name().to_owned();
+        let stored = Stored { zone, language: course.language, title: course.title.clone() };
         self.set_setting(SETTING, &serde_json::to_string(&stored)?).await
     }
 }

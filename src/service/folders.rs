@@ -74,7 +74,7 @@ pub async fn served(store: &Store, named: &[Arc<Assignment>]) -> StoreResult<Vec
 
 /// Serves what another process on the same database has published, and no more what it took out of service.
 pub(super) async fn follow(service: &Service) -> StoreResult<()> {
-    let now = served(&service.store, service.named_ones()).await?;
+    let now = served(&service.store, &service.named_ones()).await?;
     for id in service.ids().iter().filter(|id| now.iter().all(|assignment| assignment.id != **id)) {
         service.withdraw(id);
     }

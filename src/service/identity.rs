@@ -5,6 +5,7 @@
 //! student. Without a roster there is nobody who hands codes out, and the first browser that gives a number has it. A
 //! report's address is a capability. Cookies are stored as hashes only.
 
+mod accounts;
 mod codes;
 mod cookies;
 mod csrf;
@@ -17,6 +18,7 @@ mod teacher;
 mod tokens;
 mod visitor;
 
+pub use accounts::{check_may_invite, people};
 pub use codes::{code_needed, personal_code};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
 pub(super) use cookies::{has_launch, set_launch, set_sign_in};

@@ -36,10 +36,11 @@ pub fn router() -> Router<Service> {
     Router::new().route("/lti/jwks.json", get(keys::published))
 }
 
-/// Where platforms find this service.
+/// Where platforms find this service, or a course of it.
 pub fn address(service: &Service) -> String {
     let own = || format!("http://{}", service.config.listen);
-    service.config.public_url.clone().unwrap_or_else(own).trim_end_matches('/').to_owned()
+    let host = service.config.public_url.clone().unwrap_or_else(own);
+    format!("{}{}", host.trim_end_matches('/'), service.root())
 }
 
 /// A refusal of what a platform sent, which says what is wrong with it.

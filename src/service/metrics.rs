@@ -93,15 +93,18 @@ pub(super) fn request(route: &str, method: &str, status: u16, took: Duration) {
 
 /// Everything, in Prometheus' text form.
 pub(super) async fn render(service: &Service) -> String {
-    if let Ok(waiting) = service.store.queue_length(service.clock.now(), usize::MAX).await {
-        metrics::gauge!("ggrade_queue_length").set(waiting as f64);
+    let (mut length, mut queued, mut failed) = (0, 0, 0);
+    for course in service.everywhere() {
+        length += course.store.queue_length(course.clock.now(), usize::MAX).await.unwrap_or_default();
+        let (more_queued, more_failed) = course.store.waiting().await.unwrap_or_default();
+        queued += more_queued;
+        failed += more_failed;
     }
+    metrics::gauge!("ggrade_queue_length").set(length as f64);
     metrics::gauge!("ggrade_gradings_running").set(service.queue.running() as f64);
     metrics::gauge!("ggrade_workers").set(service.config.workers as f64);
-    if let Ok((queued, failed)) = service.store.waiting().await {
-        metrics::gauge!("ggrade_submissions_waiting").set(queued as f64);
-        metrics::gauge!("ggrade_submissions_failed").set(failed as f64);
-    }
+    metrics::gauge!("ggrade_submissions_waiting").set(queued as f64);
+    metrics::gauge!("ggrade_submissions_failed").set(failed as f64);
     install().map(PrometheusHandle::render).unwrap_or_default()
 }
 

@@ -49,18 +49,22 @@ use tower_http::compression::CompressionLayer;
 pub fn router(service: &Service) -> Router<Service> {
     let mut routes = of_service();
     for state in service.homeworks() {
-        let page = state.page();
-        let student: Router<Service> = hand_in::router().with_state(state.clone());
+        let page = state.place();
+        let seen = from_fn_with_state(state.clone(), hand_in::seen);
+        let student: Router<Service> = hand_in::router().layer(seen.clone()).with_state(state.clone());
         let teacher: Router<Service> = teacher::router().with_state(state.clone());
         routes = if service.has_several() {
             routes.nest(&page, student.merge(teacher))
         } else {
-            let first = Router::new().route("/", get(hand_in::desk)).with_state(state);
+            let first = Router::new().route("/", get(hand_in::desk)).layer(seen).with_state(state);
             routes.nest(&page, student).merge(teacher).merge(first)
         };
     }
     if service.has_several() {
         routes = routes.merge(homeworks::router());
+    }
+    if !service.is_beside() {
+        routes = routes.merge(teacher::of_service());
     }
     routes
         .layer(from_fn(keep_language))

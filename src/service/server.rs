@@ -77,7 +77,9 @@ impl Started {
         };
         accept(listener, routes, service.clone()).await;
         graders.finish().await;
-        service.store.close().await;
+        for course in service.everywhere() {
+            course.store.close().await;
+        }
         tracing::info!("ended");
         Ok(())
     }

@@ -1,19 +1,19 @@
-//! What requests share: the [`Service`], and the [`State`] of one homework in it.
+//! What requests share: the [`Service`], and the [`State`] of one homework in it. [`making`] is how one comes to be.
+
+mod making;
 
 use super::Config;
 use super::classes::Jobs;
 use super::clock::Clock;
+use super::courses::{Courses, Plan};
 use super::errors::Problem;
-use super::folders::{self, FolderCache};
+use super::folders::FolderCache;
 use super::gallery::{Gallery, RightPictures};
 use super::grading::{CrossChecks, Judge, Queue};
-use super::identity::{new_id, new_token};
 use super::limits::{Limits, Proxies};
 use super::lti::Connections;
 use super::preview::FolderVersion;
 use super::store::{Store, Stored, Submission};
-use crate::fault::Fault;
-use crate::language::Text;
 use reference::Assignment;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
@@ -61,19 +61,27 @@ pub struct Shared {
     /// What time it is.
     pub clock: Clock,
     /// The files that wait to be graded, and who waits for them.
-    pub queue: Queue,
+    pub queue: Arc<Queue>,
     /// The reports that wait for a second opinion.
-    pub cross_checks: CrossChecks,
+    pub cross_checks: Arc<CrossChecks>,
     /// The pictures of submissions.
     pub gallery: Gallery,
     /// The downloads that take a while to make.
     pub downloads: Jobs,
     /// Rates.
-    pub limits: Limits,
+    pub limits: Arc<Limits>,
     /// What is kept of learning platforms between requests.
     pub lti: Connections,
-    /// The homeworks that the command line names.
+    /// What the addresses of a course begin with: nothing for the first one, `/c/COURSE` for another.
+    pub(super) root: String,
+    /// Where accounts and sessions of another course than the first are: with the first one.
+    pub(super) first: Option<Store>,
+    /// The courses beside the first one, which alone has them.
+    pub(super) courses: Courses,
+    /// The homeworks that the command line names, or those from which another course chooses.
     named: Vec<Arc<Assignment>>,
+    /// Which of them the course has, and in which order.
+    pub(super) plan: RwLock<Plan>,
     /// The homeworks that are served, each with its right pictures.
     homeworks: RwLock<Vec<(Arc<Assignment>, Arc<RightPictures>)>>,
     /// Counts how often they have changed.
@@ -92,7 +100,7 @@ pub struct Shared {
     /// The key of the tokens in forms.
     pub(super) key: Vec<u8>,
     /// One password is checked at a time.
-    pub(super) login_turn: Semaphore,
+    pub(super) login_turn: Arc<Semaphore>,
     /// Tells this process's claims from others'.
     pub(super) instance: String,
     /// Turns true when the service is told to end.
@@ -100,51 +108,28 @@ pub struct Shared {
 }
 
 impl Service {
-    /// A service for these homeworks, whose ids differ, and for those that were published. What was published goes before what
-    /// is named.
-    pub async fn serving(
-        assignments: Vec<Arc<Assignment>>,
-        config: Config,
-        store: Store,
-        pool: Arc<dyn Judge>,
-        clock: Clock,
-    ) -> Result<Self, Fault> {
-        let failed = |error| Fault::new(Text::verbatim(format!("the database: {error}")));
-        let key = store.setting_or("csrf_key", &new_token()).await.map_err(failed)?;
-        let served = folders::served(&store, &assignments).await.map_err(failed)?;
-        for assignment in &served {
-            store.assignment(&assignment.id).await.map_err(failed)?;
-        }
-        Ok(Self(Arc::new(Shared {
-            limits: Limits::new(&config, &clock),
-            lti: Connections::default(),
-            preview: OnceLock::new(),
-            proxies: Proxies::parse("trusted_proxies", &config.trusted_proxies)?,
-            identity_proxies: Proxies::parse("identity_proxies", &config.identity_proxies)?,
-            queue: Queue::new(config.queue),
-            cross_checks: CrossChecks::default(),
-            gallery: Gallery::default(),
-            downloads: Jobs::default(),
-            teacher_token: config.teacher_token.clone(),
-            key: key.into_bytes(),
-            login_turn: Semaphore::new(1),
-            instance: new_id(),
-            ending: watch::Sender::new(false),
-            named: assignments,
-            homeworks: RwLock::new(served.into_iter().map(with_pictures).collect()),
-            generation: AtomicU64::new(0),
-            folders: FolderCache::default(),
-            check_turn: Semaphore::new(1),
-            config,
-            store,
-            pool,
-            clock,
-        })))
+    /// What the addresses of the course begin with: nothing for the first one, `/c/COURSE` for another.
+    pub fn root(&self) -> &str {
+        &self.root
     }
 
-    /// Every homework that is served: those of the command line in their order, and then the others.
+    /// Whether it is another course than the first.
+    pub fn is_beside(&self) -> bool {
+        !self.root.is_empty()
+    }
+
+    /// Where accounts and sessions are: with the first course.
+    pub fn accounts(&self) -> &Store {
+        self.first.as_ref().unwrap_or(&self.store)
+    }
+
+    /// Every homework that is served, in the order of the course; those that have no place in it yet come last, those of the
+    /// command line before the others.
     pub fn homeworks(&self) -> impl Iterator<Item = State> + '_ {
-        let homeworks = self.homeworks.read().unwrap_or_else(PoisonError::into_inner).clone();
+        let mut homeworks = self.homeworks.read().unwrap_or_else(PoisonError::into_inner).clone();
+        let plan = self.plan.read().unwrap_or_else(PoisonError::into_inner);
+        homeworks.sort_by_key(|(assignment, _)| plan.place(&assignment.id));
+        drop(plan);
         homeworks.into_iter().map(|(assignment, right)| State { service: self.clone(), assignment, right })
     }
 
@@ -159,9 +144,10 @@ impl Service {
         homeworks.next().filter(|_| homeworks.next().is_none())
     }
 
-    /// Whether several homeworks are served.
+    /// Whether the homeworks have a list: several of the first course, and all of another one, whose addresses then stay what
+    /// they are.
     pub fn has_several(&self) -> bool {
-        self.homeworks().count() > 1
+        self.is_beside() || self.homeworks().count() > 1
     }
 
     /// A homework that is not served, to be looked at.
@@ -190,20 +176,26 @@ impl Service {
     /// Serves the homework with this id no more, or as the command line names it.
     pub(super) fn withdraw(&self, id: &str) {
         if let Some(named) = self.named_as(id) {
-            return self.serve(Arc::clone(named));
+            return self.serve(named);
         }
         self.homeworks.write().unwrap_or_else(PoisonError::into_inner).retain(|(known, _)| known.id != id);
         self.generation.fetch_add(1, Ordering::Release);
     }
 
-    /// The homeworks as the command line names them.
-    pub(super) fn named_ones(&self) -> &[Arc<Assignment>] {
-        &self.named
+    /// The homeworks of the course that need no folder: those that the command line names, or that another course chose.
+    pub(super) fn named_ones(&self) -> Vec<Arc<Assignment>> {
+        let plan = self.plan.read().unwrap_or_else(PoisonError::into_inner);
+        plan.chosen(&self.named, !self.is_beside())
     }
 
-    /// The homework with this id as the command line names it.
-    pub(super) fn named_as(&self, id: &str) -> Option<&Arc<Assignment>> {
-        self.named.iter().find(|known| known.id == id)
+    /// That one of them which has this id.
+    pub(super) fn named_as(&self, id: &str) -> Option<Arc<Assignment>> {
+        self.named_ones().into_iter().find(|known| known.id == id)
+    }
+
+    /// The homeworks from which another course chooses.
+    pub(super) fn offered(&self) -> &[Arc<Assignment>] {
+        &self.named
     }
 
     /// The homework with this id.
@@ -275,6 +267,11 @@ impl State {
 
     /// The address of the student's page.
     pub fn page(&self) -> String {
+        format!("{}{}", self.root, self.place())
+    }
+
+    /// The same within its course.
+    pub fn place(&self) -> String {
         format!("/a/{}", self.assignment.id)
     }
 

@@ -8,6 +8,7 @@ mod acts;
 mod appeals;
 mod assignments;
 mod batches;
+mod courses;
 mod cross_checks;
 mod deletions;
 mod export;
@@ -40,6 +41,7 @@ pub use acts::{Act, NamedAct};
 pub use appeals::Appeal;
 pub use assignments::{Assignment, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
+pub use courses::Place;
 pub use deletions::{Counts, Deletion, DeletionTarget};
 pub use extensions::{Beneficiary, Extension, NamedExtension};
 pub use folders::UploadedFolder;
@@ -108,6 +110,7 @@ pub(crate) use on;
 pub struct Store {
     read: Pool,
     write: Pool,
+    location: std::sync::Arc<Location>,
     /// Held while an SQLite file is open, so that no second service works on it.
     _lock: Option<std::sync::Arc<std::fs::File>>,
 }

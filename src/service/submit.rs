@@ -18,7 +18,7 @@ use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
 use allowed::may_hand_in;
-pub(super) use allowed::{closed, is_stranger};
+pub(super) use allowed::{closed, is_stranger, not_shown};
 use axum::http::StatusCode;
 use files::checked;
 pub(super) use files::{check_text, for_slots};

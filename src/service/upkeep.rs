@@ -14,11 +14,13 @@ const REMOVALS: u32 = 60;
 /// Runs until the service is told to end.
 pub(super) async fn run(service: Service) {
     for minute in 0_u32.. {
-        if minute.is_multiple_of(REMOVALS) {
-            remove(&service).await;
-        }
-        if let Err(error) = service.store.forget_senders(service.clock.now()).await {
-            tracing::error!(%error, "senders of long ago could not be removed");
+        for course in service.everywhere() {
+            if minute.is_multiple_of(REMOVALS) {
+                remove(&course).await;
+            }
+            if let Err(error) = course.store.forget_senders(course.clock.now()).await {
+                tracing::error!(%error, "senders of long ago could not be removed");
+            }
         }
         service.limits.tidy();
         service.queue.tidy();

@@ -6,6 +6,7 @@
 #[path = "../chromium/mod.rs"]
 mod chromium;
 mod course;
+mod courses;
 mod drafts;
 mod editor;
 mod folders;

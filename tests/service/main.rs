@@ -6,6 +6,7 @@ mod bench;
 mod classes;
 mod cluster;
 mod codes;
+mod courses;
 mod cross_checks;
 mod deletions;
 mod extensions;

@@ -31,6 +31,9 @@ on_both!(
 /// The token that opens the class of the second homework.
 const OF_WAVES: &str = "the-teacher-of-the-waves";
 
+/// Pages of the teacher's that belong to the course, below `/teacher`.
+const OF_COURSE: [&str; 8] = ["codes", "courses", "data", "folders", "gradebook", "people", "plan", "log"];
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/homeworks/waves")
 }
@@ -283,8 +286,7 @@ async fn a_class_is_of_one_homework(database: Database) {
         // What belongs to the course is the same for all homeworks; everything else stays in its own.
         let text = class.text();
         let leaves = text.split("href=\"/teacher/").skip(1).filter_map(|rest| rest.split('"').next());
-        let leaves: Vec<&str> =
-            leaves.filter(|page| !["codes", "data", "folders", "people", "log"].contains(page)).collect();
+        let leaves: Vec<&str> = leaves.filter(|page| !OF_COURSE.contains(page)).collect();
         assert!(leaves.is_empty(), "links leave the homework: {leaves:?}");
         let list = get(&bench, TEACHER, &format!("{base}/teacher/batches")).await;
         assert_eq!(list.text().contains(&id), is_its_own);

@@ -10,6 +10,7 @@ use ggrade::service::clock::Clock;
 use std::time::Duration;
 
 on_both!(
+    a_token_is_of_the_course_where_it_was_made,
     a_token_does_what_its_scope_says_in_its_owners_name,
     a_token_ends_by_its_day_by_its_owner_and_with_the_account,
     a_token_is_refused_where_it_makes_no_sense,
@@ -23,6 +24,20 @@ async fn program(bench: &Bench, token: &str, method: Method, address: &str) -> R
         Request::builder().method(method).uri(address).header(header::AUTHORIZATION, format!("Bearer {token}"));
     let request = request.header(header::CONTENT_TYPE, "text/plain");
     bench.send(request.body(Body::from("a shader")).expect("a request")).await
+}
+
+async fn a_token_is_of_the_course_where_it_was_made(database: Database) {
+    let bench = bench(database, Clock::system()).await;
+    crate::courses::made(&bench).await;
+    let mut first = administrator(&bench).await;
+    let page = "/c/cg-2027/teacher/tokens";
+    let shown = first.form(page, page, "name=figures&scope=all&days=30").await;
+    assert!(first.get(page).await.text().contains("prof@example.ac.jp"));
+    let secret = shown.all(".notice .link code")[0].clone();
+    let class = "/api/v1/class/files/csv";
+    for (course, status) in [("/c/cg-2027", StatusCode::OK), ("", StatusCode::UNAUTHORIZED)] {
+        assert_eq!(program(&bench, &secret, Method::GET, &format!("{course}{class}")).await.status, status, "{course}");
+    }
 }
 
 /// Makes a token by the page.

@@ -5,6 +5,7 @@ use super::schema::time;
 use crate::language::Language;
 use crate::service::counting::Counting;
 use crate::service::errors::Problem;
+use crate::service::identity::Teacher;
 use crate::service::language::Lang;
 use crate::service::store::{Assignment, LateSpan};
 use crate::service::{Service, State};
@@ -83,20 +84,28 @@ pub(super) struct AssignmentLinks {
 /// The homeworks of the service.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct AssignmentsJson {
-    /// In the order in which the service was given them.
+    /// In the order of the course. Those that students do not see yet are there for their teachers only.
     assignments: Vec<AssignmentJson>,
 }
 
-/// The homeworks of the service
+/// The homeworks of the course
 #[utoipa::path(
     get, operation_id = "list_assignments", path = "/api/v1/assignments", tag = "submissions",
     params(super::submissions::LangQuery),
     responses((status = 200, description = "Each with its id", body = AssignmentsJson), Errors)
 )]
-pub(super) async fn list(Shared(service): Shared<Service>, Lang(language): Lang) -> Result<Response, Problem> {
+pub(super) async fn list(
+    Shared(service): Shared<Service>,
+    teacher: Option<Teacher>,
+    Lang(language): Lang,
+) -> Result<Response, Problem> {
     let mut assignments = Vec::new();
     for state in service.homeworks() {
         let rules = state.store.assignment(&state.assignment.id).await?;
+        let is_theirs = teacher.as_ref().is_some_and(|teacher| teacher.may_see(&rules.id));
+        if !rules.is_shown(service.clock.now()) && !is_theirs {
+            continue;
+        }
         assignments.push(AssignmentJson::of(&state, &rules, language));
     }
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(AssignmentsJson { assignments })).into_response())

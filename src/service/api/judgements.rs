@@ -5,6 +5,7 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
 use crate::service::acts::Detail;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::judgement::{self, Handling, handle};
@@ -206,7 +207,7 @@ pub(super) async fn appeals(
     teacher.check(&state.assignment.id)?;
     let json = |appeal: Appeal| AppealJson {
         id: appeal.id,
-        submission: format!("/api/v1/submissions/{}", appeal.submission_id),
+        submission: at(&format!("/api/v1/submissions/{}", appeal.submission_id)),
         student: appeal.number,
         line: appeal.line,
         question: appeal.question,

@@ -4,6 +4,7 @@ use super::batches::OfQuery;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::likeness::{Pair, Side};
 use crate::service::Service;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::likeness::{self, Member};
@@ -90,13 +91,13 @@ pub(super) async fn list(
     teacher.check(&state.assignment.id)?;
     let found = likeness::find(&state).await?;
     let member = |member: &Member| MemberJson {
-        submission: format!("/api/v1/submissions/{}", member.submission),
+        submission: at(&format!("/api/v1/submissions/{}", member.submission)),
         student: member.number.clone(),
         is_of_class: member.is_of_class,
     };
     let alike = |(pair, [one, other]): (Pair, [Member; 2])| AlikeJson {
         pair: PairJson::of(&pair),
-        comparison: format!("/api/v1/submissions/{}/likeness/{}", one.submission, other.submission),
+        comparison: at(&format!("/api/v1/submissions/{}/likeness/{}", one.submission, other.submission)),
         members: vec![member(&one), member(&other)],
     };
     let json = LikenessJson {

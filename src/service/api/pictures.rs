@@ -4,6 +4,7 @@ use super::refusals::{Errors, NotFound};
 use super::schema::{FrameJson, FramesJson};
 use super::submissions::find;
 use crate::service::Service;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::gallery::PictureSet;
 use axum::Json;
@@ -33,7 +34,7 @@ pub(super) async fn list(Shared(service): Shared<Service>, Path(id): Path<String
     let report = find(&service, &id).await?.report;
     let frames = report.map(|report| report.frames).unwrap_or_default();
     let frames = frames.iter().zip(0..).map(|(frame, index)| {
-        let address = |view| format!("/api/v1/submissions/{id}/frames/{index}.png?view={view}");
+        let address = |view| at(&format!("/api/v1/submissions/{id}/frames/{index}.png?view={view}"));
         FrameJson {
             index,
             t: frame.t,

@@ -5,6 +5,7 @@ use crate::batch::formats::Format;
 use crate::language::Language;
 use crate::report::Report;
 use crate::report::json::{self, JsonReport};
+use crate::service::courses::at;
 use crate::service::store::{Batch, BatchEntry, Progress, State, Submission, Via};
 use clap::ValueEnum;
 use serde::Serialize;
@@ -65,9 +66,9 @@ pub(super) struct Links {
 
 impl Links {
     fn of(id: &str) -> Self {
-        let itself = format!("/api/v1/submissions/{id}");
+        let itself = at(&format!("/api/v1/submissions/{id}"));
         Self {
-            page: format!("/r/{id}"),
+            page: at(&format!("/r/{id}")),
             frames: format!("{itself}/frames"),
             animation: format!("{itself}/animation.png"),
             source: format!("{itself}/source"),
@@ -172,12 +173,12 @@ pub(super) struct BatchLinks {
 impl BatchJson {
     /// The object for a client.
     pub fn of(batch: Batch, progress: Progress, entries: Vec<BatchEntry>, language: Language) -> Self {
-        let itself = format!("/api/v1/batches/{}", batch.id);
+        let itself = at(&format!("/api/v1/batches/{}", batch.id));
         let student = |entry: BatchEntry| BatchStudentJson {
             key: entry.student.key,
             name: entry.student.name,
             path: entry.path,
-            submission: entry.submission_id.map(|id| format!("/api/v1/submissions/{id}")),
+            submission: entry.submission_id.map(|id| at(&format!("/api/v1/submissions/{id}"))),
             note: entry.note.map(|note| note.get(language).to_owned()),
         };
         let refused =

@@ -4,6 +4,7 @@ use super::batches::CSRF;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
+use crate::service::courses::at;
 use crate::service::download::saved;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
@@ -31,7 +32,7 @@ fn check(teacher: &Teacher) -> Result<(), Problem> {
 }
 
 fn waiting(id: &str, progress: (u64, u64)) -> Response {
-    let archive = format!("/api/v1/archive/{id}");
+    let archive = at(&format!("/api/v1/archive/{id}"));
     let location = HeaderValue::from_str(&archive).ok();
     let json = ArchiveJson { archive, done: progress.0, steps: progress.1 };
     let mut response = (StatusCode::ACCEPTED, [(header::RETRY_AFTER, "5")], Json(json)).into_response();
@@ -58,7 +59,7 @@ pub(super) async fn make(
     check(&teacher)?;
     let state = service.homeworks().next().ok_or_else(Problem::not_found)?;
     let language = service.store.course().await?.language;
-    let job = service.downloads.archive(&state, language, "/teacher/data".to_owned());
+    let job = service.downloads.archive(&state, language, at("/teacher/data"));
     Ok(Detail::of("term.zip").on(waiting(&job.id, (0, 1))))
 }
 

@@ -11,7 +11,7 @@ use crate::hand_in::HandIn;
 use crate::report::{Report, Verdict};
 use crate::sandbox;
 use crate::service::store::{StoreError, Submission, Via, word};
-use crate::service::{Service, State, metrics};
+use crate::service::{Service, State, courses, metrics};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use tokio::sync::{Mutex, mpsc};
@@ -99,11 +99,14 @@ async fn next(service: &Service, receiver: &mut mpsc::Receiver<String>) -> Resul
             Err(_) => {}
         }
         if checks.more.swap(false, Ordering::Relaxed) {
-            for assignment in service.ids() {
-                let found = service.store.not_cross_checked(&assignment, PAGE).await.inspect_err(|_| checks.look())?;
-                // A full page may not be all.
-                checks.more.fetch_or(found.len() == PAGE as usize, Ordering::Relaxed);
-                found.into_iter().for_each(|id| drop(checks.sender.try_send(id)));
+            for course in service.everywhere() {
+                for assignment in course.ids() {
+                    let found =
+                        course.store.not_cross_checked(&assignment, PAGE).await.inspect_err(|_| checks.look())?;
+                    // A full page may not be all.
+                    checks.more.fetch_or(found.len() == PAGE as usize, Ordering::Relaxed);
+                    found.into_iter().for_each(|id| drop(checks.sender.try_send(id)));
+                }
             }
             continue;
         }
@@ -124,7 +127,7 @@ async fn quiet(service: &Service) {
 }
 
 async fn check(service: &Service, id: &str) -> Result<(), StoreError> {
-    let Some(stored) = service.store.stored(id).await? else { return Ok(()) };
+    let Some((service, stored)) = courses::holding(service, id).await? else { return Ok(()) };
     if stored.cross_check.is_some() || stored.report.is_none() {
         return Ok(());
     }

@@ -31,14 +31,7 @@ pub struct Graders {
 impl Graders {
     /// Starts them, and takes over what earlier processes left.
     pub async fn start(service: &Service) -> Result<Self, StoreError> {
-        if service.store.is_exclusive() {
-            let left = service.store.release_claims(None).await?;
-            if left > 0 {
-                tracing::info!(files = left, "taking over what was not graded");
-            }
-        }
-        // What failed by a fault of the machine or of an earlier version may succeed now.
-        service.store.retry_failed(service.clock.now()).await?;
+        take_over(service).await?;
         let workers = service.config.workers;
         service.queue.set_workers(workers);
         let mut tasks = JoinSet::new();
@@ -59,16 +52,34 @@ impl Graders {
     /// Lets the files under way be finished and leaves the rest to whoever comes next. [`Service::end`] comes before.
     pub async fn finish(mut self) {
         while self.tasks.join_next().await.is_some() {}
-        if let Err(error) = self.service.store.release_claims(Some(&self.service.instance)).await {
-            tracing::error!(%error, "claims are left to end by themselves");
+        for course in self.service.everywhere() {
+            if let Err(error) = course.store.release_claims(Some(&course.instance)).await {
+                tracing::error!(%error, "claims are left to end by themselves");
+            }
         }
     }
 }
 
+/// Takes over what earlier processes left of a course.
+pub(in crate::service) async fn take_over(course: &Service) -> Result<(), StoreError> {
+    if course.store.is_exclusive() {
+        let left = course.store.release_claims(None).await?;
+        if left > 0 {
+            tracing::info!(files = left, "taking over what was not graded");
+        }
+    }
+    // What failed by a fault of the machine or of an earlier version may succeed now.
+    course.store.retry_failed(course.clock.now()).await?;
+    Ok(())
+}
+
 async fn run(service: Service) {
+    // Which course is asked first: each in turn, so that none waits for another one's whole queue.
+    let mut turn = 0;
     while !service.is_ending() {
         let woken = service.queue.wakes.notified();
-        match take(&service).await {
+        turn += 1;
+        match take_anywhere(&service, turn).await {
             Ok(true) => continue,
             Ok(false) => {}
             Err(error) => {
@@ -83,6 +94,19 @@ async fn run(service: Service) {
             () = tokio::time::sleep(LOOK) => {}
         }
     }
+}
+
+/// Grades one file of any course; whether there was one.
+async fn take_anywhere(service: &Service, turn: usize) -> Result<bool, StoreError> {
+    let mut courses = service.everywhere();
+    let first = turn % courses.len();
+    courses.rotate_left(first);
+    for course in courses {
+        if take(&course).await? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Grades one file that nobody holds, or one that is to be graded again; whether there was one.
@@ -155,8 +179,10 @@ async fn keep_claims(service: Service) {
             () = service.ended() => return,
         }
         let until = service.clock.now() + millis(lease);
-        if let Err(error) = service.store.extend_claims(&service.instance, until).await {
-            tracing::error!(%error, "claims could not be extended");
+        for course in service.everywhere() {
+            if let Err(error) = course.store.extend_claims(&course.instance, until).await {
+                tracing::error!(%error, "claims could not be extended");
+            }
         }
     }
 }

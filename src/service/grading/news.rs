@@ -3,7 +3,7 @@
 
 use super::GradingResult;
 use crate::service::store::{Listener, News, StoreError, Stored};
-use crate::service::{Service, folders};
+use crate::service::{Service, courses};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -44,7 +44,7 @@ async fn follow(service: &Service, listener: &mut Listener) -> Result<(), StoreE
                 News::Waiting => service.queue.wakes.notify_one(),
                 News::Finished(id) if service.queue.has_listener(&id) => finished(service, &id).await?,
                 News::Finished(_) => {}
-                News::Published => folders::follow(service).await?,
+                News::Published => published(service).await?,
             }
         }
     }
@@ -52,7 +52,7 @@ async fn follow(service: &Service, listener: &mut Listener) -> Result<(), StoreE
 
 /// What may have been told while nobody listened.
 async fn catch_up(service: &Service) -> Result<(), StoreError> {
-    folders::follow(service).await?;
+    published(service).await?;
     service.queue.wakes.notify_one();
     for id in service.queue.expected() {
         finished(service, &id).await?;
@@ -60,8 +60,17 @@ async fn catch_up(service: &Service) -> Result<(), StoreError> {
     Ok(())
 }
 
+/// Courses that were made, and homeworks that were published, chosen or put in another order.
+async fn published(service: &Service) -> Result<(), StoreError> {
+    courses::follow(service).await?;
+    for course in service.everywhere() {
+        courses::reread(&course).await?;
+    }
+    Ok(())
+}
+
 async fn finished(service: &Service, id: &str) -> Result<(), StoreError> {
-    let Some(Stored { submission, report, .. }) = service.store.stored(id).await? else { return Ok(()) };
+    let Some((_, Stored { submission, report, .. })) = courses::holding(service, id).await? else { return Ok(()) };
     match (report, submission.fault) {
         (Some(report), _) => service.queue.tell(id, GradingResult::Graded(Arc::new(report))),
         (None, Some(fault)) => service.queue.tell(id, GradingResult::Failed(Arc::new(fault))),

@@ -1,5 +1,6 @@
 //! Logging in and out.
 
+use super::accounts::in_course;
 use super::cookies::{Jar, TEACHER_COOKIE, set};
 use super::secrets::{hash_password, password_matches};
 use super::staff::{LONGEST_PASSWORD, PASSWORD_SETTING, normal_login};
@@ -54,18 +55,33 @@ pub async fn login(
         ));
     };
     tracing::info!(address = %client.address, "teacher logged in");
-    open(service, session, "/teacher", Jar::Own).await
+    let page = match &session.staff {
+        Some(member) if !service.is_beside() && in_course(service, member.clone()).await?.is_none() => {
+            "/teacher/courses"
+        }
+        _ => "/teacher",
+    };
+    open(service, session, page, Jar::Own).await
 }
 
 /// Opens the session of somebody who is known.
 pub async fn open_for(service: &Service, member: StaffMember, page: &str, jar: Jar) -> Result<Response, Problem> {
+    if service.is_beside() {
+        service.accounts().keep_account(&member, service.clock.now()).await?;
+    }
     open(service, Session { assignment: None, staff: Some(member) }, page, jar).await
 }
 
 async fn open(service: &Service, session: Session, page: &str, jar: Jar) -> Result<Response, Problem> {
     let token = new_token();
     let now = service.clock.now();
-    service.store.open_session(&token_hash(&token), &session, now, now + millis(SESSION)).await?;
+    service.accounts().open_session(&token_hash(&token), &session, now, now + millis(SESSION)).await?;
+    // Whoever teaches elsewhere only is in the log of the first course, where the accounts are.
+    let is_here = match &session.staff {
+        Some(member) => in_course(service, member.clone()).await?.is_some(),
+        None => true,
+    };
+    let log = if is_here { &service.store } else { service.accounts() };
     let act = Act {
         at: now,
         way: if session.staff.is_some() { "account" } else { "password" }.to_owned(),
@@ -75,7 +91,7 @@ async fn open(service: &Service, session: Session, page: &str, jar: Jar) -> Resu
         student_id: None,
         detail: String::new(),
     };
-    service.store.note_act(&act).await?;
+    log.note_act(&act).await?;
     Ok(to_page_with_cookie(service, page, (&token, SESSION.as_secs()), jar))
 }
 
@@ -83,7 +99,7 @@ async fn open(service: &Service, session: Session, page: &str, jar: Jar) -> Resu
 pub async fn logout(service: &Service, teacher: &Teacher, csrf: &str) -> Result<Response, Problem> {
     teacher.check_csrf(service, csrf)?;
     if let Some(session) = teacher.session() {
-        service.store.close_session(Some(&token_hash(session))).await?;
+        service.accounts().close_session(Some(&token_hash(session))).await?;
     }
     let mut response = to_page_with_cookie(service, "/", ("", 0), Jar::Own);
     // The session may be one of a frame.
@@ -107,7 +123,7 @@ async fn opened(service: &Service, login: &str, password: &str) -> Result<Option
         return shared(service, password).await;
     }
     let found = match normal_login(login) {
-        Some(login) => service.store.staff_login(&login).await?,
+        Some(login) => service.accounts().staff_login(&login).await?,
         None => None,
     };
     let (member, hash) = match found {
@@ -125,13 +141,13 @@ static NOBODYS: LazyLock<String> = LazyLock::new(|| hash_password(&new_token()).
 /// What a secret of the whole service opens. The password that is set on the machine always does; what the configuration
 /// has, until there is an administrator.
 async fn shared(service: &Service, secret: &str) -> Result<Option<Session>, Problem> {
-    let is_first = !service.store.has_administrator().await?;
+    let is_first = !service.accounts().has_administrator().await?;
     if is_first && let Some(assignment) = of_token(service, secret) {
         return Ok(Some(Session { assignment, staff: None }));
     }
     let hash = match &service.config.teacher_password_hash {
         Some(hash) if is_first => Some(hash.clone()),
-        _ => service.store.setting(PASSWORD_SETTING).await?,
+        _ => service.accounts().setting(PASSWORD_SETTING).await?,
     };
     let Some(hash) = hash else { return Ok(None) };
     Ok(matches(service, secret, hash).await?.then_some(Session { assignment: None, staff: None }))

@@ -1,8 +1,9 @@
-//! Accounts of those who teach: made by an administrator, opened by a link with which their owner chooses a password.
+//! Who teaches in a course: let in by an administrator, opened by a link with which their owner chooses a password.
 //!
 //! A secret of the whole service (the password, the token of the start) is the way in of the first administrator. With an
 //! administrator it opens pages no more; whoever has the machine can set another password for that, and so get in again.
 
+use super::accounts;
 use super::secrets::hash_password;
 use super::{Teacher, new_id, new_token, token_hash};
 use crate::service::Service;
@@ -54,14 +55,17 @@ pub async fn add_staff(service: &Service, login: &str, name: &str, role: Role) -
         )
     })?;
     let name: String = name.trim().chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
-    if role != Role::Administrator && !service.store.has_administrator().await? {
+    if role == Role::Administrator && service.is_beside() {
+        return Err(only_in_the_first());
+    }
+    if role != Role::Administrator && !service.accounts().has_administrator().await? {
         return Err(Problem::unprocessable(
             "The first account is an administrator's: make your own, and then those of the others.",
             "最初のアカウントは管理者のものです。先に自分のアカウントを作成し、その後でほかの人を追加してください。",
         ));
     }
     let member = StaffMember { id: new_id(), login, name, role, has_password: false, is_active: true };
-    if service.store.add_staff(&member, service.clock.now()).await? {
+    if let Some(member) = accounts::added(service, &member).await? {
         return Ok(member);
     }
     Err(Problem::unprocessable(
@@ -73,10 +77,18 @@ pub async fn add_staff(service: &Service, login: &str, name: &str, role: Role) -
     ))
 }
 
+/// The refusal to make somebody an administrator by way of one course.
+fn only_in_the_first() -> Problem {
+    Problem::unprocessable(
+        "Administrators are of all courses: they are let in on the page of the first course's staff.",
+        "管理者はすべての授業の管理者です。最初の授業の担当者ページから追加してください。",
+    )
+}
+
 /// Gives somebody a link by which they choose a password: its last part.
 pub async fn invite(service: &Service, member: &StaffMember) -> Result<String, Problem> {
     let secret = new_token()[..32].to_owned();
-    service.store.invite(&member.id, &token_hash(&secret), service.clock.now() + invitation()).await?;
+    service.accounts().invite(&member.id, &token_hash(&secret), service.clock.now() + invitation()).await?;
     Ok(secret)
 }
 
@@ -86,7 +98,7 @@ fn invitation() -> Millis {
 
 /// Whose link this is.
 pub async fn invited(service: &Service, secret: &str) -> Result<StaffMember, Problem> {
-    let found = service.store.invited(&token_hash(secret), service.clock.now()).await?;
+    let found = service.accounts().invited(&token_hash(secret), service.clock.now()).await?;
     found.ok_or_else(|| {
         Problem::new(
             axum::http::StatusCode::NOT_FOUND,
@@ -111,15 +123,18 @@ pub async fn choose_password(service: &Service, secret: &str, password: &str) ->
     let password = password.to_owned();
     let hash = tokio::task::spawn_blocking(move || hash_password(&password)).await;
     let hash = hash.map_err(|error| Problem::internal(&error))?.map_err(|fault| Problem::of_fault(&fault))?;
-    service.store.set_staff_password(&member.id, &hash).await?;
+    service.accounts().set_staff_password(&member.id, &hash).await?;
     if member.role == Role::Administrator {
-        service.store.close_shared_way(PASSWORD_SETTING).await?;
+        service.accounts().close_shared_way(PASSWORD_SETTING).await?;
     }
     Ok(member)
 }
 
 /// Sets what somebody may do, and whether they may log in. The last administrator stays one.
 pub async fn set_staff(service: &Service, member: &StaffMember, role: Role, is_active: bool) -> Result<(), Problem> {
+    if role == Role::Administrator && service.is_beside() {
+        return Err(only_in_the_first());
+    }
     let stays = role == Role::Administrator && is_active;
     if member.role == Role::Administrator && !stays {
         let staff = service.store.staff().await?;

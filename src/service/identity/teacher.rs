@@ -1,5 +1,6 @@
 //! The teacher: a session's cookie in a browser, or a token in a program.
 
+use super::accounts::in_course;
 use super::cookies::{TEACHER_COOKIE, read};
 use super::secrets::same;
 use super::{csrf, token_hash};
@@ -34,13 +35,24 @@ impl Teacher {
             return Self::of_program(service, secret).await;
         }
         let Some(session) = read(service, headers, TEACHER_COOKIE) else { return Ok(None) };
-        let open = service.store.session(&token_hash(&session), service.clock.now()).await?;
+        let open = service.accounts().session(&token_hash(&session), service.clock.now()).await?;
         let Some(Session { assignment, staff }) = open else { return Ok(None) };
+        // A secret of a homework is for one of the first course.
+        if assignment.is_some() && service.is_beside() {
+            return Ok(None);
+        }
+        let staff = match staff {
+            Some(member) => match in_course(service, member).await? {
+                Some(member) => Some(member),
+                None => return Ok(None),
+            },
+            None => None,
+        };
         let sees_names = sees_names(service, staff.as_ref()).await?;
         Ok(Some(Self { session: Some(session), homework: assignment, staff, sees_names, scope: TokenScope::All }))
     }
 
-    /// Whose token this is: the service's, that of a homework, or somebody's own.
+    /// Whose token this is: the service's, that of a homework, or somebody's own, which is for the course where it was made.
     async fn of_program(service: &Service, secret: &str) -> Result<Option<Self>, Problem> {
         if let Some(homework) = of_token(service, secret) {
             let all = TokenScope::All;
@@ -49,6 +61,12 @@ impl Teacher {
         let Some((token, owner)) = service.store.use_token(&token_hash(secret), service.clock.now()).await? else {
             return Ok(None);
         };
+        let account = service.accounts().staff_member(&owner.id).await?.filter(|account| account.is_active);
+        let owner = match account {
+            Some(account) => in_course(service, account).await?,
+            None => None,
+        };
+        let Some(owner) = owner else { return Ok(None) };
         let sees_names = sees_names(service, Some(&owner)).await?;
         let (homework, scope) = (token.assignment, token.scope);
         Ok(Some(Self { session: None, homework, staff: Some(owner), sees_names, scope }))

@@ -47,7 +47,7 @@ pub(super) async fn offer(
         let item = json!({
             "type": "ltiResourceLink",
             "title": title,
-            "url": format!("{}{}", address(service), state.page()),
+            "url": format!("{}{}", address(service), state.place()),
             "custom": { HOMEWORK: state.assignment.id },
             "lineItem": { "scoreMaximum": 100, "label": title, "resourceId": state.assignment.id },
         });

@@ -30,7 +30,9 @@ const LONGEST_PAUSE: Millis = 3_600_000;
 /// Runs until the service is told to end.
 pub async fn run(service: Service) {
     loop {
-        send_due(&service).await;
+        for course in service.everywhere() {
+            send_due(&course).await;
+        }
         tokio::select! {
             () = tokio::time::sleep(TICK) => {}
             () = service.ended() => return,

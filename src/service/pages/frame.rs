@@ -7,6 +7,7 @@ use crate::report::html::SYMBOLS;
 use crate::report::labels::mistake_title;
 use crate::service::clock::Millis;
 use crate::service::course::Course;
+use crate::service::courses::{self, at};
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::sign_in::Provider;
@@ -34,6 +35,8 @@ pub struct Frame {
     assignment: Option<Arc<Assignment>>,
     /// What the addresses of its pages begin with, see [`State::base`].
     base: String,
+    /// What the addresses of the course begin with, see [`courses::root`].
+    pub root: std::sync::Arc<str>,
 }
 
 /// A language to switch to.
@@ -56,7 +59,7 @@ impl SignInLink {
         let query = homework.map(|id| format!("?homework={id}")).unwrap_or_default();
         let link = |provider: &Provider| Self {
             name: provider.name.clone(),
-            href: format!("/sign-in/{}{query}", provider.id),
+            href: at(&format!("/sign-in/{}{query}", provider.id)),
         };
         service.config.sign_in.iter().map(link).collect()
     }
@@ -65,7 +68,7 @@ impl SignInLink {
 impl Frame {
     /// The frame of a page at an address.
     pub fn new(language: Language, course: Course, uri: Uri, assignment: Option<Arc<Assignment>>) -> Self {
-        Self { language, course, teacher: None, uri, assignment, base: String::new() }
+        Self { language, course, teacher: None, uri, assignment, base: String::new(), root: courses::root() }
     }
 
     /// The same for a page of a homework.
@@ -75,7 +78,7 @@ impl Frame {
 
     /// The address of the teacher's pages.
     pub fn teacher(&self) -> String {
-        format!("{}/teacher", self.base)
+        if self.base.is_empty() { at("/teacher") } else { format!("{}/teacher", self.base) }
     }
 
     /// Whether it is a page of a homework.
@@ -91,6 +94,11 @@ impl Frame {
     /// Whether it is somebody who may do what belongs to the whole course.
     pub fn has_course(&self) -> bool {
         self.is_lecturers() && self.teacher.as_ref().is_some_and(Teacher::has_course)
+    }
+
+    /// Whether a teacher looks who is not of one homework only.
+    pub fn is_of_course(&self) -> bool {
+        self.teacher.as_ref().is_some_and(Teacher::has_course)
     }
 
     /// Whether the teacher who looks reads names of students, or pseudonyms.
@@ -120,8 +128,13 @@ impl Frame {
     }
 
     /// The address of the student's page.
-    pub fn student(&self) -> &str {
-        if self.base.is_empty() { "/" } else { &self.base }
+    pub fn student(&self) -> String {
+        if self.base.is_empty() { at("/") } else { self.base.clone() }
+    }
+
+    /// The title of the course, where it has one.
+    pub fn course_title(&self) -> Option<&str> {
+        Some(self.course.title.as_str()).filter(|title| !title.is_empty())
     }
 
     /// The homework's title, where the service has others as well.
@@ -212,7 +225,7 @@ impl Frame {
 /// See [`Frame::picture`].
 pub(super) fn picture(assignment: Option<&Assignment>, id: &str, name: &str) -> String {
     let version = assignment.and_then(|assignment| assignment.digest.get(..DIGITS)).unwrap_or_default();
-    format!("/r/{id}/{name}.png?of={version}")
+    at(&format!("/r/{id}/{name}.png?of={version}"))
 }
 
 /// Digits of a folder's digest that tell its versions apart.

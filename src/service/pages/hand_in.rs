@@ -12,14 +12,15 @@ use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery;
 use crate::service::idempotency::RequestKey;
-use crate::service::identity::{Visitor, code_needed};
+use crate::service::identity::{Teacher, Visitor, code_needed};
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, check_text, closed, for_slots, is_stranger, submit};
+use crate::service::submit::{Receipt, Upload, check_text, closed, for_slots, is_stranger, not_shown, submit};
 use crate::source;
-use axum::extract::{Multipart, Query, State as Shared};
+use axum::extract::{Multipart, Query, Request, State as Shared};
 use axum::http::{HeaderMap, header};
+use axum::middleware::Next;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
@@ -42,6 +43,18 @@ pub(super) fn router() -> Router<State> {
         .route("/read", post(read))
         .route("/starter", get(starter))
         .route("/goal.png", get(goal))
+}
+
+/// The layer around a homework's pages: students find them once they are shown, whoever teaches it before.
+pub(super) async fn seen(Shared(state): Shared<State>, request: Request, next: Next) -> Result<Response, Problem> {
+    let settings = state.store.assignment(&state.assignment.id).await?;
+    if !settings.is_shown(state.clock.now()) {
+        let teacher = Teacher::of(&state, request.headers()).await?;
+        if !teacher.is_some_and(|teacher| teacher.may_see(&settings.id)) {
+            return Err(not_shown());
+        }
+    }
+    Ok(next.run(request).await)
 }
 
 /// `GET /a/{assignment}`.

@@ -5,6 +5,7 @@ use super::standing::{Fact, StudentStanding};
 use super::{internal, shown, student};
 use crate::language::Language;
 use crate::report::html::rich::Piece;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{TeacherPage, Visitor};
 use crate::service::{Service, State};
@@ -62,7 +63,7 @@ impl Homework {
             task: student::task(assignment, frame),
             facts,
             still: format!("data:image/png;base64,{}", STANDARD.encode(picture)),
-            moving: format!("/a/{}/goal.png?v={}", assignment.id, &assignment.digest[..16]),
+            moving: at(&format!("/a/{}/goal.png?v={}", assignment.id, &assignment.digest[..16])),
         })
     }
 }
@@ -71,6 +72,9 @@ impl Homework {
 async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) -> Result<Response, Problem> {
     let mut homeworks = Vec::new();
     for state in service.homeworks() {
+        if !service.store.assignment(&state.assignment.id).await?.is_shown(service.clock.now()) {
+            continue;
+        }
         let facts = facts(&state, &frame, &visitor).await?;
         homeworks.push(Homework::of(&state, &frame, state.page(), facts)?);
     }

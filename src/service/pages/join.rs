@@ -3,6 +3,7 @@
 use super::frame::{Frame, SignInLink};
 use super::{shown, student};
 use crate::service::Service;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Identity, Visitor, personal_code};
 use crate::service::store::Proof;
@@ -21,7 +22,7 @@ struct JoinPage {
     title: String,
     problem: Option<String>,
     action: String,
-    leave: &'static str,
+    leave: String,
     csrf: String,
     number: String,
     code: String,
@@ -62,8 +63,8 @@ async fn view(
     let page = JoinPage {
         title: service.only().map(|state| student::title(&state.assignment, frame.language)).unwrap_or_default(),
         problem,
-        action: format!("/join/{secret}"),
-        leave: "/leave",
+        action: at(&format!("/join/{secret}")),
+        leave: at("/leave"),
         csrf: visitor.csrf(service),
         number: if number.is_empty() { who.clone().unwrap_or_default() } else { number },
         code,
@@ -132,7 +133,7 @@ fn has_first(visitor: &Visitor) -> bool {
 
 /// Where a student works.
 fn desk(service: &Service) -> String {
-    service.only().map_or_else(|| "/".to_owned(), |state| state.page())
+    service.only().map_or_else(|| at("/"), |state| state.page())
 }
 
 fn to_page(service: &Service, visitor: &Visitor, page: &str) -> Response {

@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::shown;
 use crate::service::Service;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::lti::deep_linking::Choice;
 use crate::service::lti::registration::{self, Asked};
@@ -49,7 +50,7 @@ pub(in crate::service) fn shown_choice(frame: Frame, choice: Choice) -> Result<R
 /// The page of a launch that comes back without the cookie with which it began: the browser keeps none in a frame. In a
 /// window of its own it does.
 pub(in crate::service) fn launch_lost(frame: Frame, begun_by: &str) -> Result<Response, Problem> {
-    let again = format!("/lti/login?{begun_by}");
+    let again = at(&format!("/lti/login?{begun_by}"));
     let mut page = shown(LostPage { frame, again }.render())?;
     *page.status_mut() = StatusCode::FORBIDDEN;
     Ok(page)

@@ -8,6 +8,7 @@ use crate::report::html::Mark;
 use crate::report::html::rich::{Piece, pieces};
 use crate::report::{Report, Verdict};
 use crate::service::State;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::preview::OwnFiles;
 use crate::service::submit::Receipt;
@@ -49,7 +50,7 @@ pub(super) fn panel(state: &State, frame: &Frame) -> Option<PreviewPanel> {
 
 fn own_files(frame: &Frame, own: &OwnFiles) -> Vec<OwnFile> {
     let file = |label, receipt: &Receipt, is_as_wanted: fn(&Report) -> bool, complaint: &str| {
-        let href = format!("/r/{}", receipt.submission.id);
+        let href = at(&format!("/r/{}", receipt.submission.id));
         let Some(report) = receipt.report() else {
             // Our own failure: the service tries again.
             let fault = receipt.fault().map(|fault| fault.message.get(frame.language).to_owned());

@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::report_fragment;
 use crate::report::Report;
 use crate::service::State;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::store::{State as Progress, Submission};
 use askama::Template;
@@ -59,7 +60,7 @@ pub(super) async fn receipt(
         attempt,
         score,
         files,
-        address: format!("/r/{}", submission.id),
+        address: at(&format!("/r/{}", submission.id)),
     };
     view.render().map_err(|error| Problem::internal(&error))
 }

@@ -7,6 +7,7 @@ use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::report::html::Lines;
 use crate::report::text::number;
+use crate::service::courses::at;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery::PictureSet;
@@ -79,8 +80,8 @@ pub(super) async fn page(
             back_name: frame.say("To the homework", "課題のページへ"),
             about: about(&frame, &submission),
             again: (sources.len() == state.assignment.files.len()).then(|| format!("{}?from={id}", state.page())),
-            address: format!("/r/{id}"),
-            source: format!("/r/{id}/source"),
+            address: at(&format!("/r/{id}")),
+            source: at(&format!("/r/{id}/source")),
             source_name: match report.sources.len() {
                 0 | 1 => frame.say("The file", "ファイル"),
                 _ => frame.say("The files (ZIP)", "ファイル (ZIP)"),
@@ -125,7 +126,7 @@ async fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result
     } else {
         frame.say("Being graded", "採点中です")
     };
-    let address = format!("/r/{}", submission.id);
+    let address = at(&format!("/r/{}", submission.id));
     let mut response = shown(Waiting { frame, heading, detail, address, refreshes: true }.render())?;
     *response.status_mut() = StatusCode::ACCEPTED;
     Ok(response)

@@ -142,6 +142,10 @@ impl StudentStanding<'_> {
     pub fn hindrance(&self, frame: &Frame) -> Option<&'static str> {
         match () {
             () if !self.may_hand_in || self.can_hand_in() => None,
+            () if self.settings.is_archived => Some(frame.say(
+                "This course is archived. Reports can still be read.",
+                "この授業はアーカイブされています。採点結果は引き続き閲覧できます。",
+            )),
             () if self.is_closed() && self.settings.practice => Some(frame.say(
                 "Handing in is over. What you type is still graded, as practice.",
                 "提出の受付は終了しました。入力した内容は、引き続き練習として採点します。",

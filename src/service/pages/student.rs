@@ -11,6 +11,7 @@ use crate::language::Language;
 use crate::report::html::rich::{Piece, pieces};
 use crate::service::clock::Millis;
 use crate::service::counting::{Counting, counted};
+use crate::service::courses::at;
 use crate::service::identity::new_id;
 use crate::service::store::{Appeal, HistoryRow};
 use crate::service::submit::{MAX_UPLOAD, too_large};
@@ -132,19 +133,19 @@ impl Desk<'_> {
             can_hand_in: standing.can_hand_in(),
             grades_drafts: standing.grades_drafts(),
             attempts: self.attempts(),
-            choose: format!("/a/{id}/choose"),
+            choose: at(&format!("/a/{id}/choose")),
             deletable: false,
             notice: self.notice,
             preview: self.preview,
             who: self.who,
             sign_ins: self.sign_ins,
-            action: format!("/a/{id}"),
-            draft: format!("/a/{id}/draft"),
+            action: at(&format!("/a/{id}")),
+            draft: at(&format!("/a/{id}/draft")),
             starter: starter(id),
             csrf: self.csrf,
             form_key: new_id(),
             own,
-            read: format!("/a/{id}/read"),
+            read: at(&format!("/a/{id}/read")),
             most: MAX_UPLOAD,
             too_large: too_large().detail.get(language).to_owned(),
             expected: assets::expected(&homework),
@@ -183,7 +184,7 @@ impl Desk<'_> {
 
 /// The address of all that is handed out.
 fn starter(id: &str) -> String {
-    format!("/a/{id}/starter")
+    at(&format!("/a/{id}/starter"))
 }
 
 /// The editors of a homework's files, with these texts or what is handed out.

@@ -3,7 +3,7 @@
 //! [`class`] is everyone with [`charts`] and the [`table`] of them, [`person`] what one student handed in, [`extensions`] later deadlines, [`appeals`] what students ask to be looked at again, [`likeness`] answers that are alike, [`insights`] what the homework shows of its class, [`batches`]
 //! whole archives, [`downloads`] what takes a while to make, [`regradings`] grading again with a comparison, [`settings`]
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
-//! the way in, [`live`] what arrives while somebody looks. Of the whole course: [`people`] who teaches, [`welcome`] where
+//! the way in, [`live`] what arrives while somebody looks. Of all courses: [`courses`]. Of the whole course: [`plan`] its homeworks in their order, [`gradebook`] everybody with all of them, [`people`] who teaches, [`welcome`] where
 //! they choose a password, [`codes`] the students' personal codes, [`data`] what is kept of people, [`platforms`] learning
 //! platforms, [`tokens`] what programs come in by, [`folders`] the homeworks themselves, [`acts`] the log of what was done.
 
@@ -13,17 +13,20 @@ mod batches;
 mod charts;
 mod class;
 mod codes;
+mod courses;
 mod data;
 mod delete;
 mod downloads;
 mod extensions;
 mod folders;
+mod gradebook;
 mod insights;
 mod likeness;
 mod live;
 pub(super) mod login;
 mod people;
 mod person;
+mod plan;
 mod platforms;
 mod regradings;
 mod roster;
@@ -73,12 +76,20 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher/regradings/{id}/events", get(regradings::events))
 }
 
+/// The routes of what belongs to all courses.
+pub(super) fn of_service() -> Router<Service> {
+    Router::new().route("/teacher/courses", get(courses::page).post(courses::change))
+}
+
 /// The routes of what belongs to the whole course.
 pub(super) fn of_course() -> Router<Service> {
     Router::new()
         .route("/teacher/login", get(login::page).post(login::login))
         .route("/teacher/logout", post(login::logout))
         .route("/teacher/welcome/{secret}", get(welcome::page).post(welcome::choose))
+        .route("/teacher/plan", get(plan::page).post(plan::save))
+        .route("/teacher/gradebook", get(gradebook::page))
+        .route("/teacher/gradebook/file", get(gradebook::file))
         .route("/teacher/people", get(people::page).post(people::add))
         .route("/teacher/people/{id}", post(people::change))
         .route("/teacher/data", get(data::page).post(data::set))
@@ -110,6 +121,10 @@ pub(super) enum Tab {
     Batches,
     /// Settings.
     Settings,
+    /// Everybody with all homeworks.
+    Gradebook,
+    /// Which homeworks the course has.
+    Plan,
     /// The homeworks' folders.
     Folders,
     /// Personal codes.
@@ -124,11 +139,12 @@ pub(super) enum Tab {
     Acts,
 }
 
-/// The address of the service: the configured one, or that by which the teacher's own browser knows it.
+/// The address of the course: the configured one, or that by which the teacher's own browser knows it.
 fn public_address(service: &Service, headers: &HeaderMap) -> String {
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
     let own = || format!("http://{}", host.map_or_else(|| service.config.listen.to_string(), str::to_owned));
-    service.config.public_url.clone().unwrap_or_else(own).trim_end_matches('/').to_owned()
+    let host = service.config.public_url.clone().unwrap_or_else(own);
+    format!("{}{}", host.trim_end_matches('/'), service.root())
 }
 
 /// How somebody stands, in words.

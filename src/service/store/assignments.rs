@@ -44,23 +44,44 @@ pub struct Assignment {
     pub late: LateRules,
     /// Which of somebody's hand-ins counts.
     pub counting: Counting,
+    /// From when on students see it; none: always.
+    pub shown_from: Option<Millis>,
+    /// Whether its course is archived: nobody hands in any more.
+    pub is_archived: bool,
 }
 
-type Row =
-    (String, i64, String, Option<i64>, Option<i64>, Option<i64>, String, i64, i64, Option<i64>, f64, i64, f64, String);
+type Row = (
+    String,
+    i64,
+    String,
+    Option<i64>,
+    Option<i64>,
+    Option<i64>,
+    String,
+    i64,
+    i64,
+    Option<i64>,
+    f64,
+    i64,
+    f64,
+    String,
+    Option<i64>,
+    i64,
+);
 
 /// The columns of [`Row`].
 macro_rules! columns {
     () => {
         "id, seed, hints, opens_at, closes_at, attempts, audience, practice, grace, late_until, late_percent, late_span, \
-         late_floor, counting"
+         late_floor, counting, CASE WHEN is_hidden = 1 THEN 9223372036854775807 ELSE shown_from END, \
+         (SELECT count(*) FROM settings WHERE name = 'archived_at')"
     };
 }
 
 impl Assignment {
     fn of(row: Row) -> Result<Self> {
         let (id, seed, hints, opens_at, closes_at, attempts, audience, practice, ..) = row;
-        let (.., grace, until, percent, span, floor, counting) = row;
+        let (.., grace, until, percent, span, floor, counting, shown_from, archived) = row;
         Ok(Self {
             id,
             seed: seed.unsigned_abs(),
@@ -73,6 +94,8 @@ impl Assignment {
             has_own_deadline: false,
             late: LateRules { grace, until, percent, span: LateSpan::of(span), floor },
             counting: from_word(counting)?,
+            shown_from,
+            is_archived: archived > 0,
         })
     }
 
@@ -93,13 +116,21 @@ impl Assignment {
         Some(self.late.until.map_or(in_time, |until| until.max(in_time)))
     }
 
+    /// Whether students see it at `now`.
+    pub fn is_shown(&self, now: Millis) -> bool {
+        self.shown_from.is_none_or(|from| from <= now)
+    }
+
     /// Whether handing in is over at `now`.
     pub fn is_closed(&self, now: Millis) -> bool {
-        self.ends_at().is_some_and(|ends| ends <= now)
+        self.is_archived || self.ends_at().is_some_and(|ends| ends <= now)
     }
 
     /// Whether what is typed is graded at `now`: where attempts are counted only after the end, as practice.
     pub fn grades_drafts(&self, now: Millis) -> bool {
+        if self.is_archived {
+            return false;
+        }
         if self.is_closed(now) { self.practice } else { self.is_open(now) && self.attempts.is_none() }
     }
 }

@@ -61,7 +61,21 @@ impl Store {
     pub async fn open(location: &Location) -> Result<Self> {
         match location {
             Location::File(path) => Self::open_file(path).await,
-            Location::Postgres(url) => Self::open_postgres(url).await,
+            Location::Postgres(url) => Self::open_postgres(url, None).await,
+        }
+    }
+
+    /// Opens the tables of a course beside this one, and makes them where there are none: a file in the folder `….courses`
+    /// beside this file, or a schema in this database. `id` is one that [`is_id`](crate::service::courses::is_id) takes.
+    pub async fn open_course(&self, id: &str) -> Result<Self> {
+        match &*self.location {
+            Location::File(path) => {
+                let folder = courses_of(path);
+                std::fs::create_dir_all(&folder)
+                    .map_err(|error| StoreError::File(format!("{}: {error}", folder.display())))?;
+                Self::open_file(&folder.join(format!("{id}.db"))).await
+            }
+            Location::Postgres(url) => Self::open_postgres(url, Some(&schema_of(id))).await,
         }
     }
 
@@ -80,18 +94,39 @@ impl Store {
         SQLITE.run(&write).await?;
         let read =
             SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(BUSY).connect_with(options).await?;
-        Ok(Self { read: Pool::Sqlite(read), write: Pool::Sqlite(write), _lock: Some(Arc::new(lock)) })
+        let location = Arc::new(Location::File(path.to_owned()));
+        Ok(Self { read: Pool::Sqlite(read), write: Pool::Sqlite(write), location, _lock: Some(Arc::new(lock)) })
     }
 
-    async fn open_postgres(url: &str) -> Result<Self> {
-        let options = PgConnectOptions::from_str(url)?.application_name("ggrade");
+    async fn open_postgres(url: &str, schema: Option<&str>) -> Result<Self> {
+        let mut options = PgConnectOptions::from_str(url)?.application_name("ggrade");
         // A pool says only that it waited in vain; one connection says why.
-        options.connect().await?.close().await?;
+        let mut first = options.connect().await?;
+        if let Some(schema) = schema {
+            // Letters, digits and `_`: see `schema_of`.
+            let sql = sqlx::AssertSqlSafe(format!("CREATE SCHEMA IF NOT EXISTS {schema}"));
+            sqlx::query(sql).execute(&mut first).await?;
+            options = options.options([("search_path", schema)]);
+        }
+        first.close().await?;
         let pool =
             PgPoolOptions::new().max_connections(2 * READERS).acquire_timeout(BUSY).connect_with(options).await?;
         POSTGRES.run(&pool).await?;
-        Ok(Self { read: Pool::Postgres(pool.clone()), write: Pool::Postgres(pool), _lock: None })
+        let location = Arc::new(Location::Postgres(url.to_owned()));
+        Ok(Self { read: Pool::Postgres(pool.clone()), write: Pool::Postgres(pool), location, _lock: None })
     }
+}
+
+/// The folder of the other courses' files.
+fn courses_of(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".courses");
+    name.into()
+}
+
+/// The schema of another course.
+fn schema_of(id: &str) -> String {
+    format!("ggrade_course_{}", id.replace('-', "_"))
 }
 
 /// Keeps other services off the file for as long as the answer is held; the kernel lets go when the process ends.

@@ -64,9 +64,9 @@ macro_rules! select {
 }
 
 impl Store {
-    /// Everybody, by the name by which they log in.
+    /// Everybody who teaches in this course, by the name by which they log in.
     pub async fn staff(&self) -> Result<Vec<StaffMember>> {
-        const SQL: &str = select!("ORDER BY login");
+        const SQL: &str = select!("WHERE is_member = 1 ORDER BY login");
         let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
         rows.into_iter().map(StaffMember::of).collect()
     }
@@ -76,6 +76,37 @@ impl Store {
         const SQL: &str = select!("WHERE id = $1");
         let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(StaffMember::of).transpose()
+    }
+
+    /// The one with this id, where they teach in this course.
+    pub async fn course_member(&self, id: &str) -> Result<Option<StaffMember>> {
+        const SQL: &str = select!("WHERE id = $1 AND is_member = 1");
+        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        row.map(StaffMember::of).transpose()
+    }
+
+    /// The account of a login, whether they teach in this course or not.
+    pub async fn account(&self, login: &str) -> Result<Option<StaffMember>> {
+        const SQL: &str = select!("WHERE login = $1");
+        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(login).fetch_optional(db).await?);
+        row.map(StaffMember::of).transpose()
+    }
+
+    /// Keeps an account of somebody who does not teach in this course; where there is one, it stays as it is.
+    pub async fn keep_account(&self, member: &StaffMember, now: Millis) -> Result<()> {
+        const SQL: &str = "INSERT INTO staff (id, login, name, role, is_active, created_at, is_member) \
+                           VALUES ($1, $2, $3, 'assistant', 1, $4, 0) ON CONFLICT DO NOTHING";
+        on!(&self.write, db => {
+            sqlx::query(SQL).bind(&member.id).bind(&member.login).bind(&member.name).bind(now).execute(db).await?;
+        });
+        Ok(())
+    }
+
+    /// Lets somebody teach in this course whose account it keeps.
+    pub async fn let_teach(&self, id: &str, role: Role) -> Result<()> {
+        const SQL: &str = "UPDATE staff SET role = $2, is_active = 1, is_member = 1 WHERE id = $1";
+        on!(&self.write, db => { sqlx::query(SQL).bind(id).bind(word(&role)).execute(db).await?; });
+        Ok(())
     }
 
     /// The one whose link this is, while it holds.

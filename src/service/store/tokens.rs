@@ -98,13 +98,13 @@ impl Store {
     pub async fn tokens(&self, staff_id: Option<&str>, now: Millis) -> Result<Vec<OwnedToken>> {
         const SQL: &str = select!("WHERE expires_at > $1 ORDER BY created_at DESC, id");
         let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?);
-        let staff = self.staff().await?;
-        let owned = rows.into_iter().filter(|row| staff_id.is_none_or(|owner| owner == row.1)).map(|row| {
-            let owner = staff.iter().find(|member| member.id == row.1);
-            let login = owner.map(|member| member.login.clone()).unwrap_or_default();
-            Ok(OwnedToken { token: AccessToken::of(row)?, login })
-        });
-        owned.collect()
+        let mut owned = Vec::new();
+        for row in rows.into_iter().filter(|row| staff_id.is_none_or(|owner| owner == row.1)) {
+            // An administrator has tokens here without being of the course's staff.
+            let login = self.staff_member(&row.1).await?.map(|owner| owner.login).unwrap_or_default();
+            owned.push(OwnedToken { token: AccessToken::of(row)?, login });
+        }
+        Ok(owned)
     }
 
     /// The token with this hash and its owner, while it holds and its owner may log in; notes that it is used.

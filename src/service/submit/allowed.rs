@@ -2,6 +2,7 @@
 
 use super::Upload;
 use crate::service::State;
+use crate::service::courses::archived;
 use crate::service::errors::Problem;
 use crate::service::identity::code_needed;
 use crate::service::roster::not_on_roster;
@@ -11,6 +12,12 @@ use axum::http::StatusCode;
 pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upload) -> Result<(), Problem> {
     let forbidden = |kind, en: &str, ja: &str| Err(Problem::new(StatusCode::FORBIDDEN, kind, en, ja));
     let now = state.clock.now();
+    if assignment.is_archived {
+        return Err(archived());
+    }
+    if !assignment.is_shown(now) {
+        return Err(not_shown());
+    }
     if assignment.opens_at.is_some_and(|opens| now < opens) {
         return forbidden("not-open", "Handing in has not begun yet.", "提出の受付はまだ始まっていません。");
     }
@@ -64,6 +71,16 @@ pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, u
         ));
     }
     Ok(())
+}
+
+/// The answer about a homework that students do not see yet.
+pub fn not_shown() -> Problem {
+    Problem::new(
+        StatusCode::NOT_FOUND,
+        "not-shown",
+        "This homework is not shown yet. Your teacher says when it is.",
+        "この課題はまだ公開されていません。公開日は担当教員に確認してください。",
+    )
 }
 
 /// The answer after the end.

@@ -49,6 +49,8 @@ fn named(frame: &Frame, act: &str) -> String {
         "settings" => frame.say("Changed how handing in works", "提出の条件を変更"),
         "course" => frame.say("Changed the course", "授業の設定を変更"),
         "link" => frame.say("Made a new course link", "授業リンクを再発行"),
+        "courses" => frame.say("Made or archived a course", "授業を作成・アーカイブ"),
+        "plan" => frame.say("Changed the course's homeworks", "授業の課題を変更"),
         "folder" => frame.say("Changed a homework's folder", "課題のフォルダを変更"),
         "roster" => frame.say("Imported a roster", "名簿を取り込み"),
         "code" => frame.say("Replaced a personal code", "個人コードを再発行"),

@@ -5,6 +5,7 @@ use super::super::judgement::ShownAppeal;
 use super::super::shown;
 use super::Tab;
 use crate::service::State;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use crate::service::store::Appeal;
@@ -37,7 +38,7 @@ pub(in crate::service::pages) async fn page(
 ) -> Result<Response, Problem> {
     let shown_name = |name: &Option<String>| name.clone().filter(|_| teacher.sees_names()).unwrap_or_default();
     let row = |appeal: Appeal| Row {
-        href: format!("/r/{}#judgement", appeal.submission_id),
+        href: at(&format!("/r/{}#judgement", appeal.submission_id)),
         number: match teacher.sees_names() {
             true => appeal.number.clone().unwrap_or_default(),
             false => frame.say("A student", "学生").to_owned(),

@@ -14,6 +14,7 @@ use crate::service::api::archive::Archive;
 use crate::service::api::batches::named;
 use crate::service::api::body::other;
 use crate::service::classes::{self, Person, Wanted, Whose, of_batch};
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, TeacherPage};
 use crate::service::limits::Client;
@@ -170,12 +171,12 @@ async fn view_one(
             place: Tab::Batches,
             csrf: teacher.csrf(state),
             at: frame.moment(batch.created_at),
-            events: format!("/api/v1/batches/{}/events", batch.id),
+            events: at(&format!("/api/v1/batches/{}/events", batch.id)),
             progress: state.store.progress(&batch.id).await?,
             table: Table::of(&frame, &everyone, filter),
             refused: batch.refused.iter().map(|refused| (refused.path.clone(), said(&refused.reason))).collect(),
             formats: formats(&frame),
-            files: format!("/api/v1/batches/{}/files", batch.id),
+            files: at(&format!("/api/v1/batches/{}/files", batch.id)),
             of_batch: batch.id.clone(),
             query: "",
             title: batch.title,

@@ -8,6 +8,7 @@ use super::table::{Filter, Table, titled};
 use super::{Tab, word};
 use crate::service::State;
 use crate::service::classes::{People, Person, PersonStanding, people};
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use askama::Template;
@@ -45,7 +46,7 @@ struct ClassPage {
     table: Table,
     formats: Vec<Offer>,
     /// Where the files of the formats are, and the batch that they are of: none, for the class.
-    files: &'static str,
+    files: String,
     of_batch: &'static str,
     /// By which an address of the API says which homework it is about.
     query: String,
@@ -117,7 +118,7 @@ pub(in crate::service::pages) async fn page(
             mistakes,
             table: Table::of(&frame, listed, &filter),
             formats: formats(&frame),
-            files: "/api/v1/class/files",
+            files: at("/api/v1/class/files"),
             of_batch: "",
             query: state.query(),
             filter,

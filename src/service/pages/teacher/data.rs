@@ -5,6 +5,7 @@ use super::super::shown;
 use super::Tab;
 use crate::service::Service;
 use crate::service::acts::Detail;
+use crate::service::courses::at;
 use crate::service::download::saved;
 use crate::service::errors::Problem;
 use crate::service::export;
@@ -85,7 +86,7 @@ pub(in crate::service::pages) async fn archive(
     teacher.check_csrf(&service, &form.csrf)?;
     let state = service.homeworks().next().ok_or_else(Problem::not_found)?;
     let language = service.store.course().await?.language;
-    let job = service.downloads.archive(&state, language, "/teacher/data".to_owned());
+    let job = service.downloads.archive(&state, language, at("/teacher/data"));
     let page = format!("{}/teacher/downloads/{}", state.base(), job.id);
     Ok(Detail::of("term.zip").on(Redirect::to(&page).into_response()))
 }

@@ -5,6 +5,7 @@ use super::super::shown;
 use super::{Tab, batches};
 use crate::service::State;
 use crate::service::classes::people;
+use crate::service::courses::at;
 use crate::service::deletion;
 use crate::service::errors::Problem;
 use crate::service::identity::LecturerPage;
@@ -97,7 +98,7 @@ async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<Foun
     Ok(FoundTarget {
         heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
         name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
-        back: format!("/r/{}", submission.id),
+        back: at(&format!("/r/{}", submission.id)),
         target: DeletionTarget::Submission(submission.id),
         is_on_roster: false,
     })

@@ -9,6 +9,7 @@ use crate::report::html::rich::{Piece, pieces};
 use crate::report::text::number;
 use crate::service::acts::Detail;
 use crate::service::api::archive::Archive;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::folders::{self, Publication};
 use crate::service::identity::{LecturerPage, Teacher};
@@ -211,7 +212,7 @@ async fn view_one(
             title: student::title(&assignment, frame.language),
             files: student::file_names(&assignment),
             task: student::task(&assignment, &frame),
-            goal: format!("/teacher/folders/{}/goal.png", folder.id),
+            goal: at(&format!("/teacher/folders/{}/goal.png", folder.id)),
             solution: earned(&folder.solution),
             handed_out: earned(&folder.handed_out),
             rubric: rubric.collect(),

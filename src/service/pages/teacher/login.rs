@@ -32,7 +32,7 @@ async fn view(
     login: String,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
-    let has_accounts = service.store.has_administrator().await?;
+    let has_accounts = service.accounts().has_administrator().await?;
     let sign_ins = SignInLink::all(service, None);
     shown(LoginPage { frame, csrf: visitor.csrf(service), problem, has_accounts, login, sign_ins }.render())
 }

@@ -26,6 +26,8 @@ struct PeoplePage {
     roles: Vec<(&'static str, &'static str)>,
     /// Whether nobody has an account yet.
     is_first: bool,
+    /// Whether this teacher may give others a new link.
+    may_invite: bool,
     typed: NewMember,
     problem: Option<String>,
     /// A link that was just made: for whom, and the address.
@@ -99,10 +101,12 @@ struct Said {
 
 async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) -> Result<Response, Problem> {
     teacher.check_course()?;
-    let people = service.store.staff().await?;
+    let people = identity::people(service).await?;
     let may = |role: Role| check_may_manage(teacher, role).is_ok();
-    let offered = [Role::Assistant, Role::Lecturer, Role::Administrator].into_iter().filter(|role| may(*role));
-    let is_first = !service.store.has_administrator().await?;
+    let offered = [Role::Assistant, Role::Lecturer, Role::Administrator].into_iter();
+    let offered = offered.filter(|role| may(*role) && !(service.is_beside() && *role == Role::Administrator));
+    let may_invite = identity::check_may_invite(service, teacher).await.is_ok();
+    let is_first = !service.accounts().has_administrator().await?;
     shown(
         PeoplePage {
             place: Tab::People,
@@ -121,6 +125,7 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
                 })
                 .collect(),
             is_first,
+            may_invite,
             typed: said.typed,
             problem: said.problem,
             link: said.link,
@@ -151,11 +156,17 @@ pub(in crate::service::pages) async fn add(
     teacher.check_csrf(&service, &typed.csrf)?;
     let role = role(&typed.role).unwrap_or(Role::Assistant);
     check_may_manage(&teacher, role)?;
-    let is_first = !service.store.has_administrator().await?;
+    let is_first = !service.accounts().has_administrator().await?;
+    let is_new = service.accounts().account(&typed.login.trim().to_lowercase()).await?.is_none();
     match identity::add_staff(&service, &typed.login, &typed.name, role).await {
         Ok(member) => {
-            let secret = identity::invite(&service, &member).await?;
             let detail = Detail::of(format!("{} {}", member.login, id(role)));
+            // Whoever has an account comes in by it; a new way into one that others may have made is not given here.
+            let may_invite = is_new || (!member.has_password && teacher.check_role(Role::Administrator).is_ok());
+            if !may_invite {
+                return Ok(detail.on(Redirect::to("/teacher/people").into_response()));
+            }
+            let secret = identity::invite(&service, &member).await?;
             if is_first && teacher.is_shared() {
                 return Ok(detail.on(Redirect::to(&format!("/teacher/welcome/{secret}")).into_response()));
             }
@@ -186,11 +197,12 @@ pub(in crate::service::pages) async fn change(
     Form(change): Form<Change>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &change.csrf)?;
-    let member = service.store.staff_member(&member).await?.ok_or_else(Problem::not_found)?;
+    let member = service.store.course_member(&member).await?.ok_or_else(Problem::not_found)?;
     check_may_manage(&teacher, member.role)?;
     let detail = Detail::of(format!("{} {}", member.login, change.change));
     let done = match (change.change.as_str(), role(&change.change)) {
         ("link", _) => {
+            identity::check_may_invite(&service, &teacher).await?;
             let secret = identity::invite(&service, &member).await?;
             let link = Some((member.login, welcome(&service, &headers, &secret)));
             let page = view(&service, frame, &teacher, Said { link, ..Said::default() }).await?;

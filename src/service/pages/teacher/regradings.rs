@@ -11,6 +11,7 @@ use crate::report::labels::rubric_label;
 use crate::report::text::number;
 use crate::service::State;
 use crate::service::api::batches::{Job, progress};
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, TeacherPage};
 use crate::service::regrade;
@@ -188,7 +189,7 @@ fn line(frame: &Frame, row: &Compared) -> Row {
         mistakes: titled(frame, mistakes),
     };
     Row {
-        href: format!("/r/{}", row.submission.id),
+        href: at(&format!("/r/{}", row.submission.id)),
         number: row.number.clone().unwrap_or_else(|| row.submission.name.clone()),
         name: row.student_name.clone().unwrap_or_default(),
         before: got(&row.before),
@@ -203,7 +204,7 @@ fn overridden(state: &State, frame: &Frame, compared: &[Compared], line: Overrid
     let row = compared.iter().find(|row| row.submission.id == overridden.submission_id);
     let number_of = |row: &Compared| row.number.clone().unwrap_or_else(|| row.submission.name.clone());
     OverriddenLine {
-        href: format!("/r/{}#judgement", overridden.submission_id),
+        href: at(&format!("/r/{}#judgement", overridden.submission_id)),
         number: row.map(number_of).unwrap_or_default(),
         label: rubric_label(&state.assignment, &overridden.line, frame.language).to_owned(),
         given: number(overridden.points),

@@ -44,6 +44,7 @@ struct SettingsPage {
 #[serde(default)]
 pub(in crate::service::pages) struct CourseFields {
     csrf: String,
+    title: String,
     zone: String,
     language: String,
 }
@@ -125,12 +126,14 @@ pub(super) async fn view(
 impl CourseFields {
     fn of(course: &Course) -> Self {
         let language = if course.language == Language::Ja { "ja" } else { "en" };
-        Self { csrf: String::new(), zone: course.zone_name().to_owned(), language: language.to_owned() }
+        let title = course.title.clone();
+        Self { csrf: String::new(), title, zone: course.zone_name().to_owned(), language: language.to_owned() }
     }
 
     fn read(&self, frame: &Frame) -> Result<Course, String> {
         let language = if self.language == "en" { Language::En } else { Language::Ja };
-        Course::new(&self.zone, language).ok_or_else(|| {
+        let course = Course::new(&self.zone, language).map(|course| course.titled(&self.title));
+        course.ok_or_else(|| {
             let zone = self.zone.trim();
             match frame.language {
                 Language::En => format!("There is no time zone `{zone}`. Choose one of the list, such as Asia/Tokyo."),

@@ -5,6 +5,7 @@ use super::super::shown;
 use super::people::role_name;
 use super::refused;
 use crate::service::Service;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Jar, Visitor};
 use crate::service::limits::Client;
@@ -42,11 +43,13 @@ async fn view(
     secret: &str,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
-    let member = identity::invited(service, secret).await?;
+    let account = identity::invited(service, secret).await?;
+    // The account is of the whole service, the role of this course.
+    let member = service.store.course_member(&account.id).await?.unwrap_or(account);
     shown(
         WelcomePage {
             csrf: visitor.csrf(service),
-            action: format!("/teacher/welcome/{secret}"),
+            action: at(&format!("/teacher/welcome/{secret}")),
             login: member.login,
             role: role_name(&frame, member.role),
             shortest: identity::SHORTEST_PASSWORD,

@@ -1,0 +1,149 @@
+//! The courses of a service.
+//!
+//! The first course is the service's own database: it has everything that a service of one course had, at the same addresses.
+//! Every other course is a [`Service`] of its own with tables of its own, below `/c/COURSE`: its own homeworks, roster, course link,
+//! codes, settings, log and learning platforms. Nothing of one course can be found by way of another, because no statement reaches
+//! two of them. What the courses share is what grades, the accounts of who teaches ([`Service::accounts`]), and the queue's graders.
+
+mod archived;
+mod copy;
+mod plan;
+mod way;
+
+pub use archived::archived;
+pub(super) use archived::keep;
+pub use copy::copy;
+pub use plan::{Plan, changed, reread};
+pub(super) use way::{answer, within};
+pub use way::{at, root, root_of};
+
+use super::errors::Problem;
+use super::store::{Result as StoreResult, Stored};
+use super::{Service, app, grading};
+use axum::Router;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Longest id of a course.
+const LONGEST_ID: usize = 32;
+
+/// Most courses beside the first one that a service has: each has connections of its own.
+const MOST_COURSES: usize = 64;
+
+/// The courses beside the first one that are open in this process.
+#[derive(Debug, Default)]
+pub struct Courses(Mutex<Vec<Open>>);
+
+#[derive(Clone, Debug)]
+struct Open {
+    id: String,
+    service: Service,
+    routes: Router,
+}
+
+impl Courses {
+    fn open(&self) -> MutexGuard<'_, Vec<Open>> {
+        // Nothing in here is left half done by a panic.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Whether this can be the id of a course: it stands in addresses, and names a file or a schema.
+pub fn is_id(text: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    !text.is_empty() && text.len() <= LONGEST_ID && text.chars().all(is_plain) && !text.starts_with('-')
+}
+
+/// What the addresses of the course with this id begin with.
+pub(super) fn root_of_id(id: &str) -> String {
+    format!("/c/{id}")
+}
+
+impl Service {
+    /// This course, and the others where it is the first one.
+    pub fn everywhere(&self) -> Vec<Self> {
+        let others = self.courses.open();
+        std::iter::once(self.clone()).chain(others.iter().map(|open| open.service.clone())).collect()
+    }
+
+    /// The course with this id beside the first one.
+    pub fn course(&self, id: &str) -> Option<Self> {
+        self.courses.open().iter().find(|open| open.id == id).map(|open| open.service.clone())
+    }
+
+    /// Id of the course; none for the first one.
+    pub fn course_id(&self) -> Option<&str> {
+        self.root.strip_prefix("/c/")
+    }
+}
+
+/// Opens the courses that are not open in this process yet.
+pub(super) async fn follow(first: &Service) -> StoreResult<()> {
+    for id in first.store.courses().await? {
+        if first.course(&id).is_none() {
+            let service = first.beside(&id).await?;
+            grading::take_over(&service).await?;
+            let open = Open { id, routes: app(service.clone()), service };
+            let mut courses = first.courses.open();
+            if courses.iter().all(|known| known.id != open.id) {
+                courses.push(open);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The course of a submission, where a graders' process has only its id, and the submission.
+pub(super) async fn holding(first: &Service, id: &str) -> StoreResult<Option<(Service, Stored)>> {
+    for course in first.everywhere() {
+        if let Some(stored) = course.store.stored(id).await? {
+            return Ok(Some((course, stored)));
+        }
+    }
+    Ok(None)
+}
+
+/// Makes a course without homeworks, students and lecturers.
+pub async fn make(first: &Service, id: &str, title: &str) -> Result<Service, Problem> {
+    let id = id.trim();
+    if !is_id(id) {
+        return Err(Problem::unprocessable(
+            format!("The short name of a course has 1 to {LONGEST_ID} small letters, digits or `-`, such as cg-2027."),
+            format!("授業の短い名前は {LONGEST_ID} 文字以内の英小文字、数字、`-` で入力してください（例: cg-2027）。"),
+        ));
+    }
+    if first.store.courses().await?.len() >= MOST_COURSES {
+        return Err(Problem::unprocessable(
+            format!("A service has at most {MOST_COURSES} courses beside the first. Start another service."),
+            format!(
+                "1 つのサービスで扱える授業は、最初の授業のほかに {MOST_COURSES} 個までです。サービスを分けてください。"
+            ),
+        ));
+    }
+    if !first.store.add_course(id, first.clock.now()).await? {
+        return Err(Problem::unprocessable(
+            format!("There is a course `{id}` already. Choose another short name."),
+            format!("「{id}」という授業はすでにあります。別の短い名前にしてください。"),
+        ));
+    }
+    follow(first).await?;
+    let course = first.course(id).ok_or_else(|| Problem::internal(&"a course that was made is not open"))?;
+    let settings = first.store.course().await?.titled(title);
+    course.store.set_course(&settings).await?;
+    grading::folders_changed(first).await;
+    Ok(course)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_names_a_file_and_a_schema() {
+        for right in ["cg-2027", "a", "7"] {
+            assert!(is_id(right), "{right}");
+        }
+        for wrong in ["", "CG", "a b", "../x", "a_b", "a.b", "-a", "日本", &"x".repeat(33)] {
+            assert!(!is_id(wrong), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The gradebook of a course: everybody with what they have in each homework, and together.
+
+use super::classes::people;
+use super::download::saved;
+use super::errors::Problem;
+use super::{Service, State};
+use crate::batch::formats::plain::cell;
+use crate::language::Language;
+use axum::response::Response;
+use std::collections::BTreeMap;
+
+/// The gradebook.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Gradebook {
+    /// The homeworks in the order of the course.
+    pub homeworks: Vec<Column>,
+    /// Everybody of the class who has a student number, by it.
+    pub lines: Vec<Line>,
+}
+
+/// A homework in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Id.
+    pub id: String,
+    /// Title.
+    pub title: String,
+    /// What it counts in the course.
+    pub points: f64,
+}
+
+/// One person.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Student number.
+    pub number: String,
+    /// Name.
+    pub name: String,
+    /// Points in each homework; none where nothing is graded.
+    pub points: Vec<Option<f64>>,
+}
+
+impl Line {
+    /// Points of the course; 0 and not -0 for who has none.
+    pub fn total(&self) -> f64 {
+        self.points.iter().flatten().fold(0.0, |sum, points| sum + points)
+    }
+}
+
+impl Gradebook {
+    /// Most points of the course.
+    pub fn most(&self) -> f64 {
+        self.homeworks.iter().fold(0.0, |sum, homework| sum + homework.points)
+    }
+
+    /// The gradebook of a course as it stands: of everybody the attempt that counts, with what lateness takes off.
+    pub async fn of(service: &Service, language: Language) -> Result<Self, Problem> {
+        let places = service.store.places().await?;
+        let states: Vec<State> = service.homeworks().collect();
+        let mut homeworks = Vec::new();
+        let mut lines: BTreeMap<String, Line> = BTreeMap::new();
+        for (index, state) in states.iter().enumerate() {
+            let id = state.assignment.id.clone();
+            let own = places.iter().find(|place| place.id == id).and_then(|place| place.points);
+            let points = own.unwrap_or_else(|| state.assignment.max_score());
+            homeworks.push(Column { id, title: language.of(&state.assignment.title).to_owned(), points });
+            // Whoever gave no number is nobody whose homeworks could be put together.
+            for person in people(state).await?.class.into_iter().filter(|person| !person.number.is_empty()) {
+                let graded = person.counted().and_then(|it| Some((it.row.total()?, it.row.max_score?)));
+                let line = lines.entry(person.number.clone()).or_insert_with(|| Line {
+                    number: person.number.clone(),
+                    name: person.name.clone(),
+                    points: vec![None; states.len()],
+                });
+                line.points[index] = graded.map(|(score, most)| if most > 0.0 { score / most * points } else { 0.0 });
+            }
+        }
+        Ok(Self { homeworks, lines: lines.into_values().collect() })
+    }
+
+    /// The same as a file for a spreadsheet: UTF-8 with a byte-order mark and CRLF. Under the ids of the homeworks stand their most
+    /// points; a cell where nothing is graded is empty.
+    pub fn csv(&self, name: &str) -> Result<Response, Problem> {
+        let bytes = b"\xef\xbb\xbf".to_vec();
+        let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(bytes);
+        let mut write = |row: Vec<String>| writer.write_record(row).map_err(|error| Problem::internal(&error));
+        let ids = self.homeworks.iter().map(|homework| cell(&homework.id));
+        write(["student", "name"].map(str::to_owned).into_iter().chain(ids).chain(["total".to_owned()]).collect())?;
+        let most = self.homeworks.iter().map(|homework| rounded(homework.points));
+        write([String::new(), String::new()].into_iter().chain(most).chain([rounded(self.most())]).collect())?;
+        for line in &self.lines {
+            let who = [&line.number, &line.name].map(|text| cell(text));
+            let points = line.points.iter().map(|points| points.map(rounded).unwrap_or_default());
+            write(who.into_iter().chain(points).chain([rounded(line.total())]).collect())?;
+        }
+        let bytes = writer.into_inner().map_err(|error| Problem::internal(&error))?;
+        Ok(saved(name, "text/csv; charset=utf-8", bytes))
+    }
+}
+
+/// Points with two digits at most.
+pub fn rounded(points: f64) -> String {
+    crate::report::text::number((points * 100.0).round() / 100.0)
+}

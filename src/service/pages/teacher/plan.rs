@@ -1,0 +1,204 @@
+//! The homeworks of a course: which it has, in which order, what each counts, and from when on students see it.
+
+use super::super::datetime;
+use super::super::frame::Frame;
+use super::super::shown;
+use super::{Tab, refused};
+use crate::report::text::number;
+use crate::sandbox::MOST_ASSIGNMENTS;
+use crate::service::acts::Detail;
+use crate::service::courses;
+use crate::service::errors::Problem;
+use crate::service::identity::{LecturerPage, Teacher};
+use crate::service::store::Place;
+use crate::service::{Service, State};
+use askama::Template;
+use axum::Form;
+use axum::extract::State as Shared;
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Redirect, Response};
+use std::collections::HashMap;
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/plan.html")]
+struct PlanPage {
+    frame: Frame,
+    place: Tab,
+    csrf: String,
+    problem: Option<String>,
+    lines: Vec<Line>,
+    /// Id and title of what the course can have as well.
+    others: Vec<(String, String)>,
+}
+
+/// A homework of the course.
+struct Line {
+    id: String,
+    title: String,
+    href: String,
+    position: String,
+    points: String,
+    /// Points of its rubric.
+    most: String,
+    /// `shown`, `hidden` or `from`.
+    seen: String,
+    from: String,
+    /// Whether it can be taken out here: it was chosen, and has no folder of its own.
+    can_leave: bool,
+}
+
+/// The form: `csrf`, and of each homework `position.ID`, `points.ID`, `seen.ID`, `from.ID`, `leave.ID`, `add.ID`.
+type Fields = HashMap<String, String>;
+
+/// Most points that a homework counts.
+const MOST_POINTS: f64 = 100_000.0;
+
+fn field<'a>(fields: &'a Fields, name: &str, id: &str) -> Option<&'a str> {
+    fields.get(&format!("{name}.{id}")).map(|text| text.trim())
+}
+
+fn line(service: &Service, frame: &Frame, state: &State, index: usize, place: Option<&Place>, typed: &Fields) -> Line {
+    let id = state.assignment.id.clone();
+    let given = |name: &str, stands: String| field(typed, name, &id).map_or(stands, str::to_owned);
+    let shown_from = place.and_then(|place| place.shown_from);
+    let seen = match place {
+        Some(place) if place.is_hidden != 0 => "hidden",
+        _ if shown_from.is_some() => "from",
+        _ => "shown",
+    };
+    Line {
+        title: frame.language.of(&state.assignment.title).to_owned(),
+        href: format!("{}/teacher", state.base()),
+        position: given("position", (index + 1).to_string()),
+        points: given("points", place.and_then(|place| place.points).map(number).unwrap_or_default()),
+        most: number(state.assignment.max_score()),
+        seen: given("seen", seen.to_owned()),
+        from: given("from", shown_from.map(|at| datetime::field(at, frame.course.zone())).unwrap_or_default()),
+        can_leave: service.is_beside() && service.named_as(&id).is_some(),
+        id,
+    }
+}
+
+async fn view(
+    service: &Service,
+    frame: Frame,
+    teacher: &Teacher,
+    typed: &Fields,
+    problem: Option<String>,
+) -> Result<Response, Problem> {
+    let places = service.store.places().await?;
+    let place = |state: &State| places.iter().find(|place| place.id == state.assignment.id);
+    let lines = service.homeworks().enumerate();
+    let lines: Vec<Line> =
+        lines.map(|(index, state)| line(service, &frame, &state, index, place(&state), typed)).collect();
+    let offered = if service.is_beside() { service.offered() } else { &[] };
+    let others = offered.iter().filter(|one| lines.iter().all(|line| line.id != one.id));
+    let others = others.map(|one| (one.id.clone(), frame.language.of(&one.title).to_owned())).collect();
+    shown(PlanPage { place: Tab::Plan, csrf: teacher.csrf(service), problem, lines, others, frame }.render())
+}
+
+/// `GET /teacher/plan`.
+pub(in crate::service::pages) async fn page(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    view(&service, frame, &teacher, &Fields::new(), None).await
+}
+
+/// `POST /teacher/plan`.
+pub(in crate::service::pages) async fn save(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    frame: Frame,
+    Form(fields): Form<Fields>,
+) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    teacher.check_csrf(&service, fields.get("csrf").map_or("", String::as_str))?;
+    let added: Vec<String> = service
+        .offered()
+        .iter()
+        .filter(|one| {
+            service.is_beside() && field(&fields, "add", &one.id).is_some() && service.homework(&one.id).is_none()
+        })
+        .map(|one| one.id.clone())
+        .collect();
+    for id in &added {
+        service.store.assignment(id).await?;
+    }
+    match places(&service, &frame, &fields, &added).await? {
+        Ok(places) => {
+            service.store.set_places(&places).await?;
+            courses::changed(&service).await?;
+            let order: Vec<String> = service.ids();
+            Ok(Detail::of(order.join(", ")).on(Redirect::to("/teacher/plan").into_response()))
+        }
+        Err(wrong) => {
+            let page = view(&service, frame, &teacher, &fields, Some(wrong.to_owned())).await?;
+            Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
+        }
+    }
+}
+
+/// What the form makes of the course's homeworks: those that it has in their new order, and then those that were added.
+async fn places(
+    service: &Service,
+    frame: &Frame,
+    fields: &Fields,
+    added: &[String],
+) -> Result<Result<Vec<Place>, &'static str>, Problem> {
+    let known = service.store.places().await?;
+    let find = |id: &str| known.iter().find(|place| place.id == *id).cloned();
+    let mut ordered = Vec::new();
+    for (index, id) in service.ids().iter().enumerate() {
+        let Some(place) = find(id) else { continue };
+        let position = field(fields, "position", id).and_then(|text| text.parse().ok()).unwrap_or(index as f64 + 1.0);
+        match read(frame, fields, place) {
+            Ok(place) => ordered.push((position, place)),
+            Err(wrong) => return Ok(Err(wrong)),
+        }
+    }
+    // Two with one number stay in the order in which they stand.
+    ordered.sort_by(|(one, _), (other, _)| f64::total_cmp(one, other));
+    let mut places: Vec<Place> = ordered.into_iter().map(|(_, place)| place).collect();
+    places.extend(added.iter().filter_map(|id| Some(Place { is_chosen: 1, ..find(id)? })));
+    for (place, position) in places.iter_mut().zip(0..) {
+        place.position = Some(position);
+        let leaves = service.is_beside() && field(fields, "leave", &place.id).is_some();
+        place.is_chosen = if leaves { 0 } else { place.is_chosen };
+    }
+    if places.len() > MOST_ASSIGNMENTS {
+        return Ok(Err(frame.say("A course has at most 16 homeworks.", "1 つの授業の課題は 16 個までです。")));
+    }
+    Ok(Ok(places))
+}
+
+/// What the form says of one homework.
+fn read(frame: &Frame, fields: &Fields, place: Place) -> Result<Place, &'static str> {
+    let points = match field(fields, "points", &place.id) {
+        None => place.points,
+        Some("") => None,
+        Some(text) => {
+            let points = text.parse().ok().filter(|points: &f64| (0.0..=MOST_POINTS).contains(points));
+            Some(points.ok_or(frame.say(
+                "Points: a number from 0, or nothing.",
+                "配点は 0 以上の数値で入力するか、空欄にしてください。",
+            ))?)
+        }
+    };
+    let from = datetime::parse(field(fields, "from", &place.id).unwrap_or_default(), frame.course.zone());
+    let from = from.map_err(|_| {
+        frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+    })?;
+    let (is_hidden, shown_from) = match (field(fields, "seen", &place.id), from) {
+        (Some("hidden"), _) => (1, None),
+        (Some("from"), None) => {
+            return Err(frame.say("Say from when on it is shown.", "公開を始める日時を入力してください。"));
+        }
+        (Some("from"), from) => (0, from),
+        (Some(_), _) => (0, None),
+        (None, _) => (place.is_hidden, place.shown_from),
+    };
+    Ok(Place { points, is_hidden, shown_from, ..place })
+}
