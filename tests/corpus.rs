@@ -41,7 +41,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("schlick", 191),
     ("several-lights", 178),
     ("spot-directx", 88),
-    ("spot-opengl", 79),
+    ("spot-opengl", 80),
     ("spot-soft", 62),
     ("threshold", 200),
     ("toon", 21),

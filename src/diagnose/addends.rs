@@ -5,13 +5,15 @@
 //! moves a right answer's when something is added to it.
 
 use super::Evidence;
-use super::columns::{Columns, is_constant, is_number, of_places};
+use super::columns::{Columns, is_constant, is_number, is_same, of_places};
+use super::inside::made_of;
 use super::trials::{Changes, FUEL_OF_TRACE, change, is_drawn, place};
 use glam::DVec3;
 use reference::assignment::RubricLine;
 use reference::fit::TermJudgement;
 use reference::interpreter::Stage;
 use reference::interpreter::trace::{Event, Trace};
+use reference::pipeline::POSITION;
 use reference::traced::{Bench, Place};
 
 /// Every seventh of the 560 probes is looked at, so that each of the 20 designs occurs four times.
@@ -54,8 +56,23 @@ pub(super) fn credit(evidence: &Evidence<'_>, judged: Vec<TermJudgement>) -> Vec
 pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
     let Some(text) = Text::of(evidence) else { return false };
     evidence.assignment.rubric.iter().any(|line| {
-        let term = text.right(line);
+        let term = text.right(&line.judges);
         !is_constant(&term) && !text.computing(&term).is_empty()
+    })
+}
+
+/// Whether the colour is made of something that a right answer computes as well and that is not the same everywhere. Then the
+/// text computes, and a mistake on the way may leave one colour for all places: it looks nothing up.
+pub(super) fn is_computed(evidence: &Evidence<'_>) -> bool {
+    let (Some(text), Some(program)) = (Text::of(evidence), evidence.traced) else { return false };
+    let outputs = program.stage(text.stage).outputs().iter().zip(&text.trace.outputs);
+    let colours: Vec<usize> =
+        outputs.filter(|(output, _)| output.name != POSITION).flat_map(|(_, events)| events.clone()).collect();
+    let way = made_of(&text.trace, &colours);
+    evidence.assignment.equation.definitions().iter().any(|definition| {
+        let right = text.right(&definition.name);
+        let is_it = |event: &usize| is_same(&text.trace.events[*event], &right);
+        !is_constant(&right) && way.iter().any(is_it)
     })
 }
 
@@ -105,10 +122,10 @@ impl<'a> Text<'a> {
         Some(Self { evidence: *evidence, places, stage, bench, trace, colours: seen.colours })
     }
 
-    /// What a line judges, as a right answer computes it.
-    fn right(&self, line: &RubricLine) -> Columns {
+    /// A definition, as a right answer computes it.
+    fn right(&self, definition: &str) -> Columns {
         let right = self.evidence.assignment.equation.right();
-        let value = |at: &Place<'_>| right.evaluate(at.uniforms, &at.probe.attributes).get(&line.judges);
+        let value = |at: &Place<'_>| right.evaluate(at.uniforms, &at.probe.attributes).get(definition);
         let values: Vec<_> = self.places.iter().filter_map(value).collect();
         let lanes = self.trace.events.first().map_or(0, |event| event.lanes.len());
         of_places(&values, lanes / self.places.len().max(1))
@@ -123,7 +140,7 @@ impl<'a> Text<'a> {
     /// Whether it has the line's right term as an addend of the colour.
     fn adds(&mut self, line: &RubricLine) -> bool {
         let Some(definition) = self.evidence.assignment.equation.index(&line.judges) else { return false };
-        let term = self.right(line);
+        let term = self.right(&line.judges);
         let right = self.evidence.assignment.equation.right();
         let moves = |at: &Place<'_>| right.moves(at.uniforms, &at.probe.attributes, definition, ADDED);
         let wanted: Vec<DVec3> = self.places.iter().map(moves).collect();

@@ -88,7 +88,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     if let Some(found) = explained_by(&constants, evidence, &samples) {
         return Cause::Known { constants, found };
     }
-    let is_lookup = hard_coded::is_lookup(evidence.source, probes, evidence.samples);
+    let is_lookup = hard_coded::is_lookup(evidence.source, probes, evidence.samples) && !addends::is_computed(evidence);
     let by_term = || {
         let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
         unexplained(evidence, &alternatives, &samples, terms)
@@ -247,7 +247,17 @@ fn explained_by(
 impl Cause {
     /// The cause; a lookup where the shader does something else at probes that nobody knows beforehand.
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
-        if self.is_refuted(evidence) { Self::HardCoded } else { self }
+        match self {
+            _ if !self.is_refuted(evidence) => self,
+            Self::Known { .. } | Self::NearlyRight if addends::is_computed(evidence) => {
+                let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+                let Evidence { assignment, probes, .. } = *evidence;
+                let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
+                let (findings, _) = inside::account(evidence);
+                Self::Unexplained { terms, findings }
+            }
+            _ => Self::HardCoded,
+        }
     }
 
     /// Whether the shader does something else at probes that nobody knows beforehand.

@@ -21,6 +21,7 @@ use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
 use crate::compare::POSITION_TOLERANCE;
 use glam::DVec3;
 use quantities::Quantities;
+pub(super) use quantities::made_of;
 use reference::Assignment;
 use reference::equation::Variant;
 use reference::interpreter::trace::{Site, Trace, What};

@@ -151,7 +151,7 @@ impl Quantities {
 }
 
 /// The events that some events are computed from, and they themselves.
-pub(super) fn made_of(trace: &Trace, events: &[usize]) -> BTreeSet<usize> {
+pub(in crate::diagnose) fn made_of(trace: &Trace, events: &[usize]) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     let mut open = events.to_vec();
     while let Some(event) = open.pop() {
