@@ -21,13 +21,14 @@
 //! | `/healthz`, `/readyz`, `/metrics` | for who runs it |
 //!
 //! [`courses`] are the courses, [`folders`] are homeworks that come by the browser, [`submit`] is the one way in for files, [`grading`] grades them in the background, [`counting`] says which of several counts, [`gradebook`] is a course's table of all its homeworks, [`store`] keeps everything,
-//! [`judgement`] what people judge beside it, [`likeness`] who has handed in what others have, [`insights`] what the class shows, [`export`] everything of one student, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`sign_in`] that of an OpenID issuer, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
+//! [`judgement`] what people judge beside it, [`likeness`] who has handed in what others have, [`insights`] what the class shows, [`export`] everything of one student, [`acts`] is the log of what teachers do, [`idempotency`] lets a file that is sent twice count once, [`identity`] says who is there, [`proxied`] takes a reverse proxy's word for it, [`sign_in`] that of an OpenID issuer, [`clients`] asks issuers and platforms, [`errors`] gives every error its form. [`server`] is the server around [`app`], [`preview`] one
 //! for the teacher who is still writing the homework.
 //! The async runtime lives nowhere else in ggrade.
 
 pub mod acts;
 pub mod api;
 pub mod classes;
+pub mod clients;
 pub mod clock;
 pub mod config;
 pub mod counting;

@@ -3,6 +3,7 @@
 mod api;
 mod archive;
 mod bench;
+mod certificates;
 mod classes;
 mod cluster;
 mod codes;

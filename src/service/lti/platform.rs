@@ -1,6 +1,7 @@
 //! Asking a platform: its keys, a token for its services, and these.
 
 use super::super::Service;
+use super::super::clients::Clients;
 use super::super::identity::new_id;
 use super::super::store::Platform;
 use super::keys::sign;
@@ -13,8 +14,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long a platform may take to answer, and the longest answer, in bytes.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// The longest answer of a platform, in bytes.
 const LONGEST: usize = 4 << 20;
 
 /// How soon keys are fetched again for one that is not among them.
@@ -25,20 +25,13 @@ const ASSERTION: i64 = 60;
 const MARGIN: u64 = 30;
 
 /// What is kept of platforms between requests.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Connections {
-    client: reqwest::Client,
+    clients: Clients,
     /// Keys by their address.
     keys: Mutex<HashMap<String, (Instant, Arc<JwkSet>)>>,
     /// Tokens by platform and scope.
     tokens: Mutex<HashMap<(String, String), (Instant, String)>>,
-}
-
-impl Default for Connections {
-    fn default() -> Self {
-        let client = reqwest::Client::builder().timeout(PATIENCE).redirect(reqwest::redirect::Policy::none());
-        Self { client: client.build().unwrap_or_default(), keys: Mutex::default(), tokens: Mutex::default() }
-    }
 }
 
 /// What a platform did not do: for the log and for its administrator.
@@ -57,7 +50,9 @@ pub(in crate::service) fn checked(address: &str) -> Result<Url, Failure> {
 
 impl Connections {
     fn request(&self, method: Method, address: &str) -> Result<reqwest::RequestBuilder, Failure> {
-        Ok(self.client.request(method, checked(address)?))
+        let url = checked(address)?;
+        let client = self.clients.of(&url).map_err(|failure| format!("{address}: {failure}"))?;
+        Ok(client.request(method, url))
     }
 
     /// The JSON at an address.
