@@ -25,6 +25,11 @@ pub struct Serve {
     #[arg(long)]
     #[serde(skip)]
     pub set_teacher_password: bool,
+    /// Ask the service that runs with these options on this machine whether it takes uploads, and end: with exit code 0 if
+    /// it does
+    #[arg(long, conflicts_with = "set_teacher_password")]
+    #[serde(skip)]
+    pub healthcheck: bool,
     /// Address and port to listen on [default: 127.0.0.1:8080]
     #[arg(long, value_name = "ADDRESS:PORT")]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -21,6 +21,9 @@ pub fn run(arguments: &Serve) -> Result<ExitStatus, Fault> {
             return Ok(ExitStatus::Usage);
         }
     };
+    if arguments.healthcheck {
+        return check_health(&config);
+    }
     let assignments = match choice::assignments(&config.assignment).and_then(|found| of_tokens(&config, found)) {
         Ok(assignments) => assignments,
         Err(text) => {
@@ -28,10 +31,7 @@ pub fn run(arguments: &Serve) -> Result<ExitStatus, Fault> {
             return Ok(ExitStatus::Usage);
         }
     };
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .enable_all()
-        .build()
-        .map_err(|error| Fault::new(Text::verbatim(format!("threads: {error}"))))?;
+    let runtime = runtime()?;
     if arguments.set_teacher_password {
         return set_password(&config, &runtime);
     }
@@ -41,6 +41,24 @@ pub fn run(arguments: &Serve) -> Result<ExitStatus, Fault> {
         welcome(&started);
         started.serve().await
     })?;
+    Ok(ExitStatus::FullMarks)
+}
+
+fn runtime() -> Result<tokio::runtime::Runtime, Fault> {
+    let built = tokio::runtime::Builder::new_multi_thread().enable_all().build();
+    built.map_err(|error| Fault::new(Text::verbatim(format!("threads: {error}"))))
+}
+
+/// Asks the service of a configuration whether it takes uploads.
+fn check_health(config: &Config) -> Result<ExitStatus, Fault> {
+    let url = server::readiness_address(config.listen);
+    runtime()?.block_on(server::ready(&url)).map_err(|failure| {
+        Fault::new(Text::new(
+            format!("the service does not take uploads: {failure}"),
+            format!("サービスは提出を受け付けていません: {failure}"),
+        ))
+    })?;
+    anstream::println!("{}", Text::new("ready", "提出を受け付けています").get(language(None)));
     Ok(ExitStatus::FullMarks)
 }
 

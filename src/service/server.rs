@@ -1,9 +1,11 @@
 //! The server around the router: from a configuration to a service that listens, until it is told to end.
 
 mod connections;
+mod health;
 mod steady;
 
 pub use connections::accept;
+pub use health::{readiness_address, ready};
 
 use super::clock::Clock;
 use super::grading::Graders;

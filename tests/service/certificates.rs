@@ -41,3 +41,30 @@ async fn only_https_needs_certificates() {
     let said = server.said.lock().expect("a lock").clone();
     assert!(said.contains("https://127.0.0.1:1") && said.contains("apt-get install ca-certificates"), "{said}");
 }
+
+/// A container or an orchestrator asks in this way.
+#[test]
+fn the_health_check_says_whether_uploads_are_taken() {
+    let database = Database::sqlite();
+    let server = Server::start(&database);
+    let folder = tempfile::tempdir().expect("a folder");
+    let address = server.socket().to_owned();
+    let check = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ggrade"));
+        command
+            .args(["serve", "--healthcheck"])
+            .env("GGRADE_LISTEN", &address)
+            .env("LANG", "C")
+            .env_remove("GGRADE_LANG");
+        without_authorities(&mut command, folder.path());
+        // A proxy of the machine's has no part in it.
+        let output = command.env("http_proxy", "http://127.0.0.1:1").output().expect("an end");
+        let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("text"));
+        (output.status.code(), said.concat())
+    };
+    assert_eq!(check(), (Some(0), "ready\n".to_owned()));
+    assert!(server.terminate().success());
+    let (code, said) = check();
+    assert_eq!(code, Some(3), "{said}");
+    assert!(said.contains("does not take uploads") && said.contains(&address), "{said}");
+}
