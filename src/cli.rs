@@ -3,6 +3,8 @@
 mod assignment;
 mod batch;
 mod format;
+#[cfg(feature = "manual")]
+mod manual;
 #[cfg(feature = "service")]
 mod serve;
 #[cfg(feature = "watch")]
@@ -13,6 +15,8 @@ pub use assignment::Preview;
 pub use assignment::{Action, Assignment, Check, New, Show};
 pub use batch::{Batch, BatchAction, BatchCommand, Merge};
 pub use format::{Format, ViewFormat};
+#[cfg(feature = "manual")]
+pub use manual::{Completions, Man};
 #[cfg(feature = "service")]
 pub use serve::{LogFormat, Role, Serve};
 #[cfg(feature = "watch")]
@@ -56,6 +60,12 @@ pub enum Command {
     Assignment(Assignment),
     /// Check this machine and say what to install
     Doctor(Doctor),
+    /// Write the manual pages of all commands into a folder
+    #[cfg(feature = "manual")]
+    Man(Man),
+    /// Print what a shell needs to complete commands and options
+    #[cfg(feature = "manual")]
+    Completions(Completions),
     /// Hold the solution of an assignment against OpenGL, and print JSON (started by `assignment check`)
     #[cfg(feature = "opengl")]
     #[command(hide = true, name = "opengl")]

@@ -10,6 +10,8 @@ mod exchange;
 mod files;
 pub mod grade;
 pub mod interrupt;
+#[cfg(feature = "manual")]
+pub mod manual;
 #[cfg(feature = "opengl")]
 pub mod opengl;
 #[cfg(feature = "watch")]

@@ -16,6 +16,10 @@ fn main() -> ExitCode {
         Command::Corpus(arguments) => command::corpus::run(&arguments),
         Command::Assignment(arguments) => command::assignment::run(&arguments),
         Command::Doctor(arguments) => command::doctor::run(&arguments),
+        #[cfg(feature = "manual")]
+        Command::Man(arguments) => command::manual::pages(&arguments),
+        #[cfg(feature = "manual")]
+        Command::Completions(arguments) => command::manual::completions(&arguments),
         #[cfg(feature = "opengl")]
         Command::OpenGl(arguments) => command::opengl::run(&arguments),
         Command::Worker(arguments) => command::worker::run(&arguments),

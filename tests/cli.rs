@@ -4,6 +4,8 @@
 mod authoring;
 #[path = "cli/folders.rs"]
 mod folders;
+#[path = "cli/manual.rs"]
+mod manual;
 #[path = "cli/preview.rs"]
 mod preview;
 #[path = "cli/refusals.rs"]
