@@ -262,7 +262,12 @@ fn a_missing_driver_is_our_fault_and_the_package_is_named() {
 
 #[test]
 fn the_doctor_finds_this_machine_well() {
-    ggrade().arg("doctor").assert().code(0).stdout(predicate::str::contains("llvmpipe"));
+    let name = format!("ok   ggrade {} (", env!("CARGO_PKG_VERSION"));
+    ggrade().arg("doctor").assert().code(0).stdout(
+        predicate::str::starts_with(name)
+            .and(predicate::str::contains("llvmpipe"))
+            .and(predicate::str::contains("https: ")),
+    );
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! `ggrade doctor`: what this machine has, and what to install.
 
+mod installation;
+
 use super::{ExitStatus, language};
 use crate::choice;
 use crate::cli::Doctor;
@@ -9,13 +11,20 @@ use crate::language::{Language, Text};
 use crate::render::AdapterKind;
 use crate::report::{Environment, Verdict};
 use crate::sandbox::{Policy, Pool, Settings, Submission};
+use installation::Installation;
 use reference::Assignment;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Checks the machine by what it is for: opens the device in a worker, and grades the handed-out file of every homework.
 pub fn run(arguments: &Doctor) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
+    let program = std::env::current_exe().unwrap_or_default();
+    let installation = Installation::of(&program, Path::new("/"));
+    let what = installation.description();
+    let head = format!("ggrade {} ({})", env!("CARGO_PKG_VERSION"), program.display());
+    say(true, &Text::new(format!("{head}: {}", what.en), format!("{head}: {}", what.ja)), language);
     let mut healthy = check_sandbox(language);
     for assignment in reference::assignments() {
         healthy &= check_assignment(assignment, language);
@@ -32,6 +41,11 @@ pub fn run(arguments: &Doctor) -> Result<ExitStatus, Fault> {
         _ => Text::new("graphics card: none (none is needed)", "グラフィックスカード: なし (なくても採点できます)"),
     };
     say(true, &gpu, language);
+    #[cfg(feature = "service")]
+    check_https(language);
+    if !healthy {
+        anstream::println!("     {}", installation.remedy().get(language));
+    }
     Ok(if healthy { ExitStatus::FullMarks } else { ExitStatus::Fault })
 }
 
@@ -104,6 +118,24 @@ fn check_assignment(assignment: &Arc<Assignment>, language: Language) -> bool {
         }
         Err(fault) => complain(&fault, language),
     }
+}
+
+/// Says whether the service could ask learning platforms and issuers; nothing else needs https.
+#[cfg(feature = "service")]
+fn check_https(language: Language) {
+    let (word, text) = match crate::service::clients::https() {
+        Ok(_) => {
+            ("ok  ", Text::new("https: the certificates of authorities are there", "https: 認証局の証明書があります"))
+        }
+        Err(failure) => (
+            "lack",
+            Text::new(
+                format!("https: {failure}. Only LTI and signing in by OpenID Connect need it"),
+                format!("https: {failure} (必要なのは LTI と OpenID Connect によるログインだけです)"),
+            ),
+        ),
+    };
+    anstream::println!("{word} {}", text.get(language));
 }
 
 fn complain(fault: &Fault, language: Language) -> bool {
