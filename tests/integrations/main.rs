@@ -1,8 +1,10 @@
 //! The formats of autograders and CI as their systems call ggrade: by the command line, and by the scripts in `deploy/`.
 
+mod container;
 mod gradescope;
 mod kubernetes;
 mod moodle;
+mod service;
 
 use assert_cmd::Command;
 use base64::Engine;
