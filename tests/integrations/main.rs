@@ -1,5 +1,6 @@
 //! The formats of autograders and CI as their systems call ggrade: by the command line, and by the scripts in `deploy/`.
 
+mod action;
 mod container;
 mod gradescope;
 mod kubernetes;
