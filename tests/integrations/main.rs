@@ -2,6 +2,7 @@
 
 mod action;
 mod container;
+mod debian;
 mod gradescope;
 mod kubernetes;
 mod moodle;
