@@ -237,19 +237,25 @@ impl FrameResult {
 
 /// The pixels of a frame that are judged and differ by more than the tolerance: for each, row by row from above, whether it does.
 pub fn wrong_pixels(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> Vec<bool> {
+    let all = differences(expected, candidate, index);
+    all.into_iter().map(|one| one.is_some_and(|difference| difference > PIXEL_TOLERANCE)).collect()
+}
+
+/// For each pixel of a frame, row by row from above, the largest difference of a channel; none where it is not judged.
+pub fn differences(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> Vec<Option<u8>> {
     let drawn = candidate.picture(index);
     let width = expected.width as usize;
-    let mut wrong = vec![false; drawn.pixels().len()];
+    let mut differences = vec![None; drawn.pixels().len()];
     for (y, runs) in expected.rows.iter().enumerate() {
         for run in expected.runs[runs.clone()].iter().filter(|run| run.coverage == Coverage::Interior) {
             for (column, right) in run.columns.clone().zip(&run.pixels) {
                 let place = y * width + column;
                 let (right, found) = (right.to_ne_bytes(), drawn.pixels()[place]);
-                wrong[place] = (0..3).any(|channel| right[channel].abs_diff(found[channel]) > PIXEL_TOLERANCE);
+                differences[place] = (0..3).map(|channel| right[channel].abs_diff(found[channel])).max();
             }
         }
     }
-    wrong
+    differences
 }
 
 /// The pixel that is farthest from all that are not wrong, in steps along rows and columns; none where none is.

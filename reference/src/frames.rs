@@ -163,7 +163,7 @@ impl Assignment {
     }
 
     /// What is seen in a picture, before it is coloured.
-    fn scenery<'a>(
+    pub(crate) fn scenery<'a>(
         &'a self,
         [width, height]: [u32; 2],
         instances: &'a [Instance<'a>],

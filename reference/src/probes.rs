@@ -19,7 +19,7 @@ pub(crate) use design::{Aim, Design, Normal};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-pub use spots::{Course, Crossings, Shown, Spot, at_pixel, linear};
+pub use spots::{Course, Crossings, Pictured, Shown, Spot, at_pixel, linear};
 use std::ops::{Range, RangeInclusive};
 
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.

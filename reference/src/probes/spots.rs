@@ -5,6 +5,7 @@
 //! computed from, at the edge of a step, no fragment is probed: there a right answer may have another one.
 
 mod across;
+mod pictured;
 mod seen;
 mod shown;
 
@@ -14,6 +15,7 @@ use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
 pub use across::{Course, Crossings};
 use glam::{DQuat, DVec2, DVec3, DVec4};
+pub use pictured::Pictured;
 use rand_chacha::ChaCha8Rng;
 use shown::{Handed, HandedAround, WAYS, mixed};
 pub use shown::{Shown, linear};
