@@ -17,7 +17,7 @@ use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, po
 use crate::language::Text;
 use crate::render::Sample;
 pub use crate::report::Hints;
-use crate::report::{Advice, FrameResult, Hypothesis, ProbeResult, Repair, RubricLine};
+use crate::report::{Advice, FrameResult, Hypothesis, OwnValues, ProbeResult, Repair, RubricLine};
 use crate::source::Source;
 use advice::Beyond;
 pub use cause::UNEXPLAINED;
@@ -26,7 +26,7 @@ pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
-use reference::probes::{Course, Crossings, Probe, ProbeSet};
+use reference::probes::{Course, Crossings, Pictured, Probe, ProbeSet};
 use reference::traced::TracedProgram;
 
 /// Mistakes that are told from other things than the colours alone.
@@ -140,6 +140,21 @@ pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
     let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
     let agrees = frames_agree && reference::fit::is_right(evidence.probes, &samples, COLOUR_TOLERANCE);
     agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)
+}
+
+/// What a wrong answer computes on its way at places of a frame, beside what it should. `rubric`: what the report says of its lines.
+pub fn own_values(
+    evidence: &Evidence<'_>,
+    frame: u32,
+    pictured: &[Pictured],
+    rubric: &[RubricLine],
+) -> Option<OwnValues> {
+    let stage = |line: &RubricLine| {
+        let named = evidence.sources.iter().find(|(_, source)| line.file.as_ref() == Some(&source.facts.name));
+        named.or(evidence.sources.first()).map(|(stage, _)| *stage)
+    };
+    let said: Vec<_> = rubric.iter().filter_map(|line| Some((stage(line)?, line.line?))).collect();
+    inside::own_values(evidence, frame, pictured, &said)
 }
 
 /// The mistake that the way over edges shows. That of an answer that is wrong elsewhere may go back for that reason.

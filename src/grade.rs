@@ -2,6 +2,7 @@
 
 mod extended;
 mod map_lookup;
+mod own_values;
 mod programs;
 mod unfinished;
 
@@ -12,7 +13,7 @@ use programs::Programs;
 use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
-use crate::diagnose::{self, Evidence, Fresh, Hints};
+use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
 use crate::diagnostic::{Diagnostic, Stage};
 use crate::expected;
 use crate::fault::Fault;
@@ -319,6 +320,7 @@ impl Grader {
             hints,
         };
         let mut diagnosis = diagnose::diagnose(&evidence);
+        let mut own_values = None;
         if !diagnosis.is_right {
             // Advice and the explanation are about the solution, which this answer is not.
             let accepted = self.accepted.iter().filter_map(|(answer, expected)| {
@@ -338,13 +340,26 @@ impl Grader {
                     file: source.facts.name.clone(),
                     line: None,
                 }));
-                Some((frames, diagnosis))
+                Some((frames, diagnosis, (answer, expected)))
             });
             // The reading by which most is right, where more is right by it; of equal ones the first.
             let found = accepted.collect::<Vec<_>>().into_iter().rev();
-            let best = found.max_by(|(_, a), (_, b)| a.points().total_cmp(&b.points()));
-            if let Some(best) = best.filter(|(_, read)| read.is_right || read.points() > diagnosis.points()) {
-                (frames, diagnosis) = best;
+            let best = found.max_by(|(_, a, _), (_, b, _)| a.points().total_cmp(&b.points()));
+            let best = best.filter(|(_, read, _)| read.is_right || read.points() > diagnosis.points());
+            let followed = |evidence: &Evidence<'_>, expected: &[ExpectedFrame], diagnosis: &Diagnosis| {
+                let is_wrong = !diagnosis.is_right;
+                is_wrong.then(|| own_values::of(evidence, expected, &rendering.frames, &diagnosis.rubric)).flatten()
+            };
+            own_values = match &best {
+                Some((frames, read, (answer, expected))) => answer.reading.as_deref().and_then(|reading| {
+                    let probes = assignment.probes_of(answer, probes);
+                    let evidence = Evidence { assignment: &reading.assignment, frames, probes: &probes, ..evidence };
+                    followed(&evidence, expected, read)
+                }),
+                None => followed(&evidence, &self.expected, &diagnosis),
+            };
+            if let Some(best) = best {
+                (frames, diagnosis, _) = best;
             }
         }
         let score = diagnosis.points();
@@ -365,6 +380,7 @@ impl Grader {
             frames,
             probes: diagnosis.probes,
             map_lookup: None,
+            own_values,
             cross_check: None,
             environment: self.environment.clone(),
             hints,

@@ -8,6 +8,7 @@ pub mod json;
 pub(crate) mod labels;
 mod map_lookup;
 mod next;
+mod own_values;
 pub mod pictures;
 #[cfg(test)]
 pub(crate) mod samples;
@@ -16,6 +17,7 @@ pub(crate) mod wrap;
 
 pub use frame::{FrameResult, Picture, Pictures, SILHOUETTE, TermPictures};
 pub use map_lookup::{MapLookup, MapPlace};
+pub use own_values::{OwnValues, ValueAt, ValueLine, ValuePlace};
 
 use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
@@ -230,6 +232,9 @@ pub struct Report {
     /// Where the map that a pass draws is looked up for a pixel that is wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_lookup: Option<MapLookup>,
+    /// What the files compute on their way, line by line, where the answer is wrong and can be followed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub own_values: Option<OwnValues>,
     /// What graded it.
     pub environment: Environment,
     /// How much its messages help.
@@ -315,7 +320,9 @@ impl Report {
         let lines = self.rubric.iter_mut().filter_map(|line| line.file.as_mut());
         let places = self.diagnostics.iter_mut().filter_map(|place| place.file.as_mut());
         let advice = self.advice.iter_mut().map(|advice| &mut advice.file);
-        for file in lines.chain(places).chain(advice) {
+        let followed = self.own_values.iter_mut().flat_map(|values| &mut values.lines);
+        let followed = followed.filter_map(|line| line.file.as_mut());
+        for file in lines.chain(places).chain(advice).chain(followed) {
             if let Some(name) = names.get(file) {
                 name.clone_into(file);
             }

@@ -6,6 +6,8 @@ mod authoring;
 mod folders;
 #[path = "cli/manual.rs"]
 mod manual;
+#[path = "cli/own_values.rs"]
+mod own_values;
 #[path = "cli/preview.rs"]
 mod preview;
 #[path = "cli/refusals.rs"]

@@ -8,6 +8,7 @@
 mod additive;
 mod blame;
 mod finding;
+mod own_values;
 mod quantities;
 mod repair;
 mod search;
@@ -20,6 +21,7 @@ use super::locate::{Located, Role, is_handed_out};
 use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
 use crate::compare::POSITION_TOLERANCE;
 use glam::DVec3;
+pub(super) use own_values::own_values;
 use quantities::Quantities;
 pub(super) use quantities::made_of;
 use reference::Assignment;
@@ -78,7 +80,7 @@ pub(super) enum Flaw {
 
 /// Looks for the one place that has to be mended for what is seen to be right.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
-    within(evidence, evidence.assignment, None, |search| search.findings()).unwrap_or_default()
+    within(evidence, evidence.assignment, None, &[], |search| search.findings()).unwrap_or_default()
 }
 
 /// The same, and the changes of the text by which all becomes right, where there are such.
@@ -88,7 +90,7 @@ pub(super) fn account(evidence: &Evidence<'_>) -> (Vec<Finding>, Vec<Repaired>) 
         let repairs = search.repairs(&findings);
         (findings, repairs)
     };
-    within(evidence, evidence.assignment, None, both).unwrap_or_default()
+    within(evidence, evidence.assignment, None, &[], both).unwrap_or_default()
 }
 
 /// Looks for the place of one of the mistakes that were found: where a right answer is the one with the others in it.
@@ -101,8 +103,8 @@ pub(super) fn find_one(
     let others: Vec<FoundMistake> =
         found.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, other)| other.clone()).collect();
     let findings = match others.is_empty() {
-        true => within(evidence, assignment, None, |search| search.findings())?,
-        false => within(evidence, assignment, Some(&assignment.variant(&others)?), |search| search.findings())?,
+        true => within(evidence, assignment, None, &[], |search| search.findings())?,
+        false => within(evidence, assignment, Some(&assignment.variant(&others)?), &[], |search| search.findings())?,
     };
     // A mistake may be made in two places: each is one that is to be mended.
     findings.into_iter().next()
@@ -110,7 +112,7 @@ pub(super) fn find_one(
 
 /// The one place that all is mended at, where there is such a place.
 pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<Finding> {
-    let findings = within(evidence, assignment, None, |search| search.findings())?;
+    let findings = within(evidence, assignment, None, &[], |search| search.findings())?;
     match <[Finding; 1]>::try_from(findings) {
         Ok([finding]) if finding.is_settled && !finding.is_whole => Some(finding),
         _ => None,
@@ -138,11 +140,13 @@ pub(super) fn variable(sites: &[Site], site: usize) -> Option<String> {
     }
 }
 
-/// Looks into the text by `look`; what it finds where nothing is wrong at the probes that are looked at, is nothing.
+/// Looks into the text by `look`, at some of the probes and at these places after them; what it finds where nothing is wrong there, is
+/// nothing.
 fn within<T: Default>(
     evidence: &Evidence<'_>,
     assignment: &Assignment,
     right: Option<&Variant<'_>>,
+    more: &[Place<'_>],
     look: impl FnOnce(&mut Search<'_, '_>) -> T,
 ) -> Option<T> {
     let theirs = evidence.traced?;
@@ -151,7 +155,7 @@ fn within<T: Default>(
     if chosen.is_empty() {
         return None;
     }
-    let places: Vec<Place<'_>> = chosen.iter().map(|at| place(evidence, *at)).collect();
+    let places: Vec<Place<'_>> = chosen.iter().map(|at| place(evidence, *at)).chain(more.iter().copied()).collect();
     let in_quads = theirs.needs_quads(assignment) || solution.needs_quads(assignment);
     let (own, traces) = Bench::new(assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?.trace(&Changes::default())?;
     if !is_drawn(evidence, &chosen, &own.colours) {

@@ -55,6 +55,11 @@ impl<'p> Trials<'p> {
             && self.all.with(changes).is_some_and(|seen| is_right(&seen, self.count))
     }
 
+    /// What is seen with these changes at all places.
+    pub fn at_all(&mut self, changes: &Changes) -> Option<Seen> {
+        self.all.with(changes)
+    }
+
     /// What is seen with these changes at the first places.
     pub fn at_first(&mut self, changes: &Changes) -> Option<Seen> {
         let mut changes = changes.clone();

@@ -53,6 +53,7 @@ pub fn unfinished(
         frames: Vec::new(),
         probes: ProbeResult::default(),
         map_lookup: None,
+        own_values: None,
         cross_check: None,
         environment,
         hints: Hints::default(),

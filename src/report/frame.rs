@@ -23,6 +23,20 @@ impl FrameResult {
     pub fn agrees(&self) -> bool {
         self.coverage_mismatches == 0 && self.mismatched_pixels == 0
     }
+
+    /// The frame that differs most, of equals the first; none where all agree. A shape that is elsewhere is as far off as a
+    /// colour can be.
+    pub fn differs_most(frames: &[Self]) -> Option<usize> {
+        let off = |frame: &Self| {
+            let largest = if frame.coverage_mismatches > 0 { 255.0 } else { frame.max_difference };
+            (largest, frame.coverage_mismatches + frame.mismatched_pixels)
+        };
+        let differing = frames.iter().enumerate().rev().filter(|(_, frame)| !frame.agrees());
+        let most = differing
+            .map(|(index, frame)| (index, off(frame)))
+            .max_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        most.map(|(index, _)| index)
+    }
 }
 
 /// Alpha of a pixel of a right picture at which a rasteriser's rounding may decide whether it is painted: it is not
@@ -71,4 +85,27 @@ pub struct TermPictures {
     pub yours: Option<Picture>,
     /// The term as a right answer computes it.
     pub expected: Picture,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(max_difference: f64, mismatched_pixels: u32, coverage_mismatches: u32) -> FrameResult {
+        FrameResult { t: 0.0, coverage_mismatches, max_difference, mean_difference: 0.0, mismatched_pixels }
+    }
+
+    #[test]
+    fn the_frame_that_differs_most_is_the_first_of_the_worst() {
+        let agreeing = frame(2.0, 0, 0);
+        assert_eq!(FrameResult::differs_most(&[agreeing.clone(), agreeing.clone()]), None);
+        assert_eq!(
+            FrameResult::differs_most(&[agreeing.clone(), frame(9.0, 5, 0), frame(40.0, 1, 0), frame(40.0, 1, 0)]),
+            Some(2)
+        );
+        // Of two that are as far off, the one that is so in more places.
+        assert_eq!(FrameResult::differs_most(&[frame(40.0, 1, 0), frame(40.0, 7, 0), agreeing.clone()]), Some(1));
+        // A shape in another place differs by more than any colour in the right one.
+        assert_eq!(FrameResult::differs_most(&[frame(200.0, 900, 0), frame(0.0, 0, 3), agreeing]), Some(1));
+    }
 }

@@ -1,8 +1,8 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
 use super::{
-    Advice, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, ProbeResult, Repair, Report, RubricLine,
-    SourceInfo, Verdict,
+    Advice, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, OwnValues, ProbeResult, Repair, Report,
+    RubricLine, SourceInfo, ValueAt, ValueLine, ValuePlace, Verdict,
 };
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity, Stage};
@@ -52,6 +52,7 @@ pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
         frames: report.frames.iter().map(Frame::of).collect(),
         probes: Probes::of(&report.probes),
         map_lookup: report.map_lookup.as_ref(),
+        own_values: report.own_values.as_ref().map(|values| Values::of(report, values, language)),
         cross_check: report.cross_check.as_ref().map(|checked| CrossChecked::of(checked, language)),
         environment: &report.environment,
         elapsed_ms: Number(report.elapsed_ms),
@@ -111,6 +112,9 @@ pub struct JsonReport<'a> {
     /// Where the map that a pass draws is looked up for a pixel that is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     map_lookup: Option<&'a MapLookup>,
+    /// What the files compute on their way, line by line, at a few places; only of a wrong answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    own_values: Option<Values<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cross_check: Option<CrossChecked<'a>>,
     environment: &'a Environment,
@@ -176,6 +180,43 @@ impl<'a> Rubric<'a> {
             file: file_of(report, line.file.as_deref(), line.line),
             line: line.line,
         }
+    }
+}
+
+/// What the files compute on their way.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = OwnValues))]
+struct Values<'a> {
+    places: &'a [ValuePlace],
+    lines: Vec<Followed<'a>>,
+}
+
+/// A statement that gives a variable its value; those are in the order in which they run.
+#[derive(Debug, Serialize)]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = ValueLine))]
+struct Followed<'a> {
+    file: Option<&'a str>,
+    line: u32,
+    name: &'a str,
+    function: Option<&'a str>,
+    times: u32,
+    /// What it should be, in words, where that is known.
+    means: Option<&'a str>,
+    values: &'a [Option<ValueAt>],
+}
+
+impl<'a> Values<'a> {
+    fn of(report: &'a Report, values: &'a OwnValues, language: Language) -> Self {
+        let line = |followed: &'a ValueLine| Followed {
+            file: file_of(report, followed.file.as_deref(), Some(followed.line)),
+            line: followed.line,
+            name: &followed.name,
+            function: followed.function.as_deref(),
+            times: followed.times,
+            means: followed.means.as_ref().map(|means| means.get(language)),
+            values: &followed.values,
+        };
+        Self { places: &values.places, lines: values.lines.iter().map(line).collect() }
     }
 }
 

@@ -80,6 +80,7 @@ pub(crate) fn correct() -> Report {
         frames: (0..POSES).map(|k| frame(k, 0.0)).collect(),
         probes: ProbeResult { seed: 20_240_613, samples: 640, mismatched: 0, max_difference: Some(4.1e-7) },
         map_lookup: None,
+        own_values: None,
         environment: Environment {
             ggrade: "0.1.0".into(),
             renderer: "llvmpipe (LLVM 15.0.6, 256 bits)".into(),
@@ -125,6 +126,46 @@ pub(crate) fn wrong() -> Report {
     report.probes.mismatched = 231;
     report.probes.max_difference = Some(0.2131);
     report
+}
+
+/// What [`wrong`] computes on its way: `h` on line 11 is not what it should be, and what is computed from it neither.
+pub(crate) fn own_values() -> OwnValues {
+    let all = |numbers: &[f64]| -> Vec<Option<f64>> { numbers.iter().copied().map(Some).collect() };
+    let place = |x: f64, yours: f64, agrees| ValuePlace {
+        frame: Some(4),
+        at: Some([x, 0.75]),
+        pixel: None,
+        yours: all(&[yours, 0.0, 0.0]),
+        right: all(&[0.5, 0.0, 0.0]),
+        agrees,
+    };
+    let known = |value: f64, right: f64| {
+        Some(ValueAt { value: all(&[value]), right: Some(all(&[right])), agrees: Some(value == right) })
+    };
+    let line = |line, name: &str, values| ValueLine {
+        file: None,
+        line,
+        name: name.into(),
+        function: None,
+        times: 1,
+        means: None,
+        values,
+    };
+    let unknown = ValueAt { value: vec![None, Some(-2.0)], right: None, agrees: None };
+    let h = ValueLine {
+        means: Some(Text::new("the half vector", "中間ベクトル")),
+        function: Some("half_way".into()),
+        times: 3,
+        ..line(11, "h", vec![known(0.75, 1.0), known(1.0, 1.0)])
+    };
+    OwnValues {
+        places: vec![place(0.25, 0.25, false), place(0.75, 0.5, true)],
+        lines: vec![
+            line(10, "a.xy", vec![Some(unknown), None]),
+            h,
+            line(12, "vc", vec![known(0.25, 0.5), known(0.5, 0.5)]),
+        ],
+    }
 }
 
 /// [`wrong`] of a homework of two files: the mistake is in the second one.

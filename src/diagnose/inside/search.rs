@@ -309,6 +309,12 @@ impl Search<'_, '_> {
         Some(self.trials.at_first(&changes)?.colours)
     }
 
+    /// The colours at all places with this in its place.
+    pub fn seen_everywhere(&mut self, mend: &Mend) -> Option<Vec<DVec3>> {
+        let changes = self.changes(mend);
+        Some(self.trials.at_all(&changes)?.colours)
+    }
+
     fn changes(&self, mend: &Mend) -> Changes {
         let mut changes = self.base.clone();
         changes[mend.stage as usize].push(mend.change());

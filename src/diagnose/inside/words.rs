@@ -118,7 +118,7 @@ fn lacks(assignment: &Assignment, line: u32, name: Option<&str>, missing: &[Stri
 }
 
 /// What a definition means, or what the lecture calls it.
-fn meaning(assignment: &Assignment, name: &str) -> Option<Text> {
+pub(super) fn meaning(assignment: &Assignment, name: &str) -> Option<Text> {
     let definition = assignment.equation.definitions().iter().find(|definition| definition.name == name)?;
     let means = definition.means.as_ref().map(|means| Text::new(&means.en, &means.ja));
     means.or_else(|| Some(Text::verbatim(definition.symbol.as_ref()?)))

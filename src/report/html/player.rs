@@ -29,7 +29,7 @@ impl<'a> Player<'a> {
         let panel = |id, label, address| Panel { id, label, address };
         Some(Self {
             last: frames.len().checked_sub(1)?,
-            start: differs_most(frames),
+            start: FrameResult::differs_most(frames),
             panels: [
                 panel("yours", labels.yours, &gallery.yours),
                 panel("expected", labels.expected, &gallery.expected),
@@ -38,20 +38,6 @@ impl<'a> Player<'a> {
             is_reduced: gallery.is_reduced,
         })
     }
-}
-
-/// The frame that differs most, of equals the first; none where all agree. A shape that is elsewhere is as far off as a
-/// colour can be.
-fn differs_most(frames: &[FrameResult]) -> Option<usize> {
-    let off = |frame: &FrameResult| {
-        let largest = if frame.coverage_mismatches > 0 { 255.0 } else { frame.max_difference };
-        (largest, frame.coverage_mismatches + frame.mismatched_pixels)
-    };
-    let differing = frames.iter().enumerate().rev().filter(|(_, frame)| !frame.agrees());
-    let most = differing
-        .map(|(index, frame)| (index, off(frame)))
-        .max_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    most.map(|(index, _)| index)
 }
 
 /// One frame in the strip and in the table.
@@ -132,24 +118,4 @@ pub(super) fn terms<'a>(gallery: &'a Gallery, report: &'a Report, language: Lang
         }
     };
     gallery.terms.iter().map(view).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn frame(max_difference: f64, mismatched_pixels: u32, coverage_mismatches: u32) -> FrameResult {
-        FrameResult { t: 0.0, coverage_mismatches, max_difference, mean_difference: 0.0, mismatched_pixels }
-    }
-
-    #[test]
-    fn the_player_starts_at_the_frame_that_differs_most() {
-        let agreeing = frame(2.0, 0, 0);
-        assert_eq!(differs_most(&[agreeing.clone(), agreeing.clone()]), None);
-        assert_eq!(differs_most(&[agreeing.clone(), frame(9.0, 5, 0), frame(40.0, 1, 0), frame(40.0, 1, 0)]), Some(2));
-        // Of two that are as far off, the one that is so in more places.
-        assert_eq!(differs_most(&[frame(40.0, 1, 0), frame(40.0, 7, 0), agreeing.clone()]), Some(1));
-        // A shape in another place differs by more than any colour in the right one.
-        assert_eq!(differs_most(&[frame(200.0, 900, 0), frame(0.0, 0, 3), agreeing]), Some(1));
-    }
 }

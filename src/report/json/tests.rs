@@ -112,3 +112,24 @@ fn an_embedded_view_is_the_same_object() {
     let embedded = serde_json::to_value(view(&report, Language::Ja)).expect("a value");
     assert_eq!(embedded, parsed(&report, Language::Ja));
 }
+
+#[test]
+fn own_values_stand_by_line_and_place() {
+    let report = Report { own_values: Some(samples::own_values()), ..samples::wrong() };
+    let value = parsed(&report, Language::Ja);
+    let values = &value["own_values"];
+    let of_place = ["frame", "at", "pixel", "yours", "right", "agrees"];
+    assert_eq!(keys(&values["places"][0]), of_place);
+    let of_line = ["file", "line", "name", "function", "times", "means", "values"];
+    assert_eq!(keys(&values["lines"][1]), of_line);
+    assert_eq!(
+        (&values["lines"][1]["file"], &values["lines"][1]["means"]),
+        (&json!("ggsample06.vert"), &json!("中間ベクトル"))
+    );
+    assert_eq!(values["lines"][1]["values"][0], json!({ "value": [0.75], "right": [1.0], "agrees": false }));
+    // What is no number is null, and so is what is not reached.
+    assert_eq!(values["lines"][0]["values"], json!([{ "value": [null, -2.0] }, null]));
+    // A report is stored and read again.
+    let stored = serde_json::to_string(&report).unwrap();
+    assert_eq!(serde_json::from_str::<Report>(&stored).unwrap(), report);
+}
