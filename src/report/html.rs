@@ -10,6 +10,7 @@ mod player;
 pub(crate) mod rich;
 mod sheet;
 mod shots;
+mod values;
 
 pub use self::body::Mark;
 pub use self::film::{Film, Gallery, Motion, Term, expected_sheet};
@@ -52,7 +53,7 @@ impl Page<'_> {
         let film =
             self.pictures.map(|pictures| Film::of(&pictures.yours, &pictures.expected, 1)).transpose()?.flatten();
         let gallery = match (&film, self.pictures) {
-            (Some(film), Some(pictures)) => Some(film.embedded(pictures)?),
+            (Some(film), Some(pictures)) => Some(film.embedded(pictures, values::still(self.report, pictures)?)?),
             _ => None,
         };
         let body = Body::of(&Part {

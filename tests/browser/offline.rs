@@ -46,6 +46,36 @@ async fn a_report_fits_every_screen() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_place_is_picked_with_the_keyboard_and_without_scripts() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let browser = Browser::start().await;
+    ggrade(folder.path(), &["grade", &sample(WRONG), "--format", "html", "--output", "report.html", "--lang", "ja"]);
+    browser.scripts(false).await;
+    for (scheme, width, height) in [("light", 1280, 900), ("dark", 1280, 900), ("light", 390, 844), ("dark", 390, 844)]
+    {
+        browser.scheme(scheme).await;
+        browser.size(width, height).await;
+        browser.open(&address(&folder.path().join("report.html"))).await;
+        browser.shot(&format!("values-{scheme}-{width}")).await;
+    }
+    // What one place shows is seen, and nothing of the other.
+    let seen = async || [browser.text(".followed p.v0").await, browser.text(".followed p.v1").await];
+    let cells = async || [browser.text(".followed td.v0").await, browser.text(".followed td.v1").await];
+    let of_first = seen().await;
+    assert!(of_first[0].contains("t = 0") && of_first[1].is_empty(), "{of_first:?}");
+    assert!(cells().await[1].is_empty());
+    browser.click("label[for=place-1]").await;
+    assert_eq!(browser.count("#place-1:checked").await, 1);
+    let of_second = seen().await;
+    assert!(of_second[0].is_empty() && of_second[1].contains("t = 0"), "{of_second:?}");
+    browser.press("ArrowLeft", 37, 0).await;
+    assert_eq!(browser.count("#place-0:checked").await, 1);
+    assert_eq!(seen().await, of_first);
+    assert!(!cells().await[0].is_empty());
+    browser.end().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_class_fits_every_screen() {
     let folder = tempfile::tempdir().expect("a folder");
     let browser = Browser::start().await;

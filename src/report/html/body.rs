@@ -4,6 +4,7 @@ use super::listing::{self, Listing};
 use super::map::MapView;
 use super::player::{self, FrameView, Player, Swatch, TermView};
 use super::rich::{Piece, pieces};
+use super::values::ValuesView;
 use super::{Lines, Part};
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -282,6 +283,7 @@ pub(super) struct Body<'a> {
     equation: Option<EquationView<'a>>,
     terms: Vec<TermView<'a>>,
     map: Option<MapView>,
+    values: Option<ValuesView>,
     listings: Vec<Listing>,
     has_lines: bool,
     has_footer: bool,
@@ -324,6 +326,9 @@ impl<'a> Body<'a> {
             player: gallery.and_then(|gallery| Player::of(gallery, &report.frames, labels)),
             terms: gallery.map(|gallery| player::terms(gallery, report, language)).unwrap_or_default(),
             map: report.map_lookup.as_ref().and_then(|lookup| MapView::of(part.assignment, lookup, language)),
+            values: report.own_values.as_ref().filter(|_| is_drawn).map(|values| {
+                ValuesView::of(part, values, |line| anchor(report, line.file.as_deref(), Some(line.line)))
+            }),
             frames: player::frames(report, labels),
             frames_agree: labels.frames_agree(agree, report.frames.len()),
             agreeing,

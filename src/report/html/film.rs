@@ -72,8 +72,8 @@ impl Film {
         self.yours.len() + self.difference.len()
     }
 
-    /// Where a page that holds all pictures itself finds them.
-    pub fn embedded(&self, pictures: &Pictures) -> Result<Gallery, Fault> {
+    /// Where a page that holds all pictures itself finds them. `still`: the PNG of a single frame.
+    pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<Gallery, Fault> {
         static TERMS: PictureCache<[TermPictures], Arc<[Term]>> = PictureCache::new();
         let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&Raster::opaque(picture)?)?));
         let term = |term: &TermPictures| {
@@ -85,6 +85,7 @@ impl Film {
             expected: expected_address(&pictures.expected, self.factor)?,
             difference: inline(&self.difference),
             is_reduced: self.is_reduced,
+            still: still.map(|png| inline(&png)),
             terms: TERMS.get(&pictures.terms, 0, || pictures.terms.iter().map(term).collect())?,
         })
     }
@@ -118,6 +119,8 @@ pub struct Gallery {
     pub difference: String,
     /// Whether to say that the sheets are smaller than they were drawn.
     pub is_reduced: bool,
+    /// The frame of a single moment, where it is a picture of its own; else it is cut out of the sheet.
+    pub still: Option<String>,
     /// Single terms of the equation.
     pub terms: Arc<[Term]>,
 }

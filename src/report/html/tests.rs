@@ -1,7 +1,7 @@
 use super::*;
 use crate::report::labels::Labels;
 use crate::report::samples;
-use crate::report::{MapLookup, MapPlace, Picture, TermPictures};
+use crate::report::{Hints, MapLookup, MapPlace, Picture, TermPictures};
 use std::sync::Arc;
 
 fn page(report: &Report, language: Language) -> String {
@@ -240,4 +240,44 @@ fn the_map_is_shown_with_the_places_where_it_is_looked_up() {
         assert!(html.contains("m25 75m-2-2") && html.contains("m97.5 50m-2-2"), "the marks");
         assert!(html.contains("width=\"400\" height=\"400\""), "a map of 800 × 800, smaller");
     }
+}
+
+#[test]
+fn a_reader_picks_a_place_and_sees_the_values_of_each_line() {
+    let followed = Report { own_values: Some(samples::own_values()), ..samples::wrong() };
+    let without = page(&samples::wrong(), Language::En);
+    for (language, said) in [
+        (Language::En, ["Your values, line by line", "1 · Vertex · differs", "2 · Vertex · agrees", "last of 3 times"]),
+        (Language::Ja, ["1 行ずつ見る計算の値", "1 · 頂点 · 相違", "2 · 頂点 · 一致", "3 回のうち最後"]),
+    ] {
+        let html = page(&followed, language);
+        let text = visible(&html);
+        assert!(said.iter().all(|said| text.contains(said)), "{text}");
+        assert!(
+            text.contains("half_way()")
+                && text.contains(["the half vector", "中間ベクトル"][usize::from(language == Language::Ja)])
+        );
+        // A place is a radio button, so that no script is needed.
+        assert_eq!(html.matches("<input type=\"radio\" name=\"place\"").count(), 2);
+        assert_eq!(html.matches("▸</b> 0.75</td><td class=\"v0\">1</td>").count(), 1, "the first that is wrong");
+        assert_eq!(html.matches("▸</b>").count(), 1, "{html}");
+        assert!(html.contains("<td class=\"v0 off\">0.25</td><td class=\"v0\">0.5</td>"), "wrong further on");
+        assert!(html.contains("<td class=\"v1\">–</td>") && text.contains("(NaN, −2)"), "{text}");
+        assert!(html.contains("<a href=\"#L11\">11</a>"));
+        // The picture of the frame, with a mark for each place: of 640 × 480, the first is at a quarter of its width.
+        assert!(html.contains("cx=\"160\" cy=\"360\"") && html.contains("cx=\"480\" cy=\"360\""), "{html}");
+        assert!(html.len() < without.len() + 20_000, "{} bytes more", html.len() - without.len());
+    }
+}
+
+#[test]
+fn where_nothing_is_known_to_be_right_there_is_no_column_of_it() {
+    let mut values = samples::own_values();
+    for value in values.lines.iter_mut().flat_map(|line| &mut line.values).flatten() {
+        (value.right, value.agrees) = (None, None);
+    }
+    let mut report = Report { own_values: Some(values), hints: Hints::Gentle, ..samples::wrong() };
+    report.rubric[3].line = None;
+    let html = page(&report, Language::En);
+    assert!(html.contains("id=\"place-1\"") && !html.contains("Should be") && !html.contains("▸</b>"), "{html}");
 }

@@ -122,6 +122,7 @@ pub(super) fn gallery(state: &State, id: &str, report: &Report, sources: &[Sourc
         expected: assets::expected(&state.assignment).into(),
         difference: picture(Some(&state.assignment), id, "difference"),
         is_reduced: false,
+        still: None,
         terms: terms::addresses(state, id, report, sources),
     })
 }
