@@ -88,24 +88,29 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     if let Some(found) = explained_by(&constants, evidence, &samples) {
         return Cause::Known { constants, found };
     }
-    let is_lookup = hard_coded::is_lookup(evidence.source, probes, evidence.samples) && !addends::is_computed(evidence);
+    let shows_a_table = hard_coded::is_lookup(evidence.source, probes, evidence.samples);
     let by_term = || {
         let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
         unexplained(evidence, &alternatives, &samples, terms)
     };
-    if is_lookup && addends::is_finite_nowhere(evidence) {
+    if shows_a_table && addends::is_finite_nowhere(evidence) {
         return by_term();
     }
+    let is_lookup = shows_a_table && !addends::is_computed(evidence);
     // Without the normals the course's own poses can only be right if they are treated apart.
     let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
     match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
         // What computes a right term has it multiplied by 0, or left out.
         Fit::Explained(found)
-            if is_lookup
+            if shows_a_table
                 && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found)
                 && !addends::computes_a_term(evidence) =>
         {
-            Cause::HardCoded
+            if is_lookup {
+                Cause::HardCoded
+            } else {
+                by_term()
+            }
         }
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
