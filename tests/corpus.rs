@@ -42,7 +42,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("several-lights", 178),
     ("spot-directx", 88),
     ("spot-opengl", 80),
-    ("spot-soft", 62),
+    ("spot-soft", 63),
     ("threshold", 200),
     ("toon", 21),
     ("waves", 10),

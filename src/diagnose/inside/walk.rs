@@ -1,9 +1,9 @@
 //! From the outputs back to what they are made of, as far as it is not right yet.
 
 use super::{Quantities, Stage, Trace, What};
-use crate::diagnose::columns::is_equal;
+use crate::diagnose::columns::{Columns, is_equal};
 use reference::interpreter::Program;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A site that may be to blame.
 #[derive(Clone, Debug)]
@@ -67,21 +67,17 @@ pub(super) fn suspects(
     found
 }
 
-/// What an event is only a copy of.
+/// What an event is only a copy of, also by way of a structure or an array that holds it among others.
 fn copies(trace: &Trace, event: usize) -> Vec<usize> {
-    let mut found = Vec::new();
+    let own = &trace.events[event].values;
+    let holds = |values: &Columns| !own.is_empty() && values.windows(own.len()).any(|part| part == own);
+    let mut seen = BTreeSet::new();
     let mut open = vec![event];
     while let Some(event) = open.pop() {
-        let own = &trace.events[event];
-        for from in &own.from {
-            let other = &trace.events[*from];
-            if other.values == own.values && !found.contains(from) {
-                found.push(*from);
-                open.push(*from);
-            }
-        }
+        let from = trace.events[event].from.iter().copied();
+        open.extend(from.filter(|from| holds(&trace.events[*from].values) && seen.insert(*from)));
     }
-    found
+    seen.into_iter().filter(|event| trace.events[*event].values == *own).collect()
 }
 
 /// Whether a value is that of one of its operands, or a copy of such a value: a sum with an addend of 0, a mixture all of one.
