@@ -131,8 +131,9 @@ fn write_frames(
 ) -> Result<(), png::EncodingError> {
     let mut encoder = Encoder::new(out, width as u32, height as u32);
     encoder.set_depth(BitDepth::Eight);
-    // Ramps of few colours: row above row there is little left to compress, and noise cannot be compressed at all.
-    encoder.set_compression(Compression::Fast);
+    // Half of what the fastest way takes, for 13 ms in place of 1 ms for a sheet of 20 frames; a better way takes 3 % less for twice
+    // the time.
+    encoder.set_compression(Compression::Balanced);
     encoder.set_filter(Filter::Up);
     match palette {
         Some(colours) => {

@@ -48,9 +48,9 @@ impl Film {
             factor,
         };
         if finest == 1
-            && let Some((yours, difference)) = Base::of(expected, motion.grid)?.sheets(yours, expected)
+            && let Some([yours, difference]) = Base::of(expected, motion.grid)?.encoded(yours, expected)?
         {
-            let film = made(yours.encode()?, difference.encode()?, 1);
+            let film = made(yours.to_vec(), difference.to_vec(), 1);
             if film.bytes() <= BUDGET {
                 return Ok(Some(film));
             }
