@@ -50,3 +50,32 @@ async fn likeness_insights_and_data_fit_every_screen() {
         browser.check(&format!("side-by-side-{width}")).await;
     }
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_token_is_made_and_ended_on_every_screen() {
+    let (server, browser) = (Server::start(), Browser::start().await);
+    browser.languages("en").await;
+    browser.open(&server.at("/teacher/login")).await;
+    browser.keys("#password", TOKEN).await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname === '/teacher'").await;
+    browser.open(&server.at("/teacher/tokens")).await;
+    assert!(browser.has("main .empty").await, "a secret of the service makes no tokens");
+    browser.open(&server.at("/teacher/people")).await;
+    browser.keys("#login", "wada").await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname.startsWith('/teacher/welcome/')").await;
+    browser.keys("[type=password]", "a long password").await;
+    browser.click("main .primary").await;
+    browser.until("location.pathname === '/teacher'").await;
+    for (width, height) in SIZES {
+        browser.size(width, height).await;
+        browser.open(&server.at("/teacher/tokens")).await;
+        browser.keys("#name", "grades into the archive").await;
+        browser.click("main .panel .primary").await;
+        browser.until("document.querySelector('.notice .link code')?.textContent.startsWith('ggrade_')").await;
+        browser.check(&format!("tokens-{width}")).await;
+        browser.click(".people tbody button").await;
+        browser.until("location.pathname === '/teacher/tokens' && !document.querySelector('.people')").await;
+    }
+}
