@@ -36,6 +36,28 @@ pub fn saved(name: &str, content_type: &'static str, bytes: Vec<u8>) -> Response
     response
 }
 
+/// Rows as a table to be saved under a name.
+pub fn table<R>(name: &str, rows: impl IntoIterator<Item = R>) -> Result<Response, Problem>
+where
+    R: IntoIterator<Item: AsRef<[u8]>>,
+{
+    Ok(saved(name, "text/csv; charset=utf-8", csv(rows)?))
+}
+
+/// Rows as CSV for a spreadsheet: UTF-8 with a byte-order mark and CRLF, so that Excel opens it as it is. What could be a formula is
+/// text before it comes here.
+pub fn csv<R>(rows: impl IntoIterator<Item = R>) -> Result<Vec<u8>, Problem>
+where
+    R: IntoIterator<Item: AsRef<[u8]>>,
+{
+    let bytes = b"\xef\xbb\xbf".to_vec();
+    let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(bytes);
+    for row in rows {
+        writer.write_record(row).map_err(|error| Problem::internal(&error))?;
+    }
+    writer.into_inner().map_err(|error| Problem::internal(&error))
+}
+
 fn zipped(hand_in: &HandIn) -> zip::result::ZipResult<Vec<u8>> {
     let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     for file in &hand_in.files {

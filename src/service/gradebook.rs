@@ -1,7 +1,7 @@
 //! The gradebook of a course: everybody with what they have in each homework, and together.
 
 use super::classes::people;
-use super::download::saved;
+use super::download;
 use super::errors::Problem;
 use super::{Service, State};
 use crate::batch::formats::plain::cell;
@@ -78,23 +78,21 @@ impl Gradebook {
         Ok(Self { homeworks, lines: lines.into_values().collect() })
     }
 
-    /// The same as a file for a spreadsheet: UTF-8 with a byte-order mark and CRLF. Under the ids of the homeworks stand their most
+    /// The same as a file for a spreadsheet. Under the ids of the homeworks stand their most
     /// points; a cell where nothing is graded is empty.
     pub fn csv(&self, name: &str) -> Result<Response, Problem> {
-        let bytes = b"\xef\xbb\xbf".to_vec();
-        let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(bytes);
-        let mut write = |row: Vec<String>| writer.write_record(row).map_err(|error| Problem::internal(&error));
-        let ids = self.homeworks.iter().map(|homework| cell(&homework.id));
-        write(["student", "name"].map(str::to_owned).into_iter().chain(ids).chain(["total".to_owned()]).collect())?;
-        let most = self.homeworks.iter().map(|homework| rounded(homework.points));
-        write([String::new(), String::new()].into_iter().chain(most).chain([rounded(self.most())]).collect())?;
-        for line in &self.lines {
-            let who = [&line.number, &line.name].map(|text| cell(text));
-            let points = line.points.iter().map(|points| points.map(rounded).unwrap_or_default());
-            write(who.into_iter().chain(points).chain([rounded(line.total())]).collect())?;
-        }
-        let bytes = writer.into_inner().map_err(|error| Problem::internal(&error))?;
-        Ok(saved(name, "text/csv; charset=utf-8", bytes))
+        let row = |who: [String; 2], points: Vec<String>, total: String| {
+            who.into_iter().chain(points).chain([total]).collect::<Vec<String>>()
+        };
+        let ids = self.homeworks.iter().map(|homework| cell(&homework.id)).collect();
+        let most = self.homeworks.iter().map(|homework| rounded(homework.points)).collect();
+        let of_line = |line: &Line| {
+            let points = line.points.iter().map(|points| points.map(rounded).unwrap_or_default()).collect();
+            row([&line.number, &line.name].map(|text| cell(text)), points, rounded(line.total()))
+        };
+        let heading = row(["student", "name"].map(str::to_owned), ids, "total".to_owned());
+        let most = row([String::new(), String::new()], most, rounded(self.most()));
+        download::table(name, [heading, most].into_iter().chain(self.lines.iter().map(of_line)))
     }
 }
 

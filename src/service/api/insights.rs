@@ -4,7 +4,7 @@ use super::batches::OfQuery;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::batch::formats::plain::cell;
 use crate::service::Service;
-use crate::service::download::saved;
+use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::insights::{self, Table};
@@ -34,11 +34,7 @@ pub(super) async fn read(
     let state = service.named(of.assignment.as_deref())?;
     teacher.check(&state.assignment.id)?;
     let insights = insights::of(&state).await?;
-    let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(b"\xef\xbb\xbf".to_vec());
-    for row in table.rows(&insights, language) {
-        let row: Vec<String> = row.iter().map(|text| cell(text)).collect();
-        writer.write_record(row).map_err(|error| Problem::internal(&error))?;
-    }
-    let bytes = writer.into_inner().map_err(|error| Problem::internal(&error))?;
-    Ok(saved(&format!("{}-{}.csv", state.assignment.id, table.id()), "text/csv; charset=utf-8", bytes))
+    let rows = table.rows(&insights, language).into_iter();
+    let rows = rows.map(|row| row.iter().map(|text| cell(text)).collect::<Vec<String>>());
+    download::table(&format!("{}-{}.csv", state.assignment.id, table.id()), rows)
 }

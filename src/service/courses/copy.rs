@@ -3,7 +3,7 @@
 use super::super::Service;
 use super::super::clock::{Millis, millis};
 use super::super::errors::Problem;
-use super::super::store::{Assignment, Place};
+use super::super::store::{Assignment, LateRules, Place};
 use super::{changed, make};
 use std::time::Duration;
 
@@ -49,7 +49,7 @@ pub async fn copy(
                 seed: own.seed,
                 opens_at: shifted(rules.opens_at),
                 closes_at: shifted(rules.closes_at),
-                late: super::super::store::LateRules { until, ..late },
+                late: LateRules { until, ..late },
                 ..rules
             })
             .await?;

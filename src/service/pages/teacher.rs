@@ -40,6 +40,7 @@ use super::frame::Frame;
 use super::report_fragment;
 use crate::service::State;
 use crate::service::classes::PersonStanding;
+use crate::service::errors::Problem;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderMap, StatusCode, header};
@@ -155,6 +156,14 @@ fn word(frame: &Frame, standing: PersonStanding) -> &'static str {
         PersonStanding::Failed => frame.say("Our fault", "サーバ側の障害"),
         PersonStanding::Ungraded => frame.say("Nothing to grade", "採点対象なし"),
         PersonStanding::Nothing => frame.say("Nothing handed in", "未提出"),
+    }
+}
+
+/// What a page says of a form that cannot be done as it is filled in; any other problem is the answer.
+fn said_of(problem: Problem, frame: &Frame) -> Result<String, Problem> {
+    match problem.status {
+        StatusCode::UNPROCESSABLE_ENTITY => Ok(problem.detail.get(frame.language).replace('`', "")),
+        _ => Err(problem),
     }
 }
 

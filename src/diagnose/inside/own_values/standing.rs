@@ -47,6 +47,7 @@ pub(super) enum Standing {
     Right(Option<Text>),
     Wrong(Counterpart),
 }
+
 impl Search<'_, '_> {
     /// What is known of a statement. `is_said`: whether the report says that the mistake is on its line.
     pub(super) fn standing(

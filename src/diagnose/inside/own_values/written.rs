@@ -74,6 +74,7 @@ fn looks_same(own: &[f64], right: &[f64]) -> bool {
     };
     own.iter().zip(right).all(is_one)
 }
+
 /// The part of a variable as a line writes it before `=`: `c.rgb`, `lights[1]`.
 fn written(text: &str, name: &str) -> Option<String> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';

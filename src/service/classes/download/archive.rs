@@ -18,7 +18,7 @@ use crate::service::classes::people::people;
 use crate::service::clock::rfc3339;
 use crate::service::errors::Problem;
 use crate::service::gallery::blocking;
-use crate::service::store::word;
+use crate::service::store::{NamedAct, word};
 use crate::service::{Service, download};
 use askama::Template;
 use serde_json::{Value, json};
@@ -202,15 +202,15 @@ fn line(entry: &Entry) -> Value {
 
 /// The log as CSV, the latest first.
 async fn log(service: &Service) -> Result<Vec<u8>, Problem> {
-    let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(b"\xef\xbb\xbf".to_vec());
-    let mut write = |row: [&str; 6]| writer.write_record(row.map(cell)).map_err(|error| Problem::internal(&error));
-    write(["at", "who", "act", "assignment", "student", "detail"])?;
     let count = service.store.count_acts(None).await?;
-    for act in service.store.acts(None, 0, count).await? {
+    let acts = service.store.acts(None, 0, count).await?;
+    let row = |act: NamedAct| {
         let at = rfc3339(act.act.at);
         let who = act.login.as_deref().unwrap_or(&act.act.way);
         let (homework, student) = (act.act.assignment.as_deref(), act.number.as_deref());
-        write([&at, who, &act.act.act, homework.unwrap_or_default(), student.unwrap_or_default(), &act.act.detail])?;
-    }
-    writer.into_inner().map_err(|error| Problem::internal(&error))
+        let (act, detail) = (act.act.act.as_str(), act.act.detail.as_str());
+        [at.as_str(), who, act, homework.unwrap_or_default(), student.unwrap_or_default(), detail].map(cell)
+    };
+    let heading = ["at", "who", "act", "assignment", "student", "detail"].map(cell);
+    download::csv(std::iter::once(heading).chain(acts.into_iter().map(row)))
 }

@@ -6,14 +6,14 @@ use super::{Tab, public_address};
 use crate::batch::formats::plain::cell;
 use crate::service::Service;
 use crate::service::acts::Detail;
-use crate::service::download::attachment;
+use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, course_secret, personal_code};
 use crate::service::store::Student;
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
-use axum::http::{HeaderMap, header};
+use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -97,20 +97,11 @@ pub(in crate::service::pages) async fn file(
         "ja" => ["学籍番号", "氏名", "個人コード", "リンク"],
         _ => ["Student number", "Name", "Personal code", "Link"],
     };
-    let mut csv = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
-    let failed = |error: csv::Error| Problem::internal(&error);
-    csv.write_record(heading).map_err(failed)?;
-    for student in students(&service).await?.1 {
+    let row = |student: Student| {
         let code = personal_code(&service, &student);
         let link = format!("{join}?number={}&code={code}", student.number);
-        csv.write_record([&cell(&student.number), &cell(&student.name), &code, &link]).map_err(failed)?;
-    }
-    let csv = csv.into_inner().map_err(|error| Problem::internal(&error))?;
-    let headers = [
-        (header::CONTENT_TYPE, "text/csv; charset=utf-8".to_owned()),
-        (header::CACHE_CONTROL, "private, no-store".to_owned()),
-        (header::CONTENT_DISPOSITION, attachment("personal-codes.csv")),
-    ];
-    // With a byte-order mark, so that Excel opens it as it is.
-    Ok((headers, ["\u{feff}".as_bytes(), &csv].concat()).into_response())
+        [cell(&student.number), cell(&student.name), code, link]
+    };
+    let rows = students(&service).await?.1.into_iter().map(row);
+    download::table("personal-codes.csv", std::iter::once(heading.map(str::to_owned)).chain(rows))
 }

@@ -3,7 +3,7 @@
 use super::super::datetime::Moment;
 use super::super::frame::Frame;
 use super::super::shown;
-use super::refused;
+use super::{refused, said_of};
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::courses;
@@ -113,11 +113,10 @@ pub(in crate::service::pages) async fn change(
     let detail = Detail::of(format!("{} {} {}", form.wish, form.of, form.id));
     match done(&service, &form).await {
         Ok(page) => Ok(detail.on(Redirect::to(&page).into_response())),
-        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
-            let said = Some(problem.detail.get(frame.language).replace('`', ""));
-            Ok(refused(view(&service, frame, &headers, form, said).await?, problem.status))
+        Err(problem) => {
+            let said = Some(said_of(problem, &frame)?);
+            Ok(refused(view(&service, frame, &headers, form, said).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(problem) => Err(problem),
     }
 }
 

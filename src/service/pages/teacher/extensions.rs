@@ -4,7 +4,7 @@ use super::super::datetime::{self, Moment};
 use super::super::frame::Frame;
 use super::super::shown;
 use super::person::{self, Whom};
-use super::{Tab, refused};
+use super::{Tab, refused, said_of};
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
@@ -101,11 +101,10 @@ pub(in crate::service::pages) async fn set(
     };
     match done {
         Ok(detail) => Ok(detail.on(Redirect::to(&format!("{}/extensions", frame.teacher())).into_response())),
-        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
-            let said = problem.detail.get(frame.language).replace('`', "");
+        Err(problem) => {
+            let said = said_of(problem, &frame)?;
             Ok(refused(view(&state, &teacher, frame, asked, Some(said)).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(problem) => Err(problem),
     }
 }
 

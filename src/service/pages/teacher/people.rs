@@ -2,7 +2,7 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::{Tab, public_address, refused};
+use super::{Tab, public_address, refused, said_of};
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
@@ -173,12 +173,10 @@ pub(in crate::service::pages) async fn add(
             let link = Some((member.login, welcome(&service, &headers, &secret)));
             Ok(detail.on(view(&service, frame, &teacher, Said { link, ..Said::default() }).await?))
         }
-        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
-            let detail = Some(problem.detail.get(frame.language).replace('`', ""));
-            let page = view(&service, frame, &teacher, Said { typed, problem: detail, link: None }).await?;
-            Ok(refused(page, problem.status))
+        Err(problem) => {
+            let said = Said { typed, problem: Some(said_of(problem, &frame)?), link: None };
+            Ok(refused(view(&service, frame, &teacher, said).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(problem) => Err(problem),
     }
 }
 

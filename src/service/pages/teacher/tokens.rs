@@ -3,7 +3,7 @@
 use super::super::datetime::Moment;
 use super::super::frame::Frame;
 use super::super::shown;
-use super::{Tab, refused};
+use super::{Tab, refused, said_of};
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
@@ -168,12 +168,10 @@ pub(in crate::service::pages) async fn make(
             let said = Said { made: Some((token.name, secret)), ..Said::default() };
             Ok(detail.on(view(&service, frame, &teacher, said).await?))
         }
-        Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
-            let said = problem.detail.get(frame.language).replace('`', "");
-            let said = Said { typed, problem: Some(said), made: None };
-            Ok(refused(view(&service, frame, &teacher, said).await?, problem.status))
+        Err(problem) => {
+            let said = Said { typed, problem: Some(said_of(problem, &frame)?), made: None };
+            Ok(refused(view(&service, frame, &teacher, said).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(problem) => Err(problem),
     }
 }
 
