@@ -38,7 +38,7 @@ async fn only_https_needs_certificates() {
     assert_eq!(status("/readyz").await, 200);
     assert_eq!(status("/sign-in/near").await, 303);
     assert_eq!(status("/sign-in/far").await, 502);
-    let said = server.said.lock().expect("a lock").clone();
+    let said = server.everything_said();
     assert!(said.contains("https://127.0.0.1:1") && said.contains("apt-get install ca-certificates"), "{said}");
 }
 

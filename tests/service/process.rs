@@ -5,14 +5,17 @@ use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// A running server.
 pub struct Server {
     child: Child,
     pub address: String,
-    /// What it has said on standard error.
+    /// What was read of its standard error so far.
     pub said: Arc<Mutex<String>>,
+    /// Who reads it.
+    reader: Option<JoinHandle<()>>,
 }
 
 /// The command line of a server on `database`; every limit is out of the way.
@@ -54,12 +57,12 @@ impl Server {
         let address = address.unwrap_or_else(|| panic!("no address: {}", said.lock().expect("a lock")));
         let more = Arc::clone(&said);
         // The pipe is read to its end, so that the server never waits for it.
-        std::thread::spawn(move || {
+        let reader = std::thread::spawn(move || {
             for line in lines.map_while(Result::ok) {
                 more.lock().expect("a lock").push_str(&format!("{line}\n"));
             }
         });
-        Self { child, address, said }
+        Self { child, address, said, reader: Some(reader) }
     }
 
     /// The address without its scheme.
@@ -70,6 +73,14 @@ impl Server {
     pub fn kill(mut self) {
         self.child.kill().expect("a kill");
         self.child.wait().expect("an end");
+    }
+
+    /// Ends it, for all that it has said on standard error: a line may be read long after the answer that it was written before.
+    pub fn everything_said(mut self) -> String {
+        self.child.kill().expect("a kill");
+        self.child.wait().expect("an end");
+        self.reader.take().expect("a reader").join().expect("all is read");
+        std::mem::take(&mut *self.said.lock().expect("a lock"))
     }
 
     /// Tells it to end, and waits for that.
