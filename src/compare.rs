@@ -94,7 +94,7 @@ pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameR
     let shown = area.x as usize..(area.x + area.width) as usize;
     for (y, runs) in (0..).zip(&expected.rows) {
         let runs = &expected.runs[runs.clone()];
-        if (area.y..area.y + area.height).contains(&y) {
+        if area.rows().contains(&y) {
             let row = candidate.row(index, y);
             // The device's memory is aligned; a copy of it need not be.
             let pixels = bytemuck::try_cast_slice(row).map_or_else(|_| pod_collect_to_vec(row).into(), Cow::Borrowed);

@@ -32,10 +32,14 @@ pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
 /// A right picture; its alpha says where it may be drawn otherwise.
 pub fn picture(frame: &Frame) -> Picture {
     let pixels = frame.pixels.iter().zip(&frame.coverage);
-    let rgba = pixels.flat_map(|([r, g, b, _], coverage)| {
-        [*r, *g, *b, if *coverage == Coverage::Silhouette { SILHOUETTE } else { u8::MAX }]
-    });
-    Picture { width: frame.width, height: frame.height, rgba: rgba.collect() }
+    let pixels: Vec<[u8; 4]> = pixels
+        .map(|([r, g, b, _], coverage)| {
+            [*r, *g, *b, if *coverage == Coverage::Silhouette { SILHOUETTE } else { u8::MAX }]
+        })
+        .collect();
+    let blank = frame.pixels.iter().zip(&frame.coverage).find(|(_, coverage)| **coverage == Coverage::Outside);
+    let blank = blank.map_or([u8::MAX; 4], |([r, g, b, _], _)| [*r, *g, *b, u8::MAX]);
+    Picture::whole(frame.width, frame.height, pixels.into_flattened()).cut(blank)
 }
 
 /// The pose at which the picture says most: where the weakest term of the equation shows best. The brightness that each

@@ -22,4 +22,3 @@ pub use frames::{Frames, Met, Rendering, Sample};
 pub use pixels::Pixel;
 pub use renderer::{Captured, Renderer};
 pub use scene::{Batch, DrawState, Scene};
-pub use tiles::Area;

@@ -15,7 +15,7 @@ pub(crate) mod samples;
 pub mod text;
 pub(crate) mod wrap;
 
-pub use frame::{FrameResult, Picture, Pictures, SILHOUETTE, TermPictures};
+pub use frame::{Area, FrameResult, Picture, Pictures, SILHOUETTE, TermPictures};
 pub use map_lookup::{MapLookup, MapPlace};
 pub use own_values::{OwnValues, ValueAt, ValueLine, ValuePlace};
 

@@ -15,6 +15,7 @@ mod channel;
 mod check;
 mod child;
 mod confine;
+mod drawings;
 mod ending;
 mod environment;
 mod files;

@@ -21,30 +21,15 @@ impl Pages {
         Self { assignment, language }
     }
 
-    /// The page of one report; `sources` are the files that can be read as text, and `frames` what is drawn, which is
-    /// the same afterwards.
-    pub fn page(&self, report: &Report, sources: &[Source], frames: &mut Vec<Picture>) -> Result<String, Fault> {
-        let is_drawn = !frames.is_empty();
-        let mut pictures = Pictures::default();
-        if is_drawn {
-            pictures = Pictures {
-                yours: std::mem::take(frames),
-                expected: pictures::expected_pictures(&self.assignment),
-                terms: pictures::term_pictures(&self.assignment, report.explanation.as_deref(), sources.first()),
-                cycle: self.assignment.scene.cycle,
-            };
-        }
-        let page = Page {
-            assignment: &self.assignment,
-            report,
-            sources,
-            pictures: is_drawn.then_some(&pictures),
-            language: self.language,
-        }
-        .render();
-        if is_drawn {
-            *frames = pictures.yours;
-        }
-        page
+    /// The page of one report; `sources` are the files that can be read as text, and `frames` what is drawn.
+    pub fn page(&self, report: &Report, sources: &[Source], frames: &Arc<[Picture]>) -> Result<String, Fault> {
+        let pictures = (!frames.is_empty()).then(|| Pictures {
+            yours: Arc::clone(frames),
+            expected: pictures::expected_pictures(&self.assignment),
+            terms: pictures::term_pictures(&self.assignment, report.explanation.as_deref(), sources.first()),
+            cycle: self.assignment.scene.cycle,
+        });
+        let (assignment, language) = (&*self.assignment, self.language);
+        Page { assignment, report, sources, pictures: pictures.as_ref(), language }.render()
     }
 }

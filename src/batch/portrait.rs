@@ -22,7 +22,7 @@ impl Portraits {
         let pose = telling_pose(assignment);
         let poses = assignment.scene.all_poses();
         let frame = assignment.right_frame(&poses[pose]);
-        let right = Picture { width: frame.width, height: frame.height, rgba: frame.pixels.concat() };
+        let right = Picture::whole(frame.width, frame.height, frame.pixels.concat());
         Ok(Self { pose, expected: pictures::png(&reduced(&right))? })
     }
 
@@ -45,22 +45,18 @@ pub fn moving(assignment: &Assignment) -> Result<Vec<u8>, Fault> {
 /// The picture at a fraction of its size; each pixel is the mean of those that it stands for.
 fn reduced(picture: &Picture) -> Picture {
     let (width, height) = (picture.width.div_ceil(REDUCTION), picture.height.div_ceil(REDUCTION));
-    let mut rgba = Vec::with_capacity(width as usize * height as usize * 4);
-    for y in 0..height {
-        for x in 0..width {
-            rgba.extend(mean(picture, x * REDUCTION, y * REDUCTION));
-        }
-    }
-    Picture { width, height, rgba }
+    let pixels = picture.pixels();
+    let means = (0..height).flat_map(|y| (0..width).map(move |x| (x * REDUCTION, y * REDUCTION)));
+    let rgba = means.flat_map(|(left, top)| mean(&pixels, [picture.width, picture.height], left, top)).collect();
+    Picture::whole(width, height, rgba)
 }
 
 /// The mean colour of the square whose upper left pixel this is, as far as it lies in the picture.
-fn mean(picture: &Picture, left: u32, top: u32) -> [u8; 4] {
-    let (right, bottom) = ((left + REDUCTION).min(picture.width), (top + REDUCTION).min(picture.height));
+fn mean(pixels: &[[u8; 4]], [width, height]: [u32; 2], left: u32, top: u32) -> [u8; 4] {
+    let (right, bottom) = ((left + REDUCTION).min(width), (top + REDUCTION).min(height));
     let mut sums = [0_u32; 4];
     for y in top..bottom {
-        let row = (y * picture.width + left) as usize * 4..(y * picture.width + right) as usize * 4;
-        for pixel in picture.rgba.get(row).unwrap_or_default().chunks_exact(4) {
+        for pixel in &pixels[(y * width + left) as usize..(y * width + right) as usize] {
             for (sum, channel) in sums.iter_mut().zip(pixel) {
                 *sum += u32::from(*channel);
             }
@@ -76,7 +72,7 @@ mod tests {
 
     fn picture(width: u32, height: u32, colour: impl Fn(u32, u32) -> u8) -> Picture {
         let at = |index: u32| [colour(index % width, index / width), 0, 9, 255];
-        Picture { width, height, rgba: (0..width * height).flat_map(at).collect() }
+        Picture::whole(width, height, (0..width * height).flat_map(at).collect())
     }
 
     #[test]

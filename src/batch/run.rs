@@ -277,8 +277,7 @@ impl Run<'_> {
         }
         answer.report.of_files(sources);
         let portrait = self.portraits.map(|portraits| portraits.of(&answer.frames)).transpose()?.flatten();
-        let page =
-            self.pages.map(|pages| pages.page(&answer.report, &member.sources, &mut answer.frames)).transpose()?;
+        let page = self.pages.map(|pages| pages.page(&answer.report, &member.sources, &answer.frames)).transpose()?;
         Ok(ShownFile { outcome: Outcome::Graded(Box::new(answer.report.clone())), portrait, page })
     }
 

@@ -73,7 +73,7 @@ pub(super) fn pictures(
     wish: &GradeRequest<'_>,
     report: &Report,
     sources: &[Source],
-    frames: Vec<Picture>,
+    frames: Arc<[Picture]>,
 ) -> Result<Option<Pictures>, Fault> {
     if frames.is_empty() {
         return Ok(None);

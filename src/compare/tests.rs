@@ -1,7 +1,7 @@
 //! The comparison against one that looks at every pixel on its own, and cases counted by hand.
 
 use super::*;
-use crate::render::Area;
+use crate::report::Area;
 use crate::report::Picture;
 
 const BACKGROUND: [u8; 4] = [255, 255, 255, 0];
@@ -23,7 +23,7 @@ fn expected() -> Frame {
 }
 
 fn picture(frame: &Frame) -> Picture {
-    Picture { width: frame.width, height: frame.height, rgba: frame.pixels.concat() }
+    Picture::whole(frame.width, frame.height, frame.pixels.concat())
 }
 
 fn set(picture: &mut Picture, x: usize, y: usize, pixel: [u8; 4]) {
@@ -132,7 +132,7 @@ fn pixels_compared_together_give_what_they_give_one_by_one() {
 #[test]
 #[should_panic(expected = "frame sizes")]
 fn pictures_of_unlike_sizes_are_not_compared() {
-    let small = Picture { width: 1, height: 1, rgba: vec![0; 4] };
+    let small = Picture::whole(1, 1, vec![0; 4]);
     compared(small, Area { x: 0, y: 0, width: 1, height: 1 });
 }
 

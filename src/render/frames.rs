@@ -2,8 +2,8 @@
 
 use super::pixels::Pixel;
 use super::scene::Scene;
-use super::tiles::{Area, Tile, Tiles};
-use crate::report::Picture;
+use super::tiles::{Tile, Tiles};
+use crate::report::{Area, Picture};
 use std::sync::Arc;
 
 /// What the shader computed for one vertex.
@@ -145,7 +145,7 @@ impl Frames {
             let row = self.row(index, y);
             rgba[start..start + row.len()].copy_from_slice(row);
         }
-        Picture { width: self.width, height: self.height, rgba }
+        Picture::whole(self.width, self.height, rgba)
     }
 }
 

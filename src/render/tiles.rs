@@ -2,6 +2,7 @@
 
 use crate::fault::Fault;
 use crate::language::Text;
+use crate::report::Area;
 
 /// Side of the texture that holds the frames; every Vulkan driver for desktops takes it.
 const MAX_TEXTURE_SIDE: u32 = 8192;
@@ -16,19 +17,6 @@ const MARGIN: f64 = 2.0;
 /// How far outside the picture, in half its sides, a corner may lie for the bounds of a triangle to be taken from its
 /// corners. Beyond it, a driver's rounding is better not relied upon.
 const NEAR: f64 = 8.0;
-
-/// A part of a frame, in pixels from its top left corner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Area {
-    /// Its first column.
-    pub x: u32,
-    /// Its first row.
-    pub y: u32,
-    /// How many columns it has.
-    pub width: u32,
-    /// How many rows it has.
-    pub height: u32,
-}
 
 impl Area {
     /// The part of a frame of this size outside of which the triangles of these vertices paint nothing.
@@ -56,11 +44,6 @@ impl Area {
         // From below, so that blocks of 2 × 2 pixels are those of the whole frame.
         let (bottom, top) = extent(&mut corners.iter().map(|corner| corner.1), height);
         Self { x: left, y: height - top, width: right - left, height: top - bottom }
-    }
-
-    /// Whether there is nothing to paint.
-    pub(super) fn is_empty(self) -> bool {
-        self.width == 0 || self.height == 0
     }
 }
 

@@ -66,8 +66,8 @@ pub(super) fn band_of(difference: f64) -> Option<usize> {
 /// a difference can be placed. Both pictures have one size.
 pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
     let ramp = Ramp::new();
-    let pairs = yours.rgba.as_chunks::<4>().0.iter().zip(expected.rgba.as_chunks::<4>().0);
-    pairs.map(|(yours, expected)| ramp.pixel(yours, expected)).collect()
+    let (yours, expected) = (yours.pixels(), expected.pixels());
+    yours.iter().zip(expected.iter()).map(|(yours, expected)| ramp.pixel(yours, expected)).collect()
 }
 
 /// The colour of every difference, and of every sum of channels where it is within the tolerance.
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     fn dot(rgba: [u8; 4]) -> Picture {
-        Picture { width: 1, height: 1, rgba: rgba.to_vec() }
+        Picture::whole(1, 1, rgba.to_vec())
     }
 
     #[test]

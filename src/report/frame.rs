@@ -1,6 +1,8 @@
 //! Frames: how far they are from the right ones, and their pictures.
 
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// How one frame of the animation compares. Differences are in 1/255, over red, green and blue.
@@ -43,21 +45,141 @@ impl FrameResult {
 /// compared, and agrees. Alpha is not seen, so that no picture needs it for itself.
 pub const SILHOUETTE: u8 = 127;
 
-/// One 8-bit RGBA picture, top row first.
+/// A part of a picture, in pixels from its top left corner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Area {
+    /// Its first column.
+    pub x: u32,
+    /// Its first row.
+    pub y: u32,
+    /// How many columns it has.
+    pub width: u32,
+    /// How many rows it has.
+    pub height: u32,
+}
+
+impl Area {
+    /// All of a picture of this size.
+    pub fn whole(width: u32, height: u32) -> Self {
+        Self { x: 0, y: 0, width, height }
+    }
+
+    /// How many pixels it has; none where a picture of this size does not hold it.
+    pub fn pixels_within(self, width: u32, height: u32) -> Option<usize> {
+        let is_inside = self.x.checked_add(self.width)? <= width && self.y.checked_add(self.height)? <= height;
+        is_inside.then(|| self.width as usize * self.height as usize)
+    }
+
+    /// The least area that holds both.
+    pub fn with(self, other: Self) -> Self {
+        if self.is_empty() || other.is_empty() {
+            return if self.is_empty() { other } else { self };
+        }
+        let (x, y) = (self.x.min(other.x), self.y.min(other.y));
+        let right = (self.x + self.width).max(other.x + other.width);
+        let bottom = (self.y + self.height).max(other.y + other.height);
+        Self { x, y, width: right - x, height: bottom - y }
+    }
+
+    /// Its rows.
+    pub fn rows(self) -> Range<u32> {
+        self.y..self.y + self.height
+    }
+
+    /// Its columns.
+    pub fn columns(self) -> Range<u32> {
+        self.x..self.x + self.width
+    }
+
+    /// Whether there is nothing in it.
+    pub fn is_empty(self) -> bool {
+        self.width == 0 || self.height == 0
+    }
+}
+
+/// One 8-bit RGBA picture, top row first. Of most pictures the greater part is of one colour: it is not stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// `width * height * 4` bytes, linear, not sRGB-encoded.
+    /// The colour of every pixel outside of `area`.
+    pub blank: [u8; 4],
+    /// The part that is stored.
+    pub area: Area,
+    /// The pixels of `area` row by row, four bytes each, linear, not sRGB-encoded.
     pub rgba: Vec<u8>,
 }
 
 impl Picture {
-    /// Its pixels row by row, RGBA.
-    pub fn pixels(&self) -> &[[u8; 4]] {
-        self.rgba.as_chunks().0
+    /// A picture of which every pixel is stored: `width * height * 4` bytes.
+    pub fn whole(width: u32, height: u32, rgba: Vec<u8>) -> Self {
+        let blank = rgba.first_chunk().copied().unwrap_or_default();
+        Self { width, height, blank, area: Area::whole(width, height), rgba }
+    }
+
+    /// The same picture, of which only the least part is stored that holds every pixel of another colour than `blank`.
+    pub fn cut(mut self, blank: [u8; 4]) -> Self {
+        let is_painted = |pixel: &[u8; 4]| *pixel != blank;
+        let mut least = Area::default();
+        for y in self.area.rows() {
+            let row = self.row(y);
+            if let (Some(first), Some(last)) = (row.iter().position(is_painted), row.iter().rposition(is_painted)) {
+                let x = self.area.x + first as u32;
+                least = least.with(Area { x, y, width: (last - first) as u32 + 1, height: 1 });
+            }
+        }
+        let mut buffer = Vec::new();
+        let mut rgba = Vec::with_capacity(least.width as usize * least.height as usize * 4);
+        for y in least.rows() {
+            rgba.extend_from_slice(self.columns(y, least.columns(), &mut buffer).as_flattened());
+        }
+        (self.rgba, self.area, self.blank) = (rgba, least, blank);
+        self
+    }
+
+    /// Whether it has pixels, and as many as its area says.
+    pub fn is_sound(&self) -> bool {
+        let stored = self.area.pixels_within(self.width, self.height);
+        self.width > 0 && self.height > 0 && stored.is_some_and(|pixels| self.rgba.len() == pixels * 4)
+    }
+
+    /// Row `y` of its area; nothing where the area does not have it.
+    pub fn row(&self, y: u32) -> &[[u8; 4]] {
+        let width = self.area.width as usize;
+        let start = y.checked_sub(self.area.y).map(|row| row as usize * width);
+        start.and_then(|start| self.rgba.as_chunks().0.get(start..start + width)).unwrap_or_default()
+    }
+
+    /// Some columns of row `y`; `buffer` holds them where they are not all in the area.
+    pub fn columns<'a>(&'a self, y: u32, columns: Range<u32>, buffer: &'a mut Vec<[u8; 4]>) -> &'a [[u8; 4]] {
+        let (row, own) = (self.row(y), self.area.columns());
+        if !row.is_empty() && own.start <= columns.start && columns.end <= own.end {
+            return &row[(columns.start - own.start) as usize..(columns.end - own.start) as usize];
+        }
+        buffer.clear();
+        buffer.resize(columns.len(), self.blank);
+        let shared = own.start.max(columns.start)..own.end.min(columns.end);
+        if !row.is_empty() && !shared.is_empty() {
+            let from = &row[(shared.start - own.start) as usize..(shared.end - own.start) as usize];
+            buffer[(shared.start - columns.start) as usize..][..from.len()].copy_from_slice(from);
+        }
+        buffer
+    }
+
+    /// All its pixels row by row, RGBA.
+    pub fn pixels(&self) -> Cow<'_, [[u8; 4]]> {
+        if self.area == Area::whole(self.width, self.height) {
+            return Cow::Borrowed(self.rgba.as_chunks().0);
+        }
+        let mut pixels = vec![self.blank; self.width as usize * self.height as usize];
+        for y in self.area.rows() {
+            let start = (y * self.width + self.area.x) as usize;
+            let row = self.row(y);
+            pixels[start..start + row.len()].copy_from_slice(row);
+        }
+        Cow::Owned(pixels)
     }
 }
 
@@ -65,7 +187,7 @@ impl Picture {
 #[derive(Clone, Debug, Default)]
 pub struct Pictures {
     /// What the student's shader draws.
-    pub yours: Vec<Picture>,
+    pub yours: Arc<[Picture]>,
     /// What a right answer draws: the same for all of a class.
     pub expected: Arc<[Picture]>,
     /// One term of the equation at a time, where that is known.

@@ -13,7 +13,7 @@ mod shots;
 mod values;
 
 pub use self::body::Mark;
-pub use self::film::{Film, Gallery, Motion, Term, expected_sheet};
+pub use self::film::{Film, FilmUse, Gallery, Motion, Term, expected_sheet};
 
 use self::body::Body;
 use super::{Pictures, Report};
@@ -50,8 +50,11 @@ pub struct Page<'a> {
 impl Page<'_> {
     /// The page; a fault when the pictures do not go together.
     pub fn render(&self) -> Result<String, Fault> {
-        let film =
-            self.pictures.map(|pictures| Film::of(&pictures.yours, &pictures.expected, 1)).transpose()?.flatten();
+        let film = self
+            .pictures
+            .map(|pictures| Film::of(&pictures.yours, &pictures.expected, FilmUse::Embedded))
+            .transpose()?
+            .flatten();
         let gallery = match (&film, self.pictures) {
             (Some(film), Some(pictures)) => Some(film.embedded(pictures, values::still(self.report, pictures)?)?),
             _ => None,

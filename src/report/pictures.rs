@@ -52,10 +52,7 @@ impl Pose {
 pub(super) fn fit(yours: &[Picture], expected: &[Picture]) -> Result<(), Fault> {
     let size = |picture: &Picture| (picture.width, picture.height);
     let first = yours.first().map(size);
-    let is_sound = |picture: &Picture| {
-        let bytes = picture.width as usize * picture.height as usize * 4;
-        Some(size(picture)) == first && bytes > 0 && picture.rgba.len() == bytes
-    };
+    let is_sound = |picture: &Picture| Some(size(picture)) == first && picture.is_sound();
     let fits = yours.len() == expected.len() && yours.iter().chain(expected).all(is_sound);
     if fits { Ok(()) } else { Err(mismatched()) }
 }
@@ -109,7 +106,7 @@ pub fn animated(pictures: &[Picture], cycle: f64) -> Result<Vec<u8>, Fault> {
 /// The picture in a PNG of ours.
 pub fn decode(png: &[u8]) -> Result<Picture, Fault> {
     let image = image::load_from_memory_with_format(png, image::ImageFormat::Png).map_err(|_| mismatched())?.to_rgba8();
-    Ok(Picture { width: image.width(), height: image.height(), rgba: image.into_raw() })
+    Ok(Picture::whole(image.width(), image.height(), image.into_raw()))
 }
 
 fn animate(poses: &[Pose], cycle: f64) -> Result<Vec<u8>, Fault> {
@@ -130,6 +127,7 @@ fn unwritable(path: &Path, error: &std::io::Error) -> Fault {
 mod tests {
     use super::*;
     use crate::report::samples::{self, HEIGHT, WIDTH};
+    use std::sync::Arc;
 
     fn decoded(bytes: &[u8]) -> Raster {
         let image = image::load_from_memory(bytes).expect("a PNG");
@@ -145,7 +143,7 @@ mod tests {
     /// Every pixel another colour: too many for a palette.
     fn colourful() -> Picture {
         let rgba = (0..400u32).flat_map(|i| [(i % 256) as u8, (i / 256) as u8, 9, 0]);
-        Picture { width: 20, height: 20, rgba: rgba.collect() }
+        Picture::whole(20, 20, rgba.collect())
     }
 
     #[test]
@@ -212,13 +210,13 @@ mod tests {
     #[test]
     fn pictures_that_do_not_go_together_are_a_fault() {
         let mut one_short = samples::pictures();
-        one_short.yours.pop();
+        one_short.yours = one_short.yours[1..].into();
         assert!(animation(&one_short).is_err());
         let mut other_size = samples::pictures();
-        other_size.yours[3] = colourful();
+        Arc::make_mut(&mut other_size.yours)[3] = colourful();
         assert!(animation(&other_size).is_err());
         let mut truncated = samples::pictures();
-        truncated.yours[3].rgba.pop();
+        Arc::make_mut(&mut truncated.yours)[3].rgba.pop();
         assert!(animation(&truncated).is_err());
     }
 }

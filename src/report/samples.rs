@@ -256,5 +256,5 @@ fn triangle(pose: u32, shine: u32) -> Picture {
             rgba.extend(if inside { [100 + glow, glow, glow, 255] } else { [255, 255, 255, 0] });
         }
     }
-    Picture { width: WIDTH, height: HEIGHT, rgba }
+    Picture::whole(WIDTH, HEIGHT, rgba)
 }

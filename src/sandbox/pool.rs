@@ -2,9 +2,10 @@
 
 use super::check::{self, CheckedFolder};
 use super::child::Worker;
+use super::drawings::Drawings;
 use super::ending::{Blame, Ending};
 use super::protection::Protection;
-use super::protocol::{Answered, Reply, Request, Tile};
+use super::protocol::{Answered, Reply, Request};
 use super::roster::{Roster, WorkerKind, WorkerPermit};
 use super::{Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, Stage};
@@ -43,8 +44,8 @@ pub struct Submission<'a> {
 pub struct GradedSubmission {
     /// The report.
     pub report: Report,
-    /// The student's frames, where they were wanted and drawn.
-    pub frames: Vec<Picture>,
+    /// The student's frames, where they were wanted and drawn. Gradings that draw alike share them.
+    pub frames: Arc<[Picture]>,
 }
 
 /// Workers. Any number of threads may grade at once, for any assignments; each takes a worker of its own, and those for
@@ -56,6 +57,7 @@ pub struct Pool {
     next_id: AtomicU64,
     environment: Environment,
     protection: Protection,
+    drawings: Drawings,
 }
 
 impl Pool {
@@ -63,7 +65,14 @@ impl Pool {
     /// has a device. While that one reads the assignment, submissions can come already.
     pub fn start(settings: Settings, workers: usize) -> Result<Self, Fault> {
         let (roster, environment, protection) = Roster::start(settings.clone(), workers)?;
-        Ok(Self { settings, roster, next_id: AtomicU64::new(1), environment, protection })
+        Ok(Self {
+            settings,
+            roster,
+            next_id: AtomicU64::new(1),
+            environment,
+            protection,
+            drawings: Drawings::default(),
+        })
     }
 
     /// The assignment that every worker reads at its start.
@@ -137,25 +146,6 @@ impl Pool {
 }
 
 impl Submission<'_> {
-    /// The whole frames of which `tiles` are the painted parts; none where they do not fit.
-    fn paste(&self, tiles: &[Tile], body: &[u8]) -> Option<Vec<Picture>> {
-        let scene = &self.assignment.scene;
-        let (width, height) = (scene.width, scene.height);
-        let mut rest = body;
-        let mut pictures = Vec::new();
-        for tile in tiles {
-            let (pixels, others) = rest.split_at_checked(tile.bytes_within(width, height)?)?;
-            rest = others;
-            let mut rgba = scene.background.repeat((width * height) as usize);
-            for (row, y) in pixels.chunks_exact(tile.width.max(1) as usize * 4).zip(tile.y..) {
-                let start = ((y * width + tile.x) * 4) as usize;
-                rgba[start..start + row.len()].copy_from_slice(row);
-            }
-            pictures.push(Picture { width, height, rgba });
-        }
-        rest.is_empty().then_some(pictures)
-    }
-
     /// Bytes of all frames of a grading.
     fn frames_bytes(&self) -> usize {
         let scene = &self.assignment.scene;
@@ -213,7 +203,9 @@ impl Grading<'_> {
 
     fn answered(&mut self, worker: Worker, was_fresh: bool, reply: Reply, body: &[u8]) -> Result<Attempted, Fault> {
         let (report, frames) = match reply.outcome {
-            Answered::Graded { report, frames } => (*report, self.submission.paste(&frames, body)),
+            Answered::Graded { report, frames } => {
+                (*report, self.pool.drawings.of(&self.submission.assignment.scene, &frames, body))
+            }
             Answered::Loaded | Answered::Checked { .. } | Answered::Refused(_) => {
                 self.place.give_up(worker);
                 return Ok(Attempted::NotDone(Ending::Garbled("the answer to another question".into()).fault()));
@@ -272,7 +264,7 @@ impl Grading<'_> {
         };
         let mut report = self.pool.stopped(self.submission, &ending, environment);
         report.elapsed_ms = began.elapsed().as_secs_f64() * 1e3;
-        Ok(Attempted::Done(Box::new(GradedSubmission { report, frames: Vec::new() })))
+        Ok(Attempted::Done(Box::new(GradedSubmission { report, frames: Arc::default() })))
     }
 
     /// The fault where this machine gives a grading less memory than it is promised.

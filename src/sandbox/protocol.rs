@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
-use crate::report::{Environment, Report};
+use crate::report::{Area, Environment, Report};
 use reference::Folder;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::io::{self, Read, Write};
@@ -138,7 +138,8 @@ pub(super) enum Answered {
     Loaded,
     Graded {
         report: Box<Report>,
-        frames: Vec<Tile>,
+        /// The part of each frame that is not background.
+        frames: Vec<Area>,
     },
     /// The archive has a homework; the body is the files of its folder, with what it extends.
     Checked {
@@ -149,23 +150,6 @@ pub(super) enum Answered {
     /// It has none.
     Refused(Text),
     Failed(Fault),
-}
-
-/// One frame, cut to the rectangle that is not background.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Tile {
-    pub x: u32,
-    pub y: u32,
-    pub width: u32,
-    pub height: u32,
-}
-
-impl Tile {
-    /// Bytes of its pixels, where it lies within a frame of this size.
-    pub fn bytes_within(&self, width: u32, height: u32) -> Option<usize> {
-        let inside = self.x.checked_add(self.width)? <= width && self.y.checked_add(self.height)? <= height;
-        inside.then(|| self.width as usize * self.height as usize * 4)
-    }
 }
 
 /// The longest message that a side takes.
@@ -335,11 +319,11 @@ mod tests {
     }
 
     #[test]
-    fn a_tile_outside_its_frame_has_no_pixels() {
-        let tile = |x, y, width, height| Tile { x, y, width, height }.bytes_within(4, 3);
-        assert_eq!(tile(1, 1, 3, 2), Some(3 * 2 * 4));
-        assert_eq!(tile(2, 1, 3, 2), None);
-        assert_eq!(tile(1, 2, 3, 2), None);
-        assert_eq!(tile(u32::MAX, 0, 2, 1), None);
+    fn an_area_outside_its_frame_has_no_pixels() {
+        let area = |x, y, width, height| Area { x, y, width, height }.pixels_within(4, 3);
+        assert_eq!(area(1, 1, 3, 2), Some(3 * 2));
+        assert_eq!(area(2, 1, 3, 2), None);
+        assert_eq!(area(1, 2, 3, 2), None);
+        assert_eq!(area(u32::MAX, 0, 2, 1), None);
     }
 }

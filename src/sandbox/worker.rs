@@ -4,13 +4,14 @@
 use super::confine::{self, Confined, Meter, lower};
 use super::preflight::{self, Attempt};
 use super::protection::{Layer, Protection};
-use super::protocol::{Answered, Demand, Hello, Load, REQUEST, Reply, Request, Tile, receive, send};
+use super::protocol::{Answered, Demand, Hello, Load, REQUEST, Reply, Request, receive, send};
 use super::{Limits, check, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
 use crate::grade::{self, Graded, Grader, Order};
 use crate::language::Text;
 use crate::render::{AdapterKind, Device, Frames};
+use crate::report::Area;
 use crate::translate;
 use nix::sys::resource::Resource;
 use reference::{Assignment, Folder};
@@ -174,15 +175,15 @@ impl Desk {
             Err(fault) => return send(output, &reply(Answered::Failed(fault)), 0, |_| Ok(())),
         };
         let frames = frames.filter(|_| request.wants_frames).unwrap_or_default();
-        let tiles = tiles(&frames);
-        let length = tiles.iter().map(|tile| tile.width as usize * tile.height as usize * 4).sum();
-        let graded = Answered::Graded { report: Box::new(report), frames: tiles.clone() };
+        let areas: Vec<Area> = (0..frames.count).map(|index| painted(&frames, index)).collect();
+        let length = areas.iter().map(|area| area.width as usize * area.height as usize * 4).sum();
+        let graded = Answered::Graded { report: Box::new(report), frames: areas.clone() };
         // Row by row from where the device left them: a copy of all would be as large as everything else.
         send(output, &reply(graded), length, |to| {
-            for (index, tile) in (0..).zip(&tiles) {
-                let left = tile.x.saturating_sub(frames.area(index).x) as usize * 4;
-                for y in tile.y..tile.y + tile.height {
-                    to.write_all(&frames.row(index, y)[left..left + tile.width as usize * 4])?;
+            for (index, area) in (0..).zip(&areas) {
+                let left = area.x.saturating_sub(frames.area(index).x) as usize * 4;
+                for y in area.rows() {
+                    to.write_all(&frames.row(index, y)[left..left + area.width as usize * 4])?;
                 }
             }
             Ok(())
@@ -190,13 +191,8 @@ impl Desk {
     }
 }
 
-/// The frames' parts without their margins of background.
-fn tiles(frames: &Frames) -> Vec<Tile> {
-    (0..frames.count).map(|index| painted(frames, index)).collect()
-}
-
-/// The least rectangle that holds every pixel that was painted.
-fn painted(frames: &Frames, index: u32) -> Tile {
+/// The least part that holds every pixel that was painted.
+fn painted(frames: &Frames, index: u32) -> Area {
     let blank = frames.background.as_slice();
     let area = frames.area(index);
     let (mut left, mut right, mut top, mut bottom) = (frames.width, 0, frames.height, 0);
@@ -210,7 +206,7 @@ fn painted(frames: &Frames, index: u32) -> Tile {
         top = top.min(y);
         bottom = y + 1;
     }
-    Tile {
+    Area {
         x: left.min(right),
         y: top.min(bottom),
         width: right.saturating_sub(left),

@@ -12,7 +12,7 @@ use crate::batch::portrait::{self, Portraits};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::pictures::expected_pictures;
-use crate::report::html::Film;
+use crate::report::html::{Film, FilmUse};
 use crate::report::{Picture, Pictures, pictures};
 use crate::sandbox;
 use moka::future::Cache;
@@ -179,7 +179,7 @@ impl Gallery {
         state: &State,
         submission: &Submission,
         kind: GalleryItem,
-        make: impl FnOnce(Vec<Picture>, &Arc<[Picture]>) -> Result<Pngs, Fault> + Send + 'static,
+        make: impl FnOnce(Arc<[Picture]>, &Arc<[Picture]>) -> Result<Pngs, Fault> + Send + 'static,
     ) -> Result<Arc<Pngs>, Problem> {
         let frames = self.frames(state, submission).await?;
         if frames.is_empty() {
@@ -201,7 +201,7 @@ impl Gallery {
             PictureSet::Expected => return blocking(state, move |state| state.right.pose(index)).await,
             PictureSet::Yours | PictureSet::All => self.frames(state, submission).await?,
             PictureSet::Difference => {
-                let differences = |yours: Vec<Picture>, expected: &Arc<[Picture]>| {
+                let differences = |yours: Arc<[Picture]>, expected: &Arc<[Picture]>| {
                     yours.iter().zip(expected.iter()).map(|(a, b)| pictures::difference_png(a, b)).collect()
                 };
                 self.made_of_frames(state, submission, GalleryItem::Differences, differences).await?
@@ -214,7 +214,7 @@ impl Gallery {
             let Some(yours) = all.get(index) else { return Ok(None) };
             let assignment = &state.assignment;
             let expected = expected_pictures(assignment).get(index).cloned();
-            let (yours, expected) = (vec![pictures::decode(yours)?], expected.into_iter().collect());
+            let (yours, expected) = ([pictures::decode(yours)?].into(), expected.into_iter().collect());
             let cycle = assignment.scene.cycle;
             pictures::animation(&Pictures { yours, expected, terms: Arc::default(), cycle }).map(Some)
         })
@@ -251,15 +251,15 @@ impl Gallery {
 
     /// The two sheets of the moving pictures, yours and difference; none where nothing was drawn.
     pub async fn film(&self, state: &State, submission: &Submission) -> Result<Arc<Pngs>, Problem> {
-        let make = |yours: Vec<Picture>, expected: &Arc<[Picture]>| {
-            let film = Film::of(&yours, expected, 1)?;
-            Ok(film.map(|film| vec![film.yours, film.difference]).unwrap_or_default())
+        let make = |yours: Arc<[Picture]>, expected: &Arc<[Picture]>| {
+            let film = Film::of(&yours, expected, FilmUse::Served)?;
+            Ok(film.map(|film| vec![film.yours.clone(), film.difference.clone()]).unwrap_or_default())
         };
         self.made_of_frames(state, submission, GalleryItem::Film, make).await
     }
 
     /// What was drawn, as a report's own page takes it; empty where nothing was.
-    pub async fn decoded(&self, state: &State, submission: &Submission) -> Result<Vec<Picture>, Problem> {
+    pub async fn decoded(&self, state: &State, submission: &Submission) -> Result<Arc<[Picture]>, Problem> {
         let frames = self.frames(state, submission).await?;
         blocking(state, move |_| decoded(&frames)).await
     }
@@ -303,7 +303,7 @@ impl Gallery {
     }
 }
 
-fn decoded(pngs: &Pngs) -> Result<Vec<Picture>, Fault> {
+fn decoded(pngs: &Pngs) -> Result<Arc<[Picture]>, Fault> {
     pngs.iter().map(|png| pictures::decode(png)).collect()
 }
 

@@ -190,6 +190,6 @@ impl<F: Fn() -> Result<(), Fault> + Send + Sync> Judge for Fake<F> {
         let sources = ggrade::grade::sources(assignment, submission.hand_in);
         let verdict = ggrade::report::Verdict::Rejected;
         let report = ggrade::grade::unfinished(assignment, sources, verdict, Vec::new(), Default::default());
-        Ok(GradedSubmission { report, frames: Vec::new() })
+        Ok(GradedSubmission { report, frames: Arc::default() })
     }
 }

@@ -53,7 +53,7 @@ pub fn graded(hand_in: &HandIn, score: f64) -> GradedSubmission {
         line.points = left.min(line.max_points);
         left -= line.points;
     }
-    GradedSubmission { report: Report { score, rubric, ..report }, frames: Vec::new() }
+    GradedSubmission { report: Report { score, rubric, ..report }, frames: Arc::default() }
 }
 
 /// 2023-11-15 07:13:20 in Tokyo. The homework is due at 08:00.

@@ -46,7 +46,7 @@ impl Judge for Percent {
             line.points = left.min(line.max_points);
             left -= line.points;
         }
-        Ok(GradedSubmission { report: Report { score, rubric, ..report }, frames: Vec::new() })
+        Ok(GradedSubmission { report: Report { score, rubric, ..report }, frames: Arc::default() })
     }
 }
 

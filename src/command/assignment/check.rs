@@ -179,7 +179,7 @@ impl<'a> Album<'a> {
     }
 
     /// Writes one moving picture: these frames, the right ones, and where they differ.
-    fn put(&self, name: &str, yours: Vec<Picture>) -> Result<(), Fault> {
+    fn put(&self, name: &str, yours: Arc<[Picture]>) -> Result<(), Fault> {
         let Some(folder) = self.folder.as_ref().filter(|_| !yours.is_empty()) else { return Ok(()) };
         let expected = expected_pictures(self.assignment);
         let pictures = Pictures { yours, expected, terms: Arc::default(), cycle: self.assignment.scene.cycle };

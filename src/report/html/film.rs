@@ -5,7 +5,7 @@ use super::cache::PictureCache;
 use super::sheet::{FilmStep, Grid};
 use super::shots::Shots;
 use crate::fault::Fault;
-use crate::report::encode::{Raster, encode, mismatched};
+use crate::report::encode::{Raster, encode_small, mismatched};
 use crate::report::pictures::fit;
 use crate::report::{Picture, Pictures, TermPictures};
 use askama::Template;
@@ -13,9 +13,22 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::sync::Arc;
 
-/// Bytes of the two sheets of a film. Those of a right answer take about 170 kB; a shader that draws noise
-/// would take 15 MB, and is shown at a lower resolution instead.
-const BUDGET: usize = 400_000;
+/// Where a film is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmUse {
+    /// In a page that holds it.
+    Embedded,
+    /// By a service, each sheet a file.
+    Served,
+}
+
+/// Bytes of the two sheets of a film that are served. A shader that draws noise would take 15 MB, and is shown at a lower resolution.
+const BUDGET_OF_SERVED: usize = 400_000;
+/// Bytes of the three sheets of a film as they stand in a page, of which a page has at most 250 kB. Those of ggsample06 take 150 to 190
+/// kB. Scenes that are lit pixel by pixel would take 300 to 650, and noise 20 MB: they are shown at a lower resolution instead.
+const BUDGET: usize = 220_000;
+/// The most of it that the right pictures take. What is handed in draws about the same, and where it differs is drawn in few colours.
+const BUDGET_OF_EXPECTED: usize = 100_000;
 /// Factors by which the pictures are reduced in turn until they fit.
 const REDUCTIONS: [usize; 4] = [1, 2, 4, 8];
 
@@ -33,25 +46,34 @@ pub struct Film {
     factor: usize,
 }
 
+/// What is expected, and the film of something beside it.
+type MadeFilm = (Arc<[Picture]>, Option<Arc<Film>>);
+
 impl Film {
-    /// The film of a grading in every `finest`-th pixel of every `finest`-th row, or coarser where that is too large;
-    /// none when nothing was drawn.
-    pub fn of(yours: &[Picture], expected: &Arc<[Picture]>, finest: usize) -> Result<Option<Self>, Fault> {
+    /// The film of a grading, in every pixel or, where that is too large, in some of them; none when nothing was drawn. Gradings that
+    /// share their pictures have one film.
+    pub fn of(yours: &Arc<[Picture]>, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<Option<Arc<Self>>, Fault> {
+        static MADE: PictureCache<[Picture], MadeFilm> = PictureCache::new();
+        let make = || Ok((Arc::clone(expected), Self::made(yours, expected, shown)?.map(Arc::new)));
+        let (of, film) = MADE.get(yours, shown as usize, make)?;
+        // Answers to two homeworks may draw the same.
+        if Arc::ptr_eq(&of, expected) { Ok(film) } else { Ok(make()?.1) }
+    }
+
+    fn made(yours: &[Picture], expected: &Arc<[Picture]>, shown: FilmUse) -> Result<Option<Self>, Fault> {
         fit(yours, expected)?;
         let Some(first) = expected.first() else { return Ok(None) };
         let motion = Motion::of(expected.len(), first.width as usize, first.height as usize);
-        let made = |yours: Vec<u8>, difference: Vec<u8>, factor: usize| Self {
-            yours,
-            difference,
-            is_reduced: factor > finest,
-            motion,
-            factor,
+        let made = |yours, difference, factor| Self { yours, difference, is_reduced: factor > 1, motion, factor };
+        let finest = match shown {
+            FilmUse::Embedded => finest(expected)?,
+            FilmUse::Served => 1,
         };
         if finest == 1
-            && let Some([yours, difference]) = Base::of(expected, motion.grid)?.encoded(yours, expected)?
+            && let Some([yours, difference]) = Base::of(expected, motion.grid)?.sheets(yours, expected)
         {
-            let film = made(yours.to_vec(), difference.to_vec(), 1);
-            if film.bytes() <= BUDGET {
+            let film = made(yours.encode()?, difference.encode()?, 1);
+            if film.fits(expected, shown)? {
                 return Ok(Some(film));
             }
         }
@@ -61,24 +83,33 @@ impl Film {
             let yours = drawn.sheet(motion.grid, factor).encode()?;
             let difference = drawn.difference(&right, motion.grid, factor).encode()?;
             let film = fitting.insert(made(yours, difference, factor));
-            if film.bytes() <= BUDGET {
+            if film.fits(expected, shown)? {
                 break;
             }
         }
         Ok(fitting)
     }
 
-    fn bytes(&self) -> usize {
-        self.yours.len() + self.difference.len()
+    fn fits(&self, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<bool, Fault> {
+        let embedded = |png: &[u8]| png.len().div_ceil(3) * 4;
+        Ok(match shown {
+            FilmUse::Embedded => {
+                let expected = expected_address(expected, self.factor)?.len();
+                embedded(&self.yours) + embedded(&self.difference) + expected <= BUDGET
+            }
+            FilmUse::Served => self.yours.len() + self.difference.len() <= BUDGET_OF_SERVED,
+        })
     }
 
     /// Where a page that holds all pictures itself finds them. `still`: the PNG of a single frame.
     pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<Gallery, Fault> {
         static TERMS: PictureCache<[TermPictures], Arc<[Term]>> = PictureCache::new();
-        let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode(&Raster::opaque(picture)?)?));
+        let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode_small(&Raster::opaque(picture)?)?));
         let term = |term: &TermPictures| {
-            let yours = term.yours.as_ref().map(address);
-            Ok(Term { id: term.id.clone(), t: term.t, yours: yours.transpose()?, expected: address(&term.expected)? })
+            let expected = address(&term.expected)?;
+            let own = |yours: &Picture| if *yours == term.expected { Ok(expected.clone()) } else { address(yours) };
+            let yours = term.yours.as_ref().map(own).transpose()?;
+            Ok(Term { id: term.id.clone(), t: term.t, yours, expected })
         };
         Ok(Gallery {
             yours: inline(&self.yours),
@@ -91,17 +122,31 @@ impl Film {
     }
 }
 
-/// The sheet of what a right answer draws, the same for every film of an assignment, as a PNG.
-pub fn expected_sheet(expected: &[Picture], finest: usize) -> Result<Vec<u8>, Fault> {
+/// The sheet of what a right answer draws in every pixel, the same for every film of an assignment, as a PNG.
+pub fn expected_sheet(expected: &[Picture]) -> Result<Vec<u8>, Fault> {
+    reduced_sheet(expected, 1)
+}
+
+fn reduced_sheet(expected: &[Picture], factor: usize) -> Result<Vec<u8>, Fault> {
     fit(expected, expected)?;
     let shots = Shots::of(expected).ok_or_else(mismatched)?;
-    shots.sheet(Grid::of(expected.len()), finest).encode()
+    shots.sheet(Grid::of(expected.len()), factor).encode()
 }
 
 /// It inside a page.
-fn expected_address(expected: &Arc<[Picture]>, finest: usize) -> Result<Arc<str>, Fault> {
+fn expected_address(expected: &Arc<[Picture]>, factor: usize) -> Result<Arc<str>, Fault> {
     static MADE: PictureCache<[Picture], Arc<str>> = PictureCache::new();
-    MADE.get(expected, finest, || Ok(inline(&expected_sheet(expected, finest)?).into()))
+    MADE.get(expected, factor, || Ok(inline(&reduced_sheet(expected, factor)?).into()))
+}
+
+/// The least reduction at which the right pictures take their share of a page.
+fn finest(expected: &Arc<[Picture]>) -> Result<usize, Fault> {
+    for factor in REDUCTIONS {
+        if expected_address(expected, factor)?.len() <= BUDGET_OF_EXPECTED {
+            return Ok(factor);
+        }
+    }
+    Ok(REDUCTIONS[REDUCTIONS.len() - 1])
 }
 
 fn inline(png: &[u8]) -> String {
@@ -204,4 +249,22 @@ struct Opening {
     y: f64,
     held: f64,
     delay: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::samples;
+
+    #[test]
+    fn gradings_that_share_their_pictures_have_one_film_each_beside_its_own_right_ones() {
+        let pictures = samples::pictures();
+        let film = |expected: &Arc<[Picture]>| {
+            Film::of(&pictures.yours, expected, FilmUse::Embedded).expect("no fault").expect("a film")
+        };
+        assert!(Arc::ptr_eq(&film(&pictures.expected), &film(&pictures.expected)));
+        // The same drawing as an answer to another homework, to which it is right.
+        let right = film(&pictures.yours);
+        assert_ne!(right.difference, film(&pictures.expected).difference);
+    }
 }

@@ -70,6 +70,7 @@ pub(super) struct FilmStep {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compare::PIXEL_TOLERANCE;
 
     /// The pixels of a sheet, as a reader of the file sees them.
     fn pixels(sheet: &Canvas) -> Vec<[u8; 3]> {
@@ -121,12 +122,15 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_of_more_colours_than_a_palette_has_keeps_them_all() {
+    fn a_sheet_of_more_colours_than_a_palette_has_shows_nearly_the_same_ones() {
         let colour = |i: usize| [(i % 256) as u8, (i / 256) as u8, 9];
         let sheet = Grid::of(2).sheet((200, 1), 1, [0; 3], |pose, _, row| {
             row.iter_mut().enumerate().for_each(|(x, cell)| *cell = colour(pose * 200 + x));
             0..200
         });
-        assert_eq!(pixels(&sheet), (0..400).map(colour).collect::<Vec<_>>());
+        let off = |(a, b): (u8, u8)| a.abs_diff(b);
+        let found = pixels(&sheet).into_flattened();
+        let most = found.into_iter().zip((0..400).flat_map(colour)).map(off).max();
+        assert!(most.is_some_and(|most| most <= PIXEL_TOLERANCE), "{most:?}");
     }
 }

@@ -84,7 +84,7 @@ fn draw(assignment: &Assignment) -> Vec<Asset> {
     let motion = Motion::of(expected.len().max(1), width, height).opening_with(telling_pose(assignment));
     let style = motion.style(assignment.scene.cycle).into_bytes();
     let mut assets = vec![Asset::new(motion_name(assignment), style)];
-    match expected_sheet(&expected, 1) {
+    match expected_sheet(&expected) {
         Ok(sheet) => assets.push(Asset::new(expected_name(assignment), sheet)),
         Err(fault) => tracing::error!(assignment = %assignment.id, fault = %fault.message.en, "no expected pictures"),
     }

@@ -27,10 +27,10 @@ pub(super) async fn page(
     language: Language,
     path: PathBuf,
 ) -> Result<PathBuf, Problem> {
-    let mut frames = state.gallery.decoded(state, submission).await?;
+    let frames = state.gallery.decoded(state, submission).await?;
     let report = report.clone();
     let write = move |state: &State| {
-        let page = Pages::new(Arc::clone(&state.assignment), language).page(&report, &sources, &mut frames)?;
+        let page = Pages::new(Arc::clone(&state.assignment), language).page(&report, &sources, &frames)?;
         std::fs::write(&path, page).map_err(|error| disk(&error))?;
         Ok(path)
     };
