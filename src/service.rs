@@ -59,6 +59,7 @@ pub mod proxied;
 pub mod regrade;
 mod requests;
 pub mod roster;
+mod rules;
 mod scope;
 pub mod server;
 pub mod sign_in;

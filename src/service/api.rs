@@ -4,6 +4,8 @@ pub(super) mod archive;
 mod assignments;
 pub(super) mod batches;
 pub(super) mod body;
+mod caller;
+mod courses;
 mod deletions;
 mod docs;
 mod export;
@@ -14,8 +16,14 @@ mod judgements;
 mod likeness;
 mod operations;
 pub(super) mod pictures;
+mod platforms;
+mod records;
 mod refusals;
+mod regradings;
+mod roster;
 mod schema;
+mod settings;
+mod staff;
 pub(super) mod submissions;
 mod term;
 mod tokens;
@@ -47,6 +55,7 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
     tags(
         (name = "submissions", description = "One hand-in. Its id opens it: who has the id may read the report."),
         (name = "batches", description = "Whole classes, for teachers: with the teacher's token."),
+        (name = "courses", description = "Courses, their homeworks and rules, who teaches, who the class is: for teachers."),
         (name = "operations", description = "For who runs the service.")
     )
 )]
@@ -85,6 +94,27 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(term::read))
         .routes(routes!(tokens::list))
         .routes(routes!(tokens::end))
+        .routes(routes!(courses::list, courses::create))
+        .routes(routes!(courses::read, courses::change))
+        .routes(routes!(courses::renew_link))
+        .routes(routes!(settings::read, settings::change))
+        .routes(routes!(settings::plan, settings::set_plan))
+        .routes(routes!(staff::list, staff::add))
+        .routes(routes!(staff::change))
+        .routes(routes!(staff::invite))
+        .routes(routes!(platforms::list, platforms::add))
+        .routes(routes!(platforms::register))
+        .routes(routes!(platforms::change))
+        .routes(routes!(platforms::connect))
+        .routes(routes!(platforms::fetch))
+        .routes(routes!(roster::read, roster::set))
+        .routes(routes!(roster::codes))
+        .routes(routes!(roster::renew))
+        .routes(routes!(regradings::start))
+        .routes(routes!(regradings::read))
+        .routes(routes!(regradings::adopt))
+        .routes(routes!(records::gradebook))
+        .routes(routes!(records::log))
         .merge(operational())
 }
 

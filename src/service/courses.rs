@@ -13,9 +13,9 @@ mod way;
 pub use archived::archived;
 pub(super) use archived::keep;
 pub use copy::copy;
-pub use plan::{Plan, changed, reread};
+pub use plan::{Plan, arrange, changed, reread, too_many};
 pub(super) use way::{answer, within};
-pub use way::{at, root, root_of};
+pub use way::{at, public_address, root, root_of};
 
 use super::errors::Problem;
 use super::store::{Result as StoreResult, Stored};

@@ -3,6 +3,7 @@
 
 use super::lti::Connections;
 use crate::language::Text;
+use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 use jsonwebtoken::errors::ErrorKind;
 use jsonwebtoken::{Algorithm, DecodingKey, Validation, decode, decode_header};
 use serde::Deserialize;
@@ -21,6 +22,24 @@ pub(super) struct Issuer<'a> {
     pub client_id: &'a str,
     /// Where its public keys are.
     pub keys_url: &'a str,
+    /// By which algorithms it signs, all of them with a key of its own.
+    pub algorithms: &'a [Algorithm],
+}
+
+/// What learning platforms sign by (1EdTech Security Framework 1.0, section 5.1.1), and issuers that say nothing else.
+pub(super) const USUAL: [Algorithm; 1] = [Algorithm::RS256];
+
+/// The algorithms that are believed among these names: those whose keys are public. A secret that both know proves nothing here.
+pub(super) fn algorithms(names: &[String]) -> Vec<Algorithm> {
+    use Algorithm::{ES256, ES384, EdDSA, PS256, PS384, PS512, RS256, RS384, RS512};
+    let known = [RS256, RS384, RS512, PS256, PS384, PS512, ES256, ES384, EdDSA];
+    known.into_iter().filter(|known| names.iter().any(|name| *name == format!("{known:?}"))).collect()
+}
+
+/// A claim of a token of which nothing is proved yet: to know whose keys are to be asked for.
+pub(super) fn unproved(token: &str, claim: &str) -> Option<String> {
+    let body = BASE64_URL_SAFE_NO_PAD.decode(token.split('.').nth(1)?).ok()?;
+    Some(serde_json::from_slice::<Value>(&body).ok()?.get(claim)?.as_str()?.to_owned())
 }
 
 /// What the library does not check.
@@ -39,8 +58,10 @@ pub(super) async fn read<C: DeserializeOwned>(
 ) -> Result<C, Text> {
     // `none` is no algorithm that this knows, and a secret in the place of a key is no RSA.
     let header = decode_header(token).map_err(|error| untrusted(&error))?;
-    if header.alg != Algorithm::RS256 {
-        return Err(Text::new("it is not signed with RS256", "RS256 で署名されていません"));
+    if !of.algorithms.contains(&header.alg) {
+        let names: Vec<String> = of.algorithms.iter().map(|known| format!("{known:?}")).collect();
+        let names = names.join(", ");
+        return Err(Text::new(format!("it is not signed with {names}"), format!("{names} で署名されていません")));
     }
     let Some(id) = header.kid else { return Err(Text::new("it names no key", "鍵の指定がありません")) };
     let key = connections.key(of.keys_url, &id).await.map_err(|failure| {
@@ -51,7 +72,7 @@ pub(super) async fn read<C: DeserializeOwned>(
         )
     })?;
     let key = DecodingKey::from_jwk(&key).map_err(|error| untrusted(&error))?;
-    let mut rules = Validation::new(Algorithm::RS256);
+    let mut rules = Validation::new(header.alg);
     rules.leeway = LEEWAY;
     rules.set_audience(&[of.client_id]);
     rules.set_issuer(&[of.issuer]);

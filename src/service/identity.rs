@@ -18,6 +18,7 @@ mod teacher;
 mod tokens;
 mod visitor;
 
+pub(super) use accounts::vouched_for;
 pub use accounts::{check_may_invite, people};
 pub use codes::{code_needed, personal_code};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
@@ -30,7 +31,7 @@ pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use secrets::{hex, same};
 pub(super) use staff::PASSWORD_SETTING;
 pub(crate) use staff::SHORTEST_PASSWORD;
-pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, member_of, set_staff};
+pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, let_in, member_of, set_staff};
 pub use teacher::{LecturerPage, Teacher, TeacherPage};
 pub(super) use teacher::{bearer, is_teachers_program};
 pub use tokens::{LONGEST_DAYS, WantedToken, end_token, make_token, tokens_for};

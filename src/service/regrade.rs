@@ -6,6 +6,7 @@ use super::folders;
 use super::grading;
 use super::identity::new_id;
 use super::store::Regrading;
+use crate::report::Verdict;
 use axum::http::StatusCode;
 
 /// Begins to grade everything again in the background, behind all else; with another seed, where that is wished, and by an
@@ -24,6 +25,17 @@ pub async fn start(state: &State, new_seed: bool, folder: Option<String>) -> Res
     state.store.add_regrading(&regrading).await?;
     grading::files_wait(state).await;
     Ok(regrading)
+}
+
+/// Points that differ by less are the same: sums of fractions of points are rounded.
+pub const SAME_POINTS: f64 = 1e-6;
+
+/// Verdict, points and mistakes of a grading.
+pub type Earned = (Verdict, f64, Vec<String>);
+
+/// Whether two gradings of a submission differ.
+pub fn differs(before: &Earned, after: &Earned) -> bool {
+    before.0 != after.0 || (before.1 - after.1).abs() > SAME_POINTS || before.2 != after.2
 }
 
 /// The regrading with this id, where it is of this homework.

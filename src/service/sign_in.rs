@@ -120,12 +120,15 @@ async fn finish(
             format!("{} で認証できませんでした: {said}", provider.name),
         ));
     }
-    if answer.iss.as_deref().is_some_and(|iss| iss != provider.issuer) {
+    let found = provider.discovered(&service).await?;
+    // Before the code goes anywhere (RFC 9207).
+    if answer.iss.as_deref().is_some_and(|iss| !provider.has_name(&found, iss)) {
         return Err(provider.distrusted("it comes from another issuer (iss)", "別の発行元からのものです (iss)"));
     }
-    let found = provider.discovered(&service).await?;
     let token = provider.token(&service, &found, &answer.code, &begun).await?;
-    let of = Issuer { issuer: &provider.issuer, client_id: &provider.client_id, keys_url: &found.jwks_uri };
+    let (issuer, algorithms) = (provider.issuer_of(&found, &token)?, found.algorithms());
+    let of =
+        Issuer { issuer: &issuer, client_id: &provider.client_id, keys_url: &found.jwks_uri, algorithms: &algorithms };
     let claims: Map<String, Value> =
         id_tokens::read(&service.lti, of, &token).await.map_err(|why| provider.distrusted(&why.en, &why.ja))?;
     if claims.get("nonce").and_then(Value::as_str) != Some(begun.nonce.as_str()) {

@@ -7,6 +7,7 @@ mod certificates;
 mod classes;
 mod cluster;
 mod codes;
+mod course_api;
 mod courses;
 mod cross_checks;
 mod deletions;

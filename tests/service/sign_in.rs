@@ -23,13 +23,19 @@ use std::time::Duration;
 on_both!(
     students_and_staff_come_in_by_the_issuers_word,
     every_forged_answer_is_refused,
-    an_issuer_that_lies_is_not_used
+    an_issuer_that_lies_is_not_used,
+    issuers_sign_by_what_they_publish_and_take_secrets_where_they_say,
+    an_issuer_of_many_tenants_lets_those_in_that_are_named,
 );
 
 /// A service of a course with two students, and an issuer for it.
 async fn bench(database: Database, clock: Clock) -> (Bench, Issuer) {
+    with_provider(database, clock, |_| ()).await
+}
+
+async fn with_provider(database: Database, clock: Clock, change: impl Fn(&mut Provider)) -> (Bench, Issuer) {
     let issuer = Issuer::start().await;
-    let provider = Provider {
+    let mut provider = Provider {
         id: "university".into(),
         name: "Example University".into(),
         issuer: issuer.address.clone(),
@@ -37,7 +43,9 @@ async fn bench(database: Database, clock: Clock) -> (Bench, Issuer) {
         client_secret: Some(SECRET.into()),
         claim: "email".into(),
         domain: Some("example.ac.jp".into()),
+        tenants: Vec::new(),
     };
+    change(&mut provider);
     let public_url = Some("http://ggrade.example".into());
     let config = Config { sign_in: vec![provider], public_url, ..config() };
     let bench = Bench::with(database, config, Arc::new(Fake(|| Ok(()))), clock).await;
@@ -105,13 +113,13 @@ async fn students_and_staff_come_in_by_the_issuers_word(database: Database) {
     let link = "/sign-in/university?homework=ggsample06";
     assert!(desk.text().contains(&format!("href=\"{link}\"")), "{}", desk.text());
     assert!(get(&bench, "/teacher/login", "").await.text().contains("Log in with Example University"));
-    for takes_post in [false, true] {
-        issuer.seen().takes_post = takes_post;
+    for _ in 0..2 {
         let reply = signed_in(&bench, &issuer, "S1@Example.ac.jp", |_| ()).await;
         assert_eq!((reply.status, reply.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"), "{reply:?}");
         let page = get(&bench, "/a/ggsample06", &cookies(&reply).join("; ")).await;
         assert_eq!(page.all(".top .who bdi"), ["S1"]);
     }
+    assert_eq!(issuer.seen().discovered, 1, "what it is is not asked at each sign-in");
     // Another student at the same browser is another browser, in which nothing of the first is seen.
     let first = signed_in(&bench, &issuer, "s1@example.ac.jp", |_| ()).await;
     let begun = begin(&bench).await;
@@ -217,4 +225,47 @@ async fn an_issuer_that_lies_is_not_used(database: Database) {
     assert_eq!(reply.status, StatusCode::BAD_GATEWAY, "{}", reply.text());
     assert!(reply.text().contains("Example University does not answer as it should"), "{}", reply.text());
     bench.finish().await;
+}
+
+async fn issuers_sign_by_what_they_publish_and_take_secrets_where_they_say(database: Database) {
+    let (bench, issuer) = bench(database, Clock::system()).await;
+    (issuer.seen().takes_post, issuer.seen().signs_by_curve) = (true, true);
+    let reply = signed_in(&bench, &issuer, "s1@example.ac.jp", |_| ()).await;
+    assert_eq!((reply.status, reply.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"), "{reply:?}");
+    // That it names them makes no algorithm good whose key is no public one.
+    let begun = begin(&bench).await;
+    let claims = issuer.claims(&begun.asked, "s1@example.ac.jp");
+    let header = Header { kid: Some("issuer-key".to_owned()), ..Header::new(Algorithm::HS256) };
+    let confused = EncodingKey::from_secret(issuer.public_modulus().as_bytes());
+    let forged = jsonwebtoken::encode(&header, &claims, &confused).expect("a token");
+    let code = issuer.code(&begun.asked, &forged);
+    assert_refused(&back(&bench, &begun, &code, "").await, "not signed with RS256, ES256");
+    bench.finish().await;
+}
+
+async fn an_issuer_of_many_tenants_lets_those_in_that_are_named(database: Database) {
+    const OWN: &str = "9188040d-6c67-4c5b-b112-36a304b66dad";
+    let (bench, issuer) =
+        with_provider(database, Clock::system(), |provider| provider.tenants = vec![OWN.to_owned()]).await;
+    let template = issuer.address.replace("realm", "{tenantid}");
+    issuer.seen().alias = Some(template.clone());
+    let of = |tenant: &str| template.replace("{tenantid}", tenant);
+    let from = async |tenant: &str, iss: String| {
+        signed_in(&bench, &issuer, "s1@example.ac.jp", |claims| {
+            claims["tid"] = json!(tenant);
+            claims["iss"] = json!(iss);
+        })
+        .await
+    };
+    let reply = from(OWN, of(OWN)).await;
+    assert_eq!((reply.status, reply.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"), "{reply:?}");
+    assert_refused(&from("another", of("another")).await, "tenant that is not let in");
+    assert_refused(&from(OWN, of("another")).await, "another issuer");
+    assert_refused(&from(OWN, template.clone()).await, "another issuer");
+    bench.finish().await;
+    // Where no tenant is named, everybody's own tenant could vouch for anybody.
+    let (open, issuer) = self::bench(Database::sqlite(), Clock::system()).await;
+    issuer.seen().alias = Some(issuer.address.replace("realm", "{tenantid}"));
+    assert_eq!(get(&open, "/sign-in/university", "").await.status, StatusCode::BAD_GATEWAY);
+    open.finish().await;
 }

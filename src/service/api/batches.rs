@@ -1,6 +1,7 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
 use super::archive::Archive;
+use super::caller::check_page;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
 use crate::batch::formats::Format;
@@ -30,9 +31,6 @@ use std::time::Duration;
 
 /// How often who watches a batch is told.
 const TICK: Duration = Duration::from_millis(400);
-
-/// Header of a page's own script, with the token of its forms: no other page can set it.
-pub(super) const CSRF: &str = "x-ggrade-csrf";
 
 /// A form with an archive.
 #[derive(Deserialize, utoipa::ToSchema)]
@@ -70,8 +68,7 @@ pub(super) async fn create(
     of: Result<Query<OfQuery>, QueryRejection>,
     request: Request,
 ) -> Result<Response, Problem> {
-    let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    teacher.check_csrf(&service, csrf)?;
+    check_page(&teacher, &headers, &service)?;
     teacher.check_role(Role::Lecturer)?;
     let Query(of) = of.map_err(super::body::other)?;
     let archive = Archive::read(request, &service).await?;
@@ -231,8 +228,7 @@ pub(super) async fn filled(
     (headers, uri): (HeaderMap, Uri),
     sheet: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    let csrf = headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    teacher.check_csrf(&service, csrf)?;
+    check_page(&teacher, &headers, &service)?;
     teacher.check_role(Role::Lecturer)?;
     let sheet = sheet.map_err(super::body::other)?;
     let (state, batch) = find(&service, &teacher, &id).await?;

@@ -1,20 +1,16 @@
 //! Deleting: for teachers.
 
-use super::batches::CSRF;
+use super::caller::{Caller, check_page};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::deletion;
 use crate::service::errors::Problem;
-use crate::service::identity::{Teacher, normal_number};
+use crate::service::identity::normal_number;
 use crate::service::store::{Counts, DeletionTarget};
 use axum::Json;
 use axum::extract::{Path, State as Shared};
-use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
-
-/// Who asks: a teacher, with the headers of the request.
-type Caller = (Teacher, HeaderMap);
 
 /// What an address names.
 enum Named {
@@ -78,7 +74,7 @@ pub(super) async fn delete_student(
 /// Deletes what is there under that name. A page's own script brings the token of its forms; a program brings the
 /// teacher's.
 async fn deleted(service: &Service, (teacher, headers): &Caller, named: Named) -> Result<Response, Problem> {
-    teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
+    check_page(teacher, headers, service)?;
     let store = &service.store;
     let found = match named {
         Named::Submission(id) => {

@@ -1,6 +1,7 @@
 //! `/api/v1/extensions`, and which submission counts: for teachers.
 
-use super::batches::{CSRF, OfQuery};
+use super::batches::OfQuery;
+use super::caller::{Caller, check};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -13,7 +14,7 @@ use crate::service::store::{Beneficiary, NamedExtension, Role};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -51,15 +52,6 @@ pub(super) struct ExtensionWish {
     /// Why, for those who teach.
     #[serde(default)]
     reason: String,
-}
-
-/// Who asks: a teacher, with the headers of the request.
-type Caller = (Teacher, HeaderMap);
-
-/// Lets a lecturer pass whose page or program sends this.
-fn check((teacher, headers): &Caller, service: &Service) -> Result<(), Problem> {
-    teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
-    teacher.check_role(Role::Lecturer)
 }
 
 /// The deadlines of students and groups
@@ -103,7 +95,7 @@ pub(super) async fn set(
     of: Result<Query<OfQuery>, QueryRejection>,
     wish: Result<Json<ExtensionWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service)?;
+    check(&caller, &service, Role::Lecturer)?;
     let Query(of) = of.map_err(super::body::other)?;
     let Json(wish) = wish.map_err(super::body::other)?;
     let state = service.named(of.assignment.as_deref())?;
@@ -132,7 +124,7 @@ pub(super) async fn choose(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service)?;
+    check(&caller, &service, Role::Lecturer)?;
     let (state, submission) = service.submission(&id).await?;
     caller.0.check(&submission.assignment)?;
     counting::choose(&state, &submission).await?;

@@ -1,7 +1,7 @@
 //! `/api/v1/folders`: homeworks that come by the network.
 
 use super::archive::Archive;
-use super::batches::CSRF;
+use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -12,7 +12,7 @@ use crate::service::identity::Teacher;
 use crate::service::store::{Role, UploadedFolder};
 use axum::Json;
 use axum::extract::{Path, Request, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -79,16 +79,6 @@ pub(super) struct PublicationJson {
     regrading: Option<String>,
 }
 
-/// Who asks: a teacher, with the headers of the request.
-type Caller = (Teacher, HeaderMap);
-
-/// Lets a lecturer of the whole course pass whose page or program sends this.
-fn check((teacher, headers): &Caller, service: &Service) -> Result<(), Problem> {
-    teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
-    teacher.check_role(Role::Lecturer)?;
-    teacher.check_course()
-}
-
 fn done(folder: &UploadedFolder, act: &str, answer: Response) -> Response {
     let digest: String = folder.digest.chars().take(8).collect();
     Detail { assignment: Some(folder.assignment.clone()), ..Detail::of(format!("{act} {digest}")) }.on(answer)
@@ -100,8 +90,7 @@ fn done(folder: &UploadedFolder, act: &str, answer: Response) -> Response {
     responses((status = 200, description = "Each with what its own files got", body = FoldersJson), Refusals, Errors)
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    teacher.check_role(Role::Lecturer)?;
-    teacher.check_course()?;
+    check_reader(&teacher, Role::Lecturer)?;
     let folders = service.store.folders().await?;
     let folders = folders.iter().map(|folder| FolderJson::of(&service, folder)).collect();
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(FoldersJson { folders })).into_response())
@@ -121,7 +110,7 @@ pub(super) async fn create(
     Shared(service): Shared<Service>,
     request: Request,
 ) -> Result<Response, Problem> {
-    check(&caller, &service)?;
+    check_course(&caller, &service, Role::Lecturer)?;
     let archive = Archive::read(request, &service).await?;
     let staff = caller.0.staff().map(|member| member.id.as_str());
     let folder = folders::upload(&service, &archive.path, staff).await?;
@@ -146,7 +135,7 @@ pub(super) async fn publish(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service)?;
+    check_course(&caller, &service, Role::Lecturer)?;
     let folder = folders::found(&service, &id).await?;
     let (status, regrading) = match folders::publish(&service, &id).await? {
         Publication::Served => (StatusCode::OK, None),
@@ -173,7 +162,7 @@ pub(super) async fn withdraw(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service)?;
+    check_course(&caller, &service, Role::Lecturer)?;
     let folder = folders::found(&service, &id).await?;
     folders::withdraw(&service, &id).await?;
     Ok(done(&folder, "withdraw", StatusCode::NO_CONTENT.into_response()))

@@ -1,6 +1,7 @@
 //! What people judge beside the grading: for teachers.
 
-use super::batches::{CSRF, OfQuery};
+use super::batches::OfQuery;
+use super::caller::{Caller, check_page};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -13,16 +14,13 @@ use crate::service::store::{Appeal, Stored, StoredComment};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
-/// Who asks: a teacher, with the headers of the request.
-type Caller = (Teacher, HeaderMap);
-
 /// The submission with its report, for a teacher who may see it.
 async fn judged(service: &Service, (teacher, headers): &Caller, id: &str) -> Result<Stored, Problem> {
-    teacher.check_csrf(service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
+    check_page(teacher, headers, service)?;
     let (_, stored) = service.stored(id).await?;
     teacher.check(&stored.submission.assignment)?;
     Ok(stored)

@@ -1,6 +1,6 @@
 //! The archive of a term: for teachers.
 
-use super::batches::CSRF;
+use super::caller::{check_page, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
@@ -24,11 +24,6 @@ pub(super) struct ArchiveJson {
     done: u64,
     /// and how many there are as far as is known.
     steps: u64,
-}
-
-fn check(teacher: &Teacher) -> Result<(), Problem> {
-    teacher.check_role(Role::Lecturer)?;
-    teacher.check_course()
 }
 
 fn waiting(id: &str, progress: (u64, u64)) -> Response {
@@ -55,8 +50,8 @@ pub(super) async fn make(
     headers: HeaderMap,
     Shared(service): Shared<Service>,
 ) -> Result<Response, Problem> {
-    teacher.check_csrf(&service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
-    check(&teacher)?;
+    check_page(&teacher, &headers, &service)?;
+    check_reader(&teacher, Role::Lecturer)?;
     let state = service.homeworks().next().ok_or_else(Problem::not_found)?;
     let language = service.store.course().await?.language;
     let job = service.downloads.archive(&state, language, at("/teacher/data"));
@@ -77,7 +72,7 @@ pub(super) async fn read(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check(&teacher)?;
+    check_reader(&teacher, Role::Lecturer)?;
     let job = service.downloads.get(&id).filter(|job| job.is_archive).ok_or_else(Problem::not_found)?;
     match job.made() {
         None => {

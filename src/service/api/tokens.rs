@@ -1,6 +1,6 @@
 //! `/api/v1/tokens`: which tokens there are, and ending one. A person makes them, on a page.
 
-use super::batches::CSRF;
+use super::caller::check_page;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -84,7 +84,7 @@ pub(super) async fn end(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    teacher.check_csrf(&service, headers.get(CSRF).and_then(|value| value.to_str().ok()).unwrap_or_default())?;
+    check_page(&teacher, &headers, &service)?;
     let ended = end_token(&service, &teacher, &id).await?;
     Ok(ended.detail().on(StatusCode::NO_CONTENT.into_response()))
 }

@@ -8,14 +8,16 @@ use axum::http::StatusCode;
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// The routes by which nothing of a course changes, though they are POST: coming and going, downloads, the list of courses.
-const READING: [&str; 13] = [
+/// The routes by which nothing of a course changes, though they are POST: coming and going, downloads, the list of courses, and opening the course again.
+const READING: [&str; 15] = [
     "/join/{secret}",
     "/leave",
     "/teacher/login",
     "/teacher/logout",
     "/teacher/welcome/{secret}",
     "/teacher/courses",
+    "/api/v1/courses",
+    "/api/v1/course",
     "/teacher/downloads",
     "/teacher/batches/{id}/worksheet",
     "/teacher/data/export",

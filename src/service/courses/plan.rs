@@ -1,7 +1,9 @@
 //! Which homeworks a course has, and in which order.
 
+use super::super::errors::Problem;
 use super::super::store::{Place, Result as StoreResult, Store};
 use super::super::{Service, folders, grading};
+use crate::sandbox::MOST_ASSIGNMENTS;
 use reference::Assignment;
 use std::collections::HashMap;
 use std::sync::{Arc, PoisonError};
@@ -50,4 +52,54 @@ pub async fn reread(service: &Service) -> StoreResult<()> {
     let plan = Plan::read(&service.store).await?;
     *service.plan.write().unwrap_or_else(PoisonError::into_inner) = plan;
     folders::follow(service).await
+}
+
+/// Gives the course these homeworks, in this order. Another course than the first leaves out what it chose, and chooses what is
+/// offered; a homework that has a folder here stays until that is taken out of service.
+pub async fn arrange(service: &Service, ids: &[String]) -> Result<(), Problem> {
+    let is_offered = |id: &String| service.is_beside() && service.offered().iter().any(|one| one.id == *id);
+    let repeated = ids.iter().enumerate().find(|(index, id)| ids[..*index].contains(id)).map(|(_, id)| id);
+    let unknown = ids.iter().find(|id| service.homework(id).is_none() && !is_offered(id));
+    if let Some(id) = repeated.or(unknown) {
+        return Err(Problem::unprocessable(
+            format!("`{id}` is no homework that this course can have, or is named twice."),
+            format!("「{id}」はこの授業で選べる課題ではないか、2 回指定されています。"),
+        ));
+    }
+    if ids.len() > MOST_ASSIGNMENTS {
+        return Err(too_many());
+    }
+    let left: Vec<String> = service.ids().into_iter().filter(|id| !ids.contains(id)).collect();
+    if let Some(id) = left.iter().find(|id| !service.is_beside() || service.named_as(id).is_none()) {
+        return Err(Problem::unprocessable(
+            format!(
+                "`{id}` is served and must be in the list; what has a folder here is taken out of service with it."
+            ),
+            format!(
+                "「{id}」は公開中のため、一覧に含めてください。フォルダのある課題は、フォルダの公開停止で外せます。"
+            ),
+        ));
+    }
+    let chosen: Vec<&String> = ids.iter().filter(|id| service.homework(id).is_none()).collect();
+    for id in &chosen {
+        service.store.assignment(id).await?;
+    }
+    let mut places = service.store.places().await?;
+    places.retain(|place| ids.contains(&place.id) || left.contains(&place.id));
+    for place in &mut places {
+        place.position = ids.iter().position(|id| *id == place.id).and_then(|index| i64::try_from(index).ok());
+        if chosen.contains(&&place.id) || left.contains(&place.id) {
+            place.is_chosen = i64::from(!left.contains(&place.id));
+        }
+    }
+    service.store.set_places(&places).await?;
+    Ok(changed(service).await?)
+}
+
+/// The refusal of more homeworks than workers read.
+pub fn too_many() -> Problem {
+    Problem::unprocessable(
+        format!("A course has at most {MOST_ASSIGNMENTS} homeworks."),
+        format!("1 つの授業の課題は {MOST_ASSIGNMENTS} 個までです。"),
+    )
 }

@@ -6,7 +6,7 @@
 use super::Service;
 use axum::Router;
 use axum::extract::{OriginalUri, Request};
-use axum::http::{HeaderValue, Uri, header};
+use axum::http::{HeaderMap, HeaderValue, Uri, header};
 use axum::response::Response;
 use std::sync::Arc;
 use tower::ServiceExt;
@@ -31,6 +31,14 @@ pub fn root_of(path: &str) -> &str {
     let Some(rest) = path.strip_prefix("/c/") else { return "" };
     let end = rest.find('/').unwrap_or(rest.len());
     &path[.."/c/".len() + end]
+}
+
+/// The address of the course: the configured one, or that by which whoever asks knows it.
+pub fn public_address(service: &Service, headers: &HeaderMap) -> String {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
+    let own = || format!("http://{}", host.map_or_else(|| service.config.listen.to_string(), str::to_owned));
+    let host = service.config.public_url.clone().unwrap_or_else(own);
+    format!("{}{}", host.trim_end_matches('/'), service.root())
 }
 
 /// The course to which a request leads, with its routes.

@@ -43,6 +43,21 @@ pub(super) async fn added(service: &Service, new: &StaffMember) -> Result<Option
     Ok(Some(StaffMember { role: new.role, ..account }))
 }
 
+/// Somebody of whom a learning platform says that they teach in this course: their account, which they get by that; none where it
+/// is closed.
+pub(in crate::service) async fn vouched_for(
+    service: &Service,
+    new: &StaffMember,
+) -> Result<Option<StaffMember>, Problem> {
+    if let Some(member) = added(service, new).await? {
+        return Ok(Some(member));
+    }
+    match service.accounts().account(&new.login).await?.filter(|account| account.is_active) {
+        Some(account) => in_course(service, account).await,
+        None => Ok(None),
+    }
+}
+
 /// Everybody who teaches in a course, with what is true of their accounts.
 pub async fn people(service: &Service) -> Result<Vec<StaffMember>, Problem> {
     let mut people = service.store.staff().await?;

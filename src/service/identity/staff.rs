@@ -77,6 +77,21 @@ pub async fn add_staff(service: &Service, login: &str, name: &str, role: Role) -
     ))
 }
 
+/// Lets somebody in: their account, and the last part of a link by which they choose a password. Whoever has an account already
+/// comes in by that; a new way into one that others may have made is not given here.
+pub async fn let_in(
+    service: &Service,
+    teacher: &Teacher,
+    (login, name): (&str, &str),
+    role: Role,
+) -> Result<(StaffMember, Option<String>), Problem> {
+    let is_new = service.accounts().account(&login.trim().to_lowercase()).await?.is_none();
+    let member = add_staff(service, login, name, role).await?;
+    let may_invite = is_new || (!member.has_password && teacher.check_role(Role::Administrator).is_ok());
+    let secret = if may_invite { Some(invite(service, &member).await?) } else { None };
+    Ok((member, secret))
+}
+
 /// The refusal to make somebody an administrator by way of one course.
 fn only_in_the_first() -> Problem {
     Problem::unprocessable(

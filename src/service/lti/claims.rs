@@ -5,7 +5,7 @@ use super::super::store::Platform;
 use super::refused;
 use crate::service::errors::Problem;
 use crate::service::id_tokens::{self, Issuer};
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 
 /// What the messages are called.
@@ -50,12 +50,16 @@ pub(super) struct Claims {
 
 #[derive(Debug, Deserialize)]
 pub(super) struct ResourceLink {
+    #[serde(deserialize_with = "id")]
     pub id: String,
 }
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Context {
+    #[serde(deserialize_with = "id")]
     pub id: String,
+    label: Option<String>,
+    title: Option<String>,
 }
 
 /// What an information system of the university knows them by.
@@ -89,12 +93,42 @@ pub(super) struct Names {
 pub(super) struct DeepLinking {
     pub deep_link_return_url: String,
     pub data: Option<String>,
+    accept_multiple: Option<Value>,
+}
+
+impl Context {
+    /// What people call it.
+    pub fn name(&self) -> &str {
+        let names = [&self.title, &self.label].into_iter().flatten();
+        names.map(|name| name.trim()).find(|name| !name.is_empty()).unwrap_or_default()
+    }
+}
+
+impl DeepLinking {
+    /// Whether several links may be chosen at once; Moodle has said it as a text.
+    pub fn takes_several(&self) -> bool {
+        self.accept_multiple.as_ref().is_some_and(|said| *said == true || *said == "true")
+    }
+}
+
+/// An id, which the standard wants to be a text and some platforms send as a number.
+pub(super) fn id<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    match Value::deserialize(deserializer)? {
+        Value::String(text) => Ok(text),
+        Value::Number(number) => Ok(number.to_string()),
+        other => Err(serde::de::Error::custom(format!("an id is {other}"))),
+    }
 }
 
 impl Claims {
     /// The claims of an id token of this platform.
     pub async fn read(service: &Service, platform: &Platform, token: &str) -> Result<Self, Problem> {
-        let of = Issuer { issuer: &platform.issuer, client_id: &platform.client_id, keys_url: &platform.keys_url };
+        let of = Issuer {
+            issuer: &platform.issuer,
+            client_id: &platform.client_id,
+            keys_url: &platform.keys_url,
+            algorithms: &id_tokens::USUAL,
+        };
         let claims: Self = id_tokens::read(&service.lti, of, token).await.map_err(|why| wrong(&why.en, &why.ja))?;
         if claims.version.as_deref() != Some("1.3.0") {
             return Err(wrong("it is not of LTI 1.3.0", "LTI 1.3.0 のメッセージではありません"));

@@ -4,13 +4,13 @@ use super::super::Service;
 use super::super::identity::new_id;
 use super::super::pages::Frame;
 use super::super::store::Platform;
-use super::claims::Claims;
+use super::claims::{Claims, DeepLinking};
 use super::keys::sign;
 use super::launch::HOMEWORK;
 use super::platform::checked;
 use super::{address, refused};
 use crate::service::errors::Problem;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// How long a choice holds, in seconds.
 const HOUR: i64 = 3600;
@@ -24,6 +24,8 @@ pub struct Choice {
     pub origin: String,
     /// Title, and the signed answer that chooses it.
     pub homeworks: Vec<(String, String)>,
+    /// The signed answer that chooses all of them, where the platform takes several.
+    pub all: Option<String>,
 }
 
 /// What is offered to somebody who teaches.
@@ -40,32 +42,44 @@ pub(super) async fn offer(
         refused("The platform does not say where the choice goes.", "選択結果の送信先が示されていません。")
     })?;
     let action = checked(&wanted.deep_link_return_url).map_err(|failure| refused(failure.clone(), failure))?;
-    let now = service.clock.now() / 1000;
-    let mut homeworks = Vec::new();
+    let (mut titles, mut items) = (Vec::new(), Vec::new());
     for state in service.homeworks() {
         let title = frame.language.of(&state.assignment.title).to_owned();
-        let item = json!({
+        items.push(json!({
             "type": "ltiResourceLink",
             "title": title,
             "url": format!("{}{}", address(service), state.place()),
             "custom": { HOMEWORK: state.assignment.id },
             "lineItem": { "scoreMaximum": 100, "label": title, "resourceId": state.assignment.id },
-        });
-        let mut answer = json!({
-            "iss": platform.client_id,
-            "aud": platform.issuer,
-            "iat": now,
-            "exp": now + HOUR,
-            "nonce": new_id(),
-            "https://purl.imsglobal.org/spec/lti/claim/message_type": "LtiDeepLinkingResponse",
-            "https://purl.imsglobal.org/spec/lti/claim/version": "1.3.0",
-            "https://purl.imsglobal.org/spec/lti/claim/deployment_id": claims.deployment_id,
-            "https://purl.imsglobal.org/spec/lti-dl/claim/content_items": [item],
-        });
-        if let Some(data) = &wanted.data {
-            answer["https://purl.imsglobal.org/spec/lti-dl/claim/data"] = json!(data);
-        }
-        homeworks.push((title, sign(service, &answer).await?));
+        }));
+        titles.push(title);
     }
-    Ok(Choice { origin: action.origin().ascii_serialization(), action: action.to_string(), homeworks })
+    let answer =
+        async |items: &[Value]| sign(service, platform, &answer(service, platform, claims, &wanted, items)).await;
+    let all = if wanted.takes_several() && items.len() > 1 { Some(answer(&items).await?) } else { None };
+    let mut homeworks = Vec::new();
+    for (title, item) in titles.into_iter().zip(&items) {
+        homeworks.push((title, answer(std::slice::from_ref(item)).await?));
+    }
+    Ok(Choice { origin: action.origin().ascii_serialization(), action: action.to_string(), homeworks, all })
+}
+
+/// The message that makes links of these items.
+fn answer(service: &Service, platform: &Platform, claims: &Claims, wanted: &DeepLinking, items: &[Value]) -> Value {
+    let now = service.clock.now() / 1000;
+    let mut answer = json!({
+        "iss": platform.client_id,
+        "aud": platform.issuer,
+        "iat": now,
+        "exp": now + HOUR,
+        "nonce": new_id(),
+        "https://purl.imsglobal.org/spec/lti/claim/message_type": "LtiDeepLinkingResponse",
+        "https://purl.imsglobal.org/spec/lti/claim/version": "1.3.0",
+        "https://purl.imsglobal.org/spec/lti/claim/deployment_id": claims.deployment_id,
+        "https://purl.imsglobal.org/spec/lti-dl/claim/content_items": items,
+    });
+    if let Some(data) = &wanted.data {
+        answer["https://purl.imsglobal.org/spec/lti-dl/claim/data"] = json!(data);
+    }
+    answer
 }

@@ -4,6 +4,8 @@ use super::super::Service;
 use super::super::clock::{Millis, millis};
 use super::super::errors::Problem;
 use super::super::identity::new_id;
+use super::super::store::{Platform, Store};
+use super::contexts;
 use aws_lc_rs::encoding::AsDer;
 use aws_lc_rs::rsa::{KeyPair, KeySize};
 use axum::Json;
@@ -35,7 +37,7 @@ struct SigningKey {
 
 /// `GET /lti/jwks.json`: the public keys.
 pub async fn published(Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    renew(&service).await?;
+    renew(&service, &service.store).await?;
     let mut keys = Vec::new();
     for (id, pem, _) in service.store.signing_keys().await? {
         let key = EncodingKey::from_rsa_pem(pem.as_bytes()).map_err(|error| Problem::internal(&error))?;
@@ -47,18 +49,18 @@ pub async fn published(Shared(service): Shared<Service>) -> Result<Response, Pro
     Ok(([(header::CACHE_CONTROL, "public, max-age=300")], Json(JwkSet { keys })).into_response())
 }
 
-/// Claims, signed by this service.
-pub(super) async fn sign(service: &Service, claims: &impl Serialize) -> Result<String, Problem> {
-    let SigningKey { id, key } = signing(service).await?;
+/// Claims for a platform, signed by this service.
+pub(super) async fn sign(service: &Service, platform: &Platform, claims: &impl Serialize) -> Result<String, Problem> {
+    let SigningKey { id, key } = signing(service, contexts::home(service, &platform.id).await?).await?;
     let header = Header { kid: Some(id), ..Header::new(Algorithm::RS256) };
     jsonwebtoken::encode(&header, claims, &key).map_err(|error| Problem::internal(&error))
 }
 
 /// The newest key that has been published for long enough.
-async fn signing(service: &Service) -> Result<SigningKey, Problem> {
-    renew(service).await?;
+async fn signing(service: &Service, store: &Store) -> Result<SigningKey, Problem> {
+    renew(service, store).await?;
     let known = days(HERALD);
-    let keys = service.store.signing_keys().await?;
+    let keys = store.signing_keys().await?;
     let now = service.clock.now();
     let heralded = keys.iter().rev().find(|(_, _, since)| since + known <= now);
     let (id, pem, _) = heralded.or(keys.first()).ok_or_else(|| Problem::internal(&"there is no key to sign with"))?;
@@ -67,15 +69,15 @@ async fn signing(service: &Service) -> Result<SigningKey, Problem> {
 }
 
 /// Makes a key where there is none, or where the newest is old.
-async fn renew(service: &Service) -> Result<(), Problem> {
+async fn renew(service: &Service, store: &Store) -> Result<(), Problem> {
     let now = service.clock.now();
-    let newest = service.store.signing_keys().await?.last().map(|(_, _, since)| *since);
+    let newest = store.signing_keys().await?.last().map(|(_, _, since)| *since);
     if newest.is_some_and(|since| since + days(LIFE) > now) {
         return Ok(());
     }
     let made = tokio::task::spawn_blocking(new_key).await.map_err(|error| Problem::internal(&error))?;
     let pem = made.map_err(|error| Problem::internal(&error))?;
-    Ok(service.store.add_signing_key(&new_id(), &pem, now, now - days(KEPT)).await?)
+    Ok(store.add_signing_key(&new_id(), &pem, now, now - days(KEPT)).await?)
 }
 
 fn days(days: u32) -> Millis {

@@ -6,7 +6,7 @@ use super::super::store::{Link, Platform, Proof, Role};
 use super::super::{Service, State};
 use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
 use super::people::{Described, staff, student};
-use super::{deep_linking, refused};
+use super::{contexts, deep_linking, refused};
 use crate::service::errors::Problem;
 use axum::Form;
 use axum::extract::State as Shared;
@@ -63,11 +63,11 @@ pub async fn launch(
         ));
     }
     check_deployment(&service, &platform, claims.deployment_id.as_deref().unwrap_or_default()).await?;
-    let jar = Jar::of(&headers);
+    let course = contexts::course_of(&service, &platform, &claims).await?;
     match claims.message_type.as_deref() {
-        Some(RESOURCE_LINK) => open(&service, &platform, &claims, jar).await,
+        Some(RESOURCE_LINK) => open(&course, &platform, &claims, &headers).await,
         Some(DEEP_LINKING) => {
-            let choice = deep_linking::offer(&service, &platform, &claims, &frame).await?;
+            let choice = deep_linking::offer(&course, &platform, &claims, &frame).await?;
             shown_choice(frame, choice)
         }
         _ => Err(refused(
@@ -117,7 +117,13 @@ fn described(claims: &Claims) -> Result<Described, Problem> {
 }
 
 /// Opens the homework for a student, or its class for who teaches.
-async fn open(service: &Service, platform: &Platform, claims: &Claims, jar: Jar) -> Result<Response, Problem> {
+async fn open(
+    service: &Service,
+    platform: &Platform,
+    claims: &Claims,
+    headers: &HeaderMap,
+) -> Result<Response, Problem> {
+    let jar = Jar::of(headers);
     let link =
         claims.resource_link.as_ref().map(|link| link.id.clone()).filter(|id| !id.is_empty()).ok_or_else(|| {
             refused("The launch is of no link (resource_link).", "起動元のリンク (resource_link) が示されていません。")
@@ -130,7 +136,8 @@ async fn open(service: &Service, platform: &Platform, claims: &Claims, jar: Jar)
     if claims.is_staff() {
         let role = if claims.is_assistant() { Role::Assistant } else { Role::Lecturer };
         let member = staff(service, platform, &who, role).await?;
-        let page = state.map_or_else(|| "/teacher".to_owned(), |state| format!("{}/teacher", state.base()));
+        let page =
+            state.map_or_else(|| format!("{}/teacher", service.root()), |state| format!("{}/teacher", state.base()));
         return open_for(service, member, &page, jar).await;
     }
     let Some(state) = state else {

@@ -5,6 +5,7 @@ use super::super::clock::millis;
 use super::super::errors::Problem;
 use super::super::identity::{Jar, new_token, set_launch, token_hash};
 use super::super::store::Launch;
+use super::contexts::is_elsewheres;
 use super::{address, refused};
 use axum::Form;
 use axum::extract::{Query, State as Shared};
@@ -55,7 +56,11 @@ async fn begin(service: &Service, headers: &HeaderMap, coming: Coming) -> Result
     let is_it = |client: &str| coming.client_id.as_deref().is_none_or(|given| given == client);
     let mut found =
         platforms.into_iter().filter(|platform| platform.issuer == coming.iss && is_it(&platform.client_id));
-    let platform = found.next().ok_or_else(|| {
+    let platform = match found.next() {
+        Some(platform) if is_elsewheres(service, &platform.id).await? => None,
+        found => found,
+    };
+    let platform = platform.ok_or_else(|| {
         let iss: String = coming.iss.chars().filter(|c| !c.is_control()).take(200).collect();
         refused(
             format!("The learning platform {iss} is not known here. An administrator adds it under Staff, Learning platforms."),

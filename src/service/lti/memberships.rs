@@ -5,6 +5,7 @@ use super::super::errors::Problem;
 use super::super::identity::normal_number;
 use super::super::roster;
 use super::super::store::{Link, Platform, RosterLine, Student};
+use super::claims::id;
 use super::people::{Described, student};
 use super::platform::{Connections, Failure, parsed};
 use super::refused;
@@ -28,6 +29,7 @@ struct Container {
 
 #[derive(Deserialize)]
 struct Member {
+    #[serde(deserialize_with = "id")]
     user_id: String,
     #[serde(default)]
     roles: Vec<String>,

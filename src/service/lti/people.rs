@@ -2,7 +2,7 @@
 
 use super::super::Service;
 use super::super::errors::Problem;
-use super::super::identity::{new_id, normal_number, token_hash};
+use super::super::identity::{new_id, normal_number, token_hash, vouched_for};
 use super::super::store::{Platform, PlatformPerson, Role, RosterLine, StaffMember, Student};
 
 /// What a platform says of one person.
@@ -81,19 +81,12 @@ pub(super) async fn staff(
     who: &Described,
     role: Role,
 ) -> Result<StaffMember, Problem> {
-    let store = &service.store;
-    let known = store.platform_person(&platform.id, &who.subject).await?;
-    if let Some(id) = known.and_then(|person| person.staff_id)
-        && let Some(member) = store.staff_member(&id).await?
-    {
-        return if member.is_active { Ok(member) } else { Err(closed()) };
-    }
     let login = format!("lti-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..12]);
     let name: String = who.name.chars().filter(|c| !c.is_control()).take(100).collect();
     let member = StaffMember { id: new_id(), login, name, role, has_password: false, is_active: true };
-    store.add_staff(&member, service.clock.now()).await?;
+    let member = vouched_for(service, &member).await?.ok_or_else(closed)?;
     let person = PlatformPerson { student_id: None, staff_id: Some(member.id.clone()) };
-    store.note_person(&platform.id, &who.subject, &person).await?;
+    service.store.note_person(&platform.id, &who.subject, &person).await?;
     Ok(member)
 }
 

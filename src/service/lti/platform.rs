@@ -20,6 +20,9 @@ const LONGEST: usize = 4 << 20;
 /// How soon keys are fetched again for one that is not among them.
 const REFETCH: Duration = Duration::from_secs(10);
 
+/// How long what an issuer says of itself is kept.
+const KEPT: Duration = Duration::from_secs(600);
+
 /// Seconds for which a request for a token holds, and before the end of which a token is not used any more.
 const ASSERTION: i64 = 60;
 const MARGIN: u64 = 30;
@@ -28,6 +31,8 @@ const MARGIN: u64 = 30;
 #[derive(Debug, Default)]
 pub struct Connections {
     clients: Clients,
+    /// What issuers say of themselves, by its address.
+    said: Mutex<HashMap<String, (Instant, serde_json::Value)>>,
     /// Keys by their address.
     keys: Mutex<HashMap<String, (Instant, Arc<JwkSet>)>>,
     /// Tokens by platform and scope.
@@ -59,6 +64,17 @@ impl Connections {
     pub(in crate::service) async fn json(&self, address: &str) -> Result<serde_json::Value, Failure> {
         let response = answered(address, self.request(Method::GET, address)?).await?;
         parsed(address, response).await
+    }
+
+    /// The JSON at an address, which is asked for once in a while.
+    pub(in crate::service) async fn kept_json(&self, address: &str) -> Result<serde_json::Value, Failure> {
+        let kept = lock(&self.said).get(address).filter(|(since, _)| since.elapsed() < KEPT).cloned();
+        if let Some((_, said)) = kept {
+            return Ok(said);
+        }
+        let said = self.json(address).await?;
+        lock(&self.said).insert(address.to_owned(), (Instant::now(), said.clone()));
+        Ok(said)
     }
 
     /// Sends JSON, and reads what comes back; `token` is that of a registration.
@@ -148,7 +164,7 @@ impl Connections {
             "exp": now + ASSERTION,
             "jti": new_id(),
         });
-        let assertion = sign(service, &claims).await.map_err(|problem| problem.detail.en)?;
+        let assertion = sign(service, platform, &claims).await.map_err(|problem| problem.detail.en)?;
         let form = [
             ("grant_type", "client_credentials"),
             ("client_assertion_type", "urn:ietf:params:oauth:client-assertion-type:jwt-bearer"),

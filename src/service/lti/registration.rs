@@ -30,7 +30,8 @@ struct Kept {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct Asked {
-    openid_configuration: String,
+    /// Where the platform says what it is.
+    pub openid_configuration: String,
     registration_token: Option<String>,
 }
 
@@ -116,6 +117,8 @@ pub async fn keep(service: &Service, platform: Platform, deployment: Option<&str
 fn request(service: &Service) -> Value {
     let own = address(service);
     let domain = own.split("://").nth(1).unwrap_or_default().split('/').next().unwrap_or_default();
+    // Moodle looks a link's tool up by its domain without this.
+    let domain = domain.strip_prefix("www.").unwrap_or(domain);
     let scopes = [scores::SCOPE, memberships::SCOPE].join(" ");
     json!({
         "application_type": "web",

@@ -23,6 +23,9 @@ pub(super) const SCOPE: &str = "https://purl.imsglobal.org/spec/lti-ags/scope/sc
 /// How often it is looked whether something is due.
 const TICK: Duration = Duration::from_secs(5);
 
+/// Platforms may compare times by this.
+const SECOND: Millis = 1_000;
+
 /// The first pause after a failure, and the longest, in milliseconds.
 const FIRST_PAUSE: Millis = 5_000;
 const LONGEST_PAUSE: Millis = 3_600_000;
@@ -50,7 +53,7 @@ pub async fn send_due(service: &Service) {
         if service.is_ending() {
             return;
         }
-        let at = service.clock.now().max(due.sent_at + 1);
+        let at = service.clock.now().max(after(due.sent_at));
         let noted = match send(service, &due, at).await {
             Ok(()) => service.store.score_sent(&due, at).await,
             Err(failure) => {
@@ -63,6 +66,11 @@ pub async fn send_due(service: &Service) {
             return tracing::error!(%error, "scores for learning platforms");
         }
     }
+}
+
+/// The first time that is later than another one for a platform that counts whole seconds, as Moodle does.
+fn after(sent_at: Millis) -> Millis {
+    (sent_at / SECOND + 1) * SECOND
 }
 
 async fn send(service: &Service, due: &DueScore, at: Millis) -> Result<(), Failure> {

@@ -70,6 +70,7 @@ pub(super) async fn register(
 /// The layer around pages: lets the learning platforms that are known, and nobody else, show them in a frame.
 pub(super) async fn embeddable(Shared(service): Shared<Service>, request: Request, next: Next) -> Response {
     let is_framed = crate::service::identity::Jar::of(request.headers()) == crate::service::identity::Jar::Embedded;
+    let registering = registering(&request);
     let mut response = next.run(request).await;
     if !is_framed || response.headers().contains_key(header::CONTENT_SECURITY_POLICY) {
         return response;
@@ -77,7 +78,8 @@ pub(super) async fn embeddable(Shared(service): Shared<Service>, request: Reques
     let platforms = service.store.platforms().await.unwrap_or_default();
     let active = platforms.iter().filter(|platform| platform.is_active == 1);
     let origin = |address: &str| Some(reqwest::Url::parse(address).ok()?.origin().ascii_serialization());
-    let origins: Vec<String> = active.filter_map(|platform| origin(&platform.auth_url)).collect();
+    let known = active.filter_map(|platform| origin(&platform.auth_url));
+    let origins: Vec<String> = known.chain(registering.and_then(|address| origin(&address))).collect();
     if !origins.is_empty() {
         let policy = format!("frame-ancestors 'self' {}", origins.join(" "));
         let policy = crate::service::CSP.replace("frame-ancestors 'none'", &policy);
@@ -87,4 +89,10 @@ pub(super) async fn embeddable(Shared(service): Shared<Service>, request: Reques
         }
     }
     response
+}
+
+/// Where a platform is whose administrator opens a registration link there: what is wrong with the link is read in that frame.
+fn registering(request: &Request) -> Option<String> {
+    request.uri().path().strip_prefix("/lti/register/")?;
+    Query::<Asked>::try_from_uri(request.uri()).ok().map(|Query(asked)| asked.openid_configuration)
 }

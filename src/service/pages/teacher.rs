@@ -43,7 +43,7 @@ use crate::service::classes::PersonStanding;
 use crate::service::errors::Problem;
 use axum::Router;
 use axum::extract::DefaultBodyLimit;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::Response;
 use axum::routing::{get, post};
 
@@ -138,14 +138,6 @@ pub(super) enum Tab {
     Tokens,
     /// The log of what they did.
     Acts,
-}
-
-/// The address of the course: the configured one, or that by which the teacher's own browser knows it.
-fn public_address(service: &Service, headers: &HeaderMap) -> String {
-    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
-    let own = || format!("http://{}", host.map_or_else(|| service.config.listen.to_string(), str::to_owned));
-    let host = service.config.public_url.clone().unwrap_or_else(own);
-    format!("{}{}", host.trim_end_matches('/'), service.root())
 }
 
 /// How somebody stands, in words.

@@ -2,9 +2,11 @@
 
 use super::{address_back, refused};
 use crate::service::errors::Problem;
+use crate::service::id_tokens;
 use crate::service::store::SignIn;
 use crate::service::{Service, lti};
 use axum::http::StatusCode;
+use jsonwebtoken::Algorithm;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -32,7 +34,13 @@ pub struct Provider {
     /// The domain of mail addresses that are let in. What stands before it is the student number.
     #[serde(default)]
     pub domain: Option<String>,
+    /// Ids of the tenants that are let in, for an issuer of many tenants (Microsoft's `common` and `organizations`).
+    #[serde(default)]
+    pub tenants: Vec<String>,
 }
+
+/// What stands for a tenant's id in the name of an issuer of many tenants.
+const TENANT: &str = "{tenantid}";
 
 fn email() -> String {
     "email".to_owned()
@@ -47,6 +55,16 @@ pub(super) struct Discovered {
     pub jwks_uri: String,
     #[serde(default)]
     token_endpoint_auth_methods_supported: Vec<String>,
+    #[serde(default)]
+    id_token_signing_alg_values_supported: Vec<String>,
+}
+
+impl Discovered {
+    /// By which algorithms it signs id tokens.
+    pub fn algorithms(&self) -> Vec<Algorithm> {
+        let known = id_tokens::algorithms(&self.id_token_signing_alg_values_supported);
+        if known.is_empty() { id_tokens::USUAL.to_vec() } else { known }
+    }
 }
 
 impl Provider {
@@ -76,15 +94,44 @@ impl Provider {
                 format!("{name} から正しい応答がありません。しばらくしてからもう一度試してください。"),
             )
         };
-        let found = service.lti.json(&address).await.map_err(failed)?;
+        let found = service.lti.kept_json(&address).await.map_err(failed)?;
         let found: Discovered = serde_json::from_value(found).map_err(|error| failed(format!("{address}: {error}")))?;
-        if found.issuer != self.issuer {
+        if !self.is_named(&found.issuer) {
             return Err(failed(format!("{address} is of the issuer {}", found.issuer)));
         }
         for address in [&found.authorization_endpoint, &found.token_endpoint, &found.jwks_uri] {
             lti::checked(address).map_err(failed)?;
         }
         Ok(found)
+    }
+
+    /// Whether an issuer that names itself so is the one of the configuration: by that name, or with a place for the tenant where
+    /// the configuration says which tenants are let in.
+    fn is_named(&self, name: &str) -> bool {
+        let of_many = || {
+            let (before, after) = name.split_once(TENANT)?;
+            let tenant = self.issuer.strip_prefix(before)?.strip_suffix(after)?;
+            Some(!tenant.is_empty() && !tenant.contains('/') && !self.tenants.is_empty())
+        };
+        name == self.issuer || of_many().unwrap_or(false)
+    }
+
+    /// Whether this is a name that the issuer may have in its answers.
+    pub(super) fn has_name(&self, found: &Discovered, name: &str) -> bool {
+        let of_tenant = |tenant: &String| found.issuer.replace(TENANT, tenant) == name;
+        if found.issuer.contains(TENANT) { self.tenants.iter().any(of_tenant) } else { name == self.issuer }
+    }
+
+    /// The name of the issuer of a token; an issuer of many tenants has one for each.
+    pub(super) fn issuer_of(&self, found: &Discovered, token: &str) -> Result<String, Problem> {
+        if !found.issuer.contains(TENANT) {
+            return Ok(self.issuer.clone());
+        }
+        let tenant = id_tokens::unproved(token, "tid").unwrap_or_default();
+        match self.tenants.iter().find(|known| known.eq_ignore_ascii_case(&tenant)) {
+            Some(_) => Ok(found.issuer.replace(TENANT, &tenant)),
+            None => Err(self.distrusted("it is of a tenant that is not let in", "許可されていないテナントのものです")),
+        }
     }
 
     /// The id token for a code.

@@ -8,7 +8,7 @@ use crate::service::counting::Counting;
 use serde::{Deserialize, Serialize};
 
 /// Who may hand in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Audience {
     /// Anybody.

@@ -96,6 +96,14 @@ impl Store {
         Ok(self.students().await?.into_iter().filter(Student::is_on_roster).collect())
     }
 
+    /// Everyone who has a personal code: the roster; without one, whoever gave a number.
+    pub async fn with_codes(&self) -> Result<Vec<Student>> {
+        let mut students = self.students().await?;
+        let has_roster = students.iter().any(Student::is_on_roster);
+        students.retain(|student| !has_roster || student.is_on_roster());
+        Ok(students)
+    }
+
     /// The names of the groups of the roster.
     pub async fn groups(&self) -> Result<Vec<String>> {
         const SQL: &str =

@@ -177,10 +177,11 @@ async fn scores(
     assert_eq!(query["type_id"], "3");
     assert_eq!(headers[header::CONTENT_TYPE], "application/vnd.ims.lis.v1.score+json");
     let score: Value = serde_json::from_str(&body).expect("JSON");
-    // Equal or earlier timestamps are refused, as by Moodle.
+    // Equal or earlier timestamps are refused, by whole seconds as Moodle does.
     let of_user = |old: &&Value| old["userId"] == score["userId"];
+    let second = |score: &Value| score["timestamp"].as_str().map(|at| at[..19].to_owned());
     if let Some(last) = seen.scores.iter().rfind(of_user)
-        && score["timestamp"].as_str() <= last["timestamp"].as_str()
+        && second(&score) <= second(last)
     {
         return StatusCode::CONFLICT.into_response();
     }

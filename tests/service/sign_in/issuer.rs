@@ -18,12 +18,14 @@ use std::sync::{Arc, Mutex};
 pub const CLIENT: &str = "ggrade of the course";
 pub const SECRET: &str = "a secret: with a colon & more";
 const KEY: &str = "issuer-key";
+const CURVE: &str = "issuer-curve";
 
 /// The issuer.
 #[derive(Clone)]
 pub struct Issuer {
     pub address: String,
     key: Arc<EncodingKey>,
+    curve: Arc<EncodingKey>,
     seen: Arc<Mutex<Seen>>,
 }
 
@@ -36,13 +38,32 @@ pub struct Seen {
     pub alias: Option<String>,
     /// Whether it takes the secret in the form alone.
     pub takes_post: bool,
+    /// Whether it signs with an elliptic curve.
+    pub signs_by_curve: bool,
+    /// How often it was asked what it is.
+    pub discovered: usize,
+}
+
+/// A new key on an elliptic curve.
+fn curve() -> EncodingKey {
+    use aws_lc_rs::signature::{ECDSA_P256_SHA256_FIXED_SIGNING, EcdsaKeyPair};
+    let random = aws_lc_rs::rand::SystemRandom::new();
+    let key = EcdsaKeyPair::generate_pkcs8(&ECDSA_P256_SHA256_FIXED_SIGNING, &random).expect("a key");
+    EncodingKey::from_ec_der(key.as_ref())
+}
+
+/// A public key as it is published.
+fn published(key: &EncodingKey, algorithm: Algorithm, id: &str) -> Jwk {
+    let mut jwk = Jwk::from_encoding_key(key, algorithm).expect("a key");
+    jwk.common.key_id = Some(id.to_owned());
+    jwk
 }
 
 impl Issuer {
     pub async fn start() -> Self {
         let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let address = format!("http://{}/realm", listener.local_addr().expect("an address"));
-        let issuer = Self { address, key: Arc::new(key()), seen: Arc::default() };
+        let issuer = Self { address, key: Arc::new(key()), curve: Arc::new(curve()), seen: Arc::default() };
         let routes = Router::new()
             .route("/realm/.well-known/openid-configuration", get(configuration))
             .route("/realm/jwks", get(jwks))
@@ -67,8 +88,12 @@ impl Issuer {
 
     /// Signs claims as the issuer does.
     pub fn sign(&self, claims: &Value) -> String {
-        let header = Header { kid: Some(KEY.to_owned()), ..Header::new(Algorithm::RS256) };
-        jsonwebtoken::encode(&header, claims, &self.key).expect("a token")
+        let (id, algorithm, key) = match self.seen().signs_by_curve {
+            true => (CURVE, Algorithm::ES256, &self.curve),
+            false => (KEY, Algorithm::RS256, &self.key),
+        };
+        let header = Header { kid: Some(id.to_owned()), ..Header::new(algorithm) };
+        jsonwebtoken::encode(&header, claims, key).expect("a token")
     }
 
     /// The modulus of its public key, which somebody may take for a secret.
@@ -77,9 +102,7 @@ impl Issuer {
     }
 
     fn jwk(&self) -> Jwk {
-        let mut jwk = Jwk::from_encoding_key(&self.key, Algorithm::RS256).expect("a key");
-        jwk.common.key_id = Some(KEY.to_owned());
-        jwk
+        published(&self.key, Algorithm::RS256, KEY)
     }
 
     /// Signs somebody in who was sent with this question: the code for this id token.
@@ -100,17 +123,18 @@ impl Issuer {
 
 async fn configuration(State(issuer): State<Issuer>) -> Json<Value> {
     let at = |path: &str| format!("{}/{path}", issuer.address);
-    let seen = issuer.seen();
+    let mut seen = issuer.seen();
+    seen.discovered += 1;
     let methods = if seen.takes_post { json!(["client_secret_post"]) } else { json!(["client_secret_basic"]) };
     Json(json!({
         "issuer": seen.alias.as_ref().unwrap_or(&issuer.address), "authorization_endpoint": at("authorize?theme=dark"),
         "token_endpoint": at("token"), "jwks_uri": at("jwks"), "token_endpoint_auth_methods_supported": methods,
-        "response_types_supported": ["code"], "id_token_signing_alg_values_supported": ["RS256"],
+        "response_types_supported": ["code"], "id_token_signing_alg_values_supported": if seen.signs_by_curve { json!(["RS256", "ES256", "HS256", "none"]) } else { json!(["RS256"]) },
     }))
 }
 
 async fn jwks(State(issuer): State<Issuer>) -> Json<JwkSet> {
-    Json(JwkSet { keys: vec![issuer.jwk()] })
+    Json(JwkSet { keys: vec![issuer.jwk(), published(&issuer.curve, Algorithm::ES256, CURVE)] })
 }
 
 /// Whether a request to the token endpoint is this client's.

@@ -2,10 +2,11 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::{Tab, public_address};
+use super::Tab;
 use crate::batch::formats::plain::cell;
 use crate::service::Service;
 use crate::service::acts::Detail;
+use crate::service::courses::public_address;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, course_secret, personal_code};
@@ -44,14 +45,6 @@ pub(in crate::service::pages) struct Done {
     renewed: String,
 }
 
-/// Everyone who has a code: the roster; without one, whoever gave a number.
-async fn students(service: &Service) -> Result<(bool, Vec<Student>), Problem> {
-    let mut students = service.store.students().await?;
-    let has_roster = students.iter().any(Student::is_on_roster);
-    students.retain(|student| !has_roster || student.is_on_roster());
-    Ok((has_roster, students))
-}
-
 /// `GET /teacher/codes`.
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
@@ -60,7 +53,7 @@ pub(in crate::service::pages) async fn page(
     frame: Frame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
-    let (has_roster, students) = students(&service).await?;
+    let (has_roster, students) = (service.store.has_roster().await?, service.store.with_codes().await?);
     let with_code = |student: Student| {
         let code = personal_code(&service, &student);
         (student, code)
@@ -102,6 +95,6 @@ pub(in crate::service::pages) async fn file(
         let link = format!("{join}?number={}&code={code}", student.number);
         [cell(&student.number), cell(&student.name), code, link]
     };
-    let rows = students(&service).await?.1.into_iter().map(row);
+    let rows = service.store.with_codes().await?.into_iter().map(row);
     download::table("personal-codes.csv", std::iter::once(heading.map(str::to_owned)).chain(rows))
 }

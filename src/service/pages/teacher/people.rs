@@ -2,9 +2,10 @@
 
 use super::super::frame::Frame;
 use super::super::shown;
-use super::{Tab, public_address, refused, said_of};
+use super::{Tab, refused, said_of};
 use crate::service::Service;
 use crate::service::acts::Detail;
+use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher, check_may_manage};
 use crate::service::store::{Role, StaffMember};
@@ -157,16 +158,12 @@ pub(in crate::service::pages) async fn add(
     let role = role(&typed.role).unwrap_or(Role::Assistant);
     check_may_manage(&teacher, role)?;
     let is_first = !service.accounts().has_administrator().await?;
-    let is_new = service.accounts().account(&typed.login.trim().to_lowercase()).await?.is_none();
-    match identity::add_staff(&service, &typed.login, &typed.name, role).await {
-        Ok(member) => {
+    match identity::let_in(&service, &teacher, (&typed.login, &typed.name), role).await {
+        Ok((member, secret)) => {
             let detail = Detail::of(format!("{} {}", member.login, id(role)));
-            // Whoever has an account comes in by it; a new way into one that others may have made is not given here.
-            let may_invite = is_new || (!member.has_password && teacher.check_role(Role::Administrator).is_ok());
-            if !may_invite {
+            let Some(secret) = secret else {
                 return Ok(detail.on(Redirect::to("/teacher/people").into_response()));
-            }
-            let secret = identity::invite(&service, &member).await?;
+            };
             if is_first && teacher.is_shared() {
                 return Ok(detail.on(Redirect::to(&format!("/teacher/welcome/{secret}")).into_response()));
             }

@@ -135,7 +135,7 @@ pub(in crate::service::pages) async fn save(
             Ok(Detail::of(order.join(", ")).on(Redirect::to("/teacher/plan").into_response()))
         }
         Err(wrong) => {
-            let page = view(&service, frame, &teacher, &fields, Some(wrong.to_owned())).await?;
+            let page = view(&service, frame, &teacher, &fields, Some(wrong)).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }
@@ -147,7 +147,7 @@ async fn places(
     frame: &Frame,
     fields: &Fields,
     added: &[String],
-) -> Result<Result<Vec<Place>, &'static str>, Problem> {
+) -> Result<Result<Vec<Place>, String>, Problem> {
     let known = service.store.places().await?;
     let find = |id: &str| known.iter().find(|place| place.id == *id).cloned();
     let mut ordered = Vec::new();
@@ -156,7 +156,7 @@ async fn places(
         let position = field(fields, "position", id).and_then(|text| text.parse().ok()).unwrap_or(index as f64 + 1.0);
         match read(frame, fields, place) {
             Ok(place) => ordered.push((position, place)),
-            Err(wrong) => return Ok(Err(wrong)),
+            Err(wrong) => return Ok(Err(wrong.to_owned())),
         }
     }
     // Two with one number stay in the order in which they stand.
@@ -169,7 +169,7 @@ async fn places(
         place.is_chosen = if leaves { 0 } else { place.is_chosen };
     }
     if places.len() > MOST_ASSIGNMENTS {
-        return Ok(Err(frame.say("A course has at most 16 homeworks.", "1 つの授業の課題は 16 個までです。")));
+        return Ok(Err(courses::too_many().detail.get(frame.language).to_owned()));
     }
     Ok(Ok(places))
 }

@@ -7,8 +7,8 @@ use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, new_id};
-use crate::service::lti::{self, memberships, registration};
-use crate::service::store::{Deployment, Link, Platform, Role};
+use crate::service::lti::{self, contexts, memberships, registration};
+use crate::service::store::{Deployment, Link, Platform, PlatformCourse, Role};
 use askama::Template;
 use axum::Form;
 use axum::extract::State as Shared;
@@ -28,6 +28,8 @@ struct PlatformsPage {
     link: Option<String>,
     problem: Option<String>,
     notice: Option<String>,
+    /// The courses here with which a platform's course can be connected: id and title.
+    here: Vec<(String, String)>,
     /// The address of this service.
     own: String,
     typed: Wish,
@@ -37,8 +39,12 @@ struct PlatformsPage {
 struct Line {
     platform: Platform,
     deployments: Vec<Deployment>,
+    /// Whether it is registered with the first course, and some of its courses are connected with this one.
+    is_elsewheres: bool,
+    /// Its courses from which somebody came.
+    courses: Vec<PlatformCourse>,
     /// Links by which rosters are fetched, one of each course.
-    courses: Vec<Link>,
+    rosters: Vec<Link>,
     /// How many scores did not arrive, and why.
     stuck: Option<(i64, String)>,
 }
@@ -52,12 +58,31 @@ pub(in crate::service::pages) struct Wish {
     platform: String,
     deployment: String,
     link: String,
+    context: String,
+    /// Id of the course; `-`: none.
+    course: String,
     name: String,
     issuer: String,
     client_id: String,
     auth_url: String,
     token_url: String,
     keys_url: String,
+}
+
+/// What the form says for no course.
+const NO_COURSE: &str = "-";
+
+/// The courses with which a platform's course can be connected: this one, and the others where it is the first.
+async fn here(service: &Service, frame: &Frame) -> Result<Vec<(String, String)>, Problem> {
+    let mut here = Vec::new();
+    for course in service.everywhere() {
+        let is_own = course.root() == service.root();
+        let id = course.course_id().filter(|_| !is_own).unwrap_or_default().to_owned();
+        let title = course.store.course().await?.title;
+        let untitled = || if is_own { frame.say("This course", "この授業").to_owned() } else { id.clone() };
+        here.push((id.clone(), if title.is_empty() { untitled() } else { title }));
+    }
+    Ok(here)
 }
 
 /// What the page says of a form that was sent.
@@ -73,16 +98,19 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
     teacher.check_course()?;
     let (deployments, links) = (service.store.deployments().await?, service.store.links().await?);
     let stuck = service.store.stuck_scores().await?;
-    let line = |platform: Platform| {
-        let mut courses: Vec<Link> = Vec::new();
+    let courses = service.store.platform_courses().await?;
+    let line = |platform: Platform, is_elsewheres: bool| {
+        let mut rosters: Vec<Link> = Vec::new();
         for link in links.iter().filter(|link| link.platform_id == platform.id && link.memberships.is_some()) {
-            if !courses.iter().any(|known| known.context == link.context) {
-                courses.push(link.clone());
+            if !rosters.iter().any(|known| known.context == link.context) {
+                rosters.push(link.clone());
             }
         }
         Line {
+            is_elsewheres,
+            courses: courses.iter().filter(|known| known.platform_id == platform.id).cloned().collect(),
             deployments: deployments.iter().filter(|found| found.platform_id == platform.id).cloned().collect(),
-            courses,
+            rosters,
             stuck: stuck
                 .iter()
                 .find(|(id, ..)| *id == platform.id)
@@ -90,7 +118,12 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
             platform,
         }
     };
-    let platforms = service.store.platforms().await?.into_iter().map(line).collect();
+    let mut platforms = Vec::new();
+    for platform in service.store.platforms().await? {
+        let is_elsewheres = contexts::is_elsewheres(service, &platform.id).await?;
+        platforms.push(line(platform, is_elsewheres));
+    }
+    let here = here(service, &frame).await?;
     shown(
         PlatformsPage {
             place: Tab::People,
@@ -100,6 +133,7 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
             link: said.link,
             problem: said.problem,
             notice: said.notice,
+            here,
             own: lti::address(service),
             typed: said.typed,
             frame,
@@ -126,7 +160,8 @@ pub(in crate::service::pages) async fn change(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &wish.csrf)?;
     teacher.check_course()?;
-    let detail = Detail::of(format!("{} {} {}", wish.wish, wish.issuer, wish.deployment).trim().to_owned());
+    let parts = [&wish.wish, &wish.issuer, &wish.deployment, &wish.context, &wish.course];
+    let detail = Detail::of(parts.map(|part| part.trim()).join(" ").trim().to_owned());
     match carried_out(&service, &teacher, &wish, &frame).await {
         Ok(Some(said)) => Ok(detail.on(view(&service, frame, &teacher, said).await?)),
         Ok(None) => Ok(detail.on(Redirect::to("/teacher/platforms").into_response())),
@@ -158,14 +193,22 @@ async fn carried_out(
         return Ok(Some(Said { notice: Some(notice), ..Said::default() }));
     }
     teacher.check_role(Role::Administrator)?;
+    // What is registered with the first course is changed there.
+    if contexts::is_elsewheres(service, &wish.platform).await? {
+        return Err(Problem::not_found());
+    }
     match wish.wish.as_str() {
         "link" => {
             let link = format!("{}/lti/register/{}", lti::address(service), registration::new_link(service).await?);
             return Ok(Some(Said { link: Some(link), ..Said::default() }));
         }
         "approve" => service.store.note_deployment(&platform().await?.id, &wish.deployment, true).await?,
-        "off" => service.store.set_platform_active(&platform().await?.id, false).await?,
-        "on" => service.store.set_platform_active(&platform().await?.id, true).await?,
+        "off" => contexts::set_active(service, &platform().await?, false).await?,
+        "on" => contexts::set_active(service, &platform().await?, true).await?,
+        "connect" => {
+            let course = Some(wish.course.as_str()).filter(|course| *course != NO_COURSE);
+            contexts::connect(service, &platform().await?, &wish.context, course).await?;
+        }
         "add" => {
             let text = |text: &String| text.trim().to_owned();
             let platform = Platform {

@@ -6,7 +6,6 @@ use super::super::{attempts, report_fragment, shown};
 use super::Tab;
 use super::login::CsrfForm;
 use super::table::{Pager, titled};
-use crate::report::Verdict;
 use crate::report::labels::rubric_label;
 use crate::report::text::number;
 use crate::service::State;
@@ -14,7 +13,7 @@ use crate::service::api::batches::{Job, progress};
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, TeacherPage};
-use crate::service::regrade;
+use crate::service::regrade::{self, SAME_POINTS};
 use crate::service::store::{Compared, OverriddenAgain, Progress};
 use askama::Template;
 use axum::Form;
@@ -22,9 +21,6 @@ use axum::extract::{Path, Query, State as Shared};
 use axum::response::sse::{KeepAlive, Sse};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
-
-/// Points that differ by less are the same: sums of fractions of points are rounded.
-const SAME_POINTS: f64 = 1e-6;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/regrading.html")]
@@ -138,7 +134,7 @@ pub(in crate::service::pages) async fn page(
 ) -> Result<Response, Problem> {
     let regrading = regrade::found(&state, &id).await?;
     let compared = state.store.compared(&id).await?;
-    let differs = |row: &&Compared| row.after.as_ref().is_some_and(|after| changed(&row.before, after));
+    let differs = |row: &&Compared| row.after.as_ref().is_some_and(|after| regrade::differs(&row.before, after));
     let points = |row: &Compared| row.after.as_ref().map_or(0.0, |after| after.1 - row.before.1);
     let count = |test: fn(f64) -> bool| compared.iter().filter(|row| test(points(row))).count();
     let (gains, losses) = (count(|points| points > SAME_POINTS), count(|points| points < -SAME_POINTS));
@@ -175,14 +171,8 @@ pub(in crate::service::pages) async fn page(
     )
 }
 
-type Graded = (Verdict, f64, Vec<String>);
-
-fn changed(before: &Graded, after: &Graded) -> bool {
-    before.0 != after.0 || (before.1 - after.1).abs() > SAME_POINTS || before.2 != after.2
-}
-
 fn line(frame: &Frame, row: &Compared) -> Row {
-    let got = |(verdict, score, mistakes): &Graded| Earned {
+    let got = |(verdict, score, mistakes): &regrade::Earned| Earned {
         mark: attempts::mark(*verdict, Some(*score)).id(),
         word: report_fragment::verdict(frame, *verdict),
         score: number(*score),

@@ -7,11 +7,12 @@ use super::super::frame::Frame;
 use super::super::shown;
 use super::Tab;
 use super::login::CsrfForm;
-use super::{public_address, refused};
+use super::refused;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::course::{Course, zone_names};
+use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher};
 use askama::Template;
@@ -163,7 +164,7 @@ pub(in crate::service::pages) async fn save(
             Ok(Detail::of(rules.changes_from(&was)).on(answer))
         }
         Err(wrong) => {
-            let said = Said { rules: Some(wrong.to_owned()), ..Said::default() };
+            let said = Said { rules: Some(wrong), ..Said::default() };
             let typed = Typed { rules: Some(rules), ..Typed::default() };
             let page = view(&state, frame, &headers, &teacher, typed, said).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))

@@ -7,6 +7,7 @@ use crate::report::text::number;
 use crate::service::clock::Millis;
 use crate::service::counting::Counting;
 use crate::service::course::Course;
+use crate::service::rules::{self, MINUTE};
 use crate::service::store::{Assignment, Audience, LateRules, LateSpan, word};
 use serde::Deserialize;
 
@@ -38,12 +39,6 @@ pub(in crate::service::pages) struct LateFields {
     pub late_span: String,
     pub late_floor: String,
 }
-
-/// A minute.
-const MINUTE: Millis = 60_000;
-
-/// Longest grace, in minutes: a week.
-const LONGEST_GRACE: f64 = 10_080.0;
 
 impl Rules {
     /// The form as it stands for these settings.
@@ -91,64 +86,54 @@ impl Rules {
     }
 
     /// The settings that the form asks for.
-    pub(super) fn read(&self, frame: &Frame, before: Assignment) -> Result<Assignment, &'static str> {
+    pub(super) fn read(&self, frame: &Frame, before: Assignment) -> Result<Assignment, String> {
         let date = |field: &str| {
             datetime::parse(field, frame.course.zone()).map_err(|_| {
-                frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+                frame
+                    .say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+                    .to_owned()
             })
         };
         let attempts = match self.attempts.trim() {
             "" => None,
-            number => Some(number.parse().ok().filter(|number| *number > 0).ok_or(frame.say(
-                "Attempts: a whole number above 0, or nothing.",
-                "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
-            ))?),
+            number => Some(number.parse().map_err(|_| {
+                frame
+                    .say(
+                        "Attempts: a whole number above 0, or nothing.",
+                        "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+                    )
+                    .to_owned()
+            })?),
         };
         let (opens_at, closes_at) = (date(&self.opens)?, date(&self.closes)?);
-        if let (Some(opens), Some(closes)) = (opens_at, closes_at)
-            && closes <= opens
-        {
-            return Err(frame.say("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
-        }
         let (hints, audience) = (read_hints(&self.hints), read_audience(&self.audience));
         let practice = !self.practice.is_empty();
-        let late = self.late.read(frame, closes_at, date(&self.late.late_until)?)?;
+        let late = self.late.read(date(&self.late.late_until)?);
         let counting = match self.counting.as_str() {
             "last" => Counting::Last,
             "chosen" => Counting::Chosen,
             _ => Counting::Best,
         };
-        Ok(Assignment { opens_at, closes_at, attempts, hints, audience, practice, late, counting, ..before })
+        let read = Assignment { opens_at, closes_at, attempts, hints, audience, practice, late, counting, ..before };
+        rules::check(&read).map_err(|wrong| wrong.get(frame.language).to_owned())?;
+        Ok(read)
     }
 }
 
 impl LateFields {
-    fn read(&self, frame: &Frame, due: Option<Millis>, until: Option<Millis>) -> Result<LateRules, &'static str> {
-        let number = |field: &str, most: f64| match field.trim() {
-            "" => Some(0.0),
-            text => text.parse().ok().filter(|number: &f64| (0.0..=most).contains(number)),
+    fn read(&self, until: Option<Millis>) -> LateRules {
+        // What is no number is none that the rules take.
+        let number = |field: &str| match field.trim() {
+            "" => 0.0,
+            text => text.parse().ok().filter(|number: &f64| number.is_finite()).unwrap_or(-1.0),
         };
-        let percent = |field: &str| {
-            number(field, 100.0)
-                .ok_or(frame.say("A share is a number from 0 to 100.", "割合は 0 から 100 の数で入力してください。"))
-        };
-        let grace = number(&self.grace, LONGEST_GRACE).ok_or(frame.say(
-            "The grace is a number of minutes, at most 10080 (a week).",
-            "猶予は 0 から 10080（1 週間）までの分数で入力してください。",
-        ))?;
-        if until.is_some_and(|until| due.is_none_or(|due| until <= due)) {
-            return Err(frame.say(
-                "Late hand-ins end after the due date: set that first, or leave the field empty.",
-                "遅延提出の終了日時は締切より後にしてください。締切がない場合は空欄にしてください。",
-            ));
-        }
-        Ok(LateRules {
-            grace: (grace * MINUTE as f64).round() as Millis,
+        LateRules {
+            grace: (number(&self.grace) * MINUTE as f64).round() as Millis,
             until,
-            percent: percent(&self.late_percent)?,
+            percent: number(&self.late_percent),
             span: if self.late_span == "hour" { LateSpan::Hour } else { LateSpan::Day },
-            floor: percent(&self.late_floor)?,
-        })
+            floor: number(&self.late_floor),
+        }
     }
 }
 

@@ -1,0 +1,148 @@
+//! `/api/v1/roster` and `/api/v1/codes`: who the class is, and by what each of them proves it.
+
+use super::body::other;
+use super::caller::{Caller, check_course, check_reader};
+use super::refusals::{Errors, NotFound, Refusals};
+use crate::service::acts::Detail;
+use crate::service::courses::public_address;
+use crate::service::errors::Problem;
+use crate::service::identity::{Teacher, course_secret, normal_number, personal_code};
+use crate::service::store::{Role, Student};
+use crate::service::{Service, roster};
+use axum::Json;
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{Path, State as Shared};
+use axum::http::{HeaderMap, header};
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+
+/// Somebody of the roster.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct RosterStudentJson {
+    /// Student number.
+    number: String,
+    /// Name; empty where it is not known.
+    name: String,
+    /// Group; empty where there is none.
+    group: String,
+    /// The number by which Moodle's files name them.
+    moodle: Option<i64>,
+}
+
+/// The roster.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct RosterJson {
+    /// By number; empty where there is no roster.
+    students: Vec<RosterStudentJson>,
+}
+
+/// A student's personal code.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct CodeJson {
+    /// Student number.
+    number: String,
+    /// Name.
+    name: String,
+    /// The code.
+    code: String,
+    /// A link that fills in number and code.
+    link: String,
+}
+
+/// Everybody's code.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct CodesJson {
+    /// By number.
+    codes: Vec<CodeJson>,
+}
+
+async fn json(service: &Service) -> Result<RosterJson, Problem> {
+    let student = |student: Student| RosterStudentJson {
+        number: student.number,
+        name: student.name,
+        group: student.group_name,
+        moodle: student.moodle,
+    };
+    Ok(RosterJson { students: service.store.roster().await?.into_iter().map(student).collect() })
+}
+
+/// The roster
+#[utoipa::path(
+    get, operation_id = "read_roster", path = "/api/v1/roster", tag = "courses", security(("teacher" = [])),
+    responses((status = 200, description = "By number", body = RosterJson), Refusals, Errors)
+)]
+pub(super) async fn read(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
+    check_reader(&teacher, Role::Assistant)?;
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json(&service).await?)).into_response())
+}
+
+/// Take a roster in the place of the last one
+///
+/// A CSV file as a spreadsheet or Moodle saves it, in UTF-8 or Shift_JIS. A file with a mistake in it changes nothing.
+#[utoipa::path(
+    put, operation_id = "set_roster", path = "/api/v1/roster", tag = "courses", security(("teacher" = [])),
+    request_body(content = String, content_type = "text/csv"),
+    responses((status = 200, description = "As it stands now", body = RosterJson), Refusals, Errors)
+)]
+pub(super) async fn set(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    file: Result<Bytes, BytesRejection>,
+) -> Result<Response, Problem> {
+    check_course(&caller, &service, Role::Lecturer)?;
+    let lines = roster::read(&file.map_err(other)?)?;
+    roster::import(&service, &lines).await?;
+    Ok(Detail::of(lines.len().to_string()).on(Json(json(&service).await?).into_response()))
+}
+
+/// The first part of every link that fills in a code.
+async fn join(service: &Service, headers: &HeaderMap) -> Result<String, Problem> {
+    Ok(format!("{}/join/{}", public_address(service, headers), course_secret(service).await?))
+}
+
+fn code(service: &Service, join: &str, student: Student) -> CodeJson {
+    let code = personal_code(service, &student);
+    let link = format!("{join}?number={}&code={code}", student.number);
+    CodeJson { number: student.number, name: student.name, code, link }
+}
+
+/// The students' personal codes
+#[utoipa::path(
+    get, operation_id = "list_codes", path = "/api/v1/codes", tag = "courses", security(("teacher" = [])),
+    responses((status = 200, description = "Of the roster; without one of whoever gave a number", body = CodesJson), Refusals, Errors)
+)]
+pub(super) async fn codes(
+    teacher: Teacher,
+    headers: HeaderMap,
+    Shared(service): Shared<Service>,
+) -> Result<Response, Problem> {
+    check_reader(&teacher, Role::Lecturer)?;
+    let join = join(&service, &headers).await?;
+    let students = service.store.with_codes().await?;
+    let codes = students.into_iter().map(|student| code(&service, &join, student)).collect();
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(CodesJson { codes })).into_response())
+}
+
+/// Replace a student's code
+///
+/// Browsers that are bound by the old one are theirs no more.
+#[utoipa::path(
+    post, operation_id = "renew_code", path = "/api/v1/codes/{number}", tag = "courses", security(("teacher" = [])),
+    params(("number" = String, Path, description = "Student number")),
+    responses((status = 200, description = "The new code", body = CodeJson), NotFound, Refusals, Errors)
+)]
+pub(super) async fn renew(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    Path(number): Path<String>,
+) -> Result<Response, Problem> {
+    check_course(&caller, &service, Role::Lecturer)?;
+    let number = normal_number(&number).ok_or_else(Problem::not_found)?;
+    let student = service.store.student_by_number(&number).await?.ok_or_else(Problem::not_found)?;
+    service.store.renew_code(&student.id).await?;
+    let student = service.store.student_by_id(&student.id).await?.ok_or_else(Problem::not_found)?;
+    let detail = Detail::about(&student.id);
+    let json = code(&service, &join(&service, &caller.1).await?, student);
+    Ok(detail.on(Json(json).into_response()))
+}

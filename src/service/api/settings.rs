@@ -1,0 +1,228 @@
+//! `/api/v1/assignments/{id}/settings`, and `/api/v1/plan`: what a lecturer sets for the homeworks of a course.
+
+use super::body::{other, patched};
+use super::caller::{Caller, check, check_course};
+use super::refusals::{Errors, NotFound, Refusals};
+use crate::diagnose::Hints;
+use crate::service::acts::Detail;
+use crate::service::clock::Millis;
+use crate::service::counting::Counting;
+use crate::service::courses;
+use crate::service::errors::Problem;
+use crate::service::identity::Teacher;
+use crate::service::rules::{self, MINUTE};
+use crate::service::store::{Assignment, Audience, LateRules, LateSpan, Place, Role};
+use crate::service::{Service, State};
+use axum::Json;
+use axum::extract::rejection::JsonRejection;
+use axum::extract::{Path, State as Shared};
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// What a lecturer sets for a homework.
+#[derive(Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SettingsJson {
+    /// When handing in begins; null: at once.
+    #[schema(value_type = Option<String>, format = DateTime)]
+    opens_at: Option<Timestamp>,
+    /// When it is due; null: never.
+    #[schema(value_type = Option<String>, format = DateTime)]
+    due_at: Option<Timestamp>,
+    /// Minutes after the due date in which a hand-in is still in time.
+    grace_minutes: f64,
+    /// Until when late hand-ins are taken; null: none are.
+    #[schema(value_type = Option<String>, format = DateTime)]
+    late_until: Option<Timestamp>,
+    /// Percent of all points that go for each `late_span` that has begun.
+    late_percent: f64,
+    /// The span.
+    #[schema(inline)]
+    late_span: LateSpan,
+    /// What lateness leaves at least, in percent of all points.
+    late_floor: f64,
+    /// How often a student may hand in; null: as often as they like.
+    attempts: Option<u64>,
+    /// Which hand-in counts.
+    #[schema(inline)]
+    counting: Counting,
+    /// The most that messages may help.
+    #[schema(inline)]
+    hints: Hints,
+    /// Who may hand in: `open` anybody, `number` whoever is known as a student.
+    #[schema(inline)]
+    audience: Audience,
+    /// Whether what is typed is still graded after the end.
+    practice: bool,
+    /// What it counts in the course; null: as many points as its rubric has.
+    points: Option<f64>,
+    /// Whether students do not see it.
+    is_hidden: bool,
+    /// From when on they see it; null: now.
+    #[schema(value_type = Option<String>, format = DateTime)]
+    shown_from: Option<Timestamp>,
+}
+
+/// The homeworks of a course, in its order.
+#[derive(Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlanJson {
+    /// Ids of the homeworks that it has.
+    assignments: Vec<String>,
+    /// Ids of those that it can choose as well; not to be changed.
+    #[serde(default)]
+    offered: Vec<String>,
+}
+
+/// Most points that a homework counts.
+const MOST_POINTS: f64 = 100_000.0;
+
+fn timestamp(at: Option<Millis>) -> Option<Timestamp> {
+    at.and_then(|at| Timestamp::from_millisecond(at).ok())
+}
+
+impl SettingsJson {
+    fn of(rules: &Assignment, place: &Place) -> Self {
+        Self {
+            opens_at: timestamp(rules.opens_at),
+            due_at: timestamp(rules.closes_at),
+            grace_minutes: rules.late.grace as f64 / MINUTE as f64,
+            late_until: timestamp(rules.late.until),
+            late_percent: rules.late.percent,
+            late_span: rules.late.span,
+            late_floor: rules.late.floor,
+            attempts: rules.attempts,
+            counting: rules.counting,
+            hints: rules.hints,
+            audience: rules.audience,
+            practice: rules.practice,
+            points: place.points,
+            is_hidden: place.is_hidden != 0,
+            shown_from: timestamp(place.shown_from),
+        }
+    }
+
+    /// The same in the place of what is set.
+    fn read(self, rules: Assignment, place: Place) -> Result<(Assignment, Place), Problem> {
+        let millis = |at: Option<Timestamp>| at.map(Timestamp::as_millisecond);
+        let rules = Assignment {
+            opens_at: millis(self.opens_at),
+            closes_at: millis(self.due_at),
+            attempts: self.attempts,
+            hints: self.hints,
+            audience: self.audience,
+            practice: self.practice,
+            counting: self.counting,
+            late: LateRules {
+                grace: (self.grace_minutes * MINUTE as f64).round() as Millis,
+                until: millis(self.late_until),
+                percent: self.late_percent,
+                span: self.late_span,
+                floor: self.late_floor,
+            },
+            ..rules
+        };
+        rules::check(&rules).map_err(|wrong| Problem::unprocessable(wrong.en, wrong.ja))?;
+        if self.points.is_some_and(|points| !(0.0..=MOST_POINTS).contains(&points)) {
+            return Err(Problem::unprocessable(
+                "Points: a number from 0, or nothing.",
+                "配点は 0 以上の数値で入力するか、空欄にしてください。",
+            ));
+        }
+        let shown_from = millis(self.shown_from).filter(|_| !self.is_hidden);
+        let place = Place { points: self.points, is_hidden: i64::from(self.is_hidden), shown_from, ..place };
+        Ok((rules, place))
+    }
+}
+
+async fn standing(state: &State) -> Result<(Assignment, Place), Problem> {
+    let id = &state.assignment.id;
+    let place = state.store.places().await?.into_iter().find(|place| place.id == *id);
+    Ok((state.store.assignment(id).await?, place.ok_or_else(Problem::not_found)?))
+}
+
+/// What is set for a homework
+#[utoipa::path(
+    get, operation_id = "read_settings", path = "/api/v1/assignments/{id}/settings", tag = "courses", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the homework")),
+    responses((status = 200, description = "As it stands", body = SettingsJson), NotFound, Refusals, Errors)
+)]
+pub(super) async fn read(
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    let state = service.homework_of(&id)?;
+    teacher.check(&id)?;
+    let (rules, place) = standing(&state).await?;
+    let json = SettingsJson::of(&rules, &place);
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
+}
+
+/// Set something for a homework
+///
+/// Only the members of the object that are sent change (RFC 7396); null takes a date or a limit away.
+#[utoipa::path(
+    patch, operation_id = "change_settings", path = "/api/v1/assignments/{id}/settings", tag = "courses", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the homework")),
+    request_body(content = Object, description = "Members of a `SettingsJson`"),
+    responses((status = 200, description = "As it stands now", body = SettingsJson), NotFound, Refusals, Errors)
+)]
+pub(super) async fn change(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+    patch: Result<Json<Value>, JsonRejection>,
+) -> Result<Response, Problem> {
+    check(&caller, &service, Role::Lecturer)?;
+    let state = service.homework_of(&id)?;
+    caller.0.check(&id)?;
+    let Json(patch) = patch.map_err(other)?;
+    let (rules, place) = standing(&state).await?;
+    let (rules, place) = patched(SettingsJson::of(&rules, &place), &patch)?.read(rules, place)?;
+    state.store.set_assignment(&rules).await?;
+    state.store.set_places(std::slice::from_ref(&place)).await?;
+    let json = Json(SettingsJson::of(&rules, &place));
+    Ok(Detail { assignment: Some(id), ..Detail::of(patch.to_string()) }.on(json.into_response()))
+}
+
+fn plan_json(service: &Service) -> PlanJson {
+    let assignments = service.ids();
+    let offered = if service.is_beside() { service.offered() } else { &[] };
+    let offered = offered.iter().map(|one| one.id.clone()).filter(|id| !assignments.contains(id));
+    PlanJson { offered: offered.collect(), assignments }
+}
+
+/// The homeworks of the course, in its order
+#[utoipa::path(
+    get, operation_id = "read_plan", path = "/api/v1/plan", tag = "courses", security(("teacher" = [])),
+    responses((status = 200, description = "As it stands", body = PlanJson), Refusals, Errors)
+)]
+pub(super) async fn plan(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
+    teacher.check_course()?;
+    Ok(([(header::CACHE_CONTROL, "no-store")], Json(plan_json(&service))).into_response())
+}
+
+/// Choose and order the homeworks of the course
+///
+/// Another course than the first has those that are named, of what is offered. What is named there and has a folder must be among
+/// them. What was handed in for a homework that is left out stays in the database.
+#[utoipa::path(
+    put, operation_id = "set_plan", path = "/api/v1/plan", tag = "courses", security(("teacher" = [])),
+    request_body = PlanJson,
+    responses((status = 200, description = "As it stands now", body = PlanJson), Refusals, Errors)
+)]
+pub(super) async fn set_plan(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    wish: Result<Json<PlanJson>, JsonRejection>,
+) -> Result<Response, Problem> {
+    check_course(&caller, &service, Role::Lecturer)?;
+    let Json(wish) = wish.map_err(other)?;
+    courses::arrange(&service, &wish.assignments).await?;
+    let plan = plan_json(&service);
+    Ok(Detail::of(plan.assignments.join(", ")).on(Json(plan).into_response()))
+}

@@ -1,0 +1,42 @@
+//! What a homework's rules may be, whoever sets them: a form or a program.
+
+use super::clock::Millis;
+use super::store::Assignment;
+use crate::language::Text;
+
+/// A minute.
+pub const MINUTE: Millis = 60_000;
+
+/// Longest grace, in minutes: a week.
+pub const LONGEST_GRACE: Millis = 10_080;
+
+/// What is wrong with rules, where something is.
+pub fn check(rules: &Assignment) -> Result<(), Text> {
+    let (opens, due, late) = (rules.opens_at, rules.closes_at, &rules.late);
+    let share = |number: f64| (0.0..=100.0).contains(&number);
+    if opens.zip(due).is_some_and(|(opens, due)| due <= opens) {
+        return Err(Text::new("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
+    }
+    if rules.attempts == Some(0) {
+        return Err(Text::new(
+            "Attempts: a whole number above 0, or nothing.",
+            "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+        ));
+    }
+    if !(0..=LONGEST_GRACE * MINUTE).contains(&late.grace) {
+        return Err(Text::new(
+            format!("The grace is a number of minutes, at most {LONGEST_GRACE} (a week)."),
+            format!("猶予は 0 から {LONGEST_GRACE}（1 週間）までの分数で入力してください。"),
+        ));
+    }
+    if late.until.is_some_and(|until| due.is_none_or(|due| until <= due)) {
+        return Err(Text::new(
+            "Late hand-ins end after the due date: set that first, or leave the field empty.",
+            "遅延提出の終了日時は締切より後にしてください。締切がない場合は空欄にしてください。",
+        ));
+    }
+    if !share(late.percent) || !share(late.floor) {
+        return Err(Text::new("A share is a number from 0 to 100.", "割合は 0 から 100 の数で入力してください。"));
+    }
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! The courses of learning platforms, and to which course here each of them belongs.
+
+use super::{Result, Store, on};
+
+/// A course of a learning platform.
+#[derive(Clone, Debug, PartialEq, Eq, sqlx::FromRow)]
+pub struct PlatformCourse {
+    /// Id of the platform.
+    pub platform_id: String,
+    /// The platform's id of the course.
+    pub context: String,
+    /// What the platform calls it.
+    pub title: String,
+    /// Id of the course here; empty: the one with which the platform is registered; none: nobody has said.
+    pub course: Option<String>,
+}
+
+impl Store {
+    /// Every course from which somebody came.
+    pub async fn platform_courses(&self) -> Result<Vec<PlatformCourse>> {
+        const SQL: &str = "SELECT platform_id, context, title, course FROM lti_contexts ORDER BY platform_id, context";
+        Ok(on!(&self.write, db => sqlx::query_as(SQL).fetch_all(db).await?))
+    }
+
+    /// Notes a course from which somebody comes; what was said of it stays.
+    pub async fn note_platform_course(&self, noted: &PlatformCourse) -> Result<()> {
+        const SQL: &str = "INSERT INTO lti_contexts (platform_id, context, title, course) VALUES ($1, $2, $3, $4) \
+                           ON CONFLICT (platform_id, context) DO UPDATE SET title = excluded.title";
+        on!(&self.write, db => {
+            sqlx::query(SQL)
+                .bind(&noted.platform_id)
+                .bind(&noted.context)
+                .bind(&noted.title)
+                .bind(&noted.course)
+                .execute(db)
+                .await?;
+        });
+        Ok(())
+    }
+
+    /// Says to which course here a platform's course belongs.
+    pub async fn connect_platform_course(&self, platform_id: &str, context: &str, course: Option<&str>) -> Result<()> {
+        const SQL: &str = "UPDATE lti_contexts SET course = $3 WHERE platform_id = $1 AND context = $2";
+        on!(&self.write, db => {
+            sqlx::query(SQL).bind(platform_id).bind(context).bind(course).execute(db).await?;
+        });
+        Ok(())
+    }
+
+    /// Forgets the links of a platform's course, so that nothing is sent there any more.
+    pub async fn forget_links(&self, platform_id: &str, context: &str) -> Result<()> {
+        const SQL: &str = "DELETE FROM lti_links WHERE platform_id = $1 AND context = $2";
+        on!(&self.write, db => { sqlx::query(SQL).bind(platform_id).bind(context).execute(db).await?; });
+        Ok(())
+    }
+}
