@@ -9,6 +9,7 @@ use axum::http::{Request, StatusCode, header};
 use ggrade::service::identity::{course_secret, personal_code};
 use ggrade::service::store::Proof;
 use scraper::{Html, Selector};
+use std::sync::Mutex;
 
 on_both!(
     with_a_roster_a_number_needs_its_code,
@@ -19,31 +20,50 @@ on_both!(
 /// A browser on the page of the course link.
 pub struct Guest {
     pub address: String,
-    pub cookie: String,
-    pub csrf: String,
+    cookie: Mutex<String>,
 }
 
 impl Guest {
     pub async fn new(bench: &Bench) -> Self {
         let address = format!("/join/{}", course_secret(&bench.state).await.expect("a secret"));
         let page = bench.get(&address).await;
-        let cookie = page.header("set-cookie").split(';').next().expect("a cookie").to_owned();
-        let html = Html::parse_document(&page.text());
-        let field = Selector::parse("[name=csrf]").expect("a selector");
-        let csrf = html.select(&field).next().and_then(|field| field.value().attr("value")).expect("a token");
-        Self { address, cookie, csrf: csrf.to_owned() }
+        let guest = Self { address, cookie: Mutex::default() };
+        guest.keep(&page);
+        guest
+    }
+
+    pub fn cookie(&self) -> String {
+        self.cookie.lock().expect("a cookie").clone()
+    }
+
+    /// Keeps the cookie that an answer sets, as a browser does.
+    fn keep(&self, reply: &Reply) {
+        if let Some(cookie) = reply.header("set-cookie").split(';').next().filter(|cookie| !cookie.is_empty()) {
+            *self.cookie.lock().expect("a cookie") = cookie.to_owned();
+        }
     }
 
     pub fn request(&self, method: &str, address: &str) -> axum::http::request::Builder {
-        let request = Request::builder().method(method).uri(address).header(header::COOKIE, &self.cookie);
+        let request = Request::builder().method(method).uri(address).header(header::COOKIE, self.cookie());
         request.header(header::ACCEPT_LANGUAGE, "en").header("sec-fetch-site", "same-origin")
     }
 
+    /// The token of the forms on its pages.
+    pub async fn csrf(&self, bench: &Bench) -> String {
+        let html = Html::parse_document(&self.get(bench, &self.address).await.text());
+        let field = Selector::parse("[name=csrf]").expect("a selector");
+        let value = html.select(&field).next().and_then(|field| field.value().attr("value"));
+        value.expect("a token").to_owned()
+    }
+
     pub async fn join(&self, bench: &Bench, number: &str, code: &str) -> Reply {
+        let csrf = self.csrf(bench).await;
         let request = self.request("POST", &self.address).header(header::ACCEPT, "text/html");
         let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
-        let body = format!("csrf={}&number={number}&code={code}", self.csrf);
-        bench.send(request.body(Body::from(body)).expect("a request")).await
+        let body = format!("csrf={csrf}&number={number}&code={code}");
+        let reply = bench.send(request.body(Body::from(body)).expect("a request")).await;
+        self.keep(&reply);
+        reply
     }
 
     pub async fn hand_in(&self, bench: &Bench, text: &'static str) -> Reply {
@@ -91,6 +111,8 @@ async fn with_a_roster_a_number_needs_its_code(database: Database) {
     assert_eq!(by_api("").await.problem(), "code-needed");
     assert_eq!(by_api(&format!("&code={of_another}")).await.problem(), "wrong-code");
 
+    // Whoever sat there before and noted the cookie is not them once they have proved who they are.
+    let before = Guest { address: mine.address.clone(), cookie: Mutex::new(mine.cookie()) };
     // A link of their own fills the form in; it is they who send it.
     let filled = mine.get(&bench, &format!("{}?number=S1&code={code}", mine.address)).await;
     assert!(filled.text().contains(&format!("value=\"{code}\"")) && filled.text().contains("value=\"S1\""));
@@ -99,6 +121,7 @@ async fn with_a_roster_a_number_needs_its_code(database: Database) {
     assert!(mine.get(&bench, &mine.address).await.all(".personal-code").is_empty(), "a code of paper stays there");
     assert_eq!(mine.hand_in(&bench, "mine").await.status, StatusCode::CREATED);
     assert_eq!(class(&bench).await, ["S1"]);
+    assert_eq!(before.hand_in(&bench, "in their name").await.problem(), "no-number");
     // The attempt is used up, by them and by nobody else.
     assert_eq!(by_api(&format!("&code={code}")).await.problem(), "attempts");
 
@@ -161,10 +184,11 @@ async fn browsers_of_old_must_prove_whose_they_are(database: Database) {
     statuses.sort();
     assert_eq!(statuses, [StatusCode::SEE_OTHER, StatusCode::FORBIDDEN]);
     let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
-    let token = one.cookie.split_once('=').expect("a cookie").1;
+    let cookie = one.cookie();
+    let token = cookie.split_once('=').expect("a cookie").1;
     let hash = ggrade::service::identity::token_hash(token);
     let owner = bench.state.store.owner_or_new(&hash, 0).await.expect("an owner");
-    let bound = bench.state.store.bind_owner(&owner.id, &student, Proof::Code).await.expect("a store");
+    let bound = bench.state.store.bind_owner((&owner.id, &hash), &student, Proof::Code).await.expect("a store");
     assert!(bound.expect("bound").proves(&student));
     // Another generation, or another student, is not proved by it.
     bench.state.store.renew_code(&student.id).await.expect("a store");

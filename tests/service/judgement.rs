@@ -227,7 +227,7 @@ async fn a_student_asks_once_and_sees_who_is_handling_it(database: Database) {
     let ask = async |guest: &Guest, id: &str, fields: &str| {
         let request = guest.request("POST", &format!("/r/{id}/appeal")).header(header::ACCEPT, "text/html");
         let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
-        let body = format!("csrf={}&{fields}", guest.csrf);
+        let body = format!("csrf={}&{fields}", guest.csrf(&bench).await);
         bench.send(request.body(Body::from(body)).expect("a request")).await.status
     };
     assert_eq!(ask(&other, &id, "line=specular&question=mine").await, StatusCode::NOT_FOUND);

@@ -274,7 +274,7 @@ async fn the_last_or_the_chosen_one_counts(database: Database) {
     let choose = async |guest: &Guest, id: &str| {
         let request = guest.request("POST", "/a/ggsample06/choose").header(header::ACCEPT, "text/html");
         let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
-        let body = format!("csrf={}&submission={id}", guest.csrf);
+        let body = format!("csrf={}&submission={id}", guest.csrf(&bench).await);
         bench.send(request.body(Body::from(body)).expect("a request")).await.status
     };
     assert_eq!(choose(&mine, &ids[0]).await, StatusCode::CONFLICT, "nobody chooses here");

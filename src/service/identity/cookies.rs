@@ -11,14 +11,23 @@ pub const STUDENT_COOKIE: &str = "ggrade";
 pub const TEACHER_COOKIE: &str = "ggrade_teacher";
 
 /// The name as it is sent: with https, browsers let nobody but this very host set it.
-fn name(service: &Service, base: &str) -> String {
+fn name_of_all(service: &Service, base: &str) -> String {
     if service.config.is_secure() { format!("__Host-{base}") } else { base.to_owned() }
+}
+
+/// The same in its course: another student at this browser in one course changes nothing in the others. A session is of all.
+fn name(service: &Service, base: &str) -> String {
+    let name = name_of_all(service, base);
+    match service.course_id().filter(|_| base == STUDENT_COOKIE) {
+        Some(course) => format!("{name}_{course}"),
+        None => name,
+    }
 }
 
 /// The value of ours that a request brings.
 pub(super) fn read(service: &Service, headers: &HeaderMap, base: &str) -> Option<String> {
-    let name = name(service, base);
-    named(headers, &name).filter(|value| is_token(value)).map(str::to_owned)
+    let names = [name(service, base), name_of_all(service, base)];
+    names.iter().find_map(|name| named(headers, name).filter(|value| is_token(value))).map(str::to_owned)
 }
 
 /// The secret by which a browser is known, where the request brings one.

@@ -87,9 +87,12 @@ pub(in crate::service) async fn become_student(
         Identity::Student(_, before) | Identity::Claimed(_, before) if before.id != student.id => Visitor::replaced(),
         _ => visitor,
     };
-    let mut visitor = visitor.known(service).await?;
+    let is_theirs = visitor.identity.student_id() == Some(student.id.as_str());
+    let visitor = visitor.known(service).await?;
+    // Whoever sat here before may have noted the cookie: it is worth nothing from now on.
+    let mut visitor = if is_theirs { visitor } else { visitor.renamed() };
     let owner_id = visitor.identity.owner_id().unwrap_or_default().to_owned();
-    let owner = service.store.bind_owner(&owner_id, &student, proof).await?;
+    let owner = service.store.bind_owner((&owner_id, &visitor.token_hash()), &student, proof).await?;
     visitor.identity = Identity::Student(owner.ok_or_else(|| code_needed(&student))?, student);
     Ok(visitor)
 }

@@ -8,7 +8,7 @@ use crate::service::store::Proof;
 use crate::service::{Scope, Service};
 use axum::extract::{FromRequestParts, Request, State as Shared};
 use axum::http::request::Parts;
-use axum::http::{Extensions, header};
+use axum::http::{Extensions, HeaderMap, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
@@ -30,7 +30,8 @@ impl Visitor {
         Self { token: new_token(), is_new: true, identity: Identity::Nobody }
     }
 
-    async fn of(service: &Service, headers: &axum::http::HeaderMap) -> Result<Self, Problem> {
+    /// The browser of a request.
+    pub(in crate::service) async fn of(service: &Service, headers: &HeaderMap) -> Result<Self, Problem> {
         let Some(token) = read(service, headers, STUDENT_COOKIE) else { return Ok(Self::unknown()) };
         let identity = match service.store.owner(&token_hash(&token)).await? {
             None => Identity::Nobody,
@@ -85,6 +86,16 @@ impl Visitor {
             self.identity = Identity::Browser(owner);
         }
         Ok(self)
+    }
+
+    /// The same browser by another secret, which its cookie has from now on.
+    pub(super) fn renamed(self) -> Self {
+        Self { token: new_token(), is_new: true, ..self }
+    }
+
+    /// The hash of the secret by which it is known.
+    pub(super) fn token_hash(&self) -> String {
+        token_hash(&self.token)
     }
 
     /// Another browser in the place of this one, for a student who sits down where another one sat.

@@ -68,12 +68,18 @@ impl Store {
         Owner::of(on!(&self.write, db => sqlx::query_as(SELECT).bind(token_hash).fetch_one(db).await?))
     }
 
-    /// Makes a browser a student's. None where it shall be so as the first that gave the number, and another one was.
-    pub async fn bind_owner(&self, owner_id: &str, student: &Student, proof: Proof) -> Result<Option<Owner>> {
+    /// Makes a browser a student's, which is known by another cookie from then on. None where it shall be so as the first that gave the number, and another one was.
+    pub async fn bind_owner(
+        &self,
+        (owner_id, token_hash): (&str, &str),
+        student: &Student,
+        proof: Proof,
+    ) -> Result<Option<Owner>> {
         // Two that come at once wait for each other at this row.
         const TURN: &str = "UPDATE students SET number = number WHERE id = $1";
         const OTHERS: &str = "SELECT count(*) FROM owners WHERE student_id = $1 AND code_generation = $2 AND id <> $3";
-        const BIND: &str = "UPDATE owners SET student_id = $2, proof = $3, code_generation = $4 WHERE id = $1";
+        const BIND: &str = "UPDATE owners SET student_id = $2, proof = $3, code_generation = $4, token_hash = $5 \
+                            WHERE id = $1";
         const BOUND: &str = "SELECT id, student_id, proof, code_generation FROM owners WHERE id = $1";
         let row: Row = on!(&self.write, db => {
             let mut transaction = db.begin().await?;
@@ -92,6 +98,7 @@ impl Store {
                 .bind(&student.id)
                 .bind(word(&proof))
                 .bind(student.code_generation)
+                .bind(token_hash)
                 .execute(&mut *transaction)
                 .await?;
             let row = sqlx::query_as(BOUND).bind(owner_id).fetch_one(&mut *transaction).await?;
