@@ -105,14 +105,15 @@ fn is_of_everybody(route: &str) -> bool {
 }
 
 /// The layer.
-pub(super) async fn note(Shared(service): Shared<Service>, request: Request, next: Next) -> Response {
+pub(super) async fn note(Shared(service): Shared<Service>, mut request: Request, next: Next) -> Response {
     let route = request.extensions().get::<MatchedPath>().map(of_any_homework);
     let Some(route) = route.filter(|_| !request.method().is_safe()) else { return next.run(request).await };
     let route = route.strip_prefix("/a/{assignment}").unwrap_or(&route).to_owned();
     let word = act(request.method(), &route);
     let assignment = homework_in(request.uri().path());
     // Before the handler, which may end the session.
-    let teacher = Teacher::of(&service, request.headers()).await.ok().flatten();
+    let headers = request.headers().clone();
+    let teacher = Teacher::of_request(&service, &headers, request.extensions_mut()).await.ok().flatten();
     let response = next.run(request).await;
     let status = response.status();
     let (Some(teacher), Some(word)) = (teacher, word) else { return response };

@@ -32,7 +32,7 @@ pub(super) fn of_any_homework(path: &MatchedPath) -> String {
 }
 
 /// The layer.
-pub(super) async fn attend(Shared(service): Shared<Service>, request: Request, next: Next) -> Response {
+pub(super) async fn attend(Shared(service): Shared<Service>, mut request: Request, next: Next) -> Response {
     let start = Instant::now();
     let method = request.method().clone();
     let route = request.extensions().get::<MatchedPath>().map_or_else(|| "none".to_owned(), of_any_homework);
@@ -40,7 +40,7 @@ pub(super) async fn attend(Shared(service): Shared<Service>, request: Request, n
     let seconds = service.config.limits.request_timeout * patience;
     // Counted before a byte of the body is read. What changes nothing is not, and neither is what a teacher's program sends.
     let is_safe = request.method().is_safe();
-    let (counted, is_within_rate) = match is_safe || is_teachers_program(&service, request.headers()).await {
+    let (counted, is_within_rate) = match is_safe || is_teachers_program(&service, &mut request).await {
         true => (Counted::default(), Ok(())),
         false => counted(&service, &request, &route),
     };

@@ -7,9 +7,9 @@ use super::{csrf, token_hash};
 use crate::service::errors::Problem;
 use crate::service::store::{DeletionTarget, Role, Session, StaffMember, TokenScope};
 use crate::service::{Scope, Service};
-use axum::extract::FromRequestParts;
+use axum::extract::{FromRequestParts, Request};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, Method, StatusCode, header};
+use axum::http::{Extensions, HeaderMap, Method, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 
 /// A teacher. As an argument of a handler it lets nobody else pass; where the handler is not of one homework, it asks which
@@ -27,6 +27,10 @@ pub struct Teacher {
     /// What a token of theirs is good for; everything where they come in by another way.
     scope: TokenScope,
 }
+
+/// The teacher of a request, as it was found.
+#[derive(Clone)]
+struct LookedUp(Option<Teacher>);
 
 impl Teacher {
     /// The teacher of a request, where one sends it.
@@ -50,6 +54,20 @@ impl Teacher {
         };
         let sees_names = sees_names(service, staff.as_ref()).await?;
         Ok(Some(Self { session: Some(session), homework: assignment, staff, sees_names, scope: TokenScope::All }))
+    }
+
+    /// The same, looked up once for a request however many layers and extractors ask.
+    pub(in crate::service) async fn of_request(
+        service: &Service,
+        headers: &HeaderMap,
+        extensions: &mut Extensions,
+    ) -> Result<Option<Self>, Problem> {
+        if let Some(LookedUp(teacher)) = extensions.get() {
+            return Ok(teacher.clone());
+        }
+        let teacher = Self::of(service, headers).await?;
+        extensions.insert(LookedUp(teacher.clone()));
+        Ok(teacher)
     }
 
     /// Whose token this is: the service's, that of a homework, or somebody's own, which is for the course where it was made.
@@ -182,9 +200,11 @@ pub(super) fn of_token(service: &Service, token: &str) -> Option<Option<String>>
 }
 
 /// Whether a request brings a teacher's token, as a program of theirs does.
-pub(in crate::service) async fn is_teachers_program(service: &Service, headers: &HeaderMap) -> bool {
+pub(in crate::service) async fn is_teachers_program(service: &Service, request: &mut Request) -> bool {
     // Who cannot be looked up is counted.
-    bearer(headers).is_some() && matches!(Teacher::of(service, headers).await, Ok(Some(_)))
+    let headers = request.headers().clone();
+    bearer(&headers).is_some()
+        && matches!(Teacher::of_request(service, &headers, request.extensions_mut()).await, Ok(Some(_)))
 }
 
 /// Whether somebody reads names and numbers of students.
@@ -228,7 +248,8 @@ impl<S: Scope> FromRequestParts<S> for Teacher {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Problem> {
-        let teacher = Self::of(scope.whole(), &parts.headers).await?.ok_or_else(|| {
+        let found = Self::of_request(scope.whole(), &parts.headers, &mut parts.extensions).await?;
+        let teacher = found.ok_or_else(|| {
             Problem::new(
                 StatusCode::UNAUTHORIZED,
                 "unauthorized",
@@ -251,7 +272,7 @@ impl<S: Scope> axum::extract::OptionalFromRequestParts<S> for Teacher {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Option<Self>, Problem> {
-        let teacher = Self::of(scope.whole(), &parts.headers).await?;
+        let teacher = Self::of_request(scope.whole(), &parts.headers, &mut parts.extensions).await?;
         teacher.as_ref().map_or(Ok(()), |teacher| teacher.check_scope(parts))?;
         Ok(teacher)
     }

@@ -246,7 +246,7 @@ impl<S: Scope> FromRequestParts<S> for Frame {
             parts.extensions.get::<OriginalUri>().map_or_else(|| parts.uri.clone(), |original| original.0.clone());
         let language = of_request(&parts.headers, &uri);
         let course = scope.whole().store.course().await?;
-        let teacher = Teacher::of(scope.whole(), &parts.headers).await?;
+        let teacher = Teacher::of_request(scope.whole(), &parts.headers, &mut parts.extensions).await?;
         let frame = Self { teacher, ..Self::new(language, course, uri, None) };
         Ok(match scope.own() {
             Some(state) => frame.of(&state),
