@@ -157,8 +157,17 @@ async fn each_role_does_what_it_may_and_is_in_the_log(database: Database) {
         assert_eq!(assistant.get(page).await.status, StatusCode::OK, "{page}");
     }
     let links = assistant.get("/teacher").await.all(".top nav a");
-    let expected =
-        ["Class", "Requests", "Insights", "Likeness", "Archives", "Gradebook", "Tokens", "Courses", "Student's page"];
+    let expected = [
+        "Class",
+        "Requests",
+        "Insights",
+        "Likeness",
+        "Archives",
+        "Gradebook",
+        "All courses",
+        "Student's page",
+        "Tokens",
+    ];
     assert_eq!(links, expected);
     let delete = format!("/teacher/delete?submission={handed_in}");
     for page in

@@ -134,10 +134,49 @@ pub(super) enum Tab {
     Data,
     /// Who teaches.
     People,
+    /// Learning platforms.
+    Platforms,
     /// Tokens for programs.
     Tokens,
     /// The log of what they did.
     Acts,
+}
+
+impl Tab {
+    /// Whether it is a page of the whole course.
+    fn is_of_course(self) -> bool {
+        !matches!(
+            self,
+            Self::Class
+                | Self::Appeals
+                | Self::Insights
+                | Self::Likeness
+                | Self::Batches
+                | Self::Settings
+                | Self::Tokens
+        )
+    }
+
+    /// What a page of the whole course is called, for the closed menu that has it.
+    fn in_course(self, frame: &Frame) -> Option<&'static str> {
+        self.is_of_course().then(|| self.name(frame))
+    }
+
+    /// What the navigation calls a page that stands in a menu.
+    fn name(self, frame: &Frame) -> &'static str {
+        match self {
+            Self::Gradebook => frame.say("Gradebook", "成績一覧"),
+            Self::Plan => frame.say("Plan", "構成"),
+            Self::Folders => frame.say("Homeworks", "課題"),
+            Self::Codes => frame.say("Codes", "個人コード"),
+            Self::Data => frame.say("Data", "データ"),
+            Self::People => frame.say("Staff", "担当者"),
+            Self::Platforms => frame.say("Learning platforms", "学習プラットフォーム"),
+            Self::Tokens => frame.say("Tokens", "トークン"),
+            Self::Acts => frame.say("Log", "操作記録"),
+            Self::Class | Self::Appeals | Self::Insights | Self::Likeness | Self::Batches | Self::Settings => "",
+        }
+    }
 }
 
 /// How somebody stands, in words.

@@ -126,7 +126,7 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
     let here = here(service, &frame).await?;
     shown(
         PlatformsPage {
-            place: Tab::People,
+            place: Tab::Platforms,
             csrf: teacher.csrf(service),
             platforms,
             may_change: teacher.role() == Role::Administrator,
