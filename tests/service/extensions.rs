@@ -2,13 +2,13 @@
 
 use crate::bench::{Bench, Fake, Reply, config};
 use crate::cluster::Database;
+use crate::codes::Guest;
 use crate::on_both;
 use crate::roster::{file, form, get, request};
-use axum::body::Body;
-use axum::http::{Request, StatusCode, header};
+
+use axum::http::StatusCode;
 use ggrade::service::clock::Clock;
-use ggrade::service::identity::{course_secret, personal_code};
-use scraper::{Html, Selector};
+use ggrade::service::identity::personal_code;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -25,20 +25,11 @@ async fn hand_in(bench: &Bench, number: &str) -> Reply {
 
 /// The desk of a student who has joined.
 async fn desk(bench: &Bench, number: &str) -> Reply {
-    let address = format!("/join/{}", course_secret(&bench.state).await.expect("a secret"));
-    let page = bench.get(&address).await;
-    let cookie = page.header("set-cookie").split(';').next().expect("a cookie").to_owned();
-    let html = Html::parse_document(&page.text());
-    let field = Selector::parse("[name=csrf]").expect("a selector");
-    let csrf = html.select(&field).next().and_then(|field| field.value().attr("value")).expect("a token").to_owned();
     let student = bench.state.store.student_by_number(number).await.expect("a store").expect("a student");
-    let body = format!("csrf={csrf}&number={number}&code={}", personal_code(&bench.state, &student));
-    let request = Request::post(&address).header(header::COOKIE, &cookie);
-    let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
-    let joined = bench.send(request.body(Body::from(body)).expect("a request")).await;
+    let guest = Guest::new(bench).await;
+    let joined = guest.join(bench, number, &personal_code(&bench.state, &student)).await;
     assert_eq!(joined.status, StatusCode::SEE_OTHER);
-    let request = Request::get("/").header(header::COOKIE, &cookie).header(header::ACCEPT_LANGUAGE, "en");
-    bench.send(request.body(Body::empty()).expect("a request")).await
+    guest.get(bench, "/").await
 }
 
 async fn a_student_has_a_deadline_of_their_own(database: Database) {

@@ -110,7 +110,8 @@ async fn a_history_belongs_to_its_browser(database: Database) {
     let ((mine, _), (theirs, _)) = (browser(&app).await, browser(&app).await);
     let secret = course_secret(&bench.state).await.expect("a secret");
     assert!(join(&bench.state, visitor(&bench.state, &mine).await, "guessed", "s1", "").await.is_err());
-    join(&bench.state, visitor(&bench.state, &mine).await, &secret, "s1", "").await.expect("joined");
+    let joined = join(&bench.state, visitor(&bench.state, &mine).await, &secret, "s1", "").await.expect("joined");
+    let mine = cookie_of(&bench.state, &joined);
     // Another browser says that it is the same student, and is not believed.
     for (code, kind) in [("", "code-needed"), ("00000-00000", "wrong-code")] {
         let refused = join(&bench.state, visitor(&bench.state, &theirs).await, &secret, "s1", code).await;
@@ -130,8 +131,9 @@ async fn a_history_belongs_to_its_browser(database: Database) {
     // With the personal code it is the student's as well, and has their history.
     let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
     let code = personal_code(&bench.state, &student).to_lowercase();
-    join(&bench.state, visitor(&bench.state, &theirs).await, &secret, "s1", &code).await.expect("joined");
-    assert_eq!(history(&bench, &theirs).await, [first]);
+    let joined = join(&bench.state, visitor(&bench.state, &theirs).await, &secret, "s1", &code).await.expect("joined");
+    assert_eq!(history(&bench, &cookie_of(&bench.state, &joined)).await, [first]);
+    assert!(history(&bench, &theirs).await.is_empty(), "the cookie from before is worth nothing");
     bench.finish().await;
 }
 
@@ -140,10 +142,10 @@ async fn the_next_student_at_a_machine_sees_nothing(database: Database) {
     let (cookie, _) = browser(&app).await;
     let secret = course_secret(&bench.state).await.expect("a secret");
     let first = join(&bench.state, visitor(&bench.state, &cookie).await, &secret, "s1", "").await.expect("joined");
-    hand_in(&bench, &cookie, "same-origin", "of the first").await;
+    hand_in(&bench, &cookie_of(&bench.state, &first), "same-origin", "of the first").await;
     let second = join(&bench.state, first.clone(), &secret, "s2", "").await.expect("joined");
     let new_cookie = cookie_of(&bench.state, &second);
-    assert_ne!(new_cookie, cookie);
+    assert_ne!(new_cookie, cookie_of(&bench.state, &first));
     assert!(history(&bench, &new_cookie).await.is_empty());
     assert_eq!(second.identity.student().map(|student| student.number.as_str()), Some("S2"));
     // The same student again keeps the history.

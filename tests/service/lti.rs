@@ -464,7 +464,7 @@ async fn a_platforms_course_leads_to_its_course_here(database: Database) {
 
     let student = launch(&bench, &platform, "s1", "Learner").await;
     assert_eq!(student.header("location"), "/c/cg-2027/a/ggsample06");
-    let theirs = cookie(&student, "ggrade");
+    let theirs = cookie(&student, "ggrade_cg-2027");
     let request = Request::post("/c/cg-2027/api/v1/submissions?assignment=ggsample06").header(header::COOKIE, &theirs);
     let request = request.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
     let handed_in = bench.send(request.body(Body::from(right())).expect("a request")).await;

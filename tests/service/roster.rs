@@ -2,6 +2,7 @@
 
 use crate::bench::{Bench, Reply, TEACHER};
 use crate::cluster::Database;
+use crate::codes::Guest;
 use crate::{on_both, right, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
@@ -177,24 +178,8 @@ async fn numbers_that_are_not_on_the_roster_are_refused(database: Database) {
     let bench = Bench::new(database).await;
     let secret = course_secret(&bench.state).await.expect("a secret");
     // A browser gives a number before there is a roster.
-    let page = bench.get(&format!("/join/{secret}")).await;
-    let cookie = page.header("set-cookie").split(';').next().expect("a cookie").to_owned();
-    let csrf = |page: &Reply| {
-        let html = Html::parse_document(&page.text());
-        let field = Selector::parse("[name=csrf]").expect("a selector");
-        html.select(&field).next().and_then(|field| field.value().attr("value")).expect("a token").to_owned()
-    };
-    let join_with = async |number: &str, code: &str| {
-        let token = csrf(&page);
-        let body = format!("csrf={token}&number={number}&code={code}");
-        let request = Request::post(format!("/join/{secret}"))
-            .header(header::COOKIE, &cookie)
-            .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
-            .header(header::ACCEPT, "text/html")
-            .header(header::ACCEPT_LANGUAGE, "en");
-        bench.send(request.body(Body::from(body)).expect("a request")).await
-    };
-    let join = async |number: &str| join_with(number, "").await;
+    let guest = Guest::new(&bench).await;
+    let join = async |number: &str| guest.join(&bench, number, "").await;
     assert_eq!(join("s9").await.status, StatusCode::SEE_OTHER);
     roster(&bench, "S1,和田 花子\n").await;
 
@@ -210,16 +195,14 @@ async fn numbers_that_are_not_on_the_roster_are_refused(database: Database) {
     assert!(page_of_join.all("[role=alert]")[0].contains("S7 is not on the class's roster"));
 
     // The browser from before is told, and its files are refused rather than lost in silence.
-    let desk = Request::get("/").header(header::COOKIE, &cookie).header(header::ACCEPT_LANGUAGE, "en");
-    let desk = bench.send(desk.body(Body::empty()).expect("a request")).await;
+    let desk = guest.get(&bench, "/").await;
     assert!(desk.all("[role=alert]")[0].contains("S9 is not on the class's roster"), "{:?}", desk.all("[role=alert]"));
-    let own = Request::post("/api/v1/submissions").header(header::COOKIE, &cookie);
-    let own = own.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
+    let own = guest.request("POST", "/api/v1/submissions").header(header::CONTENT_TYPE, "text/plain");
     assert_eq!(bench.send(own.body(Body::from(right())).expect("a request")).await.problem(), "not-on-roster");
     // The right number goes on from there, with its code.
     assert_eq!(join("S1").await.status, StatusCode::FORBIDDEN);
     let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
-    let joined = join_with("S1", &personal_code(&bench.state, &student)).await;
+    let joined = guest.join(&bench, "S1", &personal_code(&bench.state, &student)).await;
     assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
     bench.finish().await;
 }

@@ -2,6 +2,7 @@
 
 use crate::bench::{Bench, Reply, TEACHER, config};
 use crate::cluster::Database;
+use crate::codes::Guest;
 use crate::process::{Server, command};
 use crate::roster::zip;
 use crate::{on_both, right_and_new, sample};
@@ -10,7 +11,6 @@ use axum::http::{Request, StatusCode, header};
 use ggrade::diagnose::Hints;
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
-use ggrade::service::identity::course_secret;
 use ggrade::service::store::{NewSubmission, Priority, Via};
 use reference::{Assignment, Folder};
 use serde_json::json;
@@ -32,7 +32,7 @@ on_both!(
 const OF_WAVES: &str = "the-teacher-of-the-waves";
 
 /// Pages of the teacher's that belong to the course, below `/teacher`.
-const OF_COURSE: [&str; 8] = ["codes", "courses", "data", "folders", "gradebook", "people", "plan", "log"];
+const OF_COURSE: [&str; 9] = ["codes", "courses", "data", "folders", "gradebook", "people", "plan", "platforms", "log"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/homeworks/waves")
@@ -127,18 +127,11 @@ async fn the_pages_of_each_lead_to_its_own(database: Database) {
     }
     assert_eq!(bench.get("/a/waves/nope").await.status, StatusCode::NOT_FOUND);
     // The course link is that of the course: it leads to the list.
-    let secret = course_secret(&bench.state).await.expect("a secret");
-    let (join, cookie, csrf) = page(&bench, &format!("/join/{secret}")).await;
-    assert_eq!(join.status, StatusCode::OK);
-    let joined = Request::post(format!("/join/{secret}"))
-        .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
-        .header(header::COOKIE, &cookie)
-        .body(Body::from(format!("csrf={csrf}&number=S1")));
-    let joined = bench.send(joined.expect("a request")).await;
+    let guest = Guest::new(&bench).await;
+    let joined = guest.join(&bench, "S1", "").await;
     // Without a roster it first shows the code for other browsers, and then leads on.
-    assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, &*format!("/join/{secret}")));
-    let again = Request::get(joined.header("location")).header(header::COOKIE, &cookie);
-    let again = bench.send(again.body(Body::empty()).expect("a request")).await;
+    assert_eq!((joined.status, joined.header("location")), (StatusCode::SEE_OTHER, &*guest.address));
+    let again = guest.get(&bench, &guest.address).await;
     assert!(again.all(".personal-code")[0].len() == 11 && again.text().contains("<a href=\"/\">"), "{}", again.text());
     // What is handed in on the page of a homework is of that homework, and so is the page of its report.
     for (id, bytes, title) in [("waves", waves_and_new(), "Waves"), ("ggsample06", right_and_new(), "Gouraud shading")]
