@@ -9,6 +9,7 @@ mod directives;
 mod encoding;
 mod kind;
 pub(crate) mod lookalikes;
+mod page;
 mod program;
 mod stray_characters;
 #[cfg(test)]
@@ -29,6 +30,9 @@ use sha2::{Digest, Sha256};
 
 /// The largest file that is read, in bytes. Real answers to a shading homework have two to five kilobytes.
 pub const MAX_BYTES: usize = 64 * 1024;
+
+/// The version of a file without `#version` (GLSL 4.10, section 3.3).
+pub(crate) const DEFAULT_VERSION: i32 = 110;
 
 /// What is known of a file whatever becomes of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -66,6 +70,8 @@ pub struct Source {
     code: String,
     comments: Vec<SourceComment>,
     line_starts: Vec<usize>,
+    /// The version that it is read as where it has no `#version`.
+    default_version: i32,
 }
 
 /// Reads the file `name`, whose content is `bytes`.
@@ -98,7 +104,7 @@ pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<
         diagnostics = errors;
     }
     if diagnostics.is_empty() {
-        return Ok(source);
+        return Ok(if stage == Stage::Fragment { page::complete(source) } else { source });
     }
     diagnostics.extend(source.notes.iter().cloned());
     Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
@@ -166,6 +172,16 @@ fn decode(bytes: &[u8]) -> Result<encoding::Decoded, Box<Diagnostic>> {
     }
 }
 
+/// The version that `#version` names in a code, where there is one.
+pub(crate) fn declared_version(code: &str) -> Option<i32> {
+    let directive = code
+        .lines()
+        .map(str::trim_start)
+        .find_map(|line| line.strip_prefix('#').map(str::trim_start).and_then(|line| line.strip_prefix("version")))?;
+    let number = directive.split_whitespace().next().and_then(|number| number.parse().ok());
+    Some(number.unwrap_or(DEFAULT_VERSION))
+}
+
 impl Source {
     /// `text` with its lines and comments found.
     fn new(facts: Facts, text: &str) -> Self {
@@ -177,7 +193,7 @@ impl Source {
         let code = comments::blank(&text, &comments);
         let line_ends = text.match_indices('\n').map(|(end, _)| end + 1);
         let line_starts = std::iter::once(0).chain(line_ends).filter(|&start| start < text.len()).collect();
-        Self { facts, text, notes: Vec::new(), code, comments, line_starts }
+        Self { facts, text, notes: Vec::new(), code, comments, line_starts, default_version: DEFAULT_VERSION }
     }
 
     /// The text with comments blanked: each of their bytes is a space, line ends stay, so that byte offsets, lines and
@@ -187,6 +203,16 @@ impl Source {
     /// preprocessor directive holds the directive together.
     pub fn code(&self) -> &str {
         &self.code
+    }
+
+    /// The version that it is read as: that of its `#version`.
+    pub fn version(&self) -> i32 {
+        declared_version(&self.code).unwrap_or(self.default_version)
+    }
+
+    /// The version that a compiler has to be told, since the text does not say it.
+    pub fn implied_version(&self) -> Option<i32> {
+        (self.default_version != DEFAULT_VERSION).then_some(self.default_version)
     }
 
     /// The text with `//` comments blanked as in [`Source::code`]; block comments stay, which may hold a directive

@@ -127,6 +127,11 @@ impl<'a> Submitted<'a> {
         Self { stage, source, interface, text, renamed: Vec::new(), warnings: warning.into_iter().collect() }
     }
 
+    /// A text of it as the compiler reads it.
+    fn as_stage<'t>(&self, text: &'t CStr) -> StageText<'t> {
+        StageText { version: self.source.implied_version(), ..StageText::plain(self.stage, text) }
+    }
+
     /// Changes the text for what the compiler minds and drivers take; whether there was anything of the kind.
     fn concede(&mut self, verdict: &CompilerOutput) -> bool {
         let Some(granted) = concessions::grant(&self.text, verdict.log(self.stage), self.source) else { return false };
@@ -134,6 +139,12 @@ impl<'a> Submitted<'a> {
         self.warnings.extend(granted.warnings);
         self.renamed.extend(granted.renamed);
         true
+    }
+
+    /// What the compiler says of it.
+    fn logged(&self, verdict: &CompilerOutput) -> Vec<Diagnostic> {
+        let Self { source, interface, .. } = *self;
+        log::stage_diagnostics(verdict.log(self.stage), &source.text, source.implied_version(), interface)
     }
 
     /// What there is to say about a text that compiles and links.
@@ -144,7 +155,7 @@ impl<'a> Submitted<'a> {
         if !errors.is_empty() {
             return Err(Refusal::Rejected(errors));
         }
-        let mut diagnostics = log::stage_diagnostics(verdict.log(self.stage), &source.text, interface);
+        let mut diagnostics = self.logged(verdict);
         diagnostics.extend(self.warnings.iter().cloned());
         diagnostics.extend(portability::warnings(source, interface));
         Ok(diagnostics)
@@ -152,7 +163,7 @@ impl<'a> Submitted<'a> {
 
     /// SPIR-V of a text that the first pass accepts.
     fn second_pass(&self) -> Result<Vec<u32>, Fault> {
-        second_pass(self.stage, &self.text, &self.renamed, text::version(self.source.code()))
+        second_pass(self.stage, &self.text, &self.renamed, self.source.version())
     }
 }
 
@@ -176,8 +187,8 @@ fn first_pass(submitted: &mut [Submitted<'_>], fixed: &[StageText<'_>]) -> Resul
 
 /// Compiles and links under OpenGL's rules.
 fn check(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> CompilerOutput {
-    let texts: Vec<_> = submitted.iter().map(|one| (one.stage, text::c_text(&one.text))).collect();
-    let mut outcome = compiled(texts.iter().map(|(stage, text)| StageText::plain(*stage, text)), fixed);
+    let texts: Vec<_> = submitted.iter().map(|one| text::c_text(&one.text)).collect();
+    let mut outcome = compiled(submitted.iter().zip(&texts).map(|(one, text)| one.as_stage(text)), fixed);
     submitted.iter().for_each(|one| concessions::in_own_names(&mut outcome, &one.renamed));
     outcome
 }
@@ -196,9 +207,9 @@ fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<Compi
         let texts: Vec<_> = submitted
             .iter()
             .zip(&plain)
-            .map(|(one, plain)| (one.stage, text::c_text(plain.as_ref().unwrap_or(&one.text))))
+            .map(|(one, plain)| text::c_text(plain.as_ref().unwrap_or(&one.text)))
             .collect();
-        let mut outcome = compiled(texts.iter().map(|(stage, text)| StageText::plain(*stage, text)), fixed);
+        let mut outcome = compiled(submitted.iter().zip(&texts).map(|(one, text)| one.as_stage(text)), fixed);
         submitted.iter().for_each(|one| concessions::in_own_names(&mut outcome, &one.renamed));
         outcome
     })
@@ -213,7 +224,7 @@ fn rejected(verdict: CompilerOutput, submitted: &[Submitted<'_>], fixed: &[Stage
     };
     let Reached::Stage(at) = verdict.reached else { return refused_line_directive(submitted) };
     match submitted.iter().find(|one| one.stage == at) {
-        Some(one) => Refusal::Rejected(log::stage_diagnostics(verdict.log(at), &one.source.text, one.interface)),
+        Some(one) => Refusal::Rejected(one.logged(&verdict)),
         None => Refusal::Fault(Fault::new(crate::language::Text::verbatim(format!(
             "the assignment's fixed {at:?} shader does not compile: {}",
             verdict.log(at)
@@ -260,7 +271,7 @@ fn fixed(stage: Stage, text: &CStr, interface: &Interface) -> Result<Shader, Fau
     let text = text.to_str().unwrap_or_default();
     let source =
         source::read_stage(stage, "fixed", text.as_bytes()).map_err(|_| unsupported("the text of a fixed stage"))?;
-    let spirv = second_pass(stage, text, &[], text::version(source.code()))?;
+    let spirv = second_pass(stage, text, &[], source.version())?;
     let how = Built { stage, outputs: None, is_fixed: true, poisons: false };
     module::build(spirv, &source, interface, how).map_err(|refusal| match refusal {
         Refusal::Fault(fault) => fault,

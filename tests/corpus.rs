@@ -37,7 +37,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("per-pixel", 11),
     ("phong", 190),
     ("phong-shading", 154),
-    ("rings", 9),
+    ("rings", 10),
     ("schlick", 191),
     ("several-lights", 178),
     ("spot-directx", 88),

@@ -15,6 +15,7 @@
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
 //! - [`fit`]: which mistakes explain what a shader computed
+//! - [`page`]: shaders as pages for sharing them have them
 //! - [`proposal`]: a folder, written from a solution
 //!
 //! ```
@@ -41,6 +42,7 @@ pub mod host;
 pub mod interpreter;
 pub mod manifest;
 pub mod mistake;
+pub mod page;
 pub mod pipeline;
 pub mod probes;
 pub mod proposal;

@@ -48,7 +48,7 @@ pub(super) fn grant(text: &str, log: &str, source: &Source) -> Option<Granted> {
     if entries.iter().any(|entry| entry.token == "line continuation") {
         granted.continuations(source);
     }
-    let version = text::version(source.code());
+    let version = source.version();
     if version < SHARED_VERSION && errors().any(|entry| entry.message.contains("unexpected SHARED")) {
         granted.rename("shared", "shareD", |text, at| !text::is_in_layout(text, at));
     }
@@ -104,7 +104,7 @@ fn old_lookups(code: &str) -> Vec<(usize, &str)> {
 /// What neither the compiler takes nor anything else says: an old lookup that drivers have no more, or that has no other name.
 pub(super) fn refuse_old_lookups(source: &Source) -> Result<(), Refusal> {
     let code = source.code();
-    let is_gone = text::version(code) >= NO_OLD_LOOKUPS;
+    let is_gone = source.version() >= NO_OLD_LOOKUPS;
     let found = old_lookups(code).into_iter().find(|(_, word)| is_gone || lookup_of_today(word).is_none());
     let Some((at, word)) = found else { return Ok(()) };
     let Some(today) = lookup_of_today(word).filter(|_| is_gone) else {

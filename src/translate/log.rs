@@ -66,8 +66,14 @@ fn place(rest: &str) -> Option<((u32, u32), &str)> {
 }
 
 /// What the compiler's log of compiling a stage's `text` says, in the order in which to fix it: at least one
-/// error if the log has one, except for what real drivers let pass, which stays a warning.
-pub fn stage_diagnostics(log: &str, text: &str, interface: &Interface) -> Vec<Diagnostic> {
+/// error if the log has one, except for what real drivers let pass, which stays a warning. `implied_version` is what the
+/// compiler was told in place of a `#version` that the text lacks.
+pub fn stage_diagnostics(
+    log: &str,
+    text: &str,
+    implied_version: Option<i32>,
+    interface: &Interface,
+) -> Vec<Diagnostic> {
     let mut entries = entries(log);
     // The parser's giving up is the last error, and tells most about the ones before it.
     let syntax = entries.iter().position(Entry::is_syntax_error).filter(|&at| at >= MAX_ENTRIES);
@@ -76,6 +82,7 @@ pub fn stage_diagnostics(log: &str, text: &str, interface: &Interface) -> Vec<Di
     entries.extend(last);
     let file = File::new(text, interface);
     if entries.iter().any(|entry| entry.is_error)
+        && implied_version.is_none()
         && let Some(missing) = hints::missing_version(&file)
     {
         return vec![missing];

@@ -17,7 +17,7 @@ const FREE_LOCATIONS: i32 = i32::MAX;
 
 /// The warnings about `source`, which the compiler accepts.
 pub(super) fn warnings(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
-    let version = text::version(source.code());
+    let version = source.version();
     let mut warnings: Vec<_> = version_line(source, version).into_iter().collect();
     warnings.extend(late_extension(source));
     if interface.fragment.is_empty() {

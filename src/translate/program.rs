@@ -133,7 +133,7 @@ impl Program {
     /// The GLSL versions of the stages, the lowest of them.
     fn versions(&self, sources: &[(Stage, &Source)]) -> i32 {
         let own = self.fixed.iter().map(|fixed| text::version(fixed.text.to_str().unwrap_or_default()));
-        own.chain(sources.iter().map(|(_, source)| text::version(source.code()))).max().unwrap_or(0)
+        own.chain(sources.iter().map(|(_, source)| source.version())).max().unwrap_or(0)
     }
 
     /// The interface as a stage sees it: what the vertex stage hands over is fed to the fragment stage.

@@ -12,7 +12,7 @@ const STRICT_LOCATIONS: i32 = 420;
 
 /// The errors of `source`, which the compiler accepts.
 pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
-    let version = text::version(source.code());
+    let version = source.version();
     let mut errors: Vec<_> = before_version(source, version_line(source.code())).into_iter().collect();
     let code = text::without_directives(source.code());
     for statement in statements(&code) {

@@ -4,7 +4,7 @@
 //! compiler's messages are the student's own.
 
 use crate::ffi::glslang::Stage;
-use crate::source::Source;
+use crate::source::{self, Source};
 use std::ffi::CString;
 use std::ops::Range;
 
@@ -117,11 +117,7 @@ pub(super) fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// The version that `#version` names; 110 where there is none (GLSL 4.10, section 3.3).
 pub(super) fn version(code: &str) -> i32 {
-    let directive = code
-        .lines()
-        .map(str::trim_start)
-        .find_map(|line| line.strip_prefix('#').map(str::trim_start).and_then(|line| line.strip_prefix("version")));
-    directive.and_then(|rest| rest.split_whitespace().next()).and_then(|number| number.parse().ok()).unwrap_or(110)
+    source::declared_version(code).unwrap_or(source::DEFAULT_VERSION)
 }
 
 /// A text without NUL as C text; a [`Source`] never has one.
@@ -159,7 +155,8 @@ pub(super) fn for_spirv(text: &str, version: i32, stage: Stage) -> ForSpirv {
             Stage::Fragment if has_old_qualifiers => "#define varying in\n",
             _ => "",
         }),
-        version: (version < FIRST_SPIRV_VERSION).then_some(FIRST_SPIRV_VERSION),
+        version: (version < FIRST_SPIRV_VERSION || self::version(text) != version)
+            .then_some(version.max(FIRST_SPIRV_VERSION)),
     }
 }
 
@@ -220,8 +217,9 @@ mod tests {
 
     #[test]
     fn layouts_of_blocks_become_one_that_spirv_has() {
-        let ready = for_spirv("layout(shared) uniform B { float a; };\nfloat shared_;\n", 410, Stage::Vertex);
-        assert_eq!(ready.text.to_str(), Ok("layout(std140) uniform B { float a; };\nfloat shared_;\n"));
+        let ready =
+            for_spirv("#version 410\nlayout(shared) uniform B { float a; };\nfloat shared_;\n", 410, Stage::Vertex);
+        assert_eq!(ready.text.to_str(), Ok("#version 410\nlayout(std140) uniform B { float a; };\nfloat shared_;\n"));
         assert_eq!(ready.version, None);
         assert_eq!(for_spirv("varying vec4 a;", 120, Stage::Vertex).version, Some(330));
     }

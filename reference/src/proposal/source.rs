@@ -3,6 +3,7 @@
 use super::Given;
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::{Program, Refusal, Stage, outline};
+use crate::page::{self, Page};
 
 /// A solution, compiled.
 pub(super) struct SolutionFile {
@@ -89,11 +90,10 @@ pub(super) fn read_all(id: &str, given: &[Given]) -> Result<Vec<SolutionFile>, A
 
 fn read(id: &str, given: &Given) -> Result<SolutionFile, AssignmentError> {
     let Given { name, text } = given;
-    let functions = outline::functions(text);
-    let has = |wanted: &str| functions.iter().any(|function| function.name.text == wanted);
-    let is_wrapped = has("mainImage") && !has("main");
+    let page = Page::of(text);
+    let is_wrapped = page.is_some();
     let stage = stage_of(name, text, is_wrapped)?;
-    let (text, added) = if is_wrapped { wrapped(text) } else { (text.clone(), 0) };
+    let (text, added) = page.map_or_else(|| (text.clone(), 0), |page| on_page(text, &page));
     let version = version_of(&text);
     let number: u32 = version.split_whitespace().next().and_then(|number| number.parse().ok()).unwrap_or(110);
     if number < 130 || version.ends_with("es") {
@@ -103,7 +103,8 @@ fn read(id: &str, given: &Given) -> Result<SolutionFile, AssignmentError> {
     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem);
     let stem = if stem == "solution" || stem.is_empty() { id } else { stem };
     let extension = if stage == Stage::Vertex { "vert" } else { "frag" };
-    let entry = if has("mainImage") { "mainImage" } else { "main" };
+    let has_image = outline::functions(&text).iter().any(|function| function.name.text == "mainImage");
+    let entry = if has_image { "mainImage" } else { "main" };
     let given = name.clone();
     Ok(SolutionFile {
         given,
@@ -176,47 +177,16 @@ fn too_old(name: &str, text: &str, version: &str) -> AssignmentError {
     )
 }
 
-/// What such pages give a shader: the name, and how it is declared.
-const GIVEN_BY_PAGES: [(&str, &str); 9] = [
-    ("iResolution", "uniform vec3 iResolution;"),
-    ("iTime", "uniform float iTime;"),
-    ("iTimeDelta", "uniform float iTimeDelta;"),
-    ("iFrame", "uniform int iFrame;"),
-    ("iMouse", "uniform vec4 iMouse;"),
-    ("iChannel0", "uniform sampler2D iChannel0;"),
-    ("iChannel1", "uniform sampler2D iChannel1;"),
-    ("iChannel2", "uniform sampler2D iChannel2;"),
-    ("iChannel3", "uniform sampler2D iChannel3;"),
-];
-
-/// A `mainImage` with what the page adds that it is shown on, and how many lines stand before it.
-fn wrapped(text: &str) -> (String, u32) {
-    let words = outline::words(text);
-    let uses = |name: &str| words.iter().any(|word| word.text == name);
-    // What the file declares by itself is not declared again.
-    let declares = |name: &str| {
-        let at = words.iter().position(|word| word.text == name);
-        at.and_then(|at| words.get(at.checked_sub(2)?)).is_some_and(|before| before.text == "uniform")
+/// The text with what the page adds that it is shown on, and how many lines stand before it.
+fn on_page(text: &str, page: &Page) -> (String, u32) {
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text).trim_start();
+    let (version, rest) = match body.starts_with("#version") {
+        true => body.split_once('\n').unwrap_or((body, "")),
+        false => (page::VERSION, body),
     };
-    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let own_version = body.trim_start().starts_with("#version");
-    let mut head: Vec<&str> = Vec::new();
-    if !own_version {
-        head.push("#version 330 core");
-    }
-    head.extend(GIVEN_BY_PAGES.iter().filter(|(name, _)| uses(name) && !declares(name)).map(|(_, said)| *said));
-    let output = if uses("pixel") { "pixel_" } else { "pixel" };
-    let declared = format!("out vec4 {output};");
-    head.push(&declared);
-    let call = format!("void main() {{ mainImage({output}, gl_FragCoord.xy); }}");
-    let head_text = head.join("\n");
-    let (version, rest) = match own_version {
-        true => body.trim_start().split_once('\n').map_or((body, ""), |(version, rest)| (version, rest)),
-        false => ("", body),
-    };
-    let separator = if version.is_empty() { "" } else { "\n" };
-    let lines = head.len() as u32 + 1;
-    (format!("{version}{separator}{head_text}\n\n{}\n\n{call}\n", rest.trim_end()), lines)
+    let added = page.declarations.len() + 1 + usize::from(!body.starts_with("#version"));
+    let declarations = page.declarations.join("\n");
+    (format!("{version}\n{declarations}\n\n{}\n\n{}\n", rest.trim_end(), page.main), added as u32)
 }
 
 /// What the interpreter says of a solution, with the place in the file as it was given.

@@ -67,7 +67,7 @@ fn outcome(text: &str, interface: &Interface) -> CompilerOutput {
 fn diagnostics(text: &str) -> Vec<Diagnostic> {
     let interface = interface();
     let outcome = outcome(text, &interface);
-    let mut all = stage_diagnostics(outcome.log(Stage::Vertex), text, &interface);
+    let mut all = stage_diagnostics(outcome.log(Stage::Vertex), text, None, &interface);
     all.extend(link_diagnostics(&outcome.link_log, text, &interface));
     all.extend(overlooked_errors(text, &interface));
     all

@@ -1,8 +1,3 @@
-#version 330 core
-uniform vec3 iResolution;
-uniform float iTime;
-out vec4 pixel;
-
 void mainImage(out vec4 colour, in vec2 at)
 {
   vec2 p = (2.0 * at - iResolution.xy) / iResolution.y;
