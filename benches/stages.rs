@@ -8,7 +8,7 @@ use ggrade::grade::{Grader, Order};
 use ggrade::hand_in::HandIn;
 use ggrade::render::{AdapterKind, Device, Renderer};
 use ggrade::source::{self, Source};
-use ggrade::translate::{self, Interface, Shader};
+use ggrade::translate::{self, LinkedInterface, Shader};
 use reference::Assignment;
 use reference::interpreter::{Program, Stage};
 use std::cell::RefCell;
@@ -22,8 +22,8 @@ fn assignment() -> &'static Arc<Assignment> {
     reference::assignment("ggsample06").expect("the assignment is built in")
 }
 
-fn interface() -> Interface {
-    ggrade::translate::Interface::of(assignment()).expect("the assignment is whole")
+fn interface() -> LinkedInterface {
+    ggrade::translate::LinkedInterface::of(assignment()).expect("the assignment is whole")
 }
 
 /// A right answer that no cache has seen: another constant in code that does nothing.
@@ -41,7 +41,7 @@ fn read(text: &str) -> Source {
     source::read("bench.vert", text.as_bytes()).expect("a right answer")
 }
 
-fn shader(source: &Source, interface: &Interface) -> Shader {
+fn shader(source: &Source, interface: &LinkedInterface) -> Shader {
     translate::translate(source, interface).expect("a right answer").shader
 }
 
@@ -68,7 +68,7 @@ fn translate_source(bencher: Bencher<'_, '_>) {
 fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
     let interface = interface();
     let renderer = RefCell::new(renderer());
-    let scene = ggrade::render::Scene::of(assignment(), &[&assignment().probes(1)]);
+    let scene = ggrade::render::RenderScene::of(assignment(), &[&assignment().probes(1)]);
     bencher
         .with_inputs(|| shader(&read(&text()), &interface))
         .bench_local_refs(|shader| renderer.borrow_mut().render(shader, &scene).expect("a rendering"));
@@ -78,7 +78,7 @@ fn render_25_frames_and_probes(bencher: Bencher<'_, '_>) {
 fn compare_25_frames(bencher: Bencher<'_, '_>) {
     let (expected, _) = expected::prepared(assignment(), None, None).expect("in memory");
     let mut renderer = renderer();
-    let scene = ggrade::render::Scene::of(assignment(), &[&assignment().probes(1)]);
+    let scene = ggrade::render::RenderScene::of(assignment(), &[&assignment().probes(1)]);
     let rendering = renderer.render(&shader(&read(&text()), &interface()), &scene).expect("a rendering");
     bencher.bench_local(|| {
         expected
@@ -109,7 +109,7 @@ fn whole_grade_of_a_new_right_answer(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn interpret_frames_and_probes(bencher: Bencher<'_, '_>) {
     let mut renderer = renderer();
-    let scene = ggrade::render::Scene::of(assignment(), &[&assignment().probes(1)]);
+    let scene = ggrade::render::RenderScene::of(assignment(), &[&assignment().probes(1)]);
     let text = text();
     let rendering = renderer.render(&shader(&read(&text), &interface()), &scene).expect("a rendering");
     let batches: Vec<_> = scene.frames.iter().flatten().chain(&scene.probes).collect();

@@ -11,21 +11,21 @@ mod serve;
 mod watch;
 
 #[cfg(feature = "service")]
-pub use assignment::Preview;
-pub use assignment::{Action, Assignment, Check, New, Show};
-pub use batch::{Batch, BatchAction, BatchCommand, Merge};
-pub use format::{Format, ViewFormat};
+pub use assignment::PreviewArguments;
+pub use assignment::{Action, AssignmentArguments, CheckArguments, NewArguments, ShowArguments};
+pub use batch::{BatchAction, BatchArguments, BatchCommand, MergeArguments};
+pub use format::{ReportFormat, ViewFormat};
 #[cfg(feature = "manual")]
-pub use manual::{Completions, Man};
+pub use manual::{CompletionsArguments, ManualArguments};
 #[cfg(feature = "service")]
-pub use serve::{LogFormat, Role, Serve};
+pub use serve::{LogFormat, ProcessRole, ServeArguments};
 #[cfg(feature = "watch")]
-pub use watch::Watch;
+pub use watch::WatchArguments;
 
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
-use crate::sandbox::{Attempt, Policy, Settings};
+use crate::sandbox::{IntrusionAttempt, Policy, Settings};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -45,39 +45,39 @@ const EXIT_CODES: &str = "Exit codes: 0 graded, all full marks · 1 graded, some
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Grade one hand-in: its file, or its files
-    Grade(Grade),
+    Grade(GradeArguments),
     /// Grade a whole class: folders, files, archives, a Moodle download
     Batch(BatchCommand),
     /// Grade a hand-in again whenever a file of it is saved
     #[cfg(feature = "watch")]
-    Watch(Watch),
+    Watch(WatchArguments),
     /// Serve the pages on which students upload and teachers see the class
     #[cfg(feature = "service")]
-    Serve(Serve),
+    Serve(ServeArguments),
     /// Grade a folder of samples and hold each report against the expected one beside it
-    Corpus(Corpus),
+    Corpus(CorpusArguments),
     /// List and show assignments, write the folder of one, or check it
-    Assignment(Assignment),
+    Assignment(AssignmentArguments),
     /// Check this machine and say what to install
-    Doctor(Doctor),
+    Doctor(DoctorArguments),
     /// Write the manual pages of all commands into a folder
     #[cfg(feature = "manual")]
-    Man(Man),
+    Man(ManualArguments),
     /// Print what a shell needs to complete commands and options
     #[cfg(feature = "manual")]
-    Completions(Completions),
+    Completions(CompletionsArguments),
     /// Hold the solution of an assignment against OpenGL, and print JSON (started by `assignment check`)
     #[cfg(feature = "opengl")]
     #[command(hide = true, name = "opengl")]
-    OpenGl(OpenGl),
+    OpenGl(OpenglArguments),
     /// Grade what the parent process sends (started by the other commands)
     #[command(hide = true)]
-    Worker(Worker),
+    Worker(WorkerArguments),
 }
 
 /// Which homework, on which adapter.
 #[derive(Clone, Debug, Args)]
-pub struct Machine {
+pub struct MachineArguments {
     /// The assignment: the name of a built-in one, or the folder of one [default: the built-in one whose file it is, or else ggsample06]
     #[arg(long, value_name = "NAME|FOLDER")]
     pub assignment: Option<String>,
@@ -88,7 +88,7 @@ pub struct Machine {
 
 /// How submissions are kept from this machine and from each other.
 #[derive(Clone, Copy, Debug, Args)]
-pub struct Sandbox {
+pub struct SandboxArguments {
     /// What to do where this machine cannot close the sandbox around a grading: refuse, or grade and say what is open
     #[arg(long, value_enum, default_value_t, env = "GGRADE_SANDBOX")]
     pub sandbox: Policy,
@@ -97,14 +97,14 @@ pub struct Sandbox {
     pub single_use_workers: bool,
 }
 
-impl Corpus {
+impl CorpusArguments {
     /// The folder of the samples: those of the assignment where none is named.
     pub fn folder(&self, assignment: &reference::Assignment) -> PathBuf {
         self.folder.clone().unwrap_or_else(|| PathBuf::from("submissions").join(&assignment.id))
     }
 }
 
-impl Sandbox {
+impl SandboxArguments {
     /// The settings with these wishes.
     pub fn apply(self, settings: Settings) -> Settings {
         let settings = Settings { policy: self.sandbox, ..settings };
@@ -114,19 +114,19 @@ impl Sandbox {
 
 /// Grade one hand-in.
 #[derive(Debug, Args)]
-pub struct Grade {
+pub struct GradeArguments {
     /// The files of one hand-in, or its folder or ZIP; `-` reads standard input
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Homework and adapter.
     #[command(flatten)]
-    pub machine: Machine,
+    pub machine: MachineArguments,
     /// The walls around the grading.
     #[command(flatten)]
-    pub sandbox: Sandbox,
+    pub sandbox: SandboxArguments,
     /// How the report is written
     #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
+    pub format: ReportFormat,
     /// Language of the report [default: from LC_ALL, LC_MESSAGES or LANG]
     #[arg(long, value_enum, env = "GGRADE_LANG")]
     pub lang: Option<Language>,
@@ -152,16 +152,16 @@ pub struct Grade {
 
 /// Grade a folder of samples.
 #[derive(Debug, Args)]
-pub struct Corpus {
+pub struct CorpusArguments {
     /// The folder: each `NAME.vert`, or folder `NAME/` of several files, stands beside its expected report `NAME.json` [default: submissions/ASSIGNMENT]
     #[arg(value_name = "DIR")]
     pub folder: Option<PathBuf>,
     /// Homework and adapter.
     #[command(flatten)]
-    pub machine: Machine,
+    pub machine: MachineArguments,
     /// The walls around the gradings.
     #[command(flatten)]
-    pub sandbox: Sandbox,
+    pub sandbox: SandboxArguments,
     /// Write the reports found as the expected ones (never in CI); ends with exit code 1, naming what changed
     #[arg(long, env = "BLESS")]
     pub bless: bool,
@@ -175,7 +175,7 @@ pub struct Corpus {
 
 /// Check this machine.
 #[derive(Debug, Args)]
-pub struct Doctor {
+pub struct DoctorArguments {
     /// Language of the answers [default: from LC_ALL, LC_MESSAGES or LANG]
     #[arg(long, value_enum, env = "GGRADE_LANG")]
     pub lang: Option<Language>,
@@ -184,7 +184,7 @@ pub struct Doctor {
 /// Hold the solution of an assignment against OpenGL, and print JSON.
 #[cfg(feature = "opengl")]
 #[derive(Debug, Args)]
-pub struct OpenGl {
+pub struct OpenglArguments {
     /// The folder of an assignment, or the name of a built-in one
     #[arg(value_name = "FOLDER")]
     pub assignment: String,
@@ -192,7 +192,7 @@ pub struct OpenGl {
 
 /// Grade what the parent process sends.
 #[derive(Debug, Args)]
-pub struct Worker {
+pub struct WorkerArguments {
     /// What renders
     #[arg(long, value_enum, default_value_t)]
     pub adapter: AdapterKind,
@@ -207,5 +207,5 @@ pub struct Worker {
     pub rehearse: bool,
     /// Grade nothing: enter the sandbox, try this, and exit with 0 where it was refused, with 1 where it was not
     #[arg(long, value_enum, value_name = "WHAT")]
-    pub attempt: Option<Attempt>,
+    pub attempt: Option<IntrusionAttempt>,
 }

@@ -8,7 +8,7 @@ mod lanes;
 use crate::render::{Frames, Sample};
 use crate::report::FrameResult;
 use bytemuck::pod_collect_to_vec;
-use lanes::{LANES, Lanes, MOST_ADDED};
+use lanes::{LANES, LaneSums, MOST_ADDED};
 use reference::rasteriser::{Coverage, Frame};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -37,7 +37,7 @@ pub struct ExpectedFrame {
     pub t: f64,
     width: u32,
     height: u32,
-    background: Pixel,
+    background: PackedPixel,
     /// The pixels that are not certainly outside, row by row from the left.
     runs: Vec<PixelRun>,
     /// The runs of each row, as a range of `runs`.
@@ -45,10 +45,10 @@ pub struct ExpectedFrame {
 }
 
 /// RGBA8 as it lies in memory.
-type Pixel = u32;
+type PackedPixel = u32;
 
-/// Red, green and blue of a [`Pixel`].
-const RGB: Pixel = Pixel::from_ne_bytes([255, 255, 255, 0]);
+/// Red, green and blue of a [`PackedPixel`].
+const RGB: PackedPixel = PackedPixel::from_ne_bytes([255, 255, 255, 0]);
 
 /// Neighbours in a row that lie alike with respect to the triangle.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ struct PixelRun {
     coverage: Coverage,
     columns: Range<usize>,
     /// What is expected there, without alpha.
-    pixels: Vec<Pixel>,
+    pixels: Vec<PackedPixel>,
 }
 
 impl ExpectedFrame {
@@ -73,13 +73,20 @@ impl ExpectedFrame {
                 column = columns.end;
                 if alike[0] != Coverage::Outside {
                     let pixels =
-                        pixels[columns.clone()].iter().map(|pixel| Pixel::from_ne_bytes(*pixel) & RGB).collect();
+                        pixels[columns.clone()].iter().map(|pixel| PackedPixel::from_ne_bytes(*pixel) & RGB).collect();
                     runs.push(PixelRun { coverage: alike[0], columns, pixels });
                 }
             }
             rows.push(first..runs.len());
         }
-        Self { t, width: frame.width, height: frame.height, background: Pixel::from_ne_bytes(background), runs, rows }
+        Self {
+            t,
+            width: frame.width,
+            height: frame.height,
+            background: PackedPixel::from_ne_bytes(background),
+            runs,
+            rows,
+        }
     }
 }
 
@@ -89,7 +96,7 @@ impl ExpectedFrame {
 /// Where the two have different sizes: a programming error of ours.
 pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameResult {
     assert_eq!((expected.width, expected.height), (candidate.width, candidate.height), "frame sizes");
-    let mut tally = Tally { background: expected.background, ..Tally::default() };
+    let mut tally = FrameTally { background: expected.background, ..FrameTally::default() };
     let area = candidate.area(index);
     let shown = area.x as usize..(area.x + area.width) as usize;
     for (y, runs) in (0..).zip(&expected.rows) {
@@ -108,19 +115,19 @@ pub fn frame(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> FrameR
 }
 
 #[derive(Default)]
-struct Tally {
-    background: Pixel,
+struct FrameTally {
+    background: PackedPixel,
     coverage_mismatches: u32,
     mismatched: u32,
     max: u8,
     sum: u64,
     covered: u64,
-    lanes: Lanes,
+    lanes: LaneSums,
 }
 
-impl Tally {
+impl FrameTally {
     /// `row`: the columns `shown` of a row that is background elsewhere.
-    fn row(&mut self, row: &[Pixel], shown: Range<usize>, runs: &[PixelRun]) {
+    fn row(&mut self, row: &[PackedPixel], shown: Range<usize>, runs: &[PixelRun]) {
         let mut left = 0;
         for run in runs {
             let Overlap { columns, before, expected, after } = run.overlap(&shown);
@@ -135,15 +142,15 @@ impl Tally {
         self.outside(&row[left..]);
     }
 
-    fn outside(&mut self, pixels: &[Pixel]) {
-        let painted = |pixel: &Pixel| (pixel ^ self.background) & RGB;
+    fn outside(&mut self, pixels: &[PackedPixel]) {
+        let painted = |pixel: &PackedPixel| (pixel ^ self.background) & RGB;
         // Hardly ever is there anything to count.
         if pixels.iter().fold(0, |any, pixel| any | painted(pixel)) != 0 {
             self.coverage_mismatches += pixels.iter().filter(|pixel| painted(pixel) != 0).count() as u32;
         }
     }
 
-    fn inside(&mut self, expected: &[Pixel], found: &[Pixel]) {
+    fn inside(&mut self, expected: &[PackedPixel], found: &[PackedPixel]) {
         // A pixel that nothing was painted to is rare; without one, none needs a decision of its own.
         if found.iter().fold(false, |any, pixel| any | (*pixel == self.background)) {
             expected.iter().zip(found).for_each(|(expected, found)| self.one(*expected, *found));
@@ -152,7 +159,7 @@ impl Tally {
         }
     }
 
-    fn painted(&mut self, expected: &[Pixel], found: &[Pixel]) {
+    fn painted(&mut self, expected: &[PackedPixel], found: &[PackedPixel]) {
         self.covered += 3 * found.len() as u64;
         let (chunks, rest) = found.as_chunks::<LANES>();
         for (expected, found) in expected.as_chunks::<LANES>().0.iter().zip(chunks) {
@@ -174,14 +181,14 @@ impl Tally {
         }
     }
 
-    fn add(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
+    fn add(&mut self, expected: &[PackedPixel; LANES], found: &[PackedPixel; LANES]) {
         if self.lanes.added == MOST_ADDED {
             self.settle();
         }
         self.lanes.add(expected, found);
     }
 
-    fn one(&mut self, expected: Pixel, found: Pixel) {
+    fn one(&mut self, expected: PackedPixel, found: PackedPixel) {
         if found == self.background && (expected ^ self.background) & RGB != 0 {
             self.coverage_mismatches += 1;
         } else {
@@ -191,7 +198,7 @@ impl Tally {
 
     /// Takes over what has been added up lane by lane.
     fn settle(&mut self) {
-        let Lanes { most, sums, far, .. } = std::mem::take(&mut self.lanes);
+        let LaneSums { most, sums, far, .. } = std::mem::take(&mut self.lanes);
         self.max = most.into_iter().fold(self.max, u8::max);
         self.sum += sums.into_iter().map(u64::from).sum::<u64>();
         self.mismatched += far.into_iter().sum::<u32>();
@@ -213,9 +220,9 @@ struct Overlap<'a> {
     /// The columns of the run that are shown, counted from the first one shown.
     columns: Range<usize>,
     /// What is expected left of them, in them and right of them.
-    before: &'a [Pixel],
-    expected: &'a [Pixel],
-    after: &'a [Pixel],
+    before: &'a [PackedPixel],
+    expected: &'a [PackedPixel],
+    after: &'a [PackedPixel],
 }
 
 impl PixelRun {

@@ -13,7 +13,7 @@ use crate::grade::Order;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::parallel;
-use crate::sandbox::{Pool, Submission};
+use crate::sandbox::{GradingTask, Pool};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::{fs, io};
@@ -25,7 +25,7 @@ const EXPECTED: &str = "json";
 
 /// How one sample came out.
 #[derive(Clone, Debug)]
-pub struct Checked {
+pub struct CheckedSample {
     /// The sample.
     pub sample: PathBuf,
     /// What is expected of it; none where the file is missing.
@@ -36,7 +36,7 @@ pub struct Checked {
     pub cross_check: Option<CrossCheck>,
 }
 
-impl Checked {
+impl CheckedSample {
     /// Whether all is as expected.
     pub fn agrees(&self) -> bool {
         let (Some(expected), Ok(found)) = (&self.expected, &self.found) else { return false };
@@ -60,18 +60,19 @@ impl Checked {
 
 /// Grades every sample below `folder` on all cores, and holds each against its expectation and, where that is asked for,
 /// the driver's values against the interpreter's.
-pub fn check(folder: &Path, pool: &Pool, cross_check: bool) -> Result<Vec<Checked>, Fault> {
+pub fn check(folder: &Path, pool: &Pool, cross_check: bool) -> Result<Vec<CheckedSample>, Fault> {
     let samples = samples(folder)?;
     let stop = AtomicBool::new(false);
     let checked = parallel::map(&samples, parallel::processors(), &stop, |sample| check_one(sample, pool, cross_check));
     let panicked = || Err(unreadable(folder, "a thread panicked"));
-    let results: Result<Vec<Checked>, Fault> = checked.into_iter().map(|one| one.unwrap_or_else(panicked)).collect();
+    let results: Result<Vec<CheckedSample>, Fault> =
+        checked.into_iter().map(|one| one.unwrap_or_else(panicked)).collect();
     let mut results = results?;
     results.sort_by(|a, b| a.sample.cmp(&b.sample));
     Ok(results)
 }
 
-fn check_one(sample: &Path, pool: &Pool, cross_check: bool) -> Result<Checked, Fault> {
+fn check_one(sample: &Path, pool: &Pool, cross_check: bool) -> Result<CheckedSample, Fault> {
     let hand_in = HandIn { files: files_of(sample)? };
     let path = expectation_of(sample);
     let expected = match fs::read_to_string(&path) {
@@ -83,10 +84,10 @@ fn check_one(sample: &Path, pool: &Pool, cross_check: bool) -> Result<Checked, F
     };
     let order = Order { seed: SEED, cross_check, ..Order::default() };
     let answer =
-        pool.grade(Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: false });
+        pool.grade(GradingTask { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: false });
     let cross_check = answer.as_ref().ok().and_then(|answer| answer.report.cross_check.clone());
     let found = answer.map(|answer| Expectation::of(&answer.report));
-    Ok(Checked { sample: sample.into(), expected, found, cross_check })
+    Ok(CheckedSample { sample: sample.into(), expected, found, cross_check })
 }
 
 /// The files of a sample: those of its folder, or the one that it is.

@@ -7,11 +7,11 @@ mod program;
 mod vertices;
 
 use crate::language::Text;
-use crate::render::{Batch, Sample};
+use crate::render::{DrawCall, Sample};
 pub use program::check_program;
 use reference::interpreter::{Outputs, Precision, Program, Stage, Undefined};
 use serde::{Deserialize, Serialize};
-use vertices::Vertices;
+use vertices::VertexColumns;
 
 /// Largest difference of a value, relative to it where it is more than 1: x^80 in f32 loses five of seven digits at worst.
 const TOLERANCE: f64 = 1e-3;
@@ -88,7 +88,7 @@ pub fn relation(driver: f32, exact: f64, single: f64) -> Relation {
 
 /// What the driver computed.
 #[derive(Clone, Debug)]
-pub struct Drawn<'a> {
+pub struct DriverOutput<'a> {
     /// Outputs of four scalars by name, of every vertex or fragment.
     pub outputs: Vec<(&'a str, Vec<[f32; 4]>)>,
     /// Which fragments it threw away; empty for vertices.
@@ -96,22 +96,22 @@ pub struct Drawn<'a> {
 }
 
 /// Runs the file's text on the vertices that the driver had, and compares colours and positions.
-pub fn check(text: &str, output: &str, batches: &[&Batch], samples: &[&[Sample]]) -> CrossCheck {
+pub fn check(text: &str, output: &str, batches: &[&DrawCall], samples: &[&[Sample]]) -> CrossCheck {
     let program = match Program::compile(text, Stage::Vertex) {
         Ok(program) => program,
         Err(refusal) => return CrossCheck::not_run(&refusal.to_string(), Some(refusal.line)),
     };
-    let vertices = Vertices::new(batches);
+    let vertices = VertexColumns::new(batches);
     let samples = || samples.iter().copied().flatten();
     let colours = samples().map(|sample| sample.colour).collect();
     let positions = samples().map(|sample| sample.position).collect();
-    let drawn = Drawn { outputs: vec![(output, colours), (POSITION, positions)], discarded: Vec::new() };
+    let drawn = DriverOutput { outputs: vec![(output, colours), (POSITION, positions)], discarded: Vec::new() };
     compare(&drawn, |precision| vertices.run(&program, precision))
 }
 
 /// Compares what the driver computed with what `run` does, which is asked in as many ways of rounding as it takes to tell
 /// what differs from what hangs on rounding.
-pub fn compare(drawn: &Drawn<'_>, run: impl Fn(Precision) -> Result<Outputs, CrossCheck>) -> CrossCheck {
+pub fn compare(drawn: &DriverOutput<'_>, run: impl Fn(Precision) -> Result<Outputs, CrossCheck>) -> CrossCheck {
     match run(Precision::Exact).and_then(|exact| Ok((exact, run(Precision::Single)?))) {
         Ok((exact, single)) => {
             let mut judged = judge(drawn, &exact, &single);
@@ -154,7 +154,7 @@ struct VertexOpinion {
     message: Option<Text>,
 }
 
-fn judge(drawn: &Drawn<'_>, exact: &Outputs, single: &Outputs) -> Vec<VertexOpinion> {
+fn judge(drawn: &DriverOutput<'_>, exact: &Outputs, single: &Outputs) -> Vec<VertexOpinion> {
     let judge_one = |index: usize| {
         let mut judged = VertexOpinion { relation: Relation::Agrees, message: None };
         let is_discarded = exact.discarded[index];
@@ -190,7 +190,7 @@ fn judge(drawn: &Drawn<'_>, exact: &Outputs, single: &Outputs) -> Vec<VertexOpin
 }
 
 /// What noise in the last bits moves is no difference between driver and interpreter.
-fn settle(judged: &mut [VertexOpinion], drawn: &Drawn<'_>, exact: &Outputs, noisy: &Outputs) {
+fn settle(judged: &mut [VertexOpinion], drawn: &DriverOutput<'_>, exact: &Outputs, noisy: &Outputs) {
     for (index, one) in judged.iter_mut().enumerate().filter(|(_, one)| one.relation == Relation::Differs) {
         let moves = |name: &str| {
             let (Some(exact), Some(noisy)) = (exact.get(name), noisy.get(name)) else { return false };
@@ -231,14 +231,14 @@ mod tests {
     use reference::Values;
     use reference::interpreter::Type;
 
-    fn batch(x: &[f32]) -> Batch {
-        Batch {
+    fn batch(x: &[f32]) -> DrawCall {
+        DrawCall {
             uniforms: vec![("m".into(), DMat4::from_cols_array(&std::array::from_fn(|n| n as f64)).into())],
             attributes: vec![(
                 "p".into(),
                 Values { kind: Type::vector(3), numbers: x.iter().flat_map(|&x| [f64::from(x), 2.0, 3.0]).collect() },
             )],
-            ..Batch::default()
+            ..DrawCall::default()
         }
     }
 
@@ -298,7 +298,7 @@ mod tests {
         let column = [0.25, 0.75, 0.25, 0.75];
         let compared = |discarded: [bool; 4]| {
             let outputs = vec![("c", vec![[0.25; 4]; 4])];
-            let drawn = Drawn { outputs, discarded: discarded.into() };
+            let drawn = DriverOutput { outputs, discarded: discarded.into() };
             compare(&drawn, |precision| {
                 Ok(program.run(4).input("p", &[&column]).unwrap().precision(precision).outputs().unwrap())
             })

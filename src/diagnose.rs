@@ -17,7 +17,7 @@ use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, colour_difference, po
 use crate::language::Text;
 use crate::render::Sample;
 pub use crate::report::Hints;
-use crate::report::{Advice, FrameResult, Hypothesis, OwnValues, ProbeResult, Repair, RubricLine};
+use crate::report::{AdviceLine, FrameResult, Hypothesis, OwnValues, ProbeResult, Repair, RubricLine};
 use crate::source::Source;
 use advice::Beyond;
 pub use cause::UNEXPLAINED;
@@ -26,7 +26,7 @@ pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
-use reference::probes::{Course, Crossings, Pictured, Probe, ProbeSet};
+use reference::probes::{Crossings, EdgeDefect, Pictured, Probe, ProbeSet};
 use reference::traced::TracedProgram;
 
 /// Mistakes that are told from other things than the colours alone.
@@ -83,7 +83,7 @@ pub struct Diagnosis {
     /// Ids of the mistakes found.
     pub mistakes: Vec<String>,
     /// What would break elsewhere, where all is right.
-    pub advice: Vec<Advice>,
+    pub advice: Vec<AdviceLine>,
     /// The changes of the text by which all becomes right, where they are known.
     pub repairs: Vec<Repair>,
     /// The equation that computes what the shader computes, where one is known.
@@ -163,8 +163,8 @@ fn course(evidence: &Evidence<'_>, is_right_elsewhere: bool) -> Option<String> {
     let (crossings, samples) = evidence.across?;
     let colours: Vec<[f64; 3]> = samples.iter().map(Sample::colour_f64).collect();
     match crossings.course(&colours)? {
-        Course::Abrupt => Some(gradual.abrupt.clone()),
-        Course::Uneven => is_right_elsewhere.then(|| gradual.uneven.clone()),
+        EdgeDefect::Abrupt => Some(gradual.abrupt.clone()),
+        EdgeDefect::Uneven => is_right_elsewhere.then(|| gradual.uneven.clone()),
     }
 }
 

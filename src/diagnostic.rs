@@ -18,9 +18,9 @@ pub enum Severity {
 
 /// The stage that speaks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Stage))]
 #[serde(rename_all = "lowercase")]
-pub enum Stage {
+pub enum DiagnosticStage {
     /// Reading the bytes as text.
     Source,
     /// Compiling the vertex shader.
@@ -39,7 +39,7 @@ pub struct Diagnostic {
     /// How much it weighs.
     pub severity: Severity,
     /// Who speaks.
-    pub stage: Stage,
+    pub stage: DiagnosticStage,
     /// The file that it is about, where it is about one.
     #[serde(default)]
     pub file: Option<String>,
@@ -57,12 +57,12 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error without a place.
-    pub fn error(stage: Stage, message: Text) -> Self {
+    pub fn error(stage: DiagnosticStage, message: Text) -> Self {
         Self { severity: Severity::Error, stage, file: None, line: None, column: None, length: 1, message, hint: None }
     }
 
     /// A warning without a place.
-    pub fn warning(stage: Stage, message: Text) -> Self {
+    pub fn warning(stage: DiagnosticStage, message: Text) -> Self {
         Self { severity: Severity::Warning, ..Self::error(stage, message) }
     }
 

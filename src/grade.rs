@@ -14,16 +14,16 @@ use crate::compare::{self, ExpectedFrame};
 use crate::cross_check::{self, CrossCheck};
 use crate::diagnose::advice::{self, Beyond};
 use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::language::Text;
-use crate::render::{AdapterKind, Batch, Device, Frames, Renderer, Rendering, Sample, Scene};
-use crate::report::{Advice, Environment, FrameResult, Report, SourceInfo, Verdict};
+use crate::render::{AdapterKind, Device, DrawCall, Frames, RenderScene, Renderer, Rendering, Sample};
+use crate::report::{AdviceLine, Environment, FrameResult, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
 use crate::source::{self, ReadProgram, Source};
-use crate::translate::{self, Interface, Refusal, Shader};
+use crate::translate::{self, LinkedInterface, Shader, TranslationRefusal};
 use reference::Assignment;
 use reference::accepted::{AcceptedAnswer, Reading};
 use reference::probes::{Crossings, ProbeSet};
@@ -59,7 +59,7 @@ pub struct Graded {
 #[derive(Debug)]
 pub struct Grader {
     assignment: Arc<Assignment>,
-    interface: Interface,
+    interface: LinkedInterface,
     renderer: Renderer,
     expected: Vec<ExpectedFrame>,
     /// The same of every answer that is right beside the solution.
@@ -74,18 +74,18 @@ pub struct Grader {
     /// The program, where the homework is more than a vertex shader of definitions.
     programs: Option<Programs>,
     /// The last seed's: a class is graded with one seed.
-    last: Option<Rc<Probing>>,
+    last: Option<Rc<SeedScene>>,
 }
 
 /// What is drawn for one seed.
 #[derive(Debug)]
-struct Probing {
+struct SeedScene {
     fresh: ProbeSet,
-    scene: Scene,
+    scene: RenderScene,
 }
 
 /// What a report is made from.
-struct Judged<'a> {
+struct JudgedHandIn<'a> {
     /// The text that messages point into.
     source: &'a Source,
     sources: &'a [(translate::Stage, &'a Source)],
@@ -106,7 +106,7 @@ impl Grader {
 
     /// A grader on an open device. `expected` are the assignment's right pictures, in the order of [`expected::frames`].
     pub fn new(device: Device, assignment: Arc<Assignment>, expected: Vec<ExpectedFrame>) -> Result<Self, Fault> {
-        let interface = Interface::of(&assignment)?;
+        let interface = LinkedInterface::of(&assignment)?;
         let environment = environment(&device);
         let programs = Programs::of(&assignment)?;
         let fixed = match &programs {
@@ -161,7 +161,7 @@ impl Grader {
         let sources = unfinished::described(&self.assignment, hand_in, arranged.as_ref().ok());
         let files = match arranged {
             Ok(arranged) => arranged.files,
-            Err(why) => return Ok(self.rejected(sources, vec![Diagnostic::error(Stage::Source, why)])),
+            Err(why) => return Ok(self.rejected(sources, vec![Diagnostic::error(DiagnosticStage::Source, why)])),
         };
         let file = match files.as_slice() {
             [file] if self.programs.is_none() => file,
@@ -183,15 +183,15 @@ impl Grader {
         }
         let mut translation = match translate::translate(&source, &self.interface) {
             Ok(translation) => translation,
-            Err(Refusal::Rejected(mut diagnostics)) => {
+            Err(TranslationRefusal::Rejected(mut diagnostics)) => {
                 diagnostics.extend(source.notes);
                 return Ok(self.rejected(sources, diagnostics));
             }
-            Err(Refusal::Stopped(mut diagnostics)) => {
+            Err(TranslationRefusal::Stopped(mut diagnostics)) => {
                 diagnostics.extend(source.notes);
                 return Ok(self.refused(sources, Verdict::Stopped, diagnostics));
             }
-            Err(Refusal::Fault(fault)) => return Err(fault),
+            Err(TranslationRefusal::Fault(fault)) => return Err(fault),
         };
         let mut diagnostics = std::mem::take(&mut translation.diagnostics);
         let shader = &translation.shader;
@@ -201,11 +201,11 @@ impl Grader {
         if !written_in.is_empty() {
             let [probes, fresh] =
                 [&self.probes, &probing.fresh].map(|probes| self.assignment.probes_at_rest(probes, &written_in));
-            let scene = Scene::of(&self.assignment, &[&probes, &fresh]);
-            probing = Rc::new(Probing { fresh, scene });
+            let scene = RenderScene::of(&self.assignment, &[&probes, &fresh]);
+            probing = Rc::new(SeedScene { fresh, scene });
             at_rest = Some(probes);
         }
-        let Probing { fresh, scene } = &*probing;
+        let SeedScene { fresh, scene } = &*probing;
         let mut rendering = self.renderer.render(shader, scene)?;
         if let Some(ran_out) = rendering.ran_out {
             diagnostics.insert(0, shader.out_of_fuel(ran_out));
@@ -215,7 +215,7 @@ impl Grader {
             rendering.undefined = None;
         }
         let sources_given = [(translate::Stage::Vertex, &source)];
-        let judged = Judged {
+        let judged = JudgedHandIn {
             source: &source,
             sources: &sources_given,
             assignment: &self.assignment,
@@ -227,7 +227,7 @@ impl Grader {
         let mut report = self.report(judged, diagnostics, order.hints);
         let said = array.and_then(|array| array.written_in.as_ref());
         let said = said.filter(|_| !written_in.is_empty() && report.verdict == Verdict::Correct);
-        report.advice.extend(said.map(|text| Advice {
+        report.advice.extend(said.map(|text| AdviceLine {
             id: "number-written-in".into(),
             message: Text::new(&*text.en, &*text.ja),
             file: file.name.clone(),
@@ -239,14 +239,14 @@ impl Grader {
     }
 
     /// The second opinion on all vertices that were drawn.
-    fn cross_check(&self, source: &Source, scene: &Scene, rendering: &Rendering) -> CrossCheck {
-        let batches: Vec<&Batch> = scene.frames.iter().flatten().chain(&scene.probes).collect();
+    fn cross_check(&self, source: &Source, scene: &RenderScene, rendering: &Rendering) -> CrossCheck {
+        let batches: Vec<&DrawCall> = scene.frames.iter().flatten().chain(&scene.probes).collect();
         let samples = rendering.frame_samples.iter().chain(&rendering.probe_samples);
         let samples: Vec<&[Sample]> = samples.map(Vec::as_slice).collect();
         cross_check::check(&source.text, &self.interface.output.name, &batches, &samples)
     }
 
-    fn probing(&mut self, seed: u64) -> Rc<Probing> {
+    fn probing(&mut self, seed: u64) -> Rc<SeedScene> {
         if let Some(last) = self.last.as_ref().filter(|last| last.fresh.seed == seed) {
             return Rc::clone(last);
         }
@@ -255,8 +255,8 @@ impl Grader {
             .into_iter()
             .chain(self.crossings.iter().map(|crossings| &crossings.probes))
             .collect();
-        let scene = Scene::of(&self.assignment, &sets);
-        Rc::clone(self.last.insert(Rc::new(Probing { fresh, scene })))
+        let scene = RenderScene::of(&self.assignment, &sets);
+        Rc::clone(self.last.insert(Rc::new(SeedScene { fresh, scene })))
     }
 
     fn rejected(&self, sources: Vec<SourceInfo>, diagnostics: Vec<Diagnostic>) -> Graded {
@@ -274,12 +274,12 @@ impl Grader {
         &self,
         source: &Source,
         shader: &Shader,
-        scene: &Scene,
+        scene: &RenderScene,
         rendering: &Rendering,
     ) -> Result<bool, Fault> {
         let poisoned = match shader.poisoned(source, &self.interface) {
             Ok(poisoned) => self.renderer.compute(&poisoned, scene)?,
-            Err(Refusal::Fault(fault)) => return Err(fault),
+            Err(TranslationRefusal::Fault(fault)) => return Err(fault),
             // The gate bounds what it is given; what is a little larger is still only a doubt.
             Err(_) => return Ok(false),
         };
@@ -291,8 +291,8 @@ impl Grader {
     }
 
     /// The report but for what was handed in.
-    fn report(&self, judged: Judged<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
-        let Judged { source, sources, assignment, probes, fresh, crossings, rendering } = judged;
+    fn report(&self, judged: JudgedHandIn<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
+        let JudgedHandIn { source, sources, assignment, probes, fresh, crossings, rendering } = judged;
         let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
             let frames = expected.iter().zip(0..);
             frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
@@ -334,7 +334,7 @@ impl Grader {
                     |reading: &Reading| diagnose::diagnose(&Evidence { assignment: &reading.assignment, ..evidence });
                 let mut diagnosis = diagnose::agreement(&evidence).or_else(|| reading.map(read))?;
                 diagnosis.explanation = None;
-                diagnosis.advice.extend(reading.map(|reading| Advice {
+                diagnosis.advice.extend(reading.map(|reading| AdviceLine {
                     id: reading.id.clone(),
                     message: Text::new(&*reading.note.en, &*reading.note.ja),
                     file: source.facts.name.clone(),

@@ -17,10 +17,10 @@ pub mod view;
 mod wording;
 
 use crate::source::Source;
-use reading::{Passage, Statement};
+use reading::{Passage, TextStatement};
 use sha2::{Digest, Sha256};
 use std::collections::{HashMap, HashSet};
-use wording::Wording;
+use wording::KnownWording;
 
 pub use view::{Comparison, Side};
 
@@ -44,7 +44,7 @@ const COMMON: usize = 10;
 /// Finds what answers to a homework have in common.
 #[derive(Debug)]
 pub struct Likeness {
-    wording: Wording,
+    wording: KnownWording,
 }
 
 /// One answer, read.
@@ -94,7 +94,7 @@ impl Pair {
 impl Likeness {
     /// For answers to a homework: the files as they are handed out, and right answers.
     pub fn new<'a>(hand_out: &[Source], solutions: impl Iterator<Item = &'a str>) -> Self {
-        Self { wording: Wording::new(hand_out, solutions) }
+        Self { wording: KnownWording::new(hand_out, solutions) }
     }
 
     /// For answers to this homework.
@@ -109,7 +109,7 @@ impl Likeness {
 
     /// Reads the files of a hand-in.
     pub fn read(&self, sources: &[Source]) -> Answer {
-        let own: Vec<Statement> = self.wording.own(sources);
+        let own: Vec<TextStatement> = self.wording.own(sources);
         let passages = reading::passages(&own, self.wording.names());
         let passages = passages.into_iter().filter(|passage| !self.wording.has(passage.print)).collect();
         let is_enough = own.iter().map(|statement| statement.words.len()).sum::<usize>() >= FEWEST_TOKENS;

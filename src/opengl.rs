@@ -1,7 +1,7 @@
 //! What the machine's own OpenGL driver draws of a homework: a third opinion, beside the interpreter's and wgpu's.
 
-use crate::ffi::opengl::{Draw, Driver, Kind, Rejection, Version, Window};
-use crate::render::{Batch, Scene};
+use crate::ffi::opengl::{Driver, OpenglDraw, Rejection, ValueKind, Version, Window};
+use crate::render::{DrawCall, RenderScene};
 use reference::assignment::{HandedIn, Stage};
 use reference::interpreter::{Scalar, Texture, Type};
 use reference::rasteriser::{Coverage, Frame};
@@ -52,7 +52,7 @@ impl FrameAgreement {
 /// There is no OpenGL driver: what to install.
 pub fn agreement(assignment: &Assignment) -> Result<Agreement, String> {
     let driver = Driver::start(Version::Raised460)?;
-    let scene = Scene::of(assignment, &[]);
+    let scene = RenderScene::of(assignment, &[]);
     let texts = texts(assignment, |file| &file.solution.text);
     let mut agreement = Agreement { renderer: driver.renderer(), refusal: None, frames: Vec::new() };
     for (index, right) in assignment.frames().into_iter().enumerate() {
@@ -90,7 +90,7 @@ pub fn texts<'a>(assignment: &'a Assignment, handed_in: impl Fn(&'a HandedIn) ->
 pub fn frame(
     driver: &Driver,
     assignment: &Assignment,
-    scene: &Scene,
+    scene: &RenderScene,
     texts: [&str; 2],
     frame: usize,
 ) -> Result<Vec<[u8; 4]>, Rejection> {
@@ -109,7 +109,7 @@ pub fn frame(
     };
     let textures: Vec<Texture> = assignment.textures.iter().enumerate().map(texture).collect();
     let textures: Vec<(&str, &Texture)> = textures.iter().map(|texture| ("", texture)).collect();
-    let draws: Vec<Draw> = scene.frames[frame].iter().map(draw).collect();
+    let draws: Vec<OpenglDraw> = scene.frames[frame].iter().map(draw).collect();
     let drawn = driver.scene(texts, &draws, &textures, window, 1)?.remove(0);
     let rows = drawn.chunks_exact(width).rev().flatten();
     Ok(rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect())
@@ -151,9 +151,9 @@ fn is_between(least: [u8; 4], most: [u8; 4], colour: [u8; 4]) -> bool {
     })
 }
 
-fn draw(batch: &Batch) -> Draw {
+fn draw(batch: &DrawCall) -> OpenglDraw {
     let uniform = |(path, value): &(String, Value)| (path.clone(), kind(value.kind()), value.numbers().to_vec());
-    Draw {
+    OpenglDraw {
         uniforms: batch.uniforms.iter().map(uniform).collect(),
         attributes: batch
             .attributes
@@ -166,14 +166,14 @@ fn draw(batch: &Batch) -> Draw {
     }
 }
 
-fn kind(kind: &Type) -> Kind {
+fn kind(kind: &Type) -> ValueKind {
     match kind {
-        Type::Vector(Scalar::Float, size) => Kind::Float(*size),
-        Type::Vector(Scalar::Uint, size) => Kind::Uint(*size),
-        Type::Vector(Scalar::Bool, size) => Kind::Bool(*size),
-        Type::Vector(_, size) => Kind::Int(*size),
-        Type::Matrix(_, columns, rows) => Kind::Matrix(*columns, *rows),
+        Type::Vector(Scalar::Float, size) => ValueKind::Float(*size),
+        Type::Vector(Scalar::Uint, size) => ValueKind::Uint(*size),
+        Type::Vector(Scalar::Bool, size) => ValueKind::Bool(*size),
+        Type::Vector(_, size) => ValueKind::Int(*size),
+        Type::Matrix(_, columns, rows) => ValueKind::Matrix(*columns, *rows),
         // The number of a texture is that of its unit.
-        _ => Kind::Int(1),
+        _ => ValueKind::Int(1),
     }
 }

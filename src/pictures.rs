@@ -11,9 +11,9 @@ use reference::rasteriser::{Coverage, Frame};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What is drawn once a process, by the digest of the assignment.
-type Drawn<T> = Mutex<Vec<(String, Arc<[T]>)>>;
+type PicturesOnce<T> = Mutex<Vec<(String, Arc<[T]>)>>;
 
-fn once<T>(drawn: &Drawn<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
+fn once<T>(drawn: &PicturesOnce<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
     let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = drawn.iter().find(|(digest, _)| *digest == assignment.digest) {
         return Arc::clone(known);
@@ -25,7 +25,7 @@ fn once<T>(drawn: &Drawn<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc
 
 /// The reference's frames as pictures, drawn once a process.
 pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
-    static DRAWN: Drawn<Picture> = Mutex::new(Vec::new());
+    static DRAWN: PicturesOnce<Picture> = Mutex::new(Vec::new());
     once(&DRAWN, assignment, || expected::of_solution(assignment).map(|frame| picture(&frame)).collect())
 }
 

@@ -21,4 +21,4 @@ pub use device::{AdapterKind, Device};
 pub use frames::{Frames, Met, Rendering, Sample};
 pub use pixels::Pixel;
 pub use renderer::{Captured, Renderer};
-pub use scene::{Batch, DrawState, Scene};
+pub use scene::{DrawCall, DrawState, RenderScene};

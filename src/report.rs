@@ -129,7 +129,7 @@ pub struct Repair {
 
 /// Something true and worth saying that costs no points.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Advice {
+pub struct AdviceLine {
     /// Its id; stable.
     pub id: String,
     /// What would break, and where to look.
@@ -222,7 +222,7 @@ pub struct Report {
     pub repairs: Vec<Repair>,
     /// What would break elsewhere in a right answer.
     #[serde(default)]
-    pub advice: Vec<Advice>,
+    pub advice: Vec<AdviceLine>,
     /// What the stages say about places in the file.
     pub diagnostics: Vec<Diagnostic>,
     /// The frames, in order of t; empty when nothing was rendered.

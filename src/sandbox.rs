@@ -33,8 +33,8 @@ pub mod worker;
 
 pub use check::CheckedFolder;
 pub use child::MOST_ASSIGNMENTS;
-pub use pool::{GradedSubmission, Pool, Submission};
-pub use preflight::Attempt;
+pub use pool::{GradedSubmission, GradingTask, Pool};
+pub use preflight::IntrusionAttempt;
 pub use protection::{Layer, LayerState, Policy, Protection, Reach};
 
 use crate::expected;
@@ -111,15 +111,15 @@ impl Settings {
         Self { gradings_per_worker: 1, ..self }
     }
 
-    fn limits(&self) -> Limits {
+    fn limits(&self) -> WorkerLimits {
         let seconds = self.deadline.as_secs_f64().ceil() as u64;
-        Limits { memory: self.memory, cpu_seconds: self.cpu_seconds.unwrap_or(seconds.saturating_add(1)) }
+        WorkerLimits { memory: self.memory, cpu_seconds: self.cpu_seconds.unwrap_or(seconds.saturating_add(1)) }
     }
 }
 
 /// What one submission may take inside a worker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct WorkerLimits {
     /// Bytes of address space over what the worker has already.
     pub memory: u64,
     /// CPU seconds over all threads, rounded up to the next whole one.

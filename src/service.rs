@@ -70,7 +70,7 @@ pub mod upkeep;
 
 pub use config::Config;
 pub use scope::Scope;
-pub use state::{Service, Shared, State};
+pub use state::{Service, ServiceParts, State};
 
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, Request};

@@ -10,7 +10,7 @@ mod fit;
 pub(crate) mod tests;
 pub(crate) mod wording;
 
-pub use fit::{Fit, fit};
+pub use fit::{NameFit, fit};
 pub use reference::assignment::HandedIn as Slot;
 
 use crate::hand_in::HandIn;
@@ -21,7 +21,7 @@ use std::collections::HashSet;
 
 /// A slot for which there is no file, or for which there are several.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Problem {
+pub enum SlotProblem {
     /// No file is for this slot.
     Missing {
         /// Which slot.
@@ -68,7 +68,7 @@ pub enum Trust {
 ///
 /// # Errors
 /// What is missing or double, in the slots' order.
-pub fn fill<F: Offered>(slots: &[Slot], files: &[F], trust: Trust) -> Result<Vec<usize>, Vec<Problem>> {
+pub fn fill<F: Offered>(slots: &[Slot], files: &[F], trust: Trust) -> Result<Vec<usize>, Vec<SlotProblem>> {
     let mut filling = Filling::ranked(slots, files);
     if trust == Trust::Named {
         filling.last();
@@ -80,7 +80,7 @@ pub fn fill<F: Offered>(slots: &[Slot], files: &[F], trust: Trust) -> Result<Vec
 ///
 /// # Errors
 /// What is double, in the slots' order.
-pub fn place<F: Offered>(slots: &[Slot], files: &[F]) -> Result<Vec<Option<usize>>, Vec<Problem>> {
+pub fn place<F: Offered>(slots: &[Slot], files: &[F]) -> Result<Vec<Option<usize>>, Vec<SlotProblem>> {
     let mut filling = Filling::ranked(slots, files);
     filling.sort();
     if filling.problems.is_empty() { Ok(filling.of_slot) } else { Err(filling.problems) }
@@ -130,21 +130,21 @@ struct Filling<'a, F> {
     slots: &'a [Slot],
     files: &'a [F],
     of_slot: Vec<Option<usize>>,
-    problems: Vec<Problem>,
+    problems: Vec<SlotProblem>,
 }
 
 impl<'a, F: Offered> Filling<'a, F> {
     /// What the names and the texts of the files say.
     fn ranked(slots: &'a [Slot], files: &'a [F]) -> Self {
         let mut filling = Self { slots, files, of_slot: vec![None; slots.len()], problems: Vec::new() };
-        for rank in Fit::CHOSEN {
+        for rank in NameFit::CHOSEN {
             filling.rank(rank);
         }
         filling
     }
 
     /// Fills the slots for which there are files of this rank.
-    fn rank(&mut self, rank: Fit) {
+    fn rank(&mut self, rank: NameFit) {
         let open: Vec<usize> = (0..self.slots.len()).filter(|&slot| self.is_open(slot)).collect();
         let fitting: Vec<Vec<usize>> = open.iter().map(|&slot| self.fitting(slot, rank)).collect();
         for (&slot, files) in open.iter().zip(&fitting) {
@@ -155,7 +155,7 @@ impl<'a, F: Offered> Filling<'a, F> {
                 [first, others @ ..] if !is_sought_by_others && self.are_same(*first, others) => {
                     self.of_slot[slot] = Some(*first);
                 }
-                _ => self.problems.push(Problem::Several { slot, files: files.clone() }),
+                _ => self.problems.push(SlotProblem::Several { slot, files: files.clone() }),
             }
         }
     }
@@ -169,9 +169,9 @@ impl<'a, F: Offered> Filling<'a, F> {
         }
     }
 
-    fn done(mut self) -> Result<Vec<usize>, Vec<Problem>> {
-        let open = (0..self.slots.len()).filter(|&slot| self.is_open(slot)).map(|slot| Problem::Missing { slot });
-        let missing: Vec<Problem> = open.collect();
+    fn done(mut self) -> Result<Vec<usize>, Vec<SlotProblem>> {
+        let open = (0..self.slots.len()).filter(|&slot| self.is_open(slot)).map(|slot| SlotProblem::Missing { slot });
+        let missing: Vec<SlotProblem> = open.collect();
         self.problems.extend(missing);
         self.sort();
         if self.problems.is_empty() { Ok(self.of_slot.into_iter().flatten().collect()) } else { Err(self.problems) }
@@ -179,23 +179,24 @@ impl<'a, F: Offered> Filling<'a, F> {
 
     fn sort(&mut self) {
         self.problems.sort_by_key(|problem| match problem {
-            Problem::Missing { slot } | Problem::Several { slot, .. } => *slot,
+            SlotProblem::Missing { slot } | SlotProblem::Several { slot, .. } => *slot,
         });
     }
 
     /// Whether nothing is decided for a slot.
     fn is_open(&self, slot: usize) -> bool {
-        let is_of = |problem: &Problem| matches!(problem, Problem::Several { slot: of, .. } if *of == slot);
+        let is_of = |problem: &SlotProblem| matches!(problem, SlotProblem::Several { slot: of, .. } if *of == slot);
         self.of_slot[slot].is_none() && !self.problems.iter().any(is_of)
     }
 
     fn is_taken(&self, file: usize) -> bool {
-        let is_in = |problem: &Problem| matches!(problem, Problem::Several { files, .. } if files.contains(&file));
+        let is_in =
+            |problem: &SlotProblem| matches!(problem, SlotProblem::Several { files, .. } if files.contains(&file));
         self.of_slot.contains(&Some(file)) || self.problems.iter().any(is_in)
     }
 
     /// The files that nobody has taken and that fit the slot so well.
-    fn fitting(&self, slot: usize, rank: Fit) -> Vec<usize> {
+    fn fitting(&self, slot: usize, rank: NameFit) -> Vec<usize> {
         let slot = &self.slots[slot];
         let fits = |&file: &usize| fit(self.files[file].name(), slot) == rank && self.reads_as(file, slot, rank);
         (0..self.files.len()).filter(|&file| !self.is_taken(file)).filter(fits).collect()
@@ -203,8 +204,8 @@ impl<'a, F: Offered> Filling<'a, F> {
 
     /// Whether the text of a file whose name does not tell its stage is one for the slot: it reads like the slot's stage,
     /// or at least like none that another slot has.
-    fn reads_as(&self, file: usize, slot: &Slot, rank: Fit) -> bool {
-        if rank < Fit::Renamed || rank == Fit::Renamed && fit::tells_stage(self.files[file].name()) {
+    fn reads_as(&self, file: usize, slot: &Slot, rank: NameFit) -> bool {
+        if rank < NameFit::Renamed || rank == NameFit::Renamed && fit::tells_stage(self.files[file].name()) {
             return true;
         }
         let bytes = self.files[file].bytes();
@@ -215,8 +216,8 @@ impl<'a, F: Offered> Filling<'a, F> {
         let stage = bytes.and_then(|bytes| stage_of(&bytes));
         match stage {
             Some(stage) if stage == slot.stage => true,
-            Some(stage) => rank == Fit::Renamed && !self.slots.iter().any(|other| other.stage == stage),
-            None => rank == Fit::Renamed,
+            Some(stage) => rank == NameFit::Renamed && !self.slots.iter().any(|other| other.stage == stage),
+            None => rank == NameFit::Renamed,
         }
     }
 

@@ -36,7 +36,7 @@ pub(crate) const DEFAULT_VERSION: i32 = 110;
 
 /// What is known of a file whatever becomes of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Facts {
+pub struct FileFacts {
     /// File name as handed in.
     pub name: String,
     /// Size in bytes.
@@ -49,9 +49,9 @@ pub struct Facts {
 
 /// A file that is not graded, and why.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Refusal {
+pub struct SourceRefusal {
     /// The file.
-    pub facts: Facts,
+    pub facts: FileFacts,
     /// Its text, where it has one, for excerpts.
     pub source: Option<Source>,
     /// At least one error, in the order of the file; then the warnings.
@@ -62,7 +62,7 @@ pub struct Refusal {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
     /// The file.
-    pub facts: Facts,
+    pub facts: FileFacts,
     /// Its text without a byte-order mark, every line ended by `\n`, the last one too. Never a NUL.
     pub text: String,
     /// Warnings and notes: nothing that keeps the file from being graded.
@@ -77,8 +77,8 @@ pub struct Source {
 /// Reads the file `name`, whose content is `bytes`.
 ///
 /// # Errors
-/// A [`Refusal`] for what is no vertex shader, and for characters in code that no GLSL compiler takes.
-pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
+/// A [`SourceRefusal`] for what is no vertex shader, and for characters in code that no GLSL compiler takes.
+pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<SourceRefusal>> {
     read_stage(Stage::Vertex, name, bytes)
 }
 
@@ -86,12 +86,12 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
 ///
 /// # Errors
 /// As of [`read`].
-pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<Refusal>> {
+pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<SourceRefusal>> {
     let in_words = |refusal: Diagnostic| of_stage(stage, refusal);
-    let mut facts = Facts::of(name, bytes);
+    let mut facts = FileFacts::of(name, bytes);
     let decoded = match decode(bytes) {
         Ok(decoded) => decoded,
-        Err(error) => return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![in_words(*error)] })),
+        Err(error) => return Err(Box::new(SourceRefusal { facts, source: None, diagnostics: vec![in_words(*error)] })),
     };
     facts.encoding = Some(decoded.encoding);
     let mut source = Source::new(facts, &decoded.text);
@@ -107,10 +107,10 @@ pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<
         return Ok(if stage == Stage::Fragment { page::complete(source) } else { source });
     }
     diagnostics.extend(source.notes.iter().cloned());
-    Err(Box::new(Refusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
+    Err(Box::new(SourceRefusal { facts: source.facts.clone(), source: Some(source), diagnostics }))
 }
 
-impl Facts {
+impl FileFacts {
     fn of(name: &str, bytes: &[u8]) -> Self {
         let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         Self { name: name.to_owned(), bytes: bytes.len(), sha256, encoding: None }
@@ -184,7 +184,7 @@ pub(crate) fn declared_version(code: &str) -> Option<i32> {
 
 impl Source {
     /// `text` with its lines and comments found.
-    fn new(facts: Facts, text: &str) -> Self {
+    fn new(facts: FileFacts, text: &str) -> Self {
         let mut text = text.replace("\r\n", "\n").replace('\r', "\n");
         if !text.ends_with('\n') {
             text.push('\n');
@@ -296,7 +296,7 @@ fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
 fn too_large(bytes: usize) -> Diagnostic {
     let (kib, limit) = (bytes.div_ceil(1024), MAX_BYTES / 1024);
     Diagnostic::error(
-        crate::diagnostic::Stage::Source,
+        crate::diagnostic::DiagnosticStage::Source,
         Text::new(
             format!("The file has {kib} KiB; at most {limit} KiB are read."),
             format!("ファイルの大きさが {kib} KiB あります。受け付けられるのは {limit} KiB までです。"),

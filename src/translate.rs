@@ -27,18 +27,20 @@ mod text;
 mod undefined;
 
 pub use crate::ffi::glslang::Stage;
-pub use entry::{Attribute, CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT};
-pub use fuel::{MAX_TURNS, Meter};
+pub use entry::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT, StageVariable};
+pub use fuel::{LoopFuel, MAX_TURNS};
 pub(crate) use interface::place;
-pub use interface::{Interface, Variable};
-pub use module::{Shader, Uniform, UniformBlock, unsupported};
-pub use program::{Linked, Program, ProgramRefusal};
-pub use spirv::{Alike, DESCRIPTION, Interpolation, Lines, Qualifiers, TEXTURES, descriptions};
+pub use interface::{LinkedInterface, Variable};
+pub use module::{Shader, UniformBlock, UniformMember, unsupported};
+pub use program::{HomeworkProgram, Linked, ProgramRefusal};
+pub use spirv::{
+    CommonTexture, DESCRIPTION, InputInterpolation, InterfaceQualifiers, LineTable, TEXTURES, descriptions,
+};
 pub use undefined::NO_LINE;
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
-use crate::ffi::glslang::{CompilerOutput, Reached, Request, Rules, StageText, compile};
+use crate::ffi::glslang::{CompilerOutput, GlslangRequest, GlslangRules, Reached, StageText, compile};
 use crate::language::Text;
 use crate::source::{self, Source};
 use concessions::Renamed;
@@ -47,7 +49,7 @@ use std::ffi::CStr;
 
 /// Why there is no shader.
 #[derive(Clone, Debug)]
-pub enum Refusal {
+pub enum TranslationRefusal {
     /// The student's file is at fault.
     Rejected(Vec<Diagnostic>),
     /// It exceeds a limit.
@@ -56,7 +58,7 @@ pub enum Refusal {
     Fault(Fault),
 }
 
-impl From<Fault> for Refusal {
+impl From<Fault> for TranslationRefusal {
     fn from(fault: Fault) -> Self {
         Self::Fault(fault)
     }
@@ -77,7 +79,7 @@ pub fn plain_lines(text: &str) -> std::borrow::Cow<'_, str> {
 }
 
 /// Compiles, links and translates a vertex shader.
-pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, Refusal> {
+pub fn translate(source: &Source, interface: &LinkedInterface) -> Result<Translation, TranslationRefusal> {
     check_text(source)?;
     let mut stages = [Submitted::new(Stage::Vertex, source, interface)];
     let fixed = [StageText::plain(Stage::Fragment, &interface.fragment)];
@@ -99,10 +101,10 @@ pub fn translate(source: &Source, interface: &Interface) -> Result<Translation, 
 }
 
 /// What is looked at before the compiler sees a text.
-fn check_text(source: &Source) -> Result<(), Refusal> {
+fn check_text(source: &Source) -> Result<(), TranslationRefusal> {
     gate::check_text(source)?;
     if let Some(error) = strict::hidden_version(source) {
-        return Err(Refusal::Rejected(vec![error]));
+        return Err(TranslationRefusal::Rejected(vec![error]));
     }
     concessions::refuse_old_lookups(source)
 }
@@ -114,7 +116,7 @@ const MAX_CONCESSIONS: usize = 4;
 struct Submitted<'a> {
     stage: Stage,
     source: &'a Source,
-    interface: &'a Interface,
+    interface: &'a LinkedInterface,
     /// The text that the compiler is given under OpenGL's rules.
     text: String,
     renamed: Vec<Renamed>,
@@ -122,7 +124,7 @@ struct Submitted<'a> {
 }
 
 impl<'a> Submitted<'a> {
-    fn new(stage: Stage, source: &'a Source, interface: &'a Interface) -> Self {
+    fn new(stage: Stage, source: &'a Source, interface: &'a LinkedInterface) -> Self {
         let (text, warning) = concessions::with_lookups_of_today(text::prepared(source), source);
         Self { stage, source, interface, text, renamed: Vec::new(), warnings: warning.into_iter().collect() }
     }
@@ -148,12 +150,12 @@ impl<'a> Submitted<'a> {
     }
 
     /// What there is to say about a text that compiles and links.
-    fn diagnostics(&self, verdict: &CompilerOutput) -> Result<Vec<Diagnostic>, Refusal> {
+    fn diagnostics(&self, verdict: &CompilerOutput) -> Result<Vec<Diagnostic>, TranslationRefusal> {
         let Self { source, interface, .. } = *self;
         let mut errors = hints::overlooked_errors(&source.text, interface);
         errors.extend(strict::errors(source, interface));
         if !errors.is_empty() {
-            return Err(Refusal::Rejected(errors));
+            return Err(TranslationRefusal::Rejected(errors));
         }
         let mut diagnostics = self.logged(verdict);
         diagnostics.extend(self.warnings.iter().cloned());
@@ -169,7 +171,10 @@ impl<'a> Submitted<'a> {
 
 /// The compiler's verdict on the texts of all stages, with what it minds and drivers take changed in them; or the first
 /// stage that does not compile, and why.
-fn first_pass(submitted: &mut [Submitted<'_>], fixed: &[StageText<'_>]) -> Result<CompilerOutput, (Stage, Refusal)> {
+fn first_pass(
+    submitted: &mut [Submitted<'_>],
+    fixed: &[StageText<'_>],
+) -> Result<CompilerOutput, (Stage, TranslationRefusal)> {
     let mut verdict = check(submitted, fixed);
     for _ in 0..MAX_CONCESSIONS {
         let Reached::Stage(at) = verdict.reached else { break };
@@ -196,7 +201,7 @@ fn check(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> CompilerOutput
 fn compiled<'a>(texts: impl Iterator<Item = StageText<'a>>, fixed: &[StageText<'a>]) -> CompilerOutput {
     let mut stages: Vec<_> = texts.chain(fixed.iter().copied()).collect();
     stages.sort_by_key(|text| text.stage == Stage::Fragment);
-    compile(&Request { stages: &stages, rules: Rules::OpenGl, emit: Stage::Vertex })
+    compile(&GlslangRequest { stages: &stages, rules: GlslangRules::OpenGl, emit: Stage::Vertex })
 }
 
 /// The verdict without `#line`: with it the compiler counts as the student tells it to, and a person counts lines of the
@@ -216,7 +221,7 @@ fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<Compi
 }
 
 /// The refusal of texts of which one does not compile.
-fn rejected(verdict: CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Refusal {
+fn rejected(verdict: CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> TranslationRefusal {
     let verdict = match plainly(submitted, fixed) {
         None => verdict,
         Some(plain) if plain.reached == verdict.reached => plain,
@@ -224,21 +229,27 @@ fn rejected(verdict: CompilerOutput, submitted: &[Submitted<'_>], fixed: &[Stage
     };
     let Reached::Stage(at) = verdict.reached else { return refused_line_directive(submitted) };
     match submitted.iter().find(|one| one.stage == at) {
-        Some(one) => Refusal::Rejected(one.logged(&verdict)),
-        None => Refusal::Fault(Fault::new(crate::language::Text::verbatim(format!(
+        Some(one) => TranslationRefusal::Rejected(one.logged(&verdict)),
+        None => TranslationRefusal::Fault(Fault::new(crate::language::Text::verbatim(format!(
             "the assignment's fixed {at:?} shader does not compile: {}",
             verdict.log(at)
         )))),
     }
 }
 
-fn refused_line_directive(submitted: &[Submitted<'_>]) -> Refusal {
+fn refused_line_directive(submitted: &[Submitted<'_>]) -> TranslationRefusal {
     let with_line = submitted.iter().find(|one| hints::without_line_directives(&one.text).is_some());
-    Refusal::Rejected(with_line.map(|one| vec![hints::refused_line_directive(&one.text)]).unwrap_or_default())
+    TranslationRefusal::Rejected(
+        with_line.map(|one| vec![hints::refused_line_directive(&one.text)]).unwrap_or_default(),
+    )
 }
 
 /// Refuses texts that compile and do not link.
-fn linked(verdict: &CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Result<(), Refusal> {
+fn linked(
+    verdict: &CompilerOutput,
+    submitted: &[Submitted<'_>],
+    fixed: &[StageText<'_>],
+) -> Result<(), TranslationRefusal> {
     if verdict.reached == Reached::Done {
         return Ok(());
     }
@@ -248,7 +259,7 @@ fn linked(verdict: &CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageT
     }
     let log = &plain.as_ref().unwrap_or(verdict).link_log;
     let last = submitted.last();
-    Err(Refusal::Rejected(
+    Err(TranslationRefusal::Rejected(
         last.map(|one| log::link_diagnostics(log, &one.source.text, one.interface)).unwrap_or_default(),
     ))
 }
@@ -257,7 +268,7 @@ fn linked(verdict: &CompilerOutput, submitted: &[Submitted<'_>], fixed: &[StageT
 fn second_pass(stage: Stage, text: &str, renamed: &[Renamed], version: i32) -> Result<Vec<u32>, Fault> {
     let ready = text::for_spirv(text, version, stage);
     let text = StageText { stage, text: &ready.text, preamble: &ready.preamble, version: ready.version };
-    let mut outcome = compile(&Request { stages: &[text], rules: Rules::SpirV, emit: stage });
+    let mut outcome = compile(&GlslangRequest { stages: &[text], rules: GlslangRules::SpirV, emit: stage });
     concessions::in_own_names(&mut outcome, renamed);
     if outcome.reached == Reached::Done && !outcome.spirv.is_empty() {
         return Ok(outcome.spirv);
@@ -267,20 +278,20 @@ fn second_pass(stage: Stage, text: &str, renamed: &[Renamed], version: i32) -> R
 }
 
 /// The homework's own stage with this text.
-fn fixed(stage: Stage, text: &CStr, interface: &Interface) -> Result<Shader, Fault> {
+fn fixed(stage: Stage, text: &CStr, interface: &LinkedInterface) -> Result<Shader, Fault> {
     let text = text.to_str().unwrap_or_default();
     let source =
         source::read_stage(stage, "fixed", text.as_bytes()).map_err(|_| unsupported("the text of a fixed stage"))?;
     let spirv = second_pass(stage, text, &[], source.version())?;
     let how = Built { stage, outputs: None, is_fixed: true, poisons: false };
     module::build(spirv, &source, interface, how).map_err(|refusal| match refusal {
-        Refusal::Fault(fault) => fault,
-        Refusal::Rejected(_) | Refusal::Stopped(_) => unsupported("a fixed stage of this size"),
+        TranslationRefusal::Fault(fault) => fault,
+        TranslationRefusal::Rejected(_) | TranslationRefusal::Stopped(_) => unsupported("a fixed stage of this size"),
     })
 }
 
 /// The assignment's fixed fragment stage, which fits the vertex shader `vertex`.
-pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<Shader, Fault> {
+pub fn fixed_stage(interface: &LinkedInterface, vertex: &str) -> Result<Shader, Fault> {
     // The compiler keeps one table of built-ins for both kinds of rules; it must be made under OpenGL's, or
     // `gl_DepthRange` is missing from it.
     let outcome = warm(interface, vertex);
@@ -298,7 +309,7 @@ pub fn fixed_stage(interface: &Interface, vertex: &str) -> Result<Shader, Fault>
 pub fn warm_up() {
     let output = Variable { name: "colour".into(), ty: "vec4".into() };
     let fragment = c"#version 410 core\nin vec4 colour; out vec4 fragment; void main() { fragment = colour; }";
-    let interface = Interface {
+    let interface = LinkedInterface {
         inputs: vec![],
         uniforms: vec![],
         output,
@@ -311,7 +322,7 @@ pub fn warm_up() {
 }
 
 /// Has the compiler build its symbol tables, which takes a tenth of a second once a process.
-pub fn warm(interface: &Interface, vertex: &str) -> CompilerOutput {
+pub fn warm(interface: &LinkedInterface, vertex: &str) -> CompilerOutput {
     let vertex = text::c_text(vertex);
     let fixed = [StageText::plain(Stage::Fragment, &interface.fragment)];
     compiled(std::iter::once(StageText::plain(Stage::Vertex, &vertex)), &fixed)

@@ -13,9 +13,9 @@ mod programs;
 mod scenes;
 
 use ggrade::cross_check::Opinion;
-use ggrade::render::{AdapterKind, Device, Frames, Renderer, Rendering, Sample, Scene};
+use ggrade::render::{AdapterKind, Device, Frames, RenderScene, Renderer, Rendering, Sample};
 use ggrade::source::{self, Source};
-use ggrade::translate::{self, Interface, Shader};
+use ggrade::translate::{self, LinkedInterface, Shader};
 use glam::{DMat4, DVec3};
 use opengl::{Canvas, Matrix, Mesh, OpenGl, Picture, Program, Version};
 use reference::Assignment;
@@ -37,7 +37,7 @@ const CAMERAS: u32 = 120;
 struct Bench {
     gl: OpenGl,
     renderer: Renderer,
-    interface: Interface,
+    interface: LinkedInterface,
     assignment: Assignment,
 }
 
@@ -45,7 +45,7 @@ impl Bench {
     fn new() -> Self {
         let gl = OpenGl::with_version(Version::Raised460).unwrap_or_else(|missing| panic!("{missing}"));
         let assignment = with_cameras(reference::assignment("ggsample06").unwrap(), CAMERAS);
-        let interface = ggrade::translate::Interface::of(&assignment).unwrap();
+        let interface = ggrade::translate::LinkedInterface::of(&assignment).unwrap();
         let fixed = translate::fixed_stage(&interface, assignment.files[0].starter_shader()).unwrap();
         let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
         let renderer = Renderer::new(device, Some(&fixed)).unwrap();
@@ -57,19 +57,19 @@ impl Bench {
         translation.unwrap_or_else(|refusal| panic!("{}: {refusal:?}", source.facts.name)).shader
     }
 
-    fn scene(&self, poses: &[Pose]) -> Scene {
+    fn scene(&self, poses: &[Pose]) -> RenderScene {
         let scene = &self.assignment.scene;
         let batch = |pose: &Pose| {
             let uniforms = self.assignment.uniform_values(&scene.moment(pose.t, pose.matrices));
-            ggrade::render::Batch::of(&self.assignment, &uniforms, &scene.triangle(pose))
+            ggrade::render::DrawCall::of(&self.assignment, &uniforms, &scene.triangle(pose))
         };
-        Scene {
+        RenderScene {
             width: scene.width,
             height: scene.height,
             background: scene.background,
             frames: poses.iter().map(|pose| vec![batch(pose)]).collect(),
             probes: Vec::new(),
-            ..Scene::default()
+            ..RenderScene::default()
         }
     }
 

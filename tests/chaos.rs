@@ -6,7 +6,7 @@ mod workers;
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, SourceInfo, Verdict};
-use ggrade::sandbox::{Pool, Settings, Submission};
+use ggrade::sandbox::{GradingTask, Pool, Settings};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use std::collections::HashSet;
@@ -99,7 +99,8 @@ fn grade_all(pool: &Pool, files: &[Vec<u8>], done: &AtomicUsize) -> Vec<(usize, 
 fn grade(pool: &Pool, name: &str, bytes: &[u8]) -> Result<Report, String> {
     let hand_in = HandIn::of_one(name, bytes);
     let order = Order { seed: 7, ..Order::default() };
-    let answer = pool.grade(Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true });
+    let answer =
+        pool.grade(GradingTask { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true });
     let mut report = answer.map(workers::timeless).map_err(|fault| fault.message.en)?;
     assert_eq!(report.source().name, name, "the report of another submission");
     let quiet = SourceInfo { name: "quiet".into(), ..report.source().clone() };

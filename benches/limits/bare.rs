@@ -2,7 +2,7 @@
 //! stage, draw every frame once, read all of them back.
 
 use crate::class::Submission;
-use ggrade::render::{Batch, Scene};
+use ggrade::render::{DrawCall, RenderScene};
 use ggrade::source;
 use ggrade::translate::{self, UniformBlock};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -20,7 +20,7 @@ const STRIDE: u32 = 256;
 pub struct Bare {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    scene: Scene,
+    scene: RenderScene,
     fragment: wgpu::ShaderModule,
     texture: wgpu::Texture,
     readback: wgpu::Buffer,
@@ -37,7 +37,7 @@ pub struct Stage {
 impl Stage {
     /// None where it has uniforms beside the homework's, or needs what devices lack.
     pub fn of(submission: &Submission) -> Option<Self> {
-        let interface = ggrade::translate::Interface::of(reference::assignment("ggsample06")?).ok()?;
+        let interface = ggrade::translate::LinkedInterface::of(reference::assignment("ggsample06")?).ok()?;
         let source = source::read(&submission.name, submission.text.as_bytes()).ok()?;
         let shader = translate::translate(&source, &interface).ok()?.shader;
         let [uniforms] = shader.uniforms.as_slice() else { return None };
@@ -50,7 +50,7 @@ impl Stage {
     }
 
     /// The matrices of all frames, as the stage reads them.
-    fn matrices(&self, frames: &[Batch]) -> Vec<u8> {
+    fn matrices(&self, frames: &[DrawCall]) -> Vec<u8> {
         let mut bytes = vec![0; STRIDE as usize * frames.len()];
         for (batch, chunk) in frames.iter().zip(bytes.chunks_mut(STRIDE as usize)) {
             for (name, matrix) in &batch.uniforms {
@@ -81,8 +81,8 @@ impl Bare {
         let descriptor = wgpu::DeviceDescriptor { required_features, ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
         let assignment = reference::assignment("ggsample06").expect("the assignment");
-        let scene = ggrade::render::Scene::of(assignment, &[&assignment.probes(1)]);
-        let interface = ggrade::translate::Interface::of(assignment).expect("the assignment is whole");
+        let scene = ggrade::render::RenderScene::of(assignment, &[&assignment.probes(1)]);
+        let interface = ggrade::translate::LinkedInterface::of(assignment).expect("the assignment is whole");
         let fragment =
             translate::fixed_stage(&interface, assignment.files[0].starter_shader()).expect("the fixed stage");
         let fragment = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -121,7 +121,7 @@ fn grade_all(pool: &Pool, submissions: &[Submission], count: usize, after: impl 
                         break;
                     }
                     let Submission { name, text } = &submissions[index % submissions.len()];
-                    let submission = sandbox::Submission {
+                    let submission = sandbox::GradingTask {
                         assignment: pool.assignment(),
                         hand_in: &HandIn::of_one(name, text.as_bytes()),
                         order: ORDER,

@@ -7,10 +7,10 @@ mod cluster;
 use crate::measure::percentile;
 use crate::table::Row;
 use cluster::Database;
-use ggrade::cli::Role;
+use ggrade::cli::ProcessRole;
 use ggrade::fault::Fault;
 use ggrade::hand_in::HandIn;
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::{Graders, Judge, files_wait};
 use ggrade::service::store::{NewSubmission, Priority, Store, Via};
@@ -44,7 +44,7 @@ struct Sleeper {
 }
 
 impl Judge for Sleeper {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         *self.began.lock().expect("no panic") = Some(Instant::now());
         std::thread::sleep(GRADING);
         let sources = ggrade::grade::sources(submission.assignment, submission.hand_in);
@@ -69,7 +69,7 @@ pub fn rows() -> Vec<Row> {
 }
 
 /// A service with one grader, as a process of its own would be.
-async fn service(database: &Database, role: Role, judge: &Arc<Sleeper>) -> Service {
+async fn service(database: &Database, role: ProcessRole, judge: &Arc<Sleeper>) -> Service {
     let database = database.location.clone();
     let config = Config { workers: 1, role, cross_check: false, database, ..Config::default() };
     let store = Store::open(&config.location().expect("a location")).await.expect("a database");
@@ -80,8 +80,8 @@ async fn service(database: &Database, role: Role, judge: &Arc<Sleeper>) -> Servi
 /// Milliseconds from the moment at which a file is stored by one process to the beginning of its grading in another one.
 async fn starts() -> Vec<f64> {
     let (database, judge) = (Database::postgres().await, Arc::new(Sleeper::default()));
-    let web = service(&database, Role::Web, &judge).await;
-    let grader = service(&database, Role::Grader, &judge).await;
+    let web = service(&database, ProcessRole::Web, &judge).await;
+    let grader = service(&database, ProcessRole::Grader, &judge).await;
     let graders = Graders::start(&grader).await.expect("graders");
     let mut waits = Vec::new();
     for number in 0..SINGLE_FILES {
@@ -122,7 +122,7 @@ async fn rate(graders: usize) -> (f64, f64) {
     let mut running = Vec::new();
     let pool = PgPool::connect(&database.location).await.expect("a database");
     for number in 0..graders {
-        let service = service(&database, Role::All, &Arc::default()).await;
+        let service = service(&database, ProcessRole::All, &Arc::default()).await;
         if number == 0 {
             for (sql, count) in [
                 ("INSERT INTO uploads (sha256, bytes) SELECT '00', 'void main() {}'::bytea WHERE $1 > 0", 1),

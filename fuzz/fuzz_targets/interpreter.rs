@@ -4,7 +4,7 @@
 #![no_main]
 
 use ggrade::cross_check::{self, Opinion};
-use ggrade::render::{AdapterKind, Batch, Device, Renderer, Scene};
+use ggrade::render::{AdapterKind, Device, DrawCall, RenderScene, Renderer};
 use ggrade::source;
 use ggrade::translate;
 use ggrade_fuzz::{INTERFACE, assignment, program};
@@ -58,17 +58,17 @@ fn agrees(text: &str) {
     if rendering.ran_out.is_some() {
         return;
     }
-    let batches: Vec<&Batch> = scene.frames.iter().flatten().collect();
+    let batches: Vec<&DrawCall> = scene.frames.iter().flatten().collect();
     let samples: Vec<_> = rendering.frame_samples.iter().map(Vec::as_slice).collect();
     let checked = cross_check::check(&source.text, &INTERFACE.output.name, &batches, &samples);
     assert_ne!(checked.opinion, Opinion::Differs, "{checked:?}\n{text}");
 }
 
 /// Two draws of six vertices that no assignment has, with matrices whose elements are all different.
-fn scene() -> Scene {
+fn scene() -> RenderScene {
     // Exact in f32, as all that a draw is given.
     let number = |seed: usize| f64::from((seed * 37 % 101) as f32 / 25.0 - 2.0);
-    let draw = |draw: usize| Batch {
+    let draw = |draw: usize| DrawCall {
         uniforms: ["mw", "mc", "mg"]
             .into_iter()
             .enumerate()
@@ -85,8 +85,8 @@ fn scene() -> Scene {
                 (name.into(), Values { kind: Type::vector(3), numbers })
             })
             .collect(),
-        ..Batch::default()
+        ..DrawCall::default()
     };
     let frames = vec![vec![draw(0)], vec![draw(1)]];
-    Scene { width: 4, height: 4, frames, ..Scene::default() }
+    RenderScene { width: 4, height: 4, frames, ..RenderScene::default() }
 }

@@ -1,7 +1,7 @@
 //! Programs that compile, through all stages before the driver: the module with gate, fuel and capture in it is valid.
 #![no_main]
 
-use ggrade::translate::{Refusal, translate};
+use ggrade::translate::{TranslationRefusal, translate};
 use ggrade_fuzz::{INTERFACE, check_module, program};
 use libfuzzer_sys::fuzz_target;
 
@@ -10,8 +10,8 @@ fuzz_target!(|bytes: &[u8]| {
     let source = ggrade::source::read("a.vert", text.as_bytes()).expect("plain ASCII");
     match translate(&source, &INTERFACE) {
         Ok(translation) => check_module(&translation, &text),
-        Err(Refusal::Rejected(diagnostics)) => panic!("{}\n{text}", diagnostics[0].message.en),
-        Err(Refusal::Stopped(_)) => {}
-        Err(Refusal::Fault(fault)) => panic!("{}\n{text}", fault.message.en),
+        Err(TranslationRefusal::Rejected(diagnostics)) => panic!("{}\n{text}", diagnostics[0].message.en),
+        Err(TranslationRefusal::Stopped(_)) => {}
+        Err(TranslationRefusal::Fault(fault)) => panic!("{}\n{text}", fault.message.en),
     }
 });

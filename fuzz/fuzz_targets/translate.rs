@@ -2,7 +2,7 @@
 //! place in the file.
 #![no_main]
 
-use ggrade::translate::{Refusal, translate};
+use ggrade::translate::{TranslationRefusal, translate};
 use ggrade_fuzz::{INTERFACE, check_diagnostics, check_module, written};
 use libfuzzer_sys::fuzz_target;
 
@@ -13,11 +13,11 @@ fuzz_target!(|bytes: &[u8]| {
             check_diagnostics(&translation.diagnostics, source.line_count());
             check_module(&translation, &source.text);
         }
-        Err(Refusal::Rejected(diagnostics) | Refusal::Stopped(diagnostics)) => {
+        Err(TranslationRefusal::Rejected(diagnostics) | TranslationRefusal::Stopped(diagnostics)) => {
             assert!(!diagnostics.is_empty());
             check_diagnostics(&diagnostics, source.line_count());
             written::check(bytes, Some(&source), &diagnostics);
         }
-        Err(Refusal::Fault(fault)) => assert!(!fault.message.en.is_empty()),
+        Err(TranslationRefusal::Fault(fault)) => assert!(!fault.message.en.is_empty()),
     }
 });

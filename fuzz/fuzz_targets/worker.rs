@@ -5,7 +5,7 @@
 
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
-use ggrade::sandbox::{Pool, Settings, Submission};
+use ggrade::sandbox::{Pool, Settings, GradingTask};
 use ggrade_fuzz::program;
 use libfuzzer_sys::fuzz_target;
 use std::sync::LazyLock;
@@ -26,7 +26,7 @@ fuzz_target!(|bytes: &[u8]| {
     let order = Order { seed: 1, ..Order::default() };
     let grade = || {
         let start = Instant::now();
-        let answer = POOL.grade(Submission { assignment: POOL.assignment(), hand_in: &HandIn::of_one("a.vert", file), order, wants_frames: true });
+        let answer = POOL.grade(GradingTask { assignment: POOL.assignment(), hand_in: &HandIn::of_one("a.vert", file), order, wants_frames: true });
         (answer, start.elapsed())
     };
     let (answer, took) = grade();

@@ -4,7 +4,7 @@ pub mod program;
 pub mod written;
 
 use ggrade::source::Source;
-use ggrade::translate::{Interface, Translation};
+use ggrade::translate::{LinkedInterface, Translation};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::sync::LazyLock;
 
@@ -14,8 +14,8 @@ pub fn assignment() -> &'static reference::Assignment {
 }
 
 /// Its interface.
-pub static INTERFACE: LazyLock<Interface> = LazyLock::new(|| {
-    let interface = ggrade::translate::Interface::of(assignment()).expect("complete");
+pub static INTERFACE: LazyLock<LinkedInterface> = LazyLock::new(|| {
+    let interface = ggrade::translate::LinkedInterface::of(assignment()).expect("complete");
     // The compiler's tables are made under OpenGL's rules first, as a worker does.
     ggrade::translate::warm(&interface, &assignment().files[0].starter);
     interface

@@ -4,7 +4,7 @@ use ggrade::batch::shared_answers::HandOut;
 use ggrade::diagnostic::Diagnostic;
 use ggrade::hand_in::HandIn;
 use ggrade::language::Language;
-use ggrade::report::html::{Lines, Part};
+use ggrade::report::html::{LineLinks, ReportFragment};
 use ggrade::report::{Verdict, json, text};
 use ggrade::source::Source;
 use std::sync::LazyLock;
@@ -29,8 +29,8 @@ pub fn check(bytes: &[u8], source: Option<&Source>, diagnostics: &[Diagnostic]) 
         assert!(!shown.contains(|c: char| c.is_control() && c != '\n'), "{shown:?}");
         let read: serde_json::Value = serde_json::from_str(&json::render(&report, language)).expect("JSON");
         assert_eq!(read["verdict"], "rejected");
-        let lines = Lines::of(sources_read);
-        let part = Part {
+        let lines = LineLinks::of(sources_read);
+        let part = ReportFragment {
             assignment: crate::assignment(),
             report: &report,
             source: lines,

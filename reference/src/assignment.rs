@@ -6,14 +6,14 @@ mod error;
 use crate::accepted::{AcceptedAnswer, Reading};
 use crate::advice::Advice;
 use crate::derived::{Derived, is_derived};
-use crate::equation::{Equation, Reads, Variant};
+use crate::equation::{Equation, EquationVariant, Reads};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::free::Free;
 use crate::host::HostArray;
 use crate::interpreter::{Texture, Type};
 pub use crate::manifest::{RubricLine, Stage, Task};
-use crate::mistake::{Form, FoundMistake, Mistake};
+use crate::mistake::{FoundMistake, Mistake, MistakeForm};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
@@ -65,7 +65,7 @@ pub struct Assignment {
     /// What it is worth.
     pub rubric: Vec<RubricLine>,
     /// For each line of the rubric the solution with 0 for the definition that it judges, where that is a part of what is seen.
-    pub(crate) terms: Vec<Option<Form>>,
+    pub(crate) terms: Vec<Option<MistakeForm>>,
     /// For each line of the rubric the solution without what the line judges, where that is known.
     pub features: Vec<Option<Feature>>,
     /// What goes wrong.
@@ -286,7 +286,7 @@ impl Assignment {
 
     /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
     /// term of the colour is the mistake's own affair.
-    pub(crate) fn reaches(&self, form: &Form, line: &RubricLine) -> bool {
+    pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {
         let equation = &self.equation;
         let Some(judged) = equation.index(&line.judges) else { return true };
         if !equation.depends(equation.colour, judged) {
@@ -332,7 +332,7 @@ impl Assignment {
     }
 
     /// The equation with these mistakes in it; `None` if one is not known or has no such form.
-    pub fn variant(&self, mistakes: &[FoundMistake]) -> Option<Variant<'_>> {
+    pub fn variant(&self, mistakes: &[FoundMistake]) -> Option<EquationVariant<'_>> {
         if let Some(derived) = mistakes.iter().find_map(|found| self.deriving(&found.id)) {
             return derived.assignment.variant(mistakes);
         }

@@ -10,8 +10,8 @@ mod wording;
 
 use crate::assignment::RubricLine;
 use crate::equation::{Equation, Reads};
-use crate::interpreter::{Draft, FREE, Operator, Slip, Stage};
-use crate::mistake::{Form, FoundMistake, FreeParameter, Mistake, Override};
+use crate::interpreter::{DefinitionSlip, Draft, FREE, Operator, Stage};
+use crate::mistake::{DefinitionOverride, FoundMistake, FreeParameter, Mistake, MistakeForm};
 use crate::probes::ProbeSet;
 use crate::{Assignment, Value};
 use std::collections::BTreeMap;
@@ -184,7 +184,7 @@ fn places(probes: &ProbeSet) -> Vec<(Vec<Value>, Vec<Value>)> {
 
 /// What stands in a text that takes other components than the solution: one of them by itself, or several in another order. A
 /// constant may equal them by chance.
-fn components(forms: &[Form]) -> Vec<String> {
+fn components(forms: &[MistakeForm]) -> Vec<String> {
     const SINGLE: [&str; 16] =
         [".x", ".y", ".z", ".w", ".r", ".g", ".b", ".a", ".s", ".t", ".p", ".q", "[0]", "[1]", "[2]", "[3]"];
     const SEVERAL: [&str; 5] = [".xzy", ".yxz", ".zyx", ".yzx", ".zxy"];
@@ -202,7 +202,7 @@ fn components(forms: &[Form]) -> Vec<String> {
 }
 
 /// The slips of every definition that the colour depends on, and the equation in whose registers they are computed.
-fn slips(assignment: &Assignment) -> Option<(Vec<(usize, Slip)>, Equation)> {
+fn slips(assignment: &Assignment) -> Option<(Vec<(usize, DefinitionSlip)>, Equation)> {
     let file = assignment.files.first()?;
     let constants: Vec<&str> = assignment.constants.iter().map(|constant| constant.name.as_str()).collect();
     let mut draft = Draft::read(&file.solution.text, Stage::from(file.stage), &constants).ok()?;
@@ -219,8 +219,8 @@ fn slips(assignment: &Assignment) -> Option<(Vec<(usize, Slip)>, Equation)> {
 }
 
 /// One mistake for each operator and definition, the plainer operators and the later definitions first.
-fn mistakes(assignment: &Assignment, slips: Vec<(usize, Slip)>) -> Vec<Mistake> {
-    let mut grouped: BTreeMap<(Operator, usize), Vec<Slip>> = BTreeMap::new();
+fn mistakes(assignment: &Assignment, slips: Vec<(usize, DefinitionSlip)>) -> Vec<Mistake> {
+    let mut grouped: BTreeMap<(Operator, usize), Vec<DefinitionSlip>> = BTreeMap::new();
     let last = assignment.equation.definitions.len();
     for (definition, slip) in slips {
         // What is the same everywhere is added to what is computed first: there it changes nothing else.
@@ -233,7 +233,7 @@ fn mistakes(assignment: &Assignment, slips: Vec<(usize, Slip)>) -> Vec<Mistake> 
         };
         grouped.entry((slip.operator, place)).or_default().push(slip);
     }
-    let mistake = |((operator, place), slips): ((Operator, usize), Vec<Slip>)| {
+    let mistake = |((operator, place), slips): ((Operator, usize), Vec<DefinitionSlip>)| {
         let definition = if operator == Operator::Shifted { place % last } else { last - place };
         let mut mistake = wording::mistake(assignment, operator, definition, &slips);
         mistake.forms = slips.into_iter().map(|slip| form(definition, slip)).collect();
@@ -246,9 +246,9 @@ fn mistakes(assignment: &Assignment, slips: Vec<(usize, Slip)>) -> Vec<Mistake> 
     grouped.into_iter().map(mistake).collect()
 }
 
-fn form(definition: usize, slip: Slip) -> Form {
-    let Slip { text, is_free, formula, .. } = slip;
-    Form { overrides: vec![Override { definition, text, formula }], free: is_free }
+fn form(definition: usize, slip: DefinitionSlip) -> MistakeForm {
+    let DefinitionSlip { text, is_free, formula, .. } = slip;
+    MistakeForm { overrides: vec![DefinitionOverride { definition, text, formula }], free: is_free }
 }
 
 /// What a number that is free in an operator's forms may be.

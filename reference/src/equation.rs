@@ -1,7 +1,7 @@
 //! What a right answer computes: the definitions of the solution, in their order, with any of them replaced.
 
 use crate::interpreter::{Formula, Registers, Sheet, Stage, Type};
-use crate::mistake::Form;
+use crate::mistake::MistakeForm;
 use crate::probes::Region;
 use crate::value;
 use crate::{Text, Value};
@@ -79,7 +79,7 @@ pub struct Equation {
 
 /// The equation with some definitions replaced.
 #[derive(Clone, Debug)]
-pub struct Variant<'a> {
+pub struct EquationVariant<'a> {
     pub(crate) equation: &'a Equation,
     pub(crate) formulas: Vec<&'a Formula>,
     /// For each definition the free parameter of what replaces it; NaN if there is none.
@@ -185,8 +185,8 @@ impl Equation {
     }
 
     /// The equation as it stands.
-    pub fn right(&self) -> Variant<'_> {
-        Variant {
+    pub fn right(&self) -> EquationVariant<'_> {
+        EquationVariant {
             equation: self,
             formulas: self.definitions.iter().map(|d| &d.formula).collect(),
             parameters: vec![f64::NAN; self.definitions.len()],
@@ -195,9 +195,9 @@ impl Equation {
     }
 }
 
-impl<'a> Variant<'a> {
+impl<'a> EquationVariant<'a> {
     /// The same with what a form replaces, and a number for what is free in it.
-    pub(crate) fn with(mut self, form: &'a Form, parameter: f64) -> Self {
+    pub(crate) fn with(mut self, form: &'a MistakeForm, parameter: f64) -> Self {
         for replaced in &form.overrides {
             self.formulas[replaced.definition] = &replaced.formula;
             self.parameters[replaced.definition] = parameter;
@@ -206,7 +206,7 @@ impl<'a> Variant<'a> {
     }
 
     /// Takes back what forms replace, and replaces what another one does.
-    pub(crate) fn instead(&mut self, form: Option<&'a Form>, parameter: f64) {
+    pub(crate) fn instead(&mut self, form: Option<&'a MistakeForm>, parameter: f64) {
         for (at, definition) in self.equation.definitions.iter().enumerate() {
             (self.formulas[at], self.parameters[at]) = (&definition.formula, f64::NAN);
         }
@@ -255,7 +255,7 @@ impl<'a> Variant<'a> {
     }
 }
 
-impl Variant<'_> {
+impl EquationVariant<'_> {
     /// The first of these regions in which the vertex lies that was computed last.
     pub(crate) fn first_region(&self, regions: &[Region]) -> Option<usize> {
         let Equation { sheet, .. } = self.equation;

@@ -2,14 +2,14 @@
 
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
-use crate::mistake::Form;
+use crate::mistake::MistakeForm;
 use crate::probes::ProbeSet;
 
 /// The solution without what a line judges.
 #[derive(Clone, Debug)]
 pub enum Feature {
     /// Its equation with a definition that is 0.
-    Term(Form),
+    Term(MistakeForm),
     /// A program of its own.
     Program(AcceptedAnswer),
 }

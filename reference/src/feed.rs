@@ -4,7 +4,7 @@ mod bounds;
 mod expression;
 
 pub use bounds::Bounds;
-pub use expression::Expression;
+pub use expression::FeedExpression;
 
 use crate::Value;
 use crate::interpreter::{Scalar, Type};
@@ -21,7 +21,7 @@ pub enum Feed {
     /// It is always the same.
     Constant(Value),
     /// It is computed for each moment.
-    Expression(Expression),
+    Expression(FeedExpression),
     /// It is a sampler of the texture with this number.
     Texture(usize),
     /// It is a sampler of the texture that is drawn before each picture.

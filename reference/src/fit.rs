@@ -18,8 +18,8 @@ mod views;
 pub use alternatives::Alternatives;
 pub use derived::explain_derived;
 pub use factor::judge_factor;
-pub use features::{Cell, FEWEST, Footprints, Judged, alike, judge_features, program_of};
-pub use parts::{Part, Parts, explain_parts};
+pub use features::{FEWEST, Footprints, JudgedLine, ProbeChannel, alike, judge_features, program_of};
+pub use parts::{FeatureDefect, FeatureExplanation, explain_parts};
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;

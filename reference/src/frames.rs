@@ -1,10 +1,10 @@
 //! Pictures of the animation, as a right answer or a known mistake draws them.
 
-use crate::equation::{Reads, Variant};
+use crate::equation::{EquationVariant, Reads};
 use crate::feature::Feature;
 use crate::interpreter::{NotedLookup, Program, Texels};
 use crate::mistake::FoundMistake;
-use crate::pipeline::{Pipeline, Vertices, positions, scalars};
+use crate::pipeline::{Pipeline, ShadedVertices, positions, scalars};
 use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
 use crate::scene::{Instance, Pose};
 use crate::shading::{Scenery, ShadedDraw};
@@ -18,7 +18,7 @@ pub(crate) enum VertexStage<'a> {
     /// A program.
     Program(&'a Program),
     /// The equation with some definitions replaced, and with the value of a definition in place of the colour.
-    Equation(&'a Variant<'a>, usize),
+    Equation(&'a EquationVariant<'a>, usize),
 }
 
 impl Assignment {
@@ -34,13 +34,13 @@ impl Assignment {
     }
 
     /// The picture that `variant` of a vertex stage's equation draws at `pose`.
-    pub fn frame(&self, pose: &Pose, variant: &Variant<'_>) -> Frame {
+    pub fn frame(&self, pose: &Pose, variant: &EquationVariant<'_>) -> Frame {
         self.picture(pose, &self.pipeline, VertexStage::Equation(variant, self.equation.colour))
     }
 
     /// The picture of one term: the definition called `term` in place of the colour. `None` if there is no such definition of
     /// a vertex stage.
-    pub fn term_frame(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Frame> {
+    pub fn term_frame(&self, pose: &Pose, variant: &EquationVariant<'_>, term: &str) -> Option<Frame> {
         if self.equation.reads != Reads::Attributes {
             return None;
         }
@@ -68,7 +68,7 @@ impl Assignment {
         }
     }
 
-    fn frames_of(&self, variant: &Variant<'_>) -> Option<Vec<Frame>> {
+    fn frames_of(&self, variant: &EquationVariant<'_>) -> Option<Vec<Frame>> {
         (self.equation.reads == Reads::Attributes).then(|| self.at_all_poses(|pose| self.frame(pose, variant)))
     }
 
@@ -77,7 +77,7 @@ impl Assignment {
     }
 
     /// The triangles of that picture, with the term in place of the colour.
-    pub fn term_corners(&self, pose: &Pose, variant: &Variant<'_>, term: &str) -> Option<Vec<[ClipVertex; 3]>> {
+    pub fn term_corners(&self, pose: &Pose, variant: &EquationVariant<'_>, term: &str) -> Option<Vec<[ClipVertex; 3]>> {
         let shown = self.equation.index(term).filter(|_| self.equation.reads == Reads::Attributes)?;
         let mut corners = Vec::new();
         for Instance { draw, moment } in self.scene.instances(pose) {
@@ -205,22 +205,22 @@ impl Assignment {
         uniforms: &[Value],
         pipeline: &Pipeline,
         stage: VertexStage<'_>,
-    ) -> Vertices {
+    ) -> ShadedVertices {
         let mesh = &instance.draw.mesh;
         let count = mesh.vertices.len();
         match stage {
             VertexStage::Program(program) => {
                 let Some(outputs) = self.run_vertices(program, uniforms, &mesh.vertices) else {
-                    return Vertices {
+                    return ShadedVertices {
                         positions: vec![DVec4::NAN; count],
                         varyings: vec![vec![f64::NAN; count]; pipeline.width()],
                     };
                 };
                 let varyings = pipeline.varyings.iter().flat_map(|varying| scalars(&outputs, varying.output)).collect();
-                Vertices { positions: positions(&outputs, count), varyings }
+                ShadedVertices { positions: positions(&outputs, count), varyings }
             }
             VertexStage::Equation(variant, shown) => {
-                let mut vertices = Vertices {
+                let mut vertices = ShadedVertices {
                     positions: Vec::with_capacity(count),
                     varyings: vec![Vec::with_capacity(count); pipeline.width()],
                 };
@@ -258,7 +258,7 @@ impl Pipeline {
 }
 
 /// For each vertex the first one that is the same, number by number.
-fn same(vertices: &Vertices) -> Vec<u32> {
+fn same(vertices: &ShadedVertices) -> Vec<u32> {
     let mut first: HashMap<Vec<u64>, u32> = HashMap::new();
     let numbers = |vertex: usize| {
         let position = vertices.positions[vertex].to_array().into_iter();

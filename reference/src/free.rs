@@ -5,9 +5,9 @@
 
 use crate::assignment::Uniform;
 use crate::feed::Feed;
-use crate::interpreter::{Program, Type, Variable};
+use crate::interpreter::{Program, ProgramVariable, Type};
 use crate::pipeline::Pipeline;
-use crate::probes::{Group, Probe, ProbeSet, Shown};
+use crate::probes::{Probe, ProbeGroup, ProbeOutput, ProbeSet};
 use crate::scene::Moment;
 use crate::{Assignment, Text, Value};
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub struct Free {
 
 /// A uniform of a student's program, and what it is taken for.
 #[derive(Clone, Debug)]
-pub struct Taken<'a> {
+pub struct RecognisedUniform<'a> {
     /// Its name in the student's files.
     pub name: String,
     /// What it is.
@@ -45,8 +45,13 @@ const TOLERANCE: f64 = 2e-3;
 
 impl Assignment {
     /// What the uniforms of a student's program are that the homework does not know. `probes` decide where there are several ways.
-    pub fn taken(&self, vertex: &Arc<Program>, fragment: &Arc<Program>, probes: &ProbeSet) -> Vec<Taken<'_>> {
-        let mut added: Vec<&Variable> = Vec::new();
+    pub fn taken(
+        &self,
+        vertex: &Arc<Program>,
+        fragment: &Arc<Program>,
+        probes: &ProbeSet,
+    ) -> Vec<RecognisedUniform<'_>> {
+        let mut added: Vec<&ProgramVariable> = Vec::new();
         for uniform in vertex.uniforms().iter().chain(fragment.uniforms()) {
             let is_known =
                 self.interface.uniforms.iter().any(|own| own.path == uniform.name && own.kind == uniform.kind)
@@ -61,7 +66,7 @@ impl Assignment {
         let way = |mut number: usize| {
             let mut taken = Vec::new();
             for (own, may_be) in added.iter().zip(&may_be) {
-                taken.push(Taken { name: own.name.clone(), as_what: may_be[number % may_be.len()] });
+                taken.push(RecognisedUniform { name: own.name.clone(), as_what: may_be[number % may_be.len()] });
                 number /= may_be.len();
             }
             taken
@@ -71,11 +76,12 @@ impl Assignment {
         // What does not fit at a few probes need not be run at all of them.
         let (_, few) = probes.part(FEW_GROUPS);
         let extended = self.with(&way(0));
-        let right = |taken: &[Taken<'_>], probes: &ProbeSet| -> usize {
+        let right = |taken: &[RecognisedUniform<'_>], probes: &ProbeSet| -> usize {
             let given = extended.probes_given(probes, taken.iter().map(|taken| taken.as_what));
             let Some(shown) = extended.shown_once(&pipeline, &given) else { return 0 };
-            let is_right =
-                |(probe, shown): &(&Probe, &Shown)| (probe.colour - shown.colour).abs().max_element() <= TOLERANCE;
+            let is_right = |(probe, shown): &(&Probe, &ProbeOutput)| {
+                (probe.colour - shown.colour).abs().max_element() <= TOLERANCE
+            };
             probes.iter().zip(&shown).filter(is_right).count()
         };
         let open = may_be.iter().filter(|may_be| may_be.len() > 1).count();
@@ -95,7 +101,7 @@ impl Assignment {
     }
 
     /// The homework, which sets these uniforms as well. Two may have one name, and different types.
-    pub fn with(&self, taken: &[Taken<'_>]) -> Self {
+    pub fn with(&self, taken: &[RecognisedUniform<'_>]) -> Self {
         let mut other = self.clone();
         other.interface.uniforms.extend(taken.iter().map(|taken| Uniform {
             path: taken.name.clone(),
@@ -129,7 +135,7 @@ impl Assignment {
         theirs
     }
 
-    pub(crate) fn moment_of(&self, group: &Group) -> Moment {
+    pub(crate) fn moment_of(&self, group: &ProbeGroup) -> Moment {
         Moment { pass: group.pass, ..self.scene.moment(group.t, group.matrices) }
     }
 }

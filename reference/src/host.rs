@@ -11,10 +11,10 @@ mod token;
 use crate::assignment::both;
 use crate::probes::ProbeSet;
 use crate::{Assignment, Text};
-use expression::{Expression, Reader};
-use found::{Found, Values};
+use expression::{HostExpression, Reader};
+use found::{FoundArray, NumberTokens};
 use std::collections::{BTreeMap, BTreeSet};
-use token::{Token, tokens};
+use token::{HostToken, tokens};
 
 /// The line of the homework's shader in whose place the numbers are put.
 pub const MARK: &str = "// ggrade: numbers";
@@ -51,7 +51,7 @@ pub struct Notice {
 
 /// What is read of a program.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Listing {
+pub struct ProgramListing {
     /// The homework's shader with the numbers in it.
     pub shader: String,
     /// The numbers that are written, without the sign.
@@ -64,7 +64,7 @@ pub struct Listing {
 
 /// Why a program cannot be read.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unreadable {
+pub struct UnreadableProgram {
     /// The line that is at fault, from 1; none where something is missing.
     pub line: Option<u32>,
     /// What is wrong.
@@ -73,7 +73,7 @@ pub struct Unreadable {
     pub hint: Option<Text>,
 }
 
-impl Unreadable {
+impl UnreadableProgram {
     fn at(line: u32, message: Text) -> Self {
         Self { line: Some(line), message, hint: None }
     }
@@ -113,19 +113,19 @@ impl HostArray {
     ///
     /// # Errors
     /// Why the numbers cannot be had, for a student.
-    pub fn read(&self, text: &str) -> Result<Listing, Unreadable> {
+    pub fn read(&self, text: &str) -> Result<ProgramListing, UnreadableProgram> {
         let tokens = tokens(text);
-        let Found { first, last, values, is_transposed } = found::array(self, &tokens)?;
+        let FoundArray { first, last, values, is_transposed } = found::array(self, &tokens)?;
         let mut reader = Reader::new(self, &tokens);
         let mut numbers = Vec::new();
-        for Values { at, line, end } in values {
+        for NumberTokens { at, line, end } in values {
             numbers.push((line, reader.read(at, end)?));
         }
         if is_transposed {
             let side = self.count.isqrt();
             numbers = (0..self.count).map(|at| numbers[at % side * side + at / side].clone()).collect();
         }
-        let mut placed: Vec<(u32, usize, &Expression)> =
+        let mut placed: Vec<(u32, usize, &HostExpression)> =
             numbers.iter().enumerate().map(|(at, (line, number))| (*line, at, number)).collect();
         placed.sort_by_key(|(line, at, _)| (*line, *at));
         let [before, behind] = &self.shader;
@@ -140,7 +140,7 @@ impl HostArray {
         };
         let first = placed.first().map_or(first, |(line, ..)| first.min(*line));
         if first < 2 {
-            return Err(Unreadable {
+            return Err(UnreadableProgram {
                 line: Some(first),
                 message: both(
                     "The array stands on the first line: this is a part of the program.",
@@ -162,7 +162,7 @@ impl HostArray {
         let mut literals = Vec::new();
         let mut names = BTreeSet::new();
         numbers.iter().for_each(|(_, number)| number.mention(&mut literals, &mut names));
-        Ok(Listing { shader, literals, names, notices: self.notices(&tokens) })
+        Ok(ProgramListing { shader, literals, names, notices: self.notices(&tokens) })
     }
 
     /// Whether a text has the array at all.
@@ -170,13 +170,13 @@ impl HostArray {
         found::array(self, &tokens(text)).is_ok()
     }
 
-    fn notices(&self, all: &[Token<'_>]) -> Vec<(Option<u32>, Text)> {
+    fn notices(&self, all: &[HostToken<'_>]) -> Vec<(Option<u32>, Text)> {
         let mut said = Vec::new();
         for notice in &self.notices {
             let mut places = notice.code.iter().filter_map(|code| {
                 let wanted = tokens(code);
                 let is_it =
-                    |window: &[Token<'_>]| window.iter().zip(&wanted).all(|(own, wanted)| own.text == wanted.text);
+                    |window: &[HostToken<'_>]| window.iter().zip(&wanted).all(|(own, wanted)| own.text == wanted.text);
                 all.windows(wanted.len().max(1)).find(|window| is_it(window)).map(|window| window[0].line)
             });
             match places.next() {
@@ -205,7 +205,7 @@ impl HostArray {
 impl Assignment {
     /// The places of the uniforms that a program has as numbers, among those for which its array may name something: what it does not
     /// name, and what it names and has as a number as well. A right answer is right only as long as they stay as they are.
-    pub fn written_in(&self, array: &HostArray, listing: &Listing) -> Vec<usize> {
+    pub fn written_in(&self, array: &HostArray, listing: &ProgramListing) -> Vec<usize> {
         let uniforms = &self.interface.uniforms;
         let is_uniform = |name: &String| uniforms.iter().any(|uniform| uniform.path == *name);
         if !listing.names.iter().all(is_uniform) {

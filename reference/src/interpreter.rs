@@ -27,7 +27,7 @@
 //! report has to name.
 //!
 //! # What is undefined
-//! Where GLSL leaves a value open, a lane gets one and a [`Cause`] beside it, which goes wherever the value goes: an
+//! Where GLSL leaves a value open, a lane gets one and a [`UndefinedCause`] beside it, which goes wherever the value goes: an
 //! output says that it is undefined only where such a value reaches it. Where an undefined value decides which statements
 //! run, or where something is written, all outputs of the lane are undefined.
 //!
@@ -54,12 +54,14 @@ mod types;
 #[cfg(test)]
 mod tests;
 
-pub use change::{FREE, Ingredients, Operator, ProgramSlip, Repair, Repairable, program_slips};
-pub use code::{Interpolation, Variable};
-pub use compile::{Draft, Slip};
+pub use change::{FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, program_slips};
+pub use code::{Interpolation, ProgramVariable};
+pub use compile::{DefinitionSlip, Draft};
 pub use nature::{Copied, Nature};
-pub use run::{Cause, Column, FUEL, Mismatch, NotedLookup, Outputs, Precision, Prepared, Run, Stopped, Undefined};
-pub use sheet::{Cell, Formula, Registers, Sheet, Stored};
+pub use run::{
+    Column, FUEL, Mismatch, NotedLookup, Outputs, Precision, Prepared, Run, Stopped, Undefined, UndefinedCause,
+};
+pub use sheet::{Cell, Formula, Registers, Sheet, StoredOutput};
 pub use syntax::Binary;
 pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
@@ -178,29 +180,29 @@ impl Program {
     }
 
     /// The uniforms that can be set, each part of a structure, array or block by its path.
-    pub fn uniforms(&self) -> &[Variable] {
+    pub fn uniforms(&self) -> &[ProgramVariable] {
         &self.code.uniforms
     }
 
     /// The value that a uniform has where the host sets none, if the program says it.
-    pub fn initial(&self, uniform: &Variable) -> Option<Vec<f64>> {
+    pub fn initial(&self, uniform: &ProgramVariable) -> Option<Vec<f64>> {
         let slots = uniform.slot..uniform.slot + uniform.kind.slots()? as code::Slot;
         let of = |slot| self.code.defaults.iter().find(|(known, _)| *known == slot).map(|(_, value)| *value);
         slots.map(of).collect()
     }
 
     /// What each sample has for itself; built-in variables only where the program uses them.
-    pub fn inputs(&self) -> &[Variable] {
+    pub fn inputs(&self) -> &[ProgramVariable] {
         &self.code.inputs
     }
 
     /// What each sample computes.
-    pub fn outputs(&self) -> &[Variable] {
+    pub fn outputs(&self) -> &[ProgramVariable] {
         &self.code.outputs
     }
 
     /// The outermost variables of `main`.
-    pub fn locals(&self) -> &[Variable] {
+    pub fn locals(&self) -> &[ProgramVariable] {
         &self.code.locals
     }
 

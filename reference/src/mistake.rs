@@ -14,7 +14,7 @@ pub struct Mistake {
     /// Fraction of a rubric line's points that is kept, for each line that the mistake touches.
     pub keeps: Vec<(String, f64)>,
     /// The ways in which it is written. Empty for a mistake that is not seen in the equation.
-    pub forms: Vec<Form>,
+    pub forms: Vec<MistakeForm>,
     /// The ways in which it is written, each as a whole program; their numbers follow those of the forms.
     pub variants: Vec<AcceptedAnswer>,
     /// The number in the forms that is not known beforehand.
@@ -79,16 +79,16 @@ pub enum Condition {
 
 /// One way of writing a mistake: definitions of the equation, replaced.
 #[derive(Clone, Debug)]
-pub struct Form {
+pub struct MistakeForm {
     /// What is replaced, in the equation's order.
-    pub overrides: Vec<Override>,
+    pub overrides: Vec<DefinitionOverride>,
     /// Whether the mistake's free parameter occurs in it.
     pub free: bool,
 }
 
 /// Another expression in place of a definition.
 #[derive(Clone, Debug)]
-pub struct Override {
+pub struct DefinitionOverride {
     /// The definition's place in the equation.
     pub definition: usize,
     /// The expression as it is written.

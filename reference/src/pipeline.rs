@@ -1,7 +1,7 @@
 //! A vertex and a fragment stage, linked: what is handed from one to the other, and what is seen of it.
 
 use crate::assignment::Interface;
-use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, Run, Texture, Variable};
+use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, ProgramVariable, Run, Texture};
 use crate::probes::at_pixel;
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
@@ -23,7 +23,7 @@ pub struct Pipeline {
     pub(crate) colour: usize,
     pub(crate) nature: Nature,
     /// Where red, green and blue come from, if they are only handed on.
-    pub(crate) copied: Option<[Handed; 3]>,
+    pub(crate) copied: Option<[PassedChannel; 3]>,
 }
 
 /// A variable between the stages.
@@ -40,7 +40,7 @@ pub(crate) struct Varying {
 
 /// A channel that is only handed on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Handed {
+pub(crate) enum PassedChannel {
     /// A scalar of the varyings.
     Varying(usize),
     /// A number.
@@ -74,14 +74,14 @@ impl Pipeline {
         }
         let colour = seen(fragment.outputs(), colour)?;
         let handed = |copied: &Copied| match copied {
-            Copied::Constant(number) => Some(Handed::Constant(*number)),
+            Copied::Constant(number) => Some(PassedChannel::Constant(*number)),
             Copied::Input(input, scalar) => {
                 let varying = varyings.iter().find(|varying| varying.input == *input)?;
-                Some(Handed::Varying(varying.scalars.start + scalar))
+                Some(PassedChannel::Varying(varying.scalars.start + scalar))
             }
         };
         let copied = fragment.copies().and_then(|copies| {
-            let channel = |at: usize| copies[colour].get(at).map_or(Some(Handed::Constant(0.0)), handed);
+            let channel = |at: usize| copies[colour].get(at).map_or(Some(PassedChannel::Constant(0.0)), handed);
             Some([channel(0)?, channel(1)?, channel(2)?])
         });
         let (vertex, nature) = (Arc::clone(vertex), fragment.nature());
@@ -114,7 +114,7 @@ impl Pipeline {
 }
 
 /// The output that the window shows.
-fn seen(outputs: &[Variable], name: Option<&str>) -> Result<usize, String> {
+fn seen(outputs: &[ProgramVariable], name: Option<&str>) -> Result<usize, String> {
     let own = || outputs.iter().enumerate().filter(|(_, output)| output.name != "gl_FragDepth");
     let found = match name {
         Some(name) => own().find(|(_, output)| output.name == name),
@@ -128,7 +128,7 @@ fn seen(outputs: &[Variable], name: Option<&str>) -> Result<usize, String> {
 
 /// The vertices of a draw after the vertex stage.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Vertices {
+pub(crate) struct ShadedVertices {
     pub positions: Vec<DVec4>,
     /// For each scalar of the varyings its value at each vertex.
     pub varyings: Vec<Vec<f64>>,
@@ -138,7 +138,7 @@ pub(crate) struct Vertices {
 const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// A column of all samples for each scalar of a variable.
-pub(crate) fn columns<'v>(variable: &Variable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {
+pub(crate) fn columns<'v>(variable: &ProgramVariable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {
     let count = variable.kind.slots().unwrap_or(0);
     let mut columns = vec![Vec::new(); count];
     for value in values {

@@ -19,7 +19,7 @@ pub(crate) use design::{Aim, Design, Normal};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-pub use spots::{Course, Crossings, Pictured, Shown, Spot, at_pixel, linear};
+pub use spots::{Crossings, EdgeDefect, Pictured, ProbeOutput, Spot, at_pixel, linear};
 use std::ops::{Range, RangeInclusive};
 
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.
@@ -80,7 +80,7 @@ pub struct Probe {
 
 /// Probes with the same uniforms.
 #[derive(Clone, Debug)]
-pub struct Group {
+pub struct ProbeGroup {
     /// The matrices, exact in f32.
     pub matrices: Matrices,
     /// Fraction of the cycle.
@@ -97,7 +97,7 @@ pub struct ProbeSet {
     /// What they were chosen from; the same seed gives the same probes.
     pub seed: u64,
     /// The cameras.
-    pub groups: Vec<Group>,
+    pub groups: Vec<ProbeGroup>,
     /// The vertices, group after group, the same number for each.
     pub probes: Vec<Probe>,
     /// How many of the last groups have one camera.
@@ -191,10 +191,10 @@ impl Assignment {
         for group in 0..count {
             let twin = (group + twins).checked_sub(count + 1);
             let drawn = match (twin, groups.last()) {
-                (Some(_), Some(before)) => Group::clone(before),
+                (Some(_), Some(before)) => ProbeGroup::clone(before),
                 _ => self.group(&mut random),
             };
-            let Group { matrices, uniforms, .. } = &drawn;
+            let ProbeGroup { matrices, uniforms, .. } = &drawn;
             eye_space.iter_mut().for_each(|eye_space| eye_space.enter(&drawn));
             for place in 0..self.probing.per_group {
                 let before = probes.len().checked_sub(self.probing.per_group).map(|at| &probes[at]);
@@ -232,7 +232,7 @@ impl Assignment {
 
     /// What probes with the same uniforms are given. Nothing is drawn that the homework has not: the same seed gives the
     /// same camera with uniforms of other kinds.
-    fn group(&self, random: &mut Random) -> Group {
+    fn group(&self, random: &mut Random) -> ProbeGroup {
         let uniforms = &self.interface.uniforms;
         let mut matrices = random_camera(random);
         let moves = uniforms.iter().any(|uniform| matches!(uniform.feed, Feed::Expression(_)));
@@ -252,7 +252,7 @@ impl Assignment {
             Some(bounds) => bounds.draw(|| random.between(0.0, 1.0)),
             None => uniform.value(&moment),
         };
-        Group { matrices, t, uniforms: uniforms.iter().map(value).collect(), pass: moment.pass }
+        ProbeGroup { matrices, t, uniforms: uniforms.iter().map(value).collect(), pass: moment.pass }
     }
 
     /// The camera in front of the homework's own model, turned and shifted: where that is stretched, so is this.

@@ -44,14 +44,14 @@ pub struct Proposal {
     /// Its files.
     pub folder: Folder,
     /// What was read and guessed, one line each.
-    pub remarks: Vec<Remark>,
+    pub remarks: Vec<ProposalRemark>,
     /// What still has to be changed before it grades.
     pub trouble: Option<AssignmentError>,
 }
 
 /// What was read or guessed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Remark {
+pub struct ProposalRemark {
     /// Whether it is sure.
     pub kind: RemarkKind,
     /// What it is.
@@ -70,7 +70,7 @@ pub enum RemarkKind {
 }
 
 /// All of a homework before it is written.
-struct Plan {
+struct FolderPlan {
     id: String,
     sources: Vec<SolutionFile>,
     starters: Vec<String>,
@@ -79,20 +79,20 @@ struct Plan {
     uniforms: Vec<UniformEntry>,
     scene: scene::Proposed,
     rubric: Vec<ProposedLine>,
-    remarks: Vec<Remark>,
+    remarks: Vec<ProposalRemark>,
 }
 
-impl Plan {
+impl FolderPlan {
     fn read(&mut self, en: impl Into<String>, ja: impl Into<String>) {
-        self.remarks.push(Remark { kind: RemarkKind::Read, text: both(en, ja) });
+        self.remarks.push(ProposalRemark { kind: RemarkKind::Read, text: both(en, ja) });
     }
 
     fn guessed(&mut self, en: impl Into<String>, ja: impl Into<String>) {
-        self.remarks.push(Remark { kind: RemarkKind::Guessed, text: both(en, ja) });
+        self.remarks.push(ProposalRemark { kind: RemarkKind::Guessed, text: both(en, ja) });
     }
 
     fn attention(&mut self, en: impl Into<String>, ja: impl Into<String>) {
-        self.remarks.push(Remark { kind: RemarkKind::Attention, text: both(en, ja) });
+        self.remarks.push(ProposalRemark { kind: RemarkKind::Attention, text: both(en, ja) });
     }
 
     fn hands_in(&self, stage: Stage) -> bool {
@@ -132,7 +132,7 @@ fn propose_with(
     test: Option<&shader_test::ShaderTest>,
 ) -> Result<Proposal, AssignmentError> {
     let sources = source::read_all(id, given)?;
-    let mut plan = Plan {
+    let mut plan = FolderPlan {
         id: id.to_owned(),
         sources,
         starters: Vec::new(),

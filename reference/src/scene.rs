@@ -13,7 +13,7 @@ pub use pass::{DepthPass, Pass};
 pub use vertex::Vertex;
 
 use crate::Value;
-use crate::feed::Expression;
+use crate::feed::FeedExpression;
 use glam::{DMat4, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -63,7 +63,7 @@ pub enum Point {
     /// It stays.
     Fixed(DVec3),
     /// It is computed.
-    Moving(Expression),
+    Moving(FeedExpression),
 }
 
 /// A mesh, where it stands, and what decides which of its pixels are seen.
@@ -89,7 +89,7 @@ pub enum Model {
     /// It turns about the y axis: by so much in a cycle.
     Turn(f64),
     /// A matrix that is computed.
-    Expression(Expression),
+    Expression(FeedExpression),
 }
 
 /// A pixel is drawn where its depth is this to the depth that is there.

@@ -1,7 +1,7 @@
 //! The colours of what is seen: the fragment stage, run for the pixels that a triangle covers.
 
 use crate::interpreter::{NotedLookup, Outputs, Program};
-use crate::pipeline::{Handed, Pipeline, Vertices, scalars, slices};
+use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, scalars, slices};
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
 use std::collections::HashMap;
@@ -29,7 +29,7 @@ pub(crate) struct Scenery<'a> {
 /// A draw after the vertex stage.
 pub(crate) struct ShadedDraw<'a> {
     pub uniforms: Vec<Value>,
-    pub vertices: Vertices,
+    pub vertices: ShadedVertices,
     pub triangles: &'a [[u32; 3]],
 }
 
@@ -96,7 +96,7 @@ impl Scenery<'_> {
     }
 
     /// The colours of a fragment stage that only hands them on.
-    fn hand_on(&self, visible: &Visible, handed: [Handed; 3], frame: &mut Frame) {
+    fn hand_on(&self, visible: &Visible, handed: [PassedChannel; 3], frame: &mut Frame) {
         let ramps: Vec<_> = visible.setups().iter().map(|setup| handed.map(|one| self.ramp(setup, one))).collect();
         let (width, height) = (f64::from(frame.width), f64::from(frame.height));
         for row in 0..frame.height as usize {
@@ -111,10 +111,10 @@ impl Scenery<'_> {
         }
     }
 
-    fn ramp(&self, setup: &Setup, handed: Handed) -> crate::rasteriser::Ramp {
+    fn ramp(&self, setup: &Setup, handed: PassedChannel) -> crate::rasteriser::Ramp {
         match handed {
-            Handed::Constant(number) => setup.ramp([number; 3], crate::interpreter::Interpolation::Flat),
-            Handed::Varying(scalar) => self.varying(setup, scalar),
+            PassedChannel::Constant(number) => setup.ramp([number; 3], crate::interpreter::Interpolation::Flat),
+            PassedChannel::Varying(scalar) => self.varying(setup, scalar),
         }
     }
 
@@ -207,7 +207,7 @@ impl Scenery<'_> {
         }
         let column =
             |of: &dyn Fn(&Setup, f64, f64) -> f64| places.iter().map(|(setup, x, y)| of(setup, *x, *y)).collect();
-        let given = |(place, input): (usize, &'p crate::interpreter::Variable)| {
+        let given = |(place, input): (usize, &'p crate::interpreter::ProgramVariable)| {
             let columns = match input.name.as_str() {
                 "gl_FragCoord" => vec![
                     column(&|_, x, _| (x + 1.0) / 2.0 * width),

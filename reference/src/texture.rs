@@ -12,7 +12,7 @@ pub use generator::{Colour, Generator};
 
 /// The texels of one picture, row by row.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture<T> {
+pub struct TexturePicture<T> {
     /// Texels of a row.
     pub width: usize,
     /// Rows.
@@ -21,7 +21,7 @@ pub struct Picture<T> {
     pub texels: Vec<[T; 4]>,
 }
 
-impl<T: Copy> Picture<T> {
+impl<T: Copy> TexturePicture<T> {
     /// The same picture with the last row first.
     pub fn flipped(mut self) -> Self {
         self.texels = self.texels.chunks_exact(self.width.max(1)).rev().flatten().copied().collect();
@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn a_flipped_picture_has_its_last_row_first() {
-        let picture = Picture { width: 2, height: 2, texels: vec![[1; 4], [2; 4], [3; 4], [4; 4]] };
+        let picture = TexturePicture { width: 2, height: 2, texels: vec![[1; 4], [2; 4], [3; 4], [4; 4]] };
         assert_eq!(picture.flipped().texels, [[3; 4], [4; 4], [1; 4], [2; 4]]);
     }
 }

@@ -4,8 +4,8 @@
 //! that is handed in, it is given exactly what the probes' own vertex stage hands over.
 
 use crate::equation::{DISCARDED, Reads};
-use crate::interpreter::trace::{Change, Trace};
-use crate::interpreter::{Outputs, Prepared, Program, Stage, Variable};
+use crate::interpreter::trace::{Trace, ValueChange};
+use crate::interpreter::{Outputs, Prepared, Program, ProgramVariable, Stage};
 use crate::pipeline::{POSITION, Pipeline, columns, scalars};
 use crate::probes::{Probe, Spot};
 use crate::{Assignment, Value};
@@ -167,7 +167,7 @@ impl<'p> Bench<'p> {
     }
 
     /// Runs it with some values changed and every value recorded: what is seen, and the traces of the stages that are handed in.
-    pub fn trace(&mut self, changes: &[Vec<Change>; 2]) -> Option<(Seen, [Option<Trace>; 2])> {
+    pub fn trace(&mut self, changes: &[Vec<ValueChange>; 2]) -> Option<(Seen, [Option<Trace>; 2])> {
         let mut traces = [None, None];
         let seen = self.go(&mut |stage, prepared| {
             let (outputs, trace) = prepared.trace(&changes[stage as usize]).ok()??;
@@ -183,7 +183,7 @@ impl<'p> Bench<'p> {
     }
 
     /// What is seen when some values of the stages are others.
-    pub fn with(&mut self, changes: &[Vec<Change>; 2]) -> Option<Seen> {
+    pub fn with(&mut self, changes: &[Vec<ValueChange>; 2]) -> Option<Seen> {
         self.go(&mut |stage, prepared| prepared.outputs(&changes[stage as usize]).ok())
     }
 
@@ -308,7 +308,7 @@ impl<'p> Bench<'p> {
     }
 }
 
-fn is_flat(output: &Variable) -> bool {
+fn is_flat(output: &ProgramVariable) -> bool {
     use crate::interpreter::{Interpolation, Scalar};
     output.interpolation == Interpolation::Flat
         || !matches!(output.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None)

@@ -18,7 +18,7 @@ fn ggsample06() -> &'static Assignment {
 /// Every form of every mistake, with a likely value for its free parameter.
 fn all_forms(assignment: &Assignment) -> Vec<FoundMistake> {
     let forms = |m: &reference::mistake::Mistake| -> Vec<FoundMistake> {
-        let found = |(form, f): (usize, &reference::mistake::Form)| FoundMistake {
+        let found = |(form, f): (usize, &reference::mistake::MistakeForm)| FoundMistake {
             id: m.id.clone(),
             form,
             parameter: m.fit.as_ref().filter(|_| f.free).map(|p| p.example),

@@ -5,9 +5,9 @@
 //! wrote inside the file stays as it is: a name in a comment is still there.
 
 use super::class::{FileLocation, Refused, Student};
-use super::folder::Folder;
+use super::folder::OutputFolder;
 use super::formats::plain::cell;
-use super::intake::{Content, Intake, StudentWork};
+use super::intake::{HandInContent, Intake, StudentWork};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::slots::Slot;
@@ -38,7 +38,7 @@ pub struct Pseudonyms {
 
 /// Who is behind a pseudonym.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Named {
+pub struct NamedStudent {
     /// The pseudonym.
     pub pseudonym: String,
     /// The name.
@@ -55,7 +55,7 @@ impl std::fmt::Debug for Pseudonyms {
 
 impl Pseudonyms {
     /// The pseudonyms of this folder; a key is made where there is none.
-    pub fn of(folder: &Folder) -> Result<Self, Fault> {
+    pub fn of(folder: &OutputFolder) -> Result<Self, Fault> {
         let bytes = match folder.read(KEY_FILE)? {
             Some(text) => parsed(&text).ok_or_else(|| broken(folder))?,
             None => {
@@ -85,9 +85,9 @@ impl Pseudonyms {
 
     /// The intake with pseudonyms for names, in the order of the pseudonyms, and whom they stand for. Every file gets
     /// the name of its slot.
-    pub fn hide(&self, intake: Intake, slots: &[Slot]) -> (Intake, Vec<Named>) {
+    pub fn hide(&self, intake: Intake, slots: &[Slot]) -> (Intake, Vec<NamedStudent>) {
         let mut taken = HashSet::new();
-        let mut hidden: Vec<(StudentWork, Named)> = Vec::new();
+        let mut hidden: Vec<(StudentWork, NamedStudent)> = Vec::new();
         for hand_in in intake.hand_ins {
             let mut round = 0;
             let letters = loop {
@@ -101,16 +101,16 @@ impl Pseudonyms {
             let pseudonym = format!("{start}-{end}");
             let path = hand_in.path();
             let StudentWork { student, content } = hand_in;
-            let named = Named { pseudonym: pseudonym.clone(), name: student.name, path };
+            let named = NamedStudent { pseudonym: pseudonym.clone(), name: student.name, path };
             let content = match content {
-                Content::Files { mut hand_in, .. } => {
+                HandInContent::Files { mut hand_in, .. } => {
                     for (file, slot) in hand_in.files.iter_mut().zip(slots) {
                         slot.name.clone_into(&mut file.name);
                     }
                     let place = |slot: &Slot| FileLocation { path: format!("{pseudonym}/{}", slot.name), local: None };
-                    Content::Files { hand_in, places: slots.iter().map(place).collect() }
+                    HandInContent::Files { hand_in, places: slots.iter().map(place).collect() }
                 }
-                Content::Nothing(_) => Content::Nothing(nothing()),
+                HandInContent::Nothing(_) => HandInContent::Nothing(nothing()),
             };
             let hand_in = StudentWork {
                 student: Student { key: letters.to_ascii_lowercase(), name: pseudonym.clone(), moodle: None },
@@ -126,7 +126,7 @@ impl Pseudonyms {
 }
 
 /// Whose pseudonym is whose, as a table for spreadsheets.
-pub fn table(named: &[Named]) -> Result<Vec<u8>, Fault> {
+pub fn table(named: &[NamedStudent]) -> Result<Vec<u8>, Fault> {
     let mut bytes = "\u{feff}".as_bytes().to_vec();
     let mut writer = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(&mut bytes);
     let rows = named.iter().map(|n| [cell(&n.pseudonym), cell(&n.name), cell(n.path.as_deref().unwrap_or_default())]);
@@ -169,7 +169,7 @@ fn left_out(number: usize) -> Refused {
     }
 }
 
-fn broken(folder: &Folder) -> Fault {
+fn broken(folder: &OutputFolder) -> Fault {
     let path = folder.at(KEY_FILE);
     let path = path.display();
     Fault::new(Text::new(
@@ -197,7 +197,7 @@ mod tests {
     fn hand_in(key: &str, name: &str) -> StudentWork {
         StudentWork {
             student: Student { key: key.into(), name: name.into(), moodle: None },
-            content: Content::Files {
+            content: HandInContent::Files {
                 hand_in: HandIn::of_one(format!("{name}.vert"), "void main() {}"),
                 places: vec![FileLocation {
                     path: format!("class.zip/{name}/{name}.vert"),
@@ -213,7 +213,7 @@ mod tests {
 
     fn intake() -> Intake {
         let mut hand_ins: Vec<_> = (0..50).map(|n| hand_in(&format!("s{n}"), &format!("tanaka{n}"))).collect();
-        hand_ins[3].content = Content::Nothing(Text::verbatim("tanaka3.docx is no shader"));
+        hand_ins[3].content = HandInContent::Nothing(Text::verbatim("tanaka3.docx is no shader"));
         let refused = vec![Refused { path: "tanaka.zip".into(), reason: Text::verbatim("tanaka") }];
         Intake { title: "tanaka".into(), hand_ins, refused }
     }
@@ -236,18 +236,18 @@ mod tests {
     #[test]
     fn a_folder_keeps_its_pseudonyms_and_another_has_others() {
         let place = tempfile::tempdir().unwrap();
-        let folder = Folder::open(place.path()).unwrap();
-        let of = |folder: &Folder| Pseudonyms::of(folder).unwrap().hide(intake(), &slots()).1;
+        let folder = OutputFolder::open(place.path()).unwrap();
+        let of = |folder: &OutputFolder| Pseudonyms::of(folder).unwrap().hide(intake(), &slots()).1;
         let first = of(&folder);
         assert_eq!(of(&folder), first);
         let other = tempfile::tempdir().unwrap();
-        assert_ne!(of(&Folder::open(other.path()).unwrap()), first);
+        assert_ne!(of(&OutputFolder::open(other.path()).unwrap()), first);
     }
 
     #[test]
     fn a_broken_key_is_no_key() {
         let place = tempfile::tempdir().unwrap();
-        let folder = Folder::open(place.path()).unwrap();
+        let folder = OutputFolder::open(place.path()).unwrap();
         for text in ["", "# nothing\n", "00", &"g".repeat(64), &"0".repeat(63), &"0".repeat(66)] {
             folder.write(KEY_FILE, text.as_bytes()).unwrap();
             assert!(Pseudonyms::of(&folder).is_err(), "{text}");

@@ -1,7 +1,7 @@
 //! What a class's grades became since an earlier grading of it: who gains, who loses, and why.
 
-use super::class::{Class, Entry, Outcome, Student};
-use super::journal::{Header, Record};
+use super::class::{Class, ClassEntry, Outcome, Student};
+use super::journal::{JournalHeader, JournalRecord};
 use super::standing::Standing;
 use crate::report::{Report, RubricLine};
 use serde::Serialize;
@@ -19,9 +19,9 @@ pub struct Changes {
     /// [`SCHEMA`].
     pub schema: &'static str,
     /// What the earlier grading was done with.
-    pub before: Header,
+    pub before: JournalHeader,
     /// What this one was done with.
-    pub after: Header,
+    pub after: JournalHeader,
     /// Who has more points, the largest gain first.
     pub gains: Vec<StudentChange>,
     /// Who has fewer points, the largest loss first.
@@ -46,16 +46,16 @@ pub struct StudentChange {
     /// Whether another file was graded; else the same file was graded otherwise.
     pub is_new_file: bool,
     /// The earlier result.
-    pub before: Grade,
+    pub before: GradeSummary,
     /// This one.
-    pub after: Grade,
+    pub after: GradeSummary,
     /// The lines of the rubric whose points or mistakes differ, where both shaders were drawn.
     pub rubric: Vec<LineChange>,
 }
 
 /// A result in short.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Grade {
+pub struct GradeSummary {
     /// What became of the file.
     pub standing: Standing,
     /// The points, where it was graded.
@@ -70,14 +70,14 @@ pub struct LineChange {
     /// Its id.
     pub id: String,
     /// The earlier points and mistake; none where there was no such line.
-    pub before: Option<Earned>,
+    pub before: Option<EarnedPoints>,
     /// These points and mistake.
-    pub after: Option<Earned>,
+    pub after: Option<EarnedPoints>,
 }
 
 /// What a line of the rubric earned.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Earned {
+pub struct EarnedPoints {
     /// Points.
     pub points: f64,
     /// The mistake that costs the others, where it is known.
@@ -86,7 +86,7 @@ pub struct Earned {
 
 impl Changes {
     /// Holds a class against an earlier journal.
-    pub fn between(before: (Header, Vec<Record>), after: &Header, class: &Class) -> Self {
+    pub fn between(before: (JournalHeader, Vec<JournalRecord>), after: &JournalHeader, class: &Class) -> Self {
         let (header, records) = before;
         let mut changes = Self {
             schema: SCHEMA,
@@ -100,7 +100,7 @@ impl Changes {
             new: Vec::new(),
             gone: Vec::new(),
         };
-        let earlier: HashMap<&str, &Record> = records.iter().map(|r| (r.student.key.as_str(), r)).collect();
+        let earlier: HashMap<&str, &JournalRecord> = records.iter().map(|r| (r.student.key.as_str(), r)).collect();
         for entry in &class.entries {
             match earlier.get(entry.student.key.as_str()) {
                 Some(record) => changes.add(record, entry),
@@ -114,8 +114,8 @@ impl Changes {
         changes
     }
 
-    fn add(&mut self, record: &Record, entry: &Entry) {
-        let (before, after) = (Grade::of(&record.outcome), Grade::of(&entry.outcome));
+    fn add(&mut self, record: &JournalRecord, entry: &ClassEntry) {
+        let (before, after) = (GradeSummary::of(&record.outcome), GradeSummary::of(&entry.outcome));
         let change = StudentChange {
             student: entry.student.clone(),
             is_new_file: record.sha256 != sha256(&entry.outcome),
@@ -151,7 +151,7 @@ impl StudentChange {
     }
 }
 
-impl Grade {
+impl GradeSummary {
     fn of(outcome: &Outcome) -> Self {
         let report = report(outcome);
         Self {
@@ -188,8 +188,8 @@ fn rubric(before: Option<&Report>, after: Option<&Report>) -> Vec<LineChange> {
     lines.filter(LineChange::differs).collect()
 }
 
-fn earned(line: &RubricLine) -> Earned {
-    Earned { points: line.points, mistake: line.mistake.clone() }
+fn earned(line: &RubricLine) -> EarnedPoints {
+    EarnedPoints { points: line.points, mistake: line.mistake.clone() }
 }
 
 impl LineChange {

@@ -54,7 +54,7 @@ pub enum Outcome {
 
 /// One student of a class.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct ClassEntry {
     /// Who.
     pub student: Student,
     /// Where the files were, in the order of the report's; none without files.
@@ -68,12 +68,12 @@ pub struct Entry {
     /// The full report as a self-contained HTML page, on disk.
     pub page: Option<PathBuf>,
     /// Whose answers are alike, the most alike first: a hint, and no verdict.
-    pub alike: Vec<Alike>,
+    pub alike: Vec<AlikeStudent>,
 }
 
 /// Somebody whose answer is like another's.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Alike {
+pub struct AlikeStudent {
     /// The student's key; of an earlier term, where the files were.
     pub key: String,
     /// How much of what the two wrote themselves is common to both.
@@ -84,7 +84,7 @@ pub struct Alike {
     pub is_earlier: bool,
 }
 
-impl Entry {
+impl ClassEntry {
     /// Keys of the others of the class who have the same code.
     pub fn shares_with(&self) -> impl Iterator<Item = &str> {
         self.alike.iter().filter(|it| it.is_same && !it.is_earlier).map(|it| it.key.as_str())
@@ -151,7 +151,7 @@ pub struct Class {
     /// Title, such as the name of the archive or folder.
     pub title: String,
     /// Everyone, in the order of the input.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<ClassEntry>,
     /// What was left out.
     pub refused: Vec<Refused>,
     /// The right picture at the class's pose, a PNG of the size of the portraits.
@@ -164,7 +164,7 @@ impl Class {
     /// The class as its students may see it, see [`Report::for_student`]: for formats whose documents are shown to them.
     pub fn for_students(&self) -> Cow<'_, Self> {
         let is_same =
-            |entry: &Entry| entry.report().is_none_or(|report| matches!(report.for_student(), Cow::Borrowed(_)));
+            |entry: &ClassEntry| entry.report().is_none_or(|report| matches!(report.for_student(), Cow::Borrowed(_)));
         if self.entries.iter().all(is_same) {
             return Cow::Borrowed(self);
         }

@@ -8,9 +8,9 @@ use sha2::{Digest, Sha256};
 
 /// What decides whether two files need but one grading.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Content([u8; 32]);
+pub struct ContentDigest([u8; 32]);
 
-impl Content {
+impl ContentDigest {
     /// Of a file that can be read as text.
     pub fn of_text(source: &Source) -> Self {
         Self::of("text", &source.text, &source.notes)
@@ -50,7 +50,7 @@ mod tests {
     #[test]
     fn other_line_ends_are_the_same_content_and_another_comment_is_not() {
         let text = "#version 410\nvoid main() { gl_Position = vec4(0); } // a\n";
-        let content = |text: &[u8]| Content::of_text(&source(text));
+        let content = |text: &[u8]| ContentDigest::of_text(&source(text));
         assert_eq!(content(text.as_bytes()), content(text.replace('\n', "\r\n").as_bytes()));
         assert_ne!(content(text.as_bytes()), content(text.replace("// a", "// b").as_bytes()));
         // UTF-16 reads as the same text, but there is something to say about it.

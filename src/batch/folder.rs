@@ -13,7 +13,7 @@ const UNFINISHED: &str = ".ggrade-";
 
 /// An output folder, held against other runs for as long as this lives.
 #[derive(Debug)]
-pub struct Folder {
+pub struct OutputFolder {
     path: PathBuf,
     _lock: File,
 }
@@ -27,7 +27,7 @@ pub enum NotOpened {
     Fault(Fault),
 }
 
-impl Folder {
+impl OutputFolder {
     /// Opens a folder, which is made where it is not there.
     pub fn open(path: &Path) -> Result<Self, NotOpened> {
         let failed = |error: io::Error| NotOpened::Fault(unwritable(path, &error));
@@ -157,10 +157,10 @@ mod tests {
     fn a_folder_has_one_run_at_a_time() {
         let place = tempfile::tempdir().unwrap();
         let path = place.path().join("new/class");
-        let first = Folder::open(&path).unwrap();
-        assert!(matches!(Folder::open(&path), Err(NotOpened::InUse)));
+        let first = OutputFolder::open(&path).unwrap();
+        assert!(matches!(OutputFolder::open(&path), Err(NotOpened::InUse)));
         drop(first);
-        Folder::open(&path).unwrap();
+        OutputFolder::open(&path).unwrap();
     }
 
     #[test]
@@ -171,7 +171,7 @@ mod tests {
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, "x").unwrap();
         }
-        let folder = Folder::open(place.path()).unwrap();
+        let folder = OutputFolder::open(place.path()).unwrap();
         assert!(!folder.has(".ggrade-abc") && !folder.has("students/.ggrade-x1"));
         assert!(folder.has("students/tanaka.html") && folder.has("mine.txt"));
     }
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn a_file_is_replaced_with_the_permissions_asked_for() {
         let place = tempfile::tempdir().unwrap();
-        let folder = Folder::open(place.path()).unwrap();
+        let folder = OutputFolder::open(place.path()).unwrap();
         folder.write("a/b.txt", b"one").unwrap();
         folder.write("a/b.txt", b"two").unwrap();
         assert_eq!(folder.read("a/b.txt").unwrap().unwrap(), b"two");

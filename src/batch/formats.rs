@@ -33,7 +33,7 @@ use clap::builder::PossibleValue;
 
 /// A format that a class is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Format {
+pub enum ClassFormat {
     /// The class on one page.
     Html,
     /// A table for spreadsheets.
@@ -64,12 +64,12 @@ pub enum Format {
     Coderunner,
 }
 
-/// Where the student's key stands in a file name of [`Format::files`] that exists once a student.
+/// Where the student's key stands in a file name of [`ClassFormat::files`] that exists once a student.
 pub const KEY: &str = "KEY";
 
 /// One format as a person chooses it.
 struct FormatRow {
-    format: Format,
+    format: ClassFormat,
     id: &'static str,
     files: &'static [&'static str],
     en: &'static str,
@@ -77,7 +77,7 @@ struct FormatRow {
 }
 
 const fn row(
-    format: Format,
+    format: ClassFormat,
     id: &'static str,
     files: &'static [&'static str],
     en: &'static str,
@@ -89,98 +89,98 @@ const fn row(
 /// In the order of the variants, which is the order in which help lists them.
 const TABLE: [FormatRow; 14] = [
     row(
-        Format::Html,
+        ClassFormat::Html,
         "html",
         &["report.html"],
         "The class on one page: everyone's picture, filters, histograms",
         "クラス全体の一覧ページ（全員の画像、絞り込み、分布）",
     ),
     row(
-        Format::Csv,
+        ClassFormat::Csv,
         "csv",
         &["grades.csv"],
         "A table for Excel and other spreadsheets",
         "Excel などの表計算ソフトで開ける成績表",
     ),
     row(
-        Format::Nbgrader,
+        ClassFormat::Nbgrader,
         "nbgrader",
         &["nbgrader.csv"],
         "The columns of `nbgrader export`",
         "`nbgrader export` と同じ列の成績表",
     ),
     row(
-        Format::Canvas,
+        ClassFormat::Canvas,
         "canvas",
         &["canvas.csv"],
         "The grades for Canvas's gradebook, which imports them",
         "Canvas の成績表にインポートする CSV",
     ),
     row(
-        Format::GradescopeGrades,
+        ClassFormat::GradescopeGrades,
         "gradescope-grades",
         &["gradescope-grades.csv"],
         "The columns of Gradescope's \"Download grades\"",
         "Gradescope の成績ダウンロードと同じ列の成績表",
     ),
     row(
-        Format::MoodleWorksheet,
+        ClassFormat::MoodleWorksheet,
         "moodle-worksheet",
         &["moodle-worksheet.csv"],
         "Moodle's offline grading worksheet with grades and comments filled in",
         "Moodle のオフライン評定ワークシートに評定とコメントを記入したもの",
     ),
     row(
-        Format::MoodleFeedback,
+        ClassFormat::MoodleFeedback,
         "moodle-feedback",
         &["moodle-feedback.zip"],
         "Everyone's report for Moodle's \"Upload feedback files in a zip\"",
         "Moodle の「複数フィードバックファイルをZIPでアップロードする」に渡す全員の採点結果",
     ),
     row(
-        Format::Gradescope,
+        ClassFormat::Gradescope,
         "gradescope",
         &["gradescope/KEY.json"],
         "Gradescope results.json, one a student",
         "Gradescope の results.json（学生ごと）",
     ),
     row(
-        Format::Github,
+        ClassFormat::Github,
         "github",
         &["github-annotations.txt", "github-summary.md"],
         "GitHub Actions: annotations at the students' lines, and a job summary",
         "GitHub Actions のアノテーションとジョブサマリー",
     ),
     row(
-        Format::ClassroomLegacy,
+        ClassFormat::ClassroomLegacy,
         "classroom-legacy",
         &["classroom-legacy/KEY.txt"],
         "GitHub Classroom's result for its grading reporter (base64), one a student",
         "GitHub Classroom の grading reporter が読む結果（base64、学生ごと）",
     ),
     row(
-        Format::Junit,
+        ClassFormat::Junit,
         "junit",
         &["junit.xml"],
         "JUnit XML: a suite a student, a case a rubric line",
         "JUnit XML（学生ごとのスイート、採点項目ごとのケース）",
     ),
     row(
-        Format::Sarif,
+        ClassFormat::Sarif,
         "sarif",
         &["report.sarif"],
         "SARIF 2.1.0: what the compiler says, at the students' lines",
         "SARIF 2.1.0（コンパイラのメッセージと学生の行番号）",
     ),
     row(
-        Format::Vpl,
+        ClassFormat::Vpl,
         "vpl",
         &["vpl/KEY.txt"],
         "Moodle VPL: comment and `Grade :=>>`, one a student",
         "Moodle VPL のコメントと `Grade :=>>`（学生ごと）",
     ),
     row(
-        Format::Coderunner,
+        ClassFormat::Coderunner,
         "coderunner",
         &["coderunner/KEY.json"],
         "Moodle CodeRunner combinator grader result, one a student",
@@ -188,7 +188,7 @@ const TABLE: [FormatRow; 14] = [
     ),
 ];
 
-impl Format {
+impl ClassFormat {
     fn row(self) -> &'static FormatRow {
         &TABLE[self as usize]
     }
@@ -230,10 +230,10 @@ impl Format {
     }
 }
 
-impl ValueEnum for Format {
+impl ValueEnum for ClassFormat {
     fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [Format; TABLE.len()] = {
-            let mut all = [Format::Html; TABLE.len()];
+        const ALL: [ClassFormat; TABLE.len()] = {
+            let mut all = [ClassFormat::Html; TABLE.len()];
             let mut index = 0;
             while index < TABLE.len() {
                 all[index] = TABLE[index].format;

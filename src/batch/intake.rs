@@ -18,7 +18,7 @@ mod tests;
 mod tree;
 mod wording;
 
-pub use limits::{Budget, Limits};
+pub use limits::{Budget, IntakeLimits};
 #[cfg(feature = "service")]
 pub(crate) use moodle::is_blind;
 pub use place::in_working_folder;
@@ -27,12 +27,12 @@ use super::class::{FileLocation, Refused, Student};
 use crate::fault::Fault;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
-use crate::slots::{Fit, Slot};
+use crate::slots::{NameFit, Slot};
 use reference::Assignment;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
-use students::{Group, Owned, Who};
-use tree::{File, Folder, Held};
+use students::{Owned, StudentFiles, Who};
+use tree::{Held, TreeFile, TreeFolder};
 
 /// What one student handed in.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,22 +40,22 @@ pub struct StudentWork {
     /// Who.
     pub student: Student,
     /// The files, or why there is nothing to grade.
-    pub content: Content,
+    pub content: HandInContent,
 }
 
 impl StudentWork {
     /// Where the files were, in one line; none without files.
     pub fn path(&self) -> Option<String> {
         match &self.content {
-            Content::Files { places, .. } => FileLocation::joined(places),
-            Content::Nothing(_) => None,
+            HandInContent::Files { places, .. } => FileLocation::joined(places),
+            HandInContent::Nothing(_) => None,
         }
     }
 }
 
 /// What can be graded of a hand-in.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Content {
+pub enum HandInContent {
     /// The files to grade, one for each slot of the homework.
     Files {
         /// Names and bytes (cut above the size that [`crate::source`] takes), in the order of the slots.
@@ -80,31 +80,31 @@ pub struct Intake {
 
 /// What is looked for, and how much is read at most.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct IntakeOptions {
     /// The files that the assignment asks for.
     pub slots: Vec<Slot>,
     /// How much is read.
-    pub limits: Limits,
+    pub limits: IntakeLimits,
 }
 
-impl Options {
+impl IntakeOptions {
     /// The options for an assignment.
     pub fn new(assignment: &Assignment) -> Self {
-        Self { slots: assignment.files.clone(), limits: Limits::default() }
+        Self { slots: assignment.files.clone(), limits: IntakeLimits::default() }
     }
 }
 
 /// Reads everything that is handed in below `inputs`: folders, archives and single files.
 ///
 /// What cannot be read, or must not be, is named in [`Intake::refused`]; the rest is there.
-pub fn read(inputs: &[PathBuf], options: &Options) -> Result<Intake, Fault> {
+pub fn read(inputs: &[PathBuf], options: &IntakeOptions) -> Result<Intake, Fault> {
     let names = place::names(inputs);
     let named: Vec<_> = inputs.iter().map(PathBuf::as_path).zip(&names).collect();
     Ok(Intake { title: place::title(inputs), ..read_named(&named, options) })
 }
 
 /// The same of one archive that somebody sent under the name `title`.
-pub fn read_archive(archive: &Path, title: &str, options: &Options) -> Intake {
+pub fn read_archive(archive: &Path, title: &str, options: &IntakeOptions) -> Intake {
     let name = format!("{title}.zip");
     Intake { title: title.into(), ..read_named(&[(archive, &name)], options) }
 }
@@ -124,10 +124,10 @@ pub enum HandInPart {
 }
 
 /// The files of one hand-in: those that are given, and those in the folders and archives among them.
-pub fn one(given: Vec<HandInPart>, options: &Options) -> Content {
+pub fn one(given: Vec<HandInPart>, options: &IntakeOptions) -> HandInContent {
     match together(given, options) {
         Ok(group) => choose::choose(&group, options),
-        Err(why) => Content::Nothing(why),
+        Err(why) => HandInContent::Nothing(why),
     }
 }
 
@@ -136,23 +136,23 @@ pub fn one(given: Vec<HandInPart>, options: &Options) -> Content {
 ///
 /// # Errors
 /// Why nothing of it is for a slot, or for which slot there are several.
-pub fn some(given: Vec<HandInPart>, asked: usize, options: &Options) -> Result<Vec<Option<HandedInFile>>, Text> {
+pub fn some(given: Vec<HandInPart>, asked: usize, options: &IntakeOptions) -> Result<Vec<Option<HandedInFile>>, Text> {
     choose::place(&together(given, options)?, asked, options)
 }
 
 /// The files that are given, and those in the folders and archives among them, as those of one person.
-fn together(given: Vec<HandInPart>, options: &Options) -> Result<Group, Text> {
+fn together(given: Vec<HandInPart>, options: &IntakeOptions) -> Result<StudentFiles, Text> {
     let mut reading = IntakeReader { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut files = Vec::new();
     let mut is_named = true;
     for given in given {
         let (name, input) = reading.given(given);
         match input {
-            Some(Input::Folder(folder)) => {
+            Some(InputPath::Folder(folder)) => {
                 is_named = false;
                 files.extend(students::owned(&name, folder));
             }
-            Some(Input::File(file)) => {
+            Some(InputPath::File(file)) => {
                 let own = name.rsplit('/').next().unwrap_or(&name).to_owned();
                 files.push(Owned { below: own.clone(), name: own, path: name, file });
             }
@@ -164,7 +164,7 @@ fn together(given: Vec<HandInPart>, options: &Options) -> Result<Group, Text> {
         return Err(Text::new(format!("{}: {en}", refused.path), format!("{}: {ja}", refused.path)));
     }
     let who = Who { name: String::new(), moodle: None, place: String::new() };
-    Ok(Group { who, files, is_named, has_online_text: false })
+    Ok(StudentFiles { who, files, is_named, has_online_text: false })
 }
 
 /// Whether a file is to be opened as an archive: documents of office programs are archives as well, and have names of
@@ -174,7 +174,7 @@ fn is_archive(name: &str, bytes: &[u8]) -> bool {
 }
 
 /// Reads inputs, each with what it is called.
-fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
+fn read_named(inputs: &[(&Path, &String)], options: &IntakeOptions) -> Intake {
     let mut reading = IntakeReader { options, budget: options.limits.total, refused: Vec::new(), untold: 0 };
     let mut groups = Vec::new();
     let mut loose = Vec::new();
@@ -185,12 +185,12 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
             reading.refused.push(Refused { path: name.clone(), reason: limits::more_refused(untold) });
         }
         match found {
-            Some(Input::Folder(folder)) => {
+            Some(InputPath::Folder(folder)) => {
                 let (found, refused) = students::in_folder(name, folder, options, inputs.len() > 1);
                 groups.extend(found);
                 reading.refused.extend(refused);
             }
-            Some(Input::File(file)) => loose.push((name.clone(), path.to_owned(), file)),
+            Some(InputPath::File(file)) => loose.push((name.clone(), path.to_owned(), file)),
             None => {}
         }
     }
@@ -205,8 +205,8 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
         .collect();
     if let [(_, name)] = inputs {
         let places = hand_ins.iter_mut().flat_map(|hand_in| match &mut hand_in.content {
-            Content::Files { places, .. } => places.as_mut_slice(),
-            Content::Nothing(_) => &mut [],
+            HandInContent::Files { places, .. } => places.as_mut_slice(),
+            HandInContent::Nothing(_) => &mut [],
         });
         for path in
             places.map(|place| &mut place.path).chain(reading.refused.iter_mut().map(|refused| &mut refused.path))
@@ -218,14 +218,14 @@ fn read_named(inputs: &[(&Path, &String)], options: &Options) -> Intake {
 }
 
 /// What one path of the command line is.
-enum Input {
-    Folder(Folder),
-    File(File),
+enum InputPath {
+    Folder(TreeFolder),
+    File(TreeFile),
 }
 
 /// What goes on while everything is read.
 struct IntakeReader<'a> {
-    options: &'a Options,
+    options: &'a IntakeOptions,
     budget: Budget,
     refused: Vec<Refused>,
     /// How many refusals were too many to be listed.
@@ -233,7 +233,7 @@ struct IntakeReader<'a> {
 }
 
 impl IntakeReader<'_> {
-    fn input(&mut self, path: &Path, name: &str) -> Option<Input> {
+    fn input(&mut self, path: &Path, name: &str) -> Option<InputPath> {
         let metadata = match std::fs::metadata(path) {
             Ok(metadata) => metadata,
             Err(error) => {
@@ -242,7 +242,7 @@ impl IntakeReader<'_> {
             }
         };
         if metadata.is_dir() {
-            return Some(Input::Folder(folder::read(path, name, self)));
+            return Some(InputPath::Folder(folder::read(path, name, self)));
         }
         // The person who started ggrade chose this path: a link in it is meant.
         let read = std::fs::File::open(path).map_err(|error| limits::unreadable(&error));
@@ -256,7 +256,7 @@ impl IntakeReader<'_> {
     }
 
     /// One part of a hand-in, and what it is called.
-    fn given(&mut self, given: HandInPart) -> (String, Option<Input>) {
+    fn given(&mut self, given: HandInPart) -> (String, Option<InputPath>) {
         match given {
             HandInPart::Path(path) => {
                 let name = place::names(std::slice::from_ref(&path)).concat();
@@ -268,23 +268,23 @@ impl IntakeReader<'_> {
                 let shown = shown.map_or_else(|| name.clone(), |path| path.to_string_lossy().into_owned());
                 if is_archive(&name, &bytes) {
                     let read = archive::read_bytes(bytes, &name, self).map_err(|reason| self.refuse(name, reason));
-                    return (shown, read.ok().map(Input::Folder));
+                    return (shown, read.ok().map(InputPath::Folder));
                 }
-                (shown, Some(Input::File(File { local, held: Held::Bytes(bytes) })))
+                (shown, Some(InputPath::File(TreeFile { local, held: Held::Bytes(bytes) })))
             }
         }
     }
 
-    fn file(&mut self, file: std::fs::File, path: &Path, name: &str) -> Result<Input, Text> {
+    fn file(&mut self, file: std::fs::File, path: &Path, name: &str) -> Result<InputPath, Text> {
         let limit = self.options.limits.file_bytes;
         let mut start = [0; 4];
         let begins_as_archive = file.read_exact_at(&mut start, 0).is_ok() && archive::is_archive_start(&start);
-        let is_shader = Fit::best(name, &self.options.slots) <= Fit::Renamed;
+        let is_shader = NameFit::best(name, &self.options.slots) <= NameFit::Renamed;
         if archive::is_archive(name) || begins_as_archive && !is_shader {
-            return archive::read(file, name, self).map(Input::Folder);
+            return archive::read(file, name, self).map(InputPath::Folder);
         }
         let bytes = folder::contents(file, limit).map_err(|error| limits::unreadable(&error))?;
-        Ok(Input::File(File { local: Some(path.into()), held: Held::Bytes(bytes) }))
+        Ok(InputPath::File(TreeFile { local: Some(path.into()), held: Held::Bytes(bytes) }))
     }
 
     fn refuse(&mut self, path: String, reason: Text) {

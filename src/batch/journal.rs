@@ -1,10 +1,10 @@
 //! `results.jsonl`: a line for each finished entry, written as it is finished.
 //!
-//! The first line is the [`Header`], each other one a [`Record`]. A line is appended by one write, so that a run that is
+//! The first line is the [`JournalHeader`], each other one a [`JournalRecord`]. A line is appended by one write, so that a run that is
 //! killed leaves at most its last line torn, and that line counts as not written.
 
 use super::class::{Outcome, Student};
-use super::folder::{Folder, unreadable, unwritable};
+use super::folder::{OutputFolder, unreadable, unwritable};
 use super::shard::Shard;
 use crate::diagnose::Hints;
 use crate::fault::Fault;
@@ -27,7 +27,7 @@ const SYNC_EVERY: Duration = Duration::from_secs(2);
 
 /// What a class is graded with: two runs with the same header give the same results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Header {
+pub struct JournalHeader {
     /// [`SCHEMA`].
     pub schema: String,
     /// Id of the assignment.
@@ -56,7 +56,7 @@ pub struct Header {
 
 /// What became of one student's submission.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Record {
+pub struct JournalRecord {
     /// Who.
     pub student: Student,
     /// Where the files were; none where there were none.
@@ -80,7 +80,7 @@ pub struct RecordOf<'a> {
     pub outcome: &'a Outcome,
 }
 
-impl Record {
+impl JournalRecord {
     /// As it is written.
     pub fn view(&self) -> RecordOf<'_> {
         let Self { student, path, sha256, outcome } = self;
@@ -92,16 +92,16 @@ impl Record {
 #[derive(Clone, Debug)]
 pub struct FoundJournal {
     /// Its first line.
-    pub header: Header,
+    pub header: JournalHeader,
     /// One record a student, the last where there are several.
-    pub records: Vec<Record>,
+    pub records: Vec<JournalRecord>,
     /// Lines that cannot be read, such as a torn one at the end.
     pub torn: usize,
 }
 
 /// Why there is nothing to be had of a journal.
 #[derive(Debug)]
-pub enum Unreadable {
+pub enum UnreadableJournal {
     /// There is no such file.
     Missing,
     /// It is something else, or of another version: what its first line says.
@@ -111,23 +111,24 @@ pub enum Unreadable {
 }
 
 /// Reads a journal.
-pub fn read(path: &Path) -> Result<FoundJournal, Unreadable> {
+pub fn read(path: &Path) -> Result<FoundJournal, UnreadableJournal> {
     let failed = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => Unreadable::Missing,
-        _ => Unreadable::Fault(unreadable(path, &error)),
+        io::ErrorKind::NotFound => UnreadableJournal::Missing,
+        _ => UnreadableJournal::Fault(unreadable(path, &error)),
     };
     let mut lines = BufReader::new(File::open(path).map_err(failed)?).split(b'\n');
     let first = lines.next().transpose().map_err(failed)?.unwrap_or_default();
-    let header: Header = serde_json::from_slice(&first).map_err(|_| Unreadable::Foreign(foreign(path, &first)))?;
+    let header: JournalHeader =
+        serde_json::from_slice(&first).map_err(|_| UnreadableJournal::Foreign(foreign(path, &first)))?;
     if header.schema != SCHEMA {
-        return Err(Unreadable::Foreign(foreign(path, &first)));
+        return Err(UnreadableJournal::Foreign(foreign(path, &first)));
     }
-    let mut records: Vec<Record> = Vec::new();
+    let mut records: Vec<JournalRecord> = Vec::new();
     let mut places = std::collections::HashMap::new();
     let mut torn = 0;
     for line in lines {
         let line = line.map_err(failed)?;
-        let Ok(record) = serde_json::from_slice::<Record>(&line) else {
+        let Ok(record) = serde_json::from_slice::<JournalRecord>(&line) else {
             torn += 1;
             continue;
         };
@@ -157,22 +158,22 @@ fn foreign(path: &Path, first: &[u8]) -> Text {
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    file: Mutex<Written>,
+    file: Mutex<JournalFile>,
 }
 
 #[derive(Debug)]
-struct Written {
+struct JournalFile {
     file: File,
     synced: Instant,
 }
 
 impl Journal {
     /// A journal that has these records already, in place of the one that may be there.
-    pub fn start(folder: &Folder, header: &Header, records: &[RecordOf]) -> Result<Self, Fault> {
+    pub fn start(folder: &OutputFolder, header: &JournalHeader, records: &[RecordOf]) -> Result<Self, Fault> {
         write(folder, header, records)?;
         let path = folder.at(NAME);
         let file = OpenOptions::new().append(true).open(&path).map_err(|error| unwritable(&path, &error))?;
-        Ok(Self { path, file: Mutex::new(Written { file, synced: Instant::now() }) })
+        Ok(Self { path, file: Mutex::new(JournalFile { file, synced: Instant::now() }) })
     }
 
     /// Adds what became of one submission.
@@ -192,13 +193,13 @@ impl Journal {
         self.lock().file.sync_data().map_err(|error| unwritable(&self.path, &error))
     }
 
-    fn lock(&self) -> MutexGuard<'_, Written> {
+    fn lock(&self) -> MutexGuard<'_, JournalFile> {
         self.file.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 /// Writes a whole journal at once: each record once, in this order.
-pub fn write(folder: &Folder, header: &Header, records: &[RecordOf]) -> Result<(), Fault> {
+pub fn write(folder: &OutputFolder, header: &JournalHeader, records: &[RecordOf]) -> Result<(), Fault> {
     let failed = |error: io::Error| unwritable(&folder.at(NAME), &error);
     let mut bytes = line(header).map_err(failed)?;
     for record in records {
@@ -219,8 +220,8 @@ mod tests {
     use super::*;
     use crate::report::samples;
 
-    fn header() -> Header {
-        Header {
+    fn header() -> JournalHeader {
+        JournalHeader {
             schema: SCHEMA.into(),
             assignment: "ggsample06".into(),
             assignment_digest: String::new(),
@@ -235,14 +236,14 @@ mod tests {
         }
     }
 
-    fn record(key: &str, outcome: Outcome) -> Record {
+    fn record(key: &str, outcome: Outcome) -> JournalRecord {
         let student = Student { key: key.into(), name: "田中\n花子".into(), moodle: None };
-        Record { student, path: Some("a/b.vert".into()), sha256: Some("00".into()), outcome }
+        JournalRecord { student, path: Some("a/b.vert".into()), sha256: Some("00".into()), outcome }
     }
 
-    fn folder() -> (tempfile::TempDir, Folder) {
+    fn folder() -> (tempfile::TempDir, OutputFolder) {
         let place = tempfile::tempdir().unwrap();
-        let folder = Folder::open(place.path()).unwrap();
+        let folder = OutputFolder::open(place.path()).unwrap();
         (place, folder)
     }
 
@@ -282,17 +283,17 @@ mod tests {
     fn the_last_record_of_a_student_counts() {
         let (_place, folder) = folder();
         let records = ["1", "2", "3"].map(|text| record("same", Outcome::NotGraded(Text::verbatim(text))));
-        write(&folder, &header(), &records.each_ref().map(Record::view)).unwrap();
+        write(&folder, &header(), &records.each_ref().map(JournalRecord::view)).unwrap();
         assert_eq!(read(&folder.at(NAME)).unwrap().records, [records[2].clone()]);
     }
 
     #[test]
     fn what_is_no_journal_is_named() {
         let (_place, folder) = folder();
-        assert!(matches!(read(&folder.at(NAME)), Err(Unreadable::Missing)));
+        assert!(matches!(read(&folder.at(NAME)), Err(UnreadableJournal::Missing)));
         for text in ["", "{}\n", "{\"schema\":\"ggrade/report/v1\"}\n", "\u{1b}]0;x\n"] {
             folder.write(NAME, text.as_bytes()).unwrap();
-            let Err(Unreadable::Foreign(message)) = read(&folder.at(NAME)) else { panic!("{text}") };
+            let Err(UnreadableJournal::Foreign(message)) = read(&folder.at(NAME)) else { panic!("{text}") };
             assert!(message.en.contains("ggrade/batch/v1") && !message.en.contains('\u{1b}'));
         }
     }

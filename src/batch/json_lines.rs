@@ -1,6 +1,6 @@
 //! One JSON object for each finished entry, for programs that follow a run.
 
-use super::class::{Alike, Entry, Outcome, Student};
+use super::class::{AlikeStudent, ClassEntry, Outcome, Student};
 use super::standing::Standing;
 use crate::language::Language;
 use crate::report::json;
@@ -19,12 +19,12 @@ struct JsonLine<'a> {
     /// Why there is no report.
     message: Option<&'a str>,
     shares_with: Vec<&'a str>,
-    alike: &'a [Alike],
+    alike: &'a [AlikeStudent],
     report: Option<json::JsonReport<'a>>,
 }
 
 /// The entry on one line, with a line feed at its end.
-pub fn line(entry: &Entry, language: Language) -> String {
+pub fn line(entry: &ClassEntry, language: Language) -> String {
     let message = match &entry.outcome {
         Outcome::Graded(_) => None,
         Outcome::NotGraded(why) => Some(why.get(language)),

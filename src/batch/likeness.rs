@@ -1,6 +1,6 @@
 //! `likeness.html`: the answers of a class that are alike, side by side, on one page without scripts.
 
-use super::folder::Folder;
+use super::folder::OutputFolder;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::likeness::Comparison;
@@ -19,7 +19,7 @@ const STYLE: &str = "details { margin-block: 1rem; padding-top: 1rem; border-top
 
 #[derive(Template)]
 #[template(path = "batch/templates/likeness.html")]
-struct Page<'a> {
+struct ComparisonPage<'a> {
     language: Language,
     tag: &'static str,
     title: &'a str,
@@ -28,7 +28,7 @@ struct Page<'a> {
     comparisons: &'a [Comparison],
 }
 
-impl Page<'_> {
+impl ComparisonPage<'_> {
     fn say(&self, en: &'static str, ja: &'static str) -> &'static str {
         match self.language {
             Language::En => en,
@@ -42,14 +42,14 @@ pub fn write(
     title: &str,
     comparisons: &[Comparison],
     language: Language,
-    folder: &Folder,
+    folder: &OutputFolder,
 ) -> Result<Option<(String, Text)>, Fault> {
     if comparisons.is_empty() {
         folder.remove(NAME)?;
         return Ok(None);
     }
     let style = format!("{BASE_STYLE}{STYLE}{}", view::STYLE);
-    let page = Page {
+    let page = ComparisonPage {
         language,
         tag: match language {
             Language::En => "en",

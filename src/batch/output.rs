@@ -2,10 +2,10 @@
 
 use super::changes::Changes;
 use super::class::Class;
-use super::folder::Folder;
-use super::formats::{Format, KEY, exchange, feedback, gradebooks, grades, page, worksheet};
+use super::folder::OutputFolder;
+use super::formats::{ClassFormat, KEY, exchange, feedback, gradebooks, grades, page, worksheet};
 use super::run::Wants;
-use super::summary::Written;
+use super::summary::WrittenFiles;
 use crate::fault::Fault;
 use crate::language::Text;
 use clap::ValueEnum;
@@ -25,15 +25,15 @@ pub struct OutputOptions {
 }
 
 /// The formats that are written: those asked for, or else all that make sense of what is given.
-pub fn choose(asked: &[Format], given: OutputOptions) -> Result<Vec<Format>, Text> {
-    let mut chosen: Vec<Format> = match asked {
-        [] => Format::value_variants().iter().copied().filter(|format| is_usual(*format, given)).collect(),
+pub fn choose(asked: &[ClassFormat], given: OutputOptions) -> Result<Vec<ClassFormat>, Text> {
+    let mut chosen: Vec<ClassFormat> = match asked {
+        [] => ClassFormat::value_variants().iter().copied().filter(|format| is_usual(*format, given)).collect(),
         asked => asked.to_vec(),
     };
-    if given.worksheet && !chosen.contains(&Format::MoodleWorksheet) {
-        chosen.push(Format::MoodleWorksheet);
+    if given.worksheet && !chosen.contains(&ClassFormat::MoodleWorksheet) {
+        chosen.push(ClassFormat::MoodleWorksheet);
     }
-    let moodle = [Format::MoodleWorksheet, Format::MoodleFeedback];
+    let moodle = [ClassFormat::MoodleWorksheet, ClassFormat::MoodleFeedback];
     if given.anonymous && chosen.iter().any(|format| moodle.contains(format)) {
         return Err(Text::new(
             "Moodle's files name everyone, and --anonymous names nobody. For grading without names in Moodle itself, use \
@@ -42,7 +42,7 @@ pub fn choose(asked: &[Format], given: OutputOptions) -> Result<Vec<Format>, Tex
              のブラインド評定を使ってください。ダウンロードしたファイルの名前が番号になるので、--anonymous は不要です",
         ));
     }
-    if chosen.contains(&Format::MoodleWorksheet) && !given.worksheet {
+    if chosen.contains(&ClassFormat::MoodleWorksheet) && !given.worksheet {
         return Err(Text::new(
             "the format moodle-worksheet fills in the worksheet that Moodle gives: name it with --moodle-worksheet FILE.csv",
             "moodle-worksheet 形式は Moodle からダウンロードしたワークシートに記入するものです。\
@@ -55,7 +55,7 @@ pub fn choose(asked: &[Format], given: OutputOptions) -> Result<Vec<Format>, Tex
 }
 
 /// What a teacher may miss of what is written.
-pub fn hint(asked: &[Format], given: OutputOptions) -> Option<Text> {
+pub fn hint(asked: &[ClassFormat], given: OutputOptions) -> Option<Text> {
     let missed = asked.is_empty() && given.moodle && !given.worksheet && !given.anonymous;
     missed.then(|| {
         Text::new(
@@ -67,33 +67,36 @@ pub fn hint(asked: &[Format], given: OutputOptions) -> Option<Text> {
     })
 }
 
-fn is_usual(format: Format, given: OutputOptions) -> bool {
+fn is_usual(format: ClassFormat, given: OutputOptions) -> bool {
     match format {
-        Format::MoodleWorksheet => given.worksheet,
+        ClassFormat::MoodleWorksheet => given.worksheet,
         // Only the worksheet tells participants from groups.
-        Format::MoodleFeedback => given.moodle && given.worksheet && !given.anonymous,
+        ClassFormat::MoodleFeedback => given.moodle && given.worksheet && !given.anonymous,
         // Their columns say what grades.csv says, for those who have that gradebook.
-        Format::Nbgrader | Format::Canvas | Format::GradescopeGrades => false,
+        ClassFormat::Nbgrader | ClassFormat::Canvas | ClassFormat::GradescopeGrades => false,
         _ => true,
     }
 }
 
 /// What these formats need of each student.
-pub fn wants(formats: &[Format]) -> Wants {
-    let any = |with: &[Format]| formats.iter().any(|format| with.contains(format));
-    Wants { portraits: any(&[Format::Html, Format::Gradescope]), pages: any(&[Format::Html, Format::MoodleFeedback]) }
+pub fn wants(formats: &[ClassFormat]) -> Wants {
+    let any = |with: &[ClassFormat]| formats.iter().any(|format| with.contains(format));
+    Wants {
+        portraits: any(&[ClassFormat::Html, ClassFormat::Gradescope]),
+        pages: any(&[ClassFormat::Html, ClassFormat::MoodleFeedback]),
+    }
 }
 
 /// Writes a class in each of the formats. Where one cannot be written the others are all the same, and the first fault
 /// is given back beside what was written.
 pub fn write(
     class: &Class,
-    formats: &[Format],
+    formats: &[ClassFormat],
     sheet: Option<&[u8]>,
     changes: Option<&Changes>,
-    folder: &Folder,
-) -> (Written, Option<Fault>) {
-    let mut written = Written { folder: folder.at("").display().to_string(), ..Written::default() };
+    folder: &OutputFolder,
+) -> (WrittenFiles, Option<Fault>) {
+    let mut written = WrittenFiles { folder: folder.at("").display().to_string(), ..WrittenFiles::default() };
     let mut first = None;
     for &format in formats {
         match one(class, format, sheet, folder) {
@@ -115,21 +118,21 @@ pub fn write(
 }
 
 /// Writes one format; what a teacher should know of it.
-fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> Result<Vec<Text>, Fault> {
+fn one(class: &Class, format: ClassFormat, sheet: Option<&[u8]>, folder: &OutputFolder) -> Result<Vec<Text>, Fault> {
     let file = format.files()[0];
     let whole = |bytes: Vec<u8>| folder.write(file, &bytes).map(|_| Vec::new());
     match format {
-        Format::Html => whole(page::render(class)?),
-        Format::Csv => whole(grades::render(class)?),
-        Format::Nbgrader => whole(gradebooks::nbgrader(class)?),
-        Format::Canvas => whole(gradebooks::canvas(class)?),
-        Format::GradescopeGrades => whole(gradebooks::gradescope(class)?),
-        Format::MoodleWorksheet => {
+        ClassFormat::Html => whole(page::render(class)?),
+        ClassFormat::Csv => whole(grades::render(class)?),
+        ClassFormat::Nbgrader => whole(gradebooks::nbgrader(class)?),
+        ClassFormat::Canvas => whole(gradebooks::canvas(class)?),
+        ClassFormat::GradescopeGrades => whole(gradebooks::gradescope(class)?),
+        ClassFormat::MoodleWorksheet => {
             let filled = worksheet::fill(class, sheet.unwrap_or_default())?;
             folder.write(file, &filled.bytes)?;
             Ok(filled.notes)
         }
-        Format::MoodleFeedback => {
+        ClassFormat::MoodleFeedback => {
             let recipients = match sheet {
                 Some(sheet) => worksheet::recipients(class, sheet)?,
                 None => feedback::by_number(class),
@@ -137,13 +140,13 @@ fn one(class: &Class, format: Format, sheet: Option<&[u8]>, folder: &Folder) -> 
             let packed = folder.write_by(file, |out| feedback::write(class, &recipients, out))?;
             Ok(packed.notes.into_iter().chain(sheet.is_none().then(feedback::without_worksheet)).collect())
         }
-        Format::Gradescope
-        | Format::Github
-        | Format::ClassroomLegacy
-        | Format::Junit
-        | Format::Sarif
-        | Format::Vpl
-        | Format::Coderunner => {
+        ClassFormat::Gradescope
+        | ClassFormat::Github
+        | ClassFormat::ClassroomLegacy
+        | ClassFormat::Junit
+        | ClassFormat::Sarif
+        | ClassFormat::Vpl
+        | ClassFormat::Coderunner => {
             for document in exchange::documents(format, class)? {
                 folder.write(&document.name, document.text.as_bytes())?;
             }
@@ -168,25 +171,28 @@ mod tests {
     #[test]
     fn by_default_everything_is_written_that_can_be() {
         let all = choose(&[], ALL).unwrap();
-        let left_out: Vec<_> = Format::value_variants().iter().filter(|format| !all.contains(format)).collect();
-        assert_eq!(left_out, [&Format::Nbgrader, &Format::Canvas, &Format::GradescopeGrades]);
+        let left_out: Vec<_> = ClassFormat::value_variants().iter().filter(|format| !all.contains(format)).collect();
+        assert_eq!(left_out, [&ClassFormat::Nbgrader, &ClassFormat::Canvas, &ClassFormat::GradescopeGrades]);
         let none = choose(&[], OutputOptions::default()).unwrap();
-        assert!(none.contains(&Format::Html) && !none.contains(&Format::MoodleFeedback));
+        assert!(none.contains(&ClassFormat::Html) && !none.contains(&ClassFormat::MoodleFeedback));
     }
 
     #[test]
     fn what_was_asked_for_and_no_more_is_written() {
-        assert_eq!(choose(&[Format::Csv, Format::Csv], OutputOptions::default()).unwrap(), [Format::Csv]);
+        assert_eq!(
+            choose(&[ClassFormat::Csv, ClassFormat::Csv], OutputOptions::default()).unwrap(),
+            [ClassFormat::Csv]
+        );
         let with_sheet = OutputOptions { worksheet: true, ..OutputOptions::default() };
-        assert_eq!(choose(&[Format::Csv], with_sheet).unwrap(), [Format::Csv, Format::MoodleWorksheet]);
-        choose(&[Format::MoodleWorksheet], OutputOptions::default()).unwrap_err();
+        assert_eq!(choose(&[ClassFormat::Csv], with_sheet).unwrap(), [ClassFormat::Csv, ClassFormat::MoodleWorksheet]);
+        choose(&[ClassFormat::MoodleWorksheet], OutputOptions::default()).unwrap_err();
     }
 
     #[test]
     fn pseudonyms_do_not_go_with_moodles_files() {
         let anonymous = OutputOptions { anonymous: true, worksheet: false, moodle: true };
-        assert!(!choose(&[], anonymous).unwrap().contains(&Format::MoodleFeedback));
-        choose(&[Format::MoodleFeedback], anonymous).unwrap_err();
+        assert!(!choose(&[], anonymous).unwrap().contains(&ClassFormat::MoodleFeedback));
+        choose(&[ClassFormat::MoodleFeedback], anonymous).unwrap_err();
         choose(&[], OutputOptions { worksheet: true, ..anonymous }).unwrap_err();
     }
 }

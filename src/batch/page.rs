@@ -3,7 +3,7 @@
 use crate::fault::Fault;
 use crate::language::Language;
 use crate::pictures;
-use crate::report::html::Page;
+use crate::report::html::ReportPage;
 use crate::report::{Picture, Pictures, Report};
 use crate::source::Source;
 use reference::Assignment;
@@ -30,6 +30,6 @@ impl Pages {
             cycle: self.assignment.scene.cycle,
         });
         let (assignment, language) = (&*self.assignment, self.language);
-        Page { assignment, report, sources, pictures: pictures.as_ref(), language }.render()
+        ReportPage { assignment, report, sources, pictures: pictures.as_ref(), language }.render()
     }
 }

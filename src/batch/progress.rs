@@ -1,7 +1,7 @@
 //! What a person sees while a class is graded: a bar with rate, remaining time and the verdicts so far.
 
-use super::class::Entry;
-use super::standing::{Counts, Standing};
+use super::class::ClassEntry;
+use super::standing::{Standing, StandingCounts};
 use crate::language::{Language, Text};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
@@ -10,17 +10,17 @@ use std::time::Duration;
 
 /// The bar. It draws on standard error, and only where that is a terminal.
 #[derive(Debug)]
-pub struct Progress {
+pub struct ClassProgress {
     bar: ProgressBar,
-    counts: Mutex<Counts>,
+    counts: Mutex<StandingCounts>,
 }
 
 /// How often the bar is drawn: what comes faster is not seen, and costs.
 const PER_SECOND: u8 = 10;
 
-impl Progress {
+impl ClassProgress {
     /// A bar for so many entries, of which these are done already.
-    pub fn new<'a>(total: usize, done: impl Iterator<Item = &'a Entry>, language: Language) -> Self {
+    pub fn new<'a>(total: usize, done: impl Iterator<Item = &'a ClassEntry>, language: Language) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::stderr_with_hz(PER_SECOND));
         let template = Text::new(
             "{bar:30.green/dim} {pos}/{len}  {msg}  {rate:.dim}  {eta} left",
@@ -42,7 +42,7 @@ impl Progress {
     }
 
     /// One more is done.
-    pub fn finished(&self, entry: &Entry) {
+    pub fn finished(&self, entry: &ClassEntry) {
         let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
         counts[Standing::of(&entry.outcome) as usize] += 1;
         if !self.bar.is_hidden() {
@@ -63,7 +63,7 @@ impl Progress {
     }
 }
 
-fn shown(counts: &Counts) -> String {
+fn shown(counts: &StandingCounts) -> String {
     let standings = Standing::ALL.iter().zip(counts).filter(|(_, count)| **count > 0);
     standings.map(|(standing, count)| format!("{} {count}", standing.sign())).collect::<Vec<_>>().join("  ")
 }
@@ -75,6 +75,6 @@ mod tests {
     #[test]
     fn only_what_there_is_is_counted_out() {
         assert_eq!(shown(&[12, 3, 0, 0, 0, 1]), "✓ 12  △ 3  ! 1");
-        assert_eq!(shown(&Counts::default()), "");
+        assert_eq!(shown(&StandingCounts::default()), "");
     }
 }

@@ -1,8 +1,8 @@
 //! How a run begins: in a new folder, where an earlier run stopped, or in place of one.
 
-use super::folder::Folder;
-use super::formats::{Format, KEY};
-use super::journal::{self, FoundJournal, Header, Record, Unreadable};
+use super::folder::OutputFolder;
+use super::formats::{ClassFormat, KEY};
+use super::journal::{self, FoundJournal, JournalHeader, JournalRecord, UnreadableJournal};
 use super::run::{page_file, portrait_file};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// What is wanted where the folder has results already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub enum ResumeMode {
     /// Leave it alone.
     New,
     /// Go on.
@@ -37,19 +37,19 @@ impl From<Fault> for NotBegun {
 }
 
 /// The earlier results that this run goes on from; none where it begins anew.
-pub fn earlier(folder: &Folder, shown: &Path, mode: Mode) -> Result<Option<FoundJournal>, NotBegun> {
+pub fn earlier(folder: &OutputFolder, shown: &Path, mode: ResumeMode) -> Result<Option<FoundJournal>, NotBegun> {
     let path = folder.at(journal::NAME);
     match (journal::read(&path), mode) {
-        (Err(Unreadable::Missing), _) => Ok(None),
-        (Err(Unreadable::Fault(fault)), _) => Err(NotBegun::Fault(fault)),
-        (Err(Unreadable::Foreign(_)), Mode::Force) => {
+        (Err(UnreadableJournal::Missing), _) => Ok(None),
+        (Err(UnreadableJournal::Fault(fault)), _) => Err(NotBegun::Fault(fault)),
+        (Err(UnreadableJournal::Foreign(_)), ResumeMode::Force) => {
             clear(folder, &[])?;
             Ok(None)
         }
-        (Err(Unreadable::Foreign(text)), _) => Err(NotBegun::Usage(text)),
-        (Ok(_), Mode::New) => Err(NotBegun::Usage(occupied(shown))),
-        (Ok(found), Mode::Resume) => Ok(Some(found)),
-        (Ok(found), Mode::Force) => {
+        (Err(UnreadableJournal::Foreign(text)), _) => Err(NotBegun::Usage(text)),
+        (Ok(_), ResumeMode::New) => Err(NotBegun::Usage(occupied(shown))),
+        (Ok(found), ResumeMode::Resume) => Ok(Some(found)),
+        (Ok(found), ResumeMode::Force) => {
             clear(folder, &found.records)?;
             Ok(None)
         }
@@ -57,13 +57,13 @@ pub fn earlier(folder: &Folder, shown: &Path, mode: Mode) -> Result<Option<Found
 }
 
 /// Refuses to mix results that were graded otherwise with those that are wanted.
-pub fn same_conditions(shown: &Path, found: &Header, wanted: &Header) -> Result<(), NotBegun> {
+pub fn same_conditions(shown: &Path, found: &JournalHeader, wanted: &JournalHeader) -> Result<(), NotBegun> {
     let differences = differences(found, wanted);
     if differences.is_empty() { Ok(()) } else { Err(NotBegun::Usage(mixed(shown, &differences))) }
 }
 
 /// What was graded otherwise, as options of the command line.
-fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
+fn differences(found: &JournalHeader, wanted: &JournalHeader) -> Vec<Text> {
     let mut differences = Vec::new();
     let mut compare = |what: Text, found: String, wanted: String| {
         if found != wanted {
@@ -87,7 +87,7 @@ fn differences(found: &Header, wanted: &Header) -> Vec<Text> {
     compare(option("adapter"), found.adapter.clone(), wanted.adapter.clone());
     compare(option("lang"), name(&found.language), name(&wanted.language));
     compare(option("anonymous"), found.anonymous.to_string(), wanted.anonymous.to_string());
-    let shard = |header: &Header| header.shard.map_or_else(|| "-".to_owned(), |shard| shard.to_string());
+    let shard = |header: &JournalHeader| header.shard.map_or_else(|| "-".to_owned(), |shard| shard.to_string());
     compare(option("shard"), shard(found), shard(wanted));
     differences
 }
@@ -119,7 +119,7 @@ pub fn other_class(shown: &Path) -> Text {
 }
 
 /// Takes away what earlier runs wrote of students who are not in the class.
-pub fn forget(folder: &Folder, records: &[Record], keys: &HashSet<&str>) -> Result<(), Fault> {
+pub fn forget(folder: &OutputFolder, records: &[JournalRecord], keys: &HashSet<&str>) -> Result<(), Fault> {
     for record in records.iter().filter(|record| !keys.contains(record.student.key.as_str())) {
         remove_student(folder, &record.student.key)?;
     }
@@ -127,11 +127,11 @@ pub fn forget(folder: &Folder, records: &[Record], keys: &HashSet<&str>) -> Resu
 }
 
 /// Takes away all that a run writes, but the key of the pseudonyms.
-fn clear(folder: &Folder, records: &[Record]) -> Result<(), Fault> {
+fn clear(folder: &OutputFolder, records: &[JournalRecord]) -> Result<(), Fault> {
     for record in records {
         remove_student(folder, &record.student.key)?;
     }
-    let formats = Format::value_variants().iter().flat_map(|format| format.files());
+    let formats = ClassFormat::value_variants().iter().flat_map(|format| format.files());
     for file in formats.filter(|file| !file.contains(KEY)) {
         folder.remove(file)?;
     }
@@ -140,14 +140,14 @@ fn clear(folder: &Folder, records: &[Record]) -> Result<(), Fault> {
     folder.remove(journal::NAME)
 }
 
-fn remove_student(folder: &Folder, key: &str) -> Result<(), Fault> {
+fn remove_student(folder: &OutputFolder, key: &str) -> Result<(), Fault> {
     // The journal is a file that others may have written: a key is no path.
     if key.is_empty() || key.contains('/') {
         return Ok(());
     }
     folder.remove(&page_file(key))?;
     folder.remove(&portrait_file(key))?;
-    let formats = Format::value_variants().iter().flat_map(|format| format.files());
+    let formats = ClassFormat::value_variants().iter().flat_map(|format| format.files());
     formats.filter(|file| file.contains(KEY)).try_for_each(|file| folder.remove(&file.replace(KEY, key)))
 }
 

@@ -1,10 +1,10 @@
 //! Grades what was handed in: all processors busy, each result written as it comes.
 
-use super::class::{Alike, Entry, Outcome};
-use super::content::Content;
-use super::folder::Folder;
+use super::class::{AlikeStudent, ClassEntry, Outcome};
+use super::content::ContentDigest;
+use super::folder::OutputFolder;
 use super::intake::{self, StudentWork};
-use super::journal::{Journal, Record, RecordOf};
+use super::journal::{Journal, JournalRecord, RecordOf};
 use super::page::Pages;
 use super::portrait::Portraits;
 use crate::fault::Fault;
@@ -14,7 +14,7 @@ use crate::language::Text;
 use crate::likeness::{Comparison, Likeness, Pair};
 use crate::parallel;
 use crate::report::Verdict;
-use crate::sandbox::{GradedSubmission, Pool, Submission};
+use crate::sandbox::{GradedSubmission, GradingTask, Pool};
 use crate::source::{self, Source};
 use reference::Assignment;
 use std::collections::HashMap;
@@ -25,22 +25,22 @@ use std::sync::{Mutex, PoisonError};
 
 /// A hand-in and what is known of it before it is graded.
 #[derive(Debug)]
-pub struct Candidate {
+pub struct GradingCandidate {
     /// Who handed in what.
     pub hand_in: StudentWork,
     /// The hand-in's digest in hexadecimal; none where there is nothing to grade.
     pub sha256: Option<String>,
     /// The files that can be read as text.
     sources: Vec<Source>,
-    content: Option<Content>,
-    alike: Vec<Alike>,
+    content: Option<ContentDigest>,
+    alike: Vec<AlikeStudent>,
 }
 
 /// What was handed in, read, and who is alike.
 #[derive(Debug)]
 pub struct Roll {
     /// Everyone.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<GradingCandidate>,
     /// Those whose answers are alike, the most alike first.
     pub comparisons: Vec<Comparison>,
 }
@@ -51,7 +51,7 @@ const MOST_COMPARISONS: usize = 200;
 /// Reads what was handed in as text, and finds who is alike: of the class, or one of the class and one of an earlier term.
 pub fn roll(hand_ins: Vec<StudentWork>, earlier: Vec<StudentWork>, assignment: &Assignment) -> Roll {
     let class = hand_ins.len();
-    let mut all: Vec<Candidate> = hand_ins.into_iter().chain(earlier).map(Candidate::new).collect();
+    let mut all: Vec<GradingCandidate> = hand_ins.into_iter().chain(earlier).map(GradingCandidate::new).collect();
     let likeness = Likeness::of(assignment);
     let answers: Vec<_> = all.iter().map(|candidate| likeness.read(&candidate.sources)).collect();
     let pairs = likeness.pairs(&answers, class);
@@ -59,7 +59,9 @@ pub fn roll(hand_ins: Vec<StudentWork>, earlier: Vec<StudentWork>, assignment: &
         let student = &all[place].hand_in.student;
         match (place < class, &all[place].hand_in.content) {
             // Of an earlier term, the place of the files says which one it is.
-            (false, intake::Content::Files { .. }) => all[place].hand_in.path().unwrap_or_else(|| student.name.clone()),
+            (false, intake::HandInContent::Files { .. }) => {
+                all[place].hand_in.path().unwrap_or_else(|| student.name.clone())
+            }
             _ => student.name.clone(),
         }
     };
@@ -77,23 +79,23 @@ pub fn roll(hand_ins: Vec<StudentWork>, earlier: Vec<StudentWork>, assignment: &
         for (place, other) in [pair.places, (pair.places.1, pair.places.0)] {
             let is_earlier = other >= class;
             let key = if is_earlier { names[other].clone() } else { keys[other].clone() };
-            all[place].alike.push(Alike { key, percent: pair.percent(), is_same: pair.is_same, is_earlier });
+            all[place].alike.push(AlikeStudent { key, percent: pair.percent(), is_same: pair.is_same, is_earlier });
         }
     }
     all.truncate(class);
     Roll { candidates: all, comparisons }
 }
 
-impl Candidate {
+impl GradingCandidate {
     fn new(work: StudentWork) -> Self {
         let none = |hand_in| Self { hand_in, sha256: None, sources: Vec::new(), content: None, alike: Vec::new() };
-        let intake::Content::Files { hand_in, .. } = &work.content else { return none(work) };
+        let intake::HandInContent::Files { hand_in, .. } = &work.content else { return none(work) };
         let read: Vec<Option<Source>> = hand_in.files.iter().map(source::readable).collect();
         let contents = hand_in.files.iter().zip(&read).map(|(file, source)| match source {
-            Some(source) => Content::of_text(source),
-            None => Content::of_bytes(&file.sha256()),
+            Some(source) => ContentDigest::of_text(source),
+            None => ContentDigest::of_bytes(&file.sha256()),
         });
-        let content = Content::of_all(contents);
+        let content = ContentDigest::of_all(contents);
         let sha256 = hand_in.sha256();
         Self {
             sha256: Some(sha256),
@@ -105,16 +107,16 @@ impl Candidate {
 
     fn files(&self) -> Option<&HandIn> {
         match &self.hand_in.content {
-            intake::Content::Files { hand_in, .. } => Some(hand_in),
-            intake::Content::Nothing(_) => None,
+            intake::HandInContent::Files { hand_in, .. } => Some(hand_in),
+            intake::HandInContent::Nothing(_) => None,
         }
     }
 
     /// Why there is nothing to grade.
     pub fn nothing(&self) -> Outcome {
         match &self.hand_in.content {
-            intake::Content::Nothing(why) => Outcome::NotGraded(why.clone()),
-            intake::Content::Files { .. } => Outcome::NotGraded(Text::default()),
+            intake::HandInContent::Nothing(why) => Outcome::NotGraded(why.clone()),
+            intake::HandInContent::Files { .. } => Outcome::NotGraded(Text::default()),
         }
     }
 
@@ -124,12 +126,12 @@ impl Candidate {
     }
 
     /// The entry of this outcome.
-    pub fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> Entry {
+    pub fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> ClassEntry {
         let places = match &self.hand_in.content {
-            intake::Content::Files { places, .. } => places.clone(),
-            intake::Content::Nothing(_) => Vec::new(),
+            intake::HandInContent::Files { places, .. } => places.clone(),
+            intake::HandInContent::Nothing(_) => Vec::new(),
         };
-        Entry {
+        ClassEntry {
             student: self.hand_in.student.clone(),
             places,
             outcome,
@@ -142,7 +144,7 @@ impl Candidate {
 
     /// The entry by an earlier result, where that is still this hand-in's: the same bytes under the same names, graded,
     /// and with the files that are wanted.
-    pub fn reuse(&self, record: &Record, folder: &Folder, wants: Wants) -> Option<Entry> {
+    pub fn reuse(&self, record: &JournalRecord, folder: &OutputFolder, wants: Wants) -> Option<ClassEntry> {
         let Outcome::Graded(report) = &record.outcome else { return None };
         let names = self.files()?.files.iter().map(|file| &file.name);
         if record.sha256 != self.sha256 || !report.sources.iter().map(|source| &source.name).eq(names) {
@@ -178,7 +180,7 @@ pub struct Wants {
 }
 
 /// Grades a class.
-pub struct Run<'a> {
+pub struct ClassRun<'a> {
     /// What is graded.
     pub assignment: &'a Assignment,
     /// Who grades; none where there is no file to grade.
@@ -188,7 +190,7 @@ pub struct Run<'a> {
     /// How many at once.
     pub threads: usize,
     /// Where results are written.
-    pub folder: &'a Folder,
+    pub folder: &'a OutputFolder,
     /// Where each is written down.
     pub journal: &'a Journal,
     /// The pictures of students' shaders, where they are wanted.
@@ -196,7 +198,7 @@ pub struct Run<'a> {
     /// Students' pages, where they are wanted.
     pub pages: Option<&'a Pages>,
     /// Told of each entry that is finished.
-    pub finished: &'a (dyn Fn(&Entry) + Sync),
+    pub finished: &'a (dyn Fn(&ClassEntry) + Sync),
     /// Set to have no further submission begun.
     pub stop: &'a AtomicBool,
 }
@@ -211,10 +213,10 @@ pub fn page_file(key: &str) -> String {
     format!("students/{key}.html")
 }
 
-impl Run<'_> {
+impl ClassRun<'_> {
     /// Grades everyone whose entry is not there yet, and puts it there. A fault is one that ends the run: a result
     /// cannot be written. Those that were not begun before the stop keep no entry.
-    pub fn grade(&self, candidates: &[Candidate], entries: &mut [Option<Entry>]) -> Result<(), Fault> {
+    pub fn grade(&self, candidates: &[GradingCandidate], entries: &mut [Option<ClassEntry>]) -> Result<(), Fault> {
         let missing: Vec<usize> = (0..candidates.len()).filter(|&index| entries[index].is_none()).collect();
         let groups = groups(candidates, &missing);
         let failure: Mutex<Option<Fault>> = Mutex::new(None);
@@ -234,8 +236,8 @@ impl Run<'_> {
     }
 
     /// Grades hand-ins that are the same, once, and gives each student an entry.
-    fn group(&self, candidates: &[Candidate], group: &[usize]) -> Result<Vec<Entry>, Fault> {
-        let members: Vec<&Candidate> = group.iter().map(|&index| &candidates[index]).collect();
+    fn group(&self, candidates: &[GradingCandidate], group: &[usize]) -> Result<Vec<ClassEntry>, Fault> {
+        let members: Vec<&GradingCandidate> = group.iter().map(|&index| &candidates[index]).collect();
         let first = members.first().and_then(|first| first.files());
         let Some((hand_in, pool)) = first.zip(self.pool) else {
             return members
@@ -245,8 +247,8 @@ impl Run<'_> {
         };
         let wants_frames = self.portraits.is_some() || self.pages.is_some();
         let assignment = pool.assignment();
-        let mut answer = guarded(|| pool.grade(Submission { assignment, hand_in, order: self.order, wants_frames }));
-        let mut entries: Vec<Entry> = Vec::with_capacity(members.len());
+        let mut answer = guarded(|| pool.grade(GradingTask { assignment, hand_in, order: self.order, wants_frames }));
+        let mut entries: Vec<ClassEntry> = Vec::with_capacity(members.len());
         let mut last: Option<ShownFile> = None;
         for member in members {
             let judged = match &mut answer {
@@ -264,7 +266,7 @@ impl Run<'_> {
     fn show(
         &self,
         answer: &mut GradedSubmission,
-        member: &Candidate,
+        member: &GradingCandidate,
         last: Option<ShownFile>,
     ) -> Result<ShownFile, Fault> {
         let Some(hand_in) = member.files() else { return Ok(ShownFile::without(member.nothing())) };
@@ -282,7 +284,7 @@ impl Run<'_> {
     }
 
     /// Writes down what became of a hand-in.
-    fn finish(&self, member: &Candidate, judged: &ShownFile) -> Result<Entry, Fault> {
+    fn finish(&self, member: &GradingCandidate, judged: &ShownFile) -> Result<ClassEntry, Fault> {
         let ShownFile { outcome, portrait, page } = judged;
         let key = &member.hand_in.student.key;
         if let Some(portrait) = portrait {
@@ -318,9 +320,9 @@ fn guarded<T>(work: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
 }
 
 /// `indices` with those that need one grading together, in order of the first of each.
-pub(super) fn groups(candidates: &[Candidate], indices: &[usize]) -> Vec<Vec<usize>> {
+pub(super) fn groups(candidates: &[GradingCandidate], indices: &[usize]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
-    let mut places: HashMap<&Content, usize> = HashMap::new();
+    let mut places: HashMap<&ContentDigest, usize> = HashMap::new();
     for &index in indices {
         let content = candidates[index].content.as_ref();
         match content.and_then(|content| places.get(content)) {

@@ -3,10 +3,10 @@
 //! Every shard reads the whole input, because who shares an answer is a fact about the whole class. It grades its own
 //! students only. Hand-ins that need one grading are in one shard.
 
-use super::folder::Folder;
-use super::journal::{self, FoundJournal, Record, Unreadable};
+use super::folder::OutputFolder;
+use super::journal::{self, FoundJournal, JournalRecord, UnreadableJournal};
 use super::resume::NotBegun;
-use super::run::{self, Candidate};
+use super::run::{self, GradingCandidate};
 use crate::fault::Fault;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
@@ -60,7 +60,7 @@ impl fmt::Display for Shard {
 
 impl Shard {
     /// The students of this shard, in the order of the class.
-    pub fn of(self, candidates: Vec<Candidate>) -> Vec<Candidate> {
+    pub fn of(self, candidates: Vec<GradingCandidate>) -> Vec<GradingCandidate> {
         let all: Vec<usize> = (0..candidates.len()).collect();
         let mut is_ours = vec![false; candidates.len()];
         // In turns, because students who stand side by side in a class often hand in at the same pace.
@@ -72,13 +72,13 @@ impl Shard {
 }
 
 /// Copies the files of all shards' students into `folder`, and gives what all journals say as one.
-pub fn gather(folder: &Folder, shards: &[PathBuf]) -> Result<FoundJournal, NotBegun> {
+pub fn gather(folder: &OutputFolder, shards: &[PathBuf]) -> Result<FoundJournal, NotBegun> {
     let mut found: Vec<(&Path, FoundJournal)> = Vec::new();
     for path in shards {
         let journal = journal::read(&path.join(journal::NAME)).map_err(|error| match error {
-            Unreadable::Missing => no_results(path),
-            Unreadable::Foreign(text) => NotBegun::Usage(text),
-            Unreadable::Fault(fault) => NotBegun::Fault(fault),
+            UnreadableJournal::Missing => no_results(path),
+            UnreadableJournal::Foreign(text) => NotBegun::Usage(text),
+            UnreadableJournal::Fault(fault) => NotBegun::Fault(fault),
         })?;
         found.push((path, journal));
     }
@@ -108,7 +108,7 @@ fn all_there(found: &[(&Path, FoundJournal)]) -> Result<(), NotBegun> {
     }
     for (path, journal) in found {
         let Some(shard) = journal.header.shard else { return Err(not_a_shard(path)) };
-        let alike = journal::Header { shard: first.header.shard, ..journal.header.clone() };
+        let alike = journal::JournalHeader { shard: first.header.shard, ..journal.header.clone() };
         super::resume::same_conditions(first_path, &first.header, &alike)?;
         if !missing.remove(&shard) {
             return Err(one_too_many(path, shard));
@@ -118,7 +118,7 @@ fn all_there(found: &[(&Path, FoundJournal)]) -> Result<(), NotBegun> {
 }
 
 /// Copies what a run wrote of one student.
-fn copy(folder: &Folder, from: &Path, record: &Record) -> Result<(), Fault> {
+fn copy(folder: &OutputFolder, from: &Path, record: &JournalRecord) -> Result<(), Fault> {
     let key = &record.student.key;
     // The journal is a file that others may have written: a key is no path.
     if key.is_empty() || key.contains('/') {

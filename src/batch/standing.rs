@@ -1,6 +1,6 @@
 //! What became of a student, in one word.
 
-use super::class::{Entry, Outcome};
+use super::class::{ClassEntry, Outcome};
 use crate::language::Language;
 use crate::report::Verdict;
 use crate::report::labels::Labels;
@@ -25,7 +25,7 @@ pub enum Standing {
 }
 
 /// How many there are of each.
-pub type Counts = [usize; Standing::ALL.len()];
+pub type StandingCounts = [usize; Standing::ALL.len()];
 
 impl Standing {
     /// All of them, the order in which they are listed.
@@ -47,8 +47,8 @@ impl Standing {
     }
 
     /// How many entries there are of each.
-    pub fn count<'a>(entries: impl IntoIterator<Item = &'a Entry>) -> Counts {
-        let mut counts = Counts::default();
+    pub fn count<'a>(entries: impl IntoIterator<Item = &'a ClassEntry>) -> StandingCounts {
+        let mut counts = StandingCounts::default();
         for entry in entries {
             counts[Self::of(&entry.outcome) as usize] += 1;
         }

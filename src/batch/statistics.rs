@@ -1,6 +1,6 @@
 //! A class in numbers: scores and mistakes.
 
-use super::class::{Class, Entry};
+use super::class::{Class, ClassEntry};
 use crate::report::Report;
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ pub fn bin(report: &Report) -> usize {
 /// How many of those who were graded have a score in each bin.
 pub fn histogram(class: &Class) -> [usize; BINS + 1] {
     let mut counts = [0; BINS + 1];
-    for report in class.entries.iter().filter_map(Entry::report) {
+    for report in class.entries.iter().filter_map(ClassEntry::report) {
         counts[bin(report)] += 1;
     }
     counts
@@ -36,7 +36,7 @@ pub struct Averages {
 
 /// Mean and median of the scores; none where nobody was graded.
 pub fn averages(class: &Class) -> Option<Averages> {
-    let mut scores: Vec<f64> = class.entries.iter().filter_map(Entry::report).map(Report::total).collect();
+    let mut scores: Vec<f64> = class.entries.iter().filter_map(ClassEntry::report).map(Report::total).collect();
     scores.sort_by(f64::total_cmp);
     let (count, middle) = (scores.len(), scores.len() / 2);
     let upper = *scores.get(middle)?;
@@ -47,7 +47,7 @@ pub fn averages(class: &Class) -> Option<Averages> {
 /// Ids of the mistakes that were made, with how many made them, the most frequent first.
 pub fn mistakes(class: &Class) -> Vec<(&str, usize)> {
     let mut counts: HashMap<&str, usize> = HashMap::new();
-    for mistake in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.mistakes) {
+    for mistake in class.entries.iter().filter_map(ClassEntry::report).flat_map(|report| &report.mistakes) {
         *counts.entry(mistake).or_default() += 1;
     }
     let mut counts: Vec<_> = counts.into_iter().collect();

@@ -32,7 +32,7 @@ const ODD: Style = AnsiColor::Magenta.on_default();
 
 /// What was written, and what there is to say about it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Written {
+pub struct WrittenFiles {
     /// The folder.
     pub folder: String,
     /// Each file in it, `*` for what each student has one of, with what it is.
@@ -42,8 +42,9 @@ pub struct Written {
 }
 
 /// The summary, with a final newline. It is coloured; nothing is said by colour alone.
-pub fn render(class: &Class, changes: Option<&Changes>, written: &Written, width: usize) -> String {
-    let mut writer = Writer { out: String::new(), language: class.language, width: width.clamp(NARROWEST, WIDEST) };
+pub fn render(class: &Class, changes: Option<&Changes>, written: &WrittenFiles, width: usize) -> String {
+    let mut writer =
+        SummaryWriter { out: String::new(), language: class.language, width: width.clamp(NARROWEST, WIDEST) };
     writer.head(class);
     writer.standings(class);
     writer.scores(class);
@@ -56,13 +57,13 @@ pub fn render(class: &Class, changes: Option<&Changes>, written: &Written, width
     writer.out
 }
 
-struct Writer {
+struct SummaryWriter {
     out: String,
     language: Language,
     width: usize,
 }
 
-impl Writer {
+impl SummaryWriter {
     fn text(&self, en: &'static str, ja: &'static str) -> &'static str {
         if self.language == Language::Ja { ja } else { en }
     }
@@ -216,7 +217,7 @@ impl Writer {
         self.more(items.len());
     }
 
-    fn written(&mut self, written: &Written) {
+    fn written(&mut self, written: &WrittenFiles) {
         if !written.files.is_empty() {
             let heading = format!("{} {}", self.text("Written into", "出力先"), written.folder);
             self.heading(&plain(&heading));

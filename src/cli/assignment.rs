@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Look at assignments.
 #[derive(Debug, Args)]
-pub struct Assignment {
+pub struct AssignmentArguments {
     /// What to do.
     #[command(subcommand)]
     pub action: Action,
@@ -25,21 +25,21 @@ pub enum Action {
     /// List the built-in assignments, each with its files and its title
     List,
     /// Read an assignment, and grade its own files: the solution has to have full marks, what is handed out has not
-    Check(Check),
+    Check(CheckArguments),
     /// Say what the folder of an assignment says: files, interface, scene, rubric, mistakes
-    Show(Show),
+    Show(ShowArguments),
     /// Write the folder of an assignment from a solution
-    New(New),
+    New(NewArguments),
     /// Print the JSON schema of assignment.toml, for editors
     Schema,
     /// Open the page that students will see, and keep it as the folder is while you write
     #[cfg(feature = "service")]
-    Preview(Preview),
+    Preview(PreviewArguments),
 }
 
 /// Say what the folder of an assignment says.
 #[derive(Debug, Args)]
-pub struct Show {
+pub struct ShowArguments {
     /// The name of a built-in assignment, or the folder of one
     #[arg(value_name = "NAME|FOLDER")]
     pub assignment: String,
@@ -47,7 +47,7 @@ pub struct Show {
 
 /// Write the folder of an assignment from a solution: interface, scene, rubric and texts are proposed.
 #[derive(Debug, Args)]
-pub struct New {
+pub struct NewArguments {
     /// The folder to write: it does not exist yet, or is empty
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
@@ -58,7 +58,7 @@ pub struct New {
 
 /// Read an assignment and grade its own files.
 #[derive(Debug, Args)]
-pub struct Check {
+pub struct CheckArguments {
     /// The folder of an assignment, or the name of a built-in one
     #[arg(value_name = "FOLDER")]
     pub assignment: String,
@@ -77,7 +77,7 @@ pub struct Check {
 /// Open the page that students will see.
 #[cfg(feature = "service")]
 #[derive(Debug, Args)]
-pub struct Preview {
+pub struct PreviewArguments {
     /// The folder of an assignment; it may still be broken
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,

@@ -1,7 +1,7 @@
 //! Arguments of `ggrade batch`.
 
-use super::{Machine, Sandbox};
-use crate::batch::formats::Format;
+use super::{MachineArguments, SandboxArguments};
+use crate::batch::formats::ClassFormat;
 use crate::batch::shard::Shard;
 use crate::diagnose::Hints;
 use crate::language::Language;
@@ -17,30 +17,30 @@ pub struct BatchCommand {
     pub action: Option<BatchAction>,
     /// What to grade, where there is no action.
     #[command(flatten)]
-    pub batch: Batch,
+    pub batch: BatchArguments,
 }
 
 /// What to do with shards.
 #[derive(Debug, Subcommand)]
 pub enum BatchAction {
     /// Put the results of all shards together: the same as one run on the whole class gives
-    Merge(Merge),
+    Merge(MergeArguments),
 }
 
 /// Put shards together.
 #[derive(Debug, Args)]
-pub struct Merge {
+pub struct MergeArguments {
     /// The output folders of all shards
     #[arg(long, value_name = "DIR", num_args = 1.., required = true)]
     pub shards: Vec<PathBuf>,
     /// The class, with the options of the shards.
     #[command(flatten)]
-    pub batch: Batch,
+    pub batch: BatchArguments,
 }
 
 /// Grade a whole class.
 #[derive(Debug, Args)]
-pub struct Batch {
+pub struct BatchArguments {
     /// What was handed in: folders, shaders, ZIP archives, a Moodle download
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
@@ -49,7 +49,7 @@ pub struct Batch {
     out: Option<PathBuf>,
     /// What is written, separated by commas [default: all but nbgrader, canvas and gradescope-grades, as far as the input allows]
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',')]
-    pub formats: Vec<Format>,
+    pub formats: Vec<ClassFormat>,
     /// Moodle's offline grading worksheet, to be filled in
     #[arg(long, value_name = "FILE.csv")]
     pub moodle_worksheet: Option<PathBuf>,
@@ -97,13 +97,13 @@ pub struct Batch {
     pub deadline: f64,
     /// Homework and adapter.
     #[command(flatten)]
-    pub machine: Machine,
+    pub machine: MachineArguments,
     /// The walls around the gradings.
     #[command(flatten)]
-    pub sandbox: Sandbox,
+    pub sandbox: SandboxArguments,
 }
 
-impl Batch {
+impl BatchArguments {
     /// The folder that everything is written into.
     pub fn out(&self) -> &Path {
         // An option for the parser only, which asks for the folder wherever there is something to grade.

@@ -7,11 +7,11 @@ use std::sync::LazyLock;
 
 /// How a report is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum ReportFormat {
     /// To be read as it is.
     Reading(ViewFormat),
     /// For an autograder or CI.
-    Exchange(formats::Format),
+    Exchange(formats::ClassFormat),
 }
 
 /// The forms of a report that are read as they are.
@@ -25,17 +25,17 @@ pub enum ViewFormat {
     Html,
 }
 
-impl Default for Format {
+impl Default for ReportFormat {
     fn default() -> Self {
         Self::Reading(ViewFormat::Text)
     }
 }
 
-impl ValueEnum for Format {
+impl ValueEnum for ReportFormat {
     fn value_variants<'a>() -> &'a [Self] {
-        static ALL: LazyLock<Vec<Format>> = LazyLock::new(|| {
-            let reading = ViewFormat::value_variants().iter().copied().map(Format::Reading);
-            reading.chain(exchange::FORMATS.map(Format::Exchange)).collect()
+        static ALL: LazyLock<Vec<ReportFormat>> = LazyLock::new(|| {
+            let reading = ViewFormat::value_variants().iter().copied().map(ReportFormat::Reading);
+            reading.chain(exchange::FORMATS.map(ReportFormat::Exchange)).collect()
         });
         &ALL
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 /// Write the manual pages.
 #[derive(Debug, Args)]
-pub struct Man {
+pub struct ManualArguments {
     /// The folder to write into, one page for each command; it is made where it is missing
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
@@ -14,7 +14,7 @@ pub struct Man {
 
 /// Print the completions of a shell.
 #[derive(Debug, Args)]
-pub struct Completions {
+pub struct CompletionsArguments {
     /// The shell that reads them
     #[arg(value_enum)]
     pub shell: Shell,

@@ -15,7 +15,7 @@ const ELSEWHERE: &str = "Every option can also be an environment variable (GGRAD
 /// Serve the upload pages.
 #[derive(Clone, Debug, Default, Args, Serialize)]
 #[command(after_help = ELSEWHERE)]
-pub struct Serve {
+pub struct ServeArguments {
     /// A TOML file with any of these options
     #[arg(long, value_name = "FILE", env = "GGRADE_CONFIG")]
     #[serde(skip)]
@@ -64,7 +64,7 @@ pub struct Serve {
     /// What this process does; with PostgreSQL any number of them share the work of one service [default: all]
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub role: Option<Role>,
+    pub role: Option<ProcessRole>,
     /// Files graded at once [default: one per processor]
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -140,7 +140,7 @@ pub struct Serve {
 /// What a process of the service does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Role {
+pub enum ProcessRole {
     /// Serve the pages and grade
     #[default]
     All,
@@ -150,7 +150,7 @@ pub enum Role {
     Grader,
 }
 
-impl Role {
+impl ProcessRole {
     /// Whether it has the pages and the API.
     pub fn serves_pages(self) -> bool {
         self != Self::Grader

@@ -1,6 +1,6 @@
 //! Arguments of `ggrade watch`.
 
-use super::{Machine, Sandbox};
+use super::{MachineArguments, SandboxArguments};
 use crate::diagnose::Hints;
 use crate::language::Language;
 use clap::Args;
@@ -8,16 +8,16 @@ use std::path::PathBuf;
 
 /// Grade a hand-in again whenever a file of it is saved.
 #[derive(Debug, Args)]
-pub struct Watch {
+pub struct WatchArguments {
     /// The files that you are working on, or their folder
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Homework and adapter.
     #[command(flatten)]
-    pub machine: Machine,
+    pub machine: MachineArguments,
     /// The walls around the gradings.
     #[command(flatten)]
-    pub sandbox: Sandbox,
+    pub sandbox: SandboxArguments,
     /// Language of the reports [default: from LC_ALL, LC_MESSAGES or LANG]
     #[arg(long, value_enum, env = "GGRADE_LANG")]
     pub lang: Option<Language>,

@@ -7,7 +7,7 @@ mod preview;
 mod show;
 
 use super::{ExitStatus, language};
-use crate::cli::{Action, Assignment as Arguments};
+use crate::cli::{Action, AssignmentArguments as Arguments};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use reference::Assignment;

@@ -9,15 +9,15 @@ use crate::batch::class::Class;
 use crate::batch::intake;
 use crate::batch::output::{self, OutputOptions};
 use crate::batch::portrait::Portraits;
-use crate::batch::resume::{self, Mode, NotBegun};
+use crate::batch::resume::{self, NotBegun, ResumeMode};
 use crate::batch::run::Roll;
 use crate::batch::standing::Standing;
 use crate::batch::{run, shard};
 use crate::choice;
-use crate::cli::{Batch, BatchAction, BatchCommand, Merge};
+use crate::cli::{BatchAction, BatchArguments, BatchCommand, MergeArguments};
 use crate::fault::Fault;
 use crate::language::Text;
-use session::{ClassOutputs, Session};
+use session::{BatchSession, ClassOutputs};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -25,7 +25,7 @@ use std::time::Duration;
 /// Grades a class, or puts shards together.
 pub fn run(arguments: &BatchCommand) -> Result<ExitStatus, Fault> {
     let (arguments, shards) = match &arguments.action {
-        Some(BatchAction::Merge(Merge { shards, batch })) => (batch, shards.as_slice()),
+        Some(BatchAction::Merge(MergeArguments { shards, batch })) => (batch, shards.as_slice()),
         None => (&arguments.batch, &[][..]),
     };
     // Before any thread is started.
@@ -42,7 +42,7 @@ pub fn run(arguments: &BatchCommand) -> Result<ExitStatus, Fault> {
 }
 
 fn grade(
-    arguments: &Batch,
+    arguments: &BatchArguments,
     shards: &[PathBuf],
     deadline: Duration,
     interrupt: &Interrupt,
@@ -56,7 +56,7 @@ fn grade(
     begin::outside(arguments)?;
     let sheet = arguments.moodle_worksheet.as_deref().map(begin::read_sheet).transpose()?;
     let before = arguments.compare.as_deref().map(begin::read_earlier).transpose()?;
-    let options = intake::Options::new(&assignment);
+    let options = intake::IntakeOptions::new(&assignment);
     let intake = intake::read(&arguments.inputs, &options)?;
     if intake.hand_ins.is_empty() {
         begin::tell_empty(&intake, language(arguments.lang));
@@ -70,9 +70,9 @@ fn grade(
     let formats = output::choose(&arguments.formats, given).map_err(NotBegun::Usage)?;
     let folder = begin::open(arguments)?;
     let mode = match (arguments.resume, arguments.force) {
-        (true, _) => Mode::Resume,
-        (_, true) => Mode::Force,
-        _ => Mode::New,
+        (true, _) => ResumeMode::Resume,
+        (_, true) => ResumeMode::Force,
+        _ => ResumeMode::New,
     };
     let mut found = resume::earlier(&folder, arguments.out(), mode)?;
     if !shards.is_empty() {
@@ -93,7 +93,8 @@ fn grade(
         candidates = shard.of(candidates);
     }
     let portraits = Portraits::new(&assignment)?;
-    let session = Session { arguments, assignment: &assignment, interrupt, deadline, folder: &folder, header: &header };
+    let session =
+        BatchSession { arguments, assignment: &assignment, interrupt, deadline, folder: &folder, header: &header };
     let wants = output::wants(&formats);
     let mut entries = session.reuse(&candidates, found, wants)?;
     if !session.fill(&candidates, &mut entries, wants, &portraits)? {

@@ -1,8 +1,8 @@
 //! `ggrade corpus DIR`: a table of expected against found.
 
 use super::{ExitStatus, language, warn};
-use crate::cli::Corpus;
-use crate::corpus::{self, Checked, Expectation};
+use crate::cli::CorpusArguments;
+use crate::corpus::{self, CheckedSample, Expectation};
 use crate::cross_check::Opinion;
 use crate::fault::Fault;
 use crate::language::Language;
@@ -16,7 +16,7 @@ use std::time::Duration;
 const DEADLINE: Duration = Duration::from_secs(10);
 
 /// Grades the samples of a folder.
-pub fn run(arguments: &Corpus) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &CorpusArguments) -> Result<ExitStatus, Fault> {
     if arguments.bless && std::env::var_os("CI").is_some() {
         anstream::eprintln!("ggrade: expected reports are not written in CI");
         return Ok(ExitStatus::Usage);
@@ -52,7 +52,7 @@ pub fn run(arguments: &Corpus) -> Result<ExitStatus, Fault> {
 }
 
 /// The assignment that is asked for, or else the one whose samples they are by the names of the folders that they are in.
-fn assignment(arguments: &Corpus) -> Option<Arc<Assignment>> {
+fn assignment(arguments: &CorpusArguments) -> Option<Arc<Assignment>> {
     let folders = arguments.folder.iter().flat_map(|folder| folder.components());
     let mut names = folders.filter_map(|folder| folder.as_os_str().to_str());
     let named = names.find(|name| reference::built_in::names().any(|known| known == *name));
@@ -60,7 +60,7 @@ fn assignment(arguments: &Corpus) -> Option<Arc<Assignment>> {
 }
 
 /// Says where the interpreter disagrees with the driver, and how many samples those are.
-fn cross_checked(results: &[Checked], all: bool) -> usize {
+fn cross_checked(results: &[CheckedSample], all: bool) -> usize {
     let mut counts = [0; 3];
     for checked in results {
         let Some(cross_check) = &checked.cross_check else { continue };
@@ -85,7 +85,7 @@ fn cross_checked(results: &[Checked], all: bool) -> usize {
     differing
 }
 
-fn show(checked: &Checked) {
+fn show(checked: &CheckedSample) {
     anstream::println!("DIFF  {}", checked.sample.display());
     anstream::println!("      expected  {}", summary(checked.expected.as_ref()));
     match &checked.found {

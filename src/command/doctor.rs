@@ -4,13 +4,13 @@ mod installation;
 
 use super::{ExitStatus, language};
 use crate::choice;
-use crate::cli::Doctor;
+use crate::cli::DoctorArguments;
 use crate::fault::Fault;
 use crate::grade::{Order, handed_out};
 use crate::language::{Language, Text};
 use crate::render::AdapterKind;
 use crate::report::{Environment, Verdict};
-use crate::sandbox::{Policy, Pool, Settings, Submission};
+use crate::sandbox::{GradingTask, Policy, Pool, Settings};
 use installation::Installation;
 use reference::Assignment;
 use std::path::Path;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Checks the machine by what it is for: opens the device in a worker, and grades the handed-out file of every homework.
-pub fn run(arguments: &Doctor) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &DoctorArguments) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
     let program = std::env::current_exe().unwrap_or_default();
     let installation = Installation::of(&program, Path::new("/"));
@@ -90,7 +90,7 @@ fn check_assignment(assignment: &Arc<Assignment>, language: Language) -> bool {
     };
     let warm = start.elapsed();
     let hand_in = handed_out(assignment);
-    let submission = Submission { assignment, hand_in: &hand_in, order: Order::default(), wants_frames: false };
+    let submission = GradingTask { assignment, hand_in: &hand_in, order: Order::default(), wants_frames: false };
     let start = Instant::now();
     match pool.grade(submission) {
         Ok(answer) if answer.report.verdict == Verdict::Wrong => {

@@ -6,8 +6,8 @@
 use super::files::{self, NotTaken};
 use super::grade::GradeRequest;
 use super::{ExitStatus, file_fault, grade, writing};
-use crate::batch::class::{Class, Entry, Outcome, Student};
-use crate::batch::formats::{Format, exchange, github, vpl};
+use crate::batch::class::{Class, ClassEntry, Outcome, Student};
+use crate::batch::formats::{ClassFormat, exchange, github, vpl};
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -17,12 +17,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Grades one hand-in and writes it in `format`.
-pub(super) fn run(wish: &GradeRequest<'_>, format: Format) -> Result<ExitStatus, Fault> {
+pub(super) fn run(wish: &GradeRequest<'_>, format: ClassFormat) -> Result<ExitStatus, Fault> {
     let class = class(wish, format).for_students().into_owned();
     let variable = |name| std::env::var(name).ok();
     let scale = vpl::Scale::from_variables(variable("VPL_GRADEMIN").as_deref(), variable("VPL_GRADEMAX").as_deref());
     grade::put(wish.arguments, &exchange::single(format, &class, scale)?.unwrap_or_default())?;
-    if format == Format::Github {
+    if format == ClassFormat::Github {
         append_summary(&class)?;
     }
     match class.entries.into_iter().next().map(|entry| entry.outcome) {
@@ -34,10 +34,10 @@ pub(super) fn run(wish: &GradeRequest<'_>, format: Format) -> Result<ExitStatus,
 }
 
 /// The hand-in as a class of one.
-fn class(wish: &GradeRequest<'_>, format: Format) -> Class {
+fn class(wish: &GradeRequest<'_>, format: ClassFormat) -> Class {
     let GradeRequest { arguments, assignment, language, .. } = wish;
     let name = files::names(&arguments.files);
-    let mut entry = Entry {
+    let mut entry = ClassEntry {
         student: Student { key: "submission".into(), name: name.clone(), moodle: None },
         places: files::places(&arguments.files),
         outcome: Outcome::NotGraded(Text::default()),
@@ -62,7 +62,12 @@ fn class(wish: &GradeRequest<'_>, format: Format) -> Class {
 }
 
 /// Grades the hand-in; what became of it where there is no report.
-fn fill(entry: &mut Entry, class: &mut Class, wish: &GradeRequest<'_>, format: Format) -> Result<(), Outcome> {
+fn fill(
+    entry: &mut ClassEntry,
+    class: &mut Class,
+    wish: &GradeRequest<'_>,
+    format: ClassFormat,
+) -> Result<(), Outcome> {
     let GradeRequest { arguments, assignment, .. } = wish;
     let (hand_in, places) = files::taken(&arguments.files, assignment).map_err(|why| match &why {
         NotTaken::Unfit(why) => Outcome::NotGraded(why.clone()),
@@ -78,7 +83,7 @@ fn fill(entry: &mut Entry, class: &mut Class, wish: &GradeRequest<'_>, format: F
         },
     })?;
     entry.places = places;
-    let wants_portrait = format == Format::Gradescope;
+    let wants_portrait = format == ClassFormat::Gradescope;
     let wants_frames = arguments.frames.is_some() || wants_portrait;
     let answer = grade::grade(wish, &hand_in, wants_frames).map_err(Outcome::Fault)?;
     entry.sources = hand_in.readable();

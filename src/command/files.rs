@@ -1,7 +1,7 @@
 //! The files of one hand-in, as the command line names them.
 
 use crate::batch::class::FileLocation;
-use crate::batch::intake::{self, Content, HandInPart, in_working_folder};
+use crate::batch::intake::{self, HandInContent, HandInPart, in_working_folder};
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use reference::Assignment;
@@ -37,12 +37,12 @@ impl NotTaken {
 pub(super) fn taken(paths: &[PathBuf], assignment: &Assignment) -> Result<(HandIn, Vec<FileLocation>), NotTaken> {
     let given = paths.iter().map(|path| given(path).map_err(|error| NotTaken::Unreadable(path.clone(), error)));
     let given: Vec<HandInPart> = given.collect::<Result<_, _>>()?;
-    match intake::one(given, &intake::Options::new(assignment)) {
-        Content::Files { hand_in, places } => {
+    match intake::one(given, &intake::IntakeOptions::new(assignment)) {
+        HandInContent::Files { hand_in, places } => {
             let is_somewhere = !paths.iter().any(|path| is_standard_input(path));
             Ok((hand_in, if is_somewhere { places } else { Vec::new() }))
         }
-        Content::Nothing(why) => Err(NotTaken::Unfit(why)),
+        HandInContent::Nothing(why) => Err(NotTaken::Unfit(why)),
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::view::{ReportView, has_colour};
 use super::{ExitStatus, deadline, exchange, file_fault, files, language, warn, writing};
-use crate::cli::{Format, Grade, ViewFormat};
+use crate::cli::{GradeArguments, ReportFormat, ViewFormat};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::Language;
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
-use crate::sandbox::{GradedSubmission, Pool, Settings, Submission};
+use crate::sandbox::{GradedSubmission, GradingTask, Pool, Settings};
 use crate::source::Source;
 use reference::Assignment;
 use std::io::Write;
@@ -16,21 +16,21 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Grades one hand-in and writes its report.
-pub fn run(arguments: &Grade) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &GradeArguments) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
     let asked = arguments.machine.assignment.as_deref();
     let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(ExitStatus::Usage) };
     let wish = GradeRequest { arguments, assignment, deadline, language };
     match arguments.format {
-        Format::Reading(reading) => run_for_reading(&wish, reading),
-        Format::Exchange(format) => exchange::run(&wish, format),
+        ReportFormat::Reading(reading) => run_for_reading(&wish, reading),
+        ReportFormat::Exchange(format) => exchange::run(&wish, format),
     }
 }
 
 /// What is to be graded, and how.
 pub(super) struct GradeRequest<'a> {
-    pub arguments: &'a Grade,
+    pub arguments: &'a GradeArguments,
     pub assignment: Arc<Assignment>,
     pub deadline: Duration,
     pub language: Language,
@@ -65,7 +65,7 @@ pub(super) fn grade(wish: &GradeRequest<'_>, hand_in: &HandIn, wants_frames: boo
     warn(&pool, *language);
     let seed = arguments.seed.unwrap_or_else(crate::grade::random_seed);
     let order = Order { seed, hints: arguments.hints, cross_check: arguments.cross_check };
-    pool.grade(Submission { assignment, hand_in, order, wants_frames })
+    pool.grade(GradingTask { assignment, hand_in, order, wants_frames })
 }
 
 /// The pictures, where any were drawn; written into the folder that was asked for.
@@ -92,7 +92,7 @@ pub(super) fn pictures(
 }
 
 /// Writes a document to where it was asked for.
-pub(super) fn put(arguments: &Grade, document: &str) -> Result<(), Fault> {
+pub(super) fn put(arguments: &GradeArguments, document: &str) -> Result<(), Fault> {
     match &arguments.output {
         Some(path) => std::fs::write(path, document).map_err(|error| file_fault(&writing(), path, &error)),
         None => {

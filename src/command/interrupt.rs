@@ -12,10 +12,10 @@ pub const EXIT_CODE: u8 = 130;
 /// Watches for the signals.
 #[derive(Clone)]
 pub struct Interrupt {
-    shared: Arc<Shared>,
+    shared: Arc<InterruptState>,
 }
 
-struct Shared {
+struct InterruptState {
     happened: AtomicBool,
     stop: AtomicBool,
     /// What the first signal is answered with; without it, a signal ends the program at once.
@@ -28,7 +28,7 @@ impl Interrupt {
     /// Watches from now on. No other thread may have been started before, for it would still be ended by the signals.
     pub fn watch() -> Result<Self, Fault> {
         let shared =
-            Shared { happened: AtomicBool::new(false), stop: AtomicBool::new(false), answer: Mutex::new(None) };
+            InterruptState { happened: AtomicBool::new(false), stop: AtomicBool::new(false), answer: Mutex::new(None) };
         let interrupt = Self { shared: Arc::new(shared) };
         let signals: SigSet = [Signal::SIGINT, Signal::SIGTERM].into_iter().collect();
         signals.thread_block().map_err(|error| cannot(&error.to_string()))?;

@@ -1,13 +1,13 @@
 //! `ggrade opengl`: what the machine's OpenGL driver draws of a solution, in a process of its own. A driver may end its process.
 
 use super::{ExitStatus, assignment};
-use crate::cli::OpenGl;
+use crate::cli::OpenglArguments;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::opengl;
 
 /// Prints an [`opengl::Agreement`], or why there is none, as JSON.
-pub fn run(arguments: &OpenGl) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &OpenglArguments) -> Result<ExitStatus, Fault> {
     let Some(assignment) = assignment(Some(&arguments.assignment), &[], Language::default()) else {
         return Ok(ExitStatus::Usage);
     };

@@ -40,7 +40,7 @@ pub(super) struct Saves {
     /// Whether the folders in folders count as well.
     depth: RecursiveMode,
     name: String,
-    seen: Option<Seen>,
+    seen: Option<SavedFiles>,
     changed: Arc<Notify>,
     /// Tells of changes for as long as it is there; none where the system cannot.
     _watcher: Option<notify::RecommendedWatcher>,
@@ -48,7 +48,7 @@ pub(super) struct Saves {
 
 /// What the files were when they were read last.
 #[derive(Debug)]
-struct Seen {
+struct SavedFiles {
     stamps: Stamps,
     contents: Vec<Vec<u8>>,
 }
@@ -115,7 +115,7 @@ impl Saves {
                 Err((_, error)) if error.kind() == std::io::ErrorKind::NotFound => (Save::Gone, Vec::new()),
                 Err((path, error)) => (Save::Unreadable(files::unreadable(&path, &error)), Vec::new()),
             };
-            self.seen = Some(Seen { stamps, contents });
+            self.seen = Some(SavedFiles { stamps, contents });
             return save;
         }
     }

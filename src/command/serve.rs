@@ -2,7 +2,7 @@
 
 use super::{ExitStatus, language};
 use crate::choice;
-use crate::cli::{LogFormat, Serve};
+use crate::cli::{LogFormat, ServeArguments};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::service::identity::SHORTEST_PASSWORD;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use tracing_subscriber::EnvFilter;
 
 /// Serves until it is told to end.
-pub fn run(arguments: &Serve) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &ServeArguments) -> Result<ExitStatus, Fault> {
     let config = match Config::load(arguments) {
         Ok(config) => config,
         Err(fault) => {

@@ -5,7 +5,7 @@ use crate::cli::ViewFormat;
 use crate::excerpt;
 use crate::fault::Fault;
 use crate::language::Language;
-use crate::report::html::Page;
+use crate::report::html::ReportPage;
 use crate::report::{Pictures, Report, json, text};
 use crate::source::Source;
 use reference::Assignment;
@@ -30,7 +30,7 @@ impl ReportView<'_> {
     pub fn document(&self, format: ViewFormat, colour: bool) -> Result<String, Fault> {
         match format {
             ViewFormat::Json => Ok(json::render(self.report, self.language)),
-            ViewFormat::Html => Page {
+            ViewFormat::Html => ReportPage {
                 assignment: self.assignment,
                 report: self.report,
                 sources: self.sources,
@@ -42,7 +42,7 @@ impl ReportView<'_> {
                 let excerpts = excerpt::excerpt(self.sources, &self.report.diagnostics, self.language, colour);
                 Ok(text::render(
                     self.report,
-                    &text::Options {
+                    &text::TextOptions {
                         assignment: self.assignment,
                         language: self.language,
                         width: width(std::io::stdout().is_terminal()),

@@ -10,19 +10,19 @@ use super::end_signals::EndSignals;
 use super::saves::{self, Save, Saves};
 use super::view::{ReportView, has_colour};
 use super::{ExitStatus, deadline, files, language, warn};
-use crate::batch::intake::{self, Content, Options};
-use crate::cli::{ViewFormat, Watch};
+use crate::batch::intake::{self, HandInContent, IntakeOptions};
+use crate::cli::{ViewFormat, WatchArguments};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::report::{Report, Verdict};
-use crate::sandbox::{Pool, Settings, Submission};
-use screen::Screen;
+use crate::sandbox::{GradingTask, Pool, Settings};
+use screen::WatchScreen;
 use std::sync::Arc;
 
 /// Grades the hand-in whenever a file of it is saved, until it is interrupted; then the last report says how it ends.
-pub fn run(arguments: &Watch) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &WatchArguments) -> Result<ExitStatus, Fault> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(|e| broken(&e))?;
     let outcome = runtime.block_on(watch(arguments));
     // A grading that is under way ends with its worker, and the worker with this process.
@@ -30,7 +30,7 @@ pub fn run(arguments: &Watch) -> Result<ExitStatus, Fault> {
     outcome
 }
 
-async fn watch(arguments: &Watch) -> Result<ExitStatus, Fault> {
+async fn watch(arguments: &WatchArguments) -> Result<ExitStatus, Fault> {
     let mut ends = EndSignals::listen().map_err(|error| broken(&error))?;
     let language = language(arguments.lang);
     let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
@@ -47,16 +47,16 @@ async fn watch(arguments: &Watch) -> Result<ExitStatus, Fault> {
     // The spare is for the save after an endless loop, which costs a worker.
     let pool = Arc::new(Pool::start(arguments.sandbox.apply(settings), 1)?);
     warn(&pool, language);
-    let mut session = Session {
+    let mut session = WatchSession {
         pool,
-        options: Options::new(&assignment),
+        options: IntakeOptions::new(&assignment),
         order: Order {
             seed: arguments.seed.unwrap_or_else(crate::grade::random_seed),
             hints: arguments.hints,
             ..Order::default()
         },
         language,
-        screen: Screen::new(saves.name(), language),
+        screen: WatchScreen::new(saves.name(), language),
         last: None,
         outcome: ExitStatus::Nothing,
     };
@@ -71,18 +71,18 @@ async fn watch(arguments: &Watch) -> Result<ExitStatus, Fault> {
 }
 
 /// What goes on between the saves.
-struct Session {
+struct WatchSession {
     pool: Arc<Pool>,
-    options: Options,
+    options: IntakeOptions,
     order: Order,
     language: Language,
-    screen: Screen,
+    screen: WatchScreen,
     /// The report before the next.
     last: Option<Report>,
     outcome: ExitStatus,
 }
 
-impl Session {
+impl WatchSession {
     /// Waits for the next save and shows its report.
     async fn next(&mut self, saves: &mut Saves) {
         let given = match saves.next().await {
@@ -91,13 +91,13 @@ impl Session {
             Save::Unreadable(reason) => return self.screen.note(&reason),
         };
         let hand_in = match intake::one(given, &self.options) {
-            Content::Files { hand_in, .. } => hand_in,
-            Content::Nothing(why) => return self.screen.note(&why),
+            HandInContent::Files { hand_in, .. } => hand_in,
+            HandInContent::Nothing(why) => return self.screen.note(&why),
         };
         let (pool, order) = (Arc::clone(&self.pool), self.order);
         let graded = tokio::task::spawn_blocking(move || {
             let assignment = pool.assignment();
-            let answer = pool.grade(Submission { assignment, hand_in: &hand_in, order, wants_frames: false });
+            let answer = pool.grade(GradingTask { assignment, hand_in: &hand_in, order, wants_frames: false });
             (answer, hand_in)
         });
         let (answer, hand_in) = match graded.await {

@@ -1,17 +1,17 @@
 //! `ggrade worker`: the child's side of the sandbox.
 
 use super::ExitStatus;
-use crate::cli::Worker;
+use crate::cli::WorkerArguments;
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::sandbox::{Attempt, Limits, worker};
+use crate::sandbox::{IntrusionAttempt, WorkerLimits, worker};
 use std::io;
 
 /// Grades what the parent sends until it closes the pipe.
-pub fn run(arguments: &Worker) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &WorkerArguments) -> Result<ExitStatus, Fault> {
     let job = worker::WorkerTask {
         adapter: arguments.adapter,
-        limits: Limits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
+        limits: WorkerLimits { memory: arguments.memory, cpu_seconds: arguments.cpu_seconds },
         rehearsal: arguments.rehearse,
     };
     match arguments.attempt {
@@ -20,7 +20,7 @@ pub fn run(arguments: &Worker) -> Result<ExitStatus, Fault> {
     }
 }
 
-fn try_to_escape(job: worker::WorkerTask, attempt: Attempt) -> Result<ExitStatus, Fault> {
+fn try_to_escape(job: worker::WorkerTask, attempt: IntrusionAttempt) -> Result<ExitStatus, Fault> {
     match worker::attempt(job, attempt).map_err(|error| broken(&error))? {
         Ok(()) => Ok(ExitStatus::Graded),
         Err(error) => {

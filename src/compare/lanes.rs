@@ -1,6 +1,6 @@
 //! Differences of many pixels at once.
 
-use super::{PIXEL_TOLERANCE, Pixel, RGB};
+use super::{PIXEL_TOLERANCE, PackedPixel, RGB};
 
 /// Pixels that are looked at together.
 pub(super) const LANES: usize = 16;
@@ -11,7 +11,7 @@ const BYTES: usize = LANES * 4;
 pub(super) const MOST_ADDED: u32 = 257;
 
 /// What was added, lane by lane.
-pub(super) struct Lanes {
+pub(super) struct LaneSums {
     /// For each byte its largest difference.
     pub most: [u8; BYTES],
     /// For each byte the sum of all.
@@ -22,16 +22,16 @@ pub(super) struct Lanes {
     pub added: u32,
 }
 
-impl Default for Lanes {
+impl Default for LaneSums {
     fn default() -> Self {
         Self { most: [0; BYTES], sums: [0; BYTES], far: [0; LANES], added: 0 }
     }
 }
 
-impl Lanes {
+impl LaneSums {
     /// Adds the differences of red, green and blue, at most [`MOST_ADDED`] times.
     // Whole lanes without a branch, so that the compiler makes vector instructions of it.
-    pub fn add(&mut self, expected: &[Pixel; LANES], found: &[Pixel; LANES]) {
+    pub fn add(&mut self, expected: &[PackedPixel; LANES], found: &[PackedPixel; LANES]) {
         let (expected, found) = (expected.map(|pixel| pixel & RGB), found.map(|pixel| pixel & RGB));
         let (expected, found): (&[u8; BYTES], &[u8; BYTES]) =
             (bytemuck::cast_ref(&expected), bytemuck::cast_ref(&found));
@@ -42,7 +42,7 @@ impl Lanes {
             self.sums[index] += u16::from(difference);
             beyond[index] = difference.saturating_sub(PIXEL_TOLERANCE);
         }
-        let beyond: &[Pixel; LANES] = bytemuck::cast_ref(&beyond);
+        let beyond: &[PackedPixel; LANES] = bytemuck::cast_ref(&beyond);
         self.far.iter_mut().zip(beyond).for_each(|(far, beyond)| *far += u32::from(*beyond != 0));
         self.added += 1;
     }

@@ -1,6 +1,6 @@
 //! What a sample's report must say, wording included: a message that changes is a change that someone blesses.
 
-use crate::diagnostic::{Severity, Stage};
+use crate::diagnostic::{DiagnosticStage, Severity};
 use crate::language::Text;
 use crate::report::{Repair, Report, Verdict};
 use serde::{Deserialize, Serialize};
@@ -66,7 +66,7 @@ pub struct ExpectedDiagnostic {
     /// Error, warning or note.
     pub severity: Severity,
     /// The stage that speaks.
-    pub stage: Stage,
+    pub stage: DiagnosticStage,
     /// The file, where the sample has several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,

@@ -1,7 +1,7 @@
 //! What the driver was given, as the interpreter takes it.
 
 use super::CrossCheck;
-use crate::render::Batch;
+use crate::render::DrawCall;
 use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
 
 /// Steps that one run may take: a tenth of a second or two, so that a second opinion does not make a grading late. That is
@@ -12,7 +12,7 @@ const FUEL: u64 = 60_000_000;
 const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// All vertices as columns.
-pub(super) struct Vertices<'a> {
+pub(super) struct VertexColumns<'a> {
     /// By name, x, y, z and w.
     attributes: Vec<(&'a str, [Vec<f64>; 4])>,
     /// By path, the scalars of a value.
@@ -24,9 +24,9 @@ pub(super) struct Vertices<'a> {
     ones: Vec<f64>,
 }
 
-impl<'a> Vertices<'a> {
-    pub fn new(batches: &[&'a Batch]) -> Self {
-        let length = |batch: &Batch| batch.attributes.first().map_or(0, |(_, values)| values.len());
+impl<'a> VertexColumns<'a> {
+    pub fn new(batches: &[&'a DrawCall]) -> Self {
+        let length = |batch: &DrawCall| batch.attributes.first().map_or(0, |(_, values)| values.len());
         let count = batches.iter().map(|batch| length(batch)).sum();
         let mut vertices = Self {
             attributes: Vec::new(),
@@ -45,7 +45,7 @@ impl<'a> Vertices<'a> {
         for (index, (name, value)) in first.uniforms.iter().enumerate() {
             let column = |scalar: usize| {
                 let each =
-                    |batch: &&Batch| std::iter::repeat_n(batch.uniforms[index].1.numbers()[scalar], length(batch));
+                    |batch: &&DrawCall| std::iter::repeat_n(batch.uniforms[index].1.numbers()[scalar], length(batch));
                 batches.iter().flat_map(each).collect()
             };
             vertices.uniforms.push((name, (0..value.numbers().len()).map(column).collect()));

@@ -5,9 +5,9 @@
 //! moves a right answer's when something is added to it.
 
 use super::Evidence;
-use super::columns::{Columns, is_constant, is_number, is_same, of_places};
+use super::columns::{ScalarColumns, is_constant, is_number, is_same, of_places};
 use super::inside::made_of;
-use super::trials::{Changes, FUEL_OF_TRACE, change, is_drawn, place};
+use super::trials::{FUEL_OF_TRACE, StageChanges, change, is_drawn, place};
 use glam::DVec3;
 use reference::assignment::RubricLine;
 use reference::fit::TermJudgement;
@@ -38,7 +38,7 @@ const MOST_CANDIDATES: usize = 24;
 
 /// The judgements; right are also the terms that the text adds as they are. One stays wrong, for the sum is.
 pub(super) fn credit(evidence: &Evidence<'_>, judged: Vec<TermJudgement>) -> Vec<TermJudgement> {
-    let Some(mut text) = Text::of(evidence) else { return judged };
+    let Some(mut text) = TextEvaluation::of(evidence) else { return judged };
     let mut is_added = |judgement: &TermJudgement| {
         let line = evidence.assignment.rubric.iter().find(|line| line.id == judgement.line);
         line.is_some_and(|line| text.adds(line))
@@ -54,7 +54,7 @@ pub(super) fn credit(evidence: &Evidence<'_>, judged: Vec<TermJudgement>) -> Vec
 
 /// Whether the text computes some term that the rubric judges, right and not the same everywhere, whatever becomes of it.
 pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
-    let Some(text) = Text::of(evidence) else { return false };
+    let Some(text) = TextEvaluation::of(evidence) else { return false };
     evidence.assignment.rubric.iter().any(|line| {
         let term = text.right(&line.judges);
         !is_constant(&term) && !text.computing(&term).is_empty()
@@ -64,7 +64,7 @@ pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
 /// Whether the colour is made of something that a right answer computes as well and that is not the same everywhere. Then the
 /// text computes, and a mistake on the way may leave one colour for all places: it looks nothing up.
 pub(super) fn is_computed(evidence: &Evidence<'_>) -> bool {
-    let (Some(text), Some(program)) = (Text::of(evidence), evidence.traced) else { return false };
+    let (Some(text), Some(program)) = (TextEvaluation::of(evidence), evidence.traced) else { return false };
     let outputs = program.stage(text.stage).outputs().iter().zip(&text.trace.outputs);
     let colours: Vec<usize> =
         outputs.filter(|(output, _)| output.name != POSITION).flat_map(|(_, events)| events.clone()).collect();
@@ -80,7 +80,7 @@ pub(super) fn is_computed(evidence: &Evidence<'_>) -> bool {
 pub(super) fn is_finite_nowhere(evidence: &Evidence<'_>) -> bool {
     // One of each design.
     let places: Vec<Place<'_>> = (0..evidence.probes.of_group(0).len()).map(|at| place(evidence, at)).collect();
-    let colours = bench(evidence, &places).and_then(|bench| bench.lenient().with(&Changes::default()));
+    let colours = bench(evidence, &places).and_then(|bench| bench.lenient().with(&StageChanges::default()));
     colours.is_some_and(|seen| !seen.colours.iter().any(|colour| colour.is_finite()))
 }
 
@@ -92,7 +92,7 @@ fn bench<'p>(evidence: &Evidence<'p>, places: &[Place<'p>]) -> Option<Bench<'p>>
 }
 
 /// What the student's text computes at some of the probes, where what overflows counts as 0.
-struct Text<'a> {
+struct TextEvaluation<'a> {
     evidence: Evidence<'a>,
     places: Vec<Place<'a>>,
     stage: Stage,
@@ -101,13 +101,13 @@ struct Text<'a> {
     colours: Vec<DVec3>,
 }
 
-impl<'a> Text<'a> {
+impl<'a> TextEvaluation<'a> {
     /// `None` where the interpreter does not compute what the driver computed.
     fn of(evidence: &Evidence<'a>) -> Option<Self> {
         let chosen: Vec<usize> =
             (0..evidence.samples.len().min(evidence.probes.probes.len())).step_by(STRIDE).collect();
         let places: Vec<Place<'a>> = chosen.iter().map(|at| place(evidence, *at)).collect();
-        let plain = bench(evidence, &places)?.with(&Changes::default())?;
+        let plain = bench(evidence, &places)?.with(&StageChanges::default())?;
         // The driver shows anything for what overflows.
         let is_usual = |colour: &DVec3| colour.to_array().iter().all(|x| x.abs() < OVERFLOWING);
         let usual = chosen.iter().zip(&plain.colours).filter(|(_, colour)| is_usual(colour));
@@ -116,14 +116,14 @@ impl<'a> Text<'a> {
             return None;
         }
         let mut bench = bench(evidence, &places)?.bounded(OVERFLOWING);
-        let (seen, mut traces) = bench.trace(&Changes::default())?;
+        let (seen, mut traces) = bench.trace(&StageChanges::default())?;
         let stage = evidence.assignment.equation.reads().stage()?;
         let trace = traces[stage as usize].take()?;
         Some(Self { evidence: *evidence, places, stage, bench, trace, colours: seen.colours })
     }
 
     /// A definition, as a right answer computes it.
-    fn right(&self, definition: &str) -> Columns {
+    fn right(&self, definition: &str) -> ScalarColumns {
         let right = self.evidence.assignment.equation.right();
         let value = |at: &Place<'_>| right.evaluate(at.uniforms, &at.probe.attributes).get(definition);
         let values: Vec<_> = self.places.iter().filter_map(value).collect();
@@ -132,7 +132,7 @@ impl<'a> Text<'a> {
     }
 
     /// Where the text computes a colour, alpha aside.
-    fn computing(&self, colour: &Columns) -> Vec<usize> {
+    fn computing(&self, colour: &ScalarColumns) -> Vec<usize> {
         let all = self.trace.events.iter().enumerate().filter(|(_, event)| is_it(event, colour));
         all.map(|(at, _)| at).take(MOST_CANDIDATES).collect()
     }
@@ -149,12 +149,12 @@ impl<'a> Text<'a> {
     }
 
     /// Something is added to an event.
-    fn raised(&self, event: usize) -> Changes {
+    fn raised(&self, event: usize) -> StageChanges {
         let mut values = self.trace.events[event].values.clone();
         for (column, added) in values.iter_mut().zip(ADDED) {
             column.iter_mut().for_each(|x| *x += added);
         }
-        let mut changes = Changes::default();
+        let mut changes = StageChanges::default();
         changes[self.stage as usize].push(change(&self.trace, event, &values));
         changes
     }
@@ -172,7 +172,7 @@ impl<'a> Text<'a> {
 
     /// Whether the term is the same everywhere, and so is what is added to it before the rest: together they are a term that
     /// is not right.
-    fn has_a_constant_beside(&mut self, event: usize, term: &Columns, wanted: &[DVec3]) -> bool {
+    fn has_a_constant_beside(&mut self, event: usize, term: &ScalarColumns, wanted: &[DVec3]) -> bool {
         if !is_constant(term) {
             return false;
         }
@@ -194,7 +194,7 @@ impl<'a> Text<'a> {
 }
 
 /// Whether an event is this colour wherever the program runs, alpha aside.
-fn is_it(event: &Event, colour: &Columns) -> bool {
+fn is_it(event: &Event, colour: &ScalarColumns) -> bool {
     let same = |(own, wanted): (&Vec<f64>, &Vec<f64>)| {
         own.len() == wanted.len() && own.iter().zip(wanted).all(|(own, wanted)| is_number(*own, *wanted))
     };

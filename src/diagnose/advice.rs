@@ -5,10 +5,10 @@
 
 use super::Evidence;
 use super::columns::is_colour;
-use super::locate::{Located, Points, Words, is_handed_out, last_position};
-use super::trials::{Changes, place};
+use super::locate::{Located, TracedProbes, Words, is_handed_out, last_position};
+use super::trials::{StageChanges, place};
 use crate::language::Text;
-use crate::report::Advice;
+use crate::report::AdviceLine;
 use crate::translate::plain_lines;
 use glam::{DVec3, DVec4};
 use reference::Assignment;
@@ -51,8 +51,8 @@ pub fn beyond(assignment: &Assignment, probes: &ProbeSet) -> Vec<Beyond> {
 }
 
 /// The advice for a right answer, at most one piece for a line.
-pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Advice> {
-    let mut found: Vec<Advice> = Vec::new();
+pub(super) fn find(evidence: &Evidence<'_>) -> Vec<AdviceLine> {
+    let mut found: Vec<AdviceLine> = Vec::new();
     if evidence.beyond.is_empty() || !is_defined(evidence) {
         return found;
     }
@@ -81,7 +81,7 @@ fn is_defined(evidence: &Evidence<'_>) -> bool {
 /// What is seen of a program; `None` where it cannot be run, or not in time.
 fn seen(assignment: &Assignment, program: &TracedProgram, places: &[Place<'_>]) -> Option<Seen> {
     let in_quads = program.needs_quads(assignment);
-    Bench::new(assignment, program, places, in_quads, FUEL)?.with(&Changes::default())
+    Bench::new(assignment, program, places, in_quads, FUEL)?.with(&StageChanges::default())
 }
 
 impl Beyond {
@@ -107,13 +107,13 @@ impl Beyond {
         TracedProgram::new(evidence.assignment, &[(*stage, &plain_lines(&text))]).ok()
     }
 
-    fn advice(&self, evidence: &Evidence<'_>) -> Option<Advice> {
+    fn advice(&self, evidence: &Evidence<'_>) -> Option<AdviceLine> {
         let program = self.program(evidence)?;
         let differs = self.differs(&program)?;
         if !differs.colour && !differs.position {
             return None;
         }
-        let place = || Points::beyond(evidence, self, &program)?.place_of(&self.advice.about);
+        let place = || TracedProbes::beyond(evidence, self, &program)?.place_of(&self.advice.about);
         let located = if differs.colour { place() } else { last_position(&program).map(Located::at) };
         if self.advice.only_about && located.is_none() {
             return None;
@@ -135,7 +135,7 @@ impl Beyond {
         Some(differs)
     }
 
-    fn message(&self, evidence: &Evidence<'_>, located: Option<Located>) -> Advice {
+    fn message(&self, evidence: &Evidence<'_>, located: Option<Located>) -> AdviceLine {
         let line = located.as_ref().map(|located| located.line);
         let mut values = Vec::new();
         if let Some(Located { line, name, .. }) = located {
@@ -145,7 +145,7 @@ impl Beyond {
         }
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let message = self.advice.message.fill(&values);
-        Advice {
+        AdviceLine {
             id: self.advice.id.clone(),
             message: Text::new(message.en, message.ja),
             file: evidence.source.facts.name.clone(),

@@ -2,7 +2,7 @@
 
 use super::constants::{self, ChangedConstant};
 use super::inside::{self, Finding, Repaired};
-use super::locate::{self, Points};
+use super::locate::{self, TracedProbes};
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::render::Sample;
@@ -12,8 +12,8 @@ use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::{
-    Alternatives, Fit, MOST_MISTAKES, Part, Parts, TermJudgement, explain_derived, explain_parts, is_right,
-    judge_factor, judge_features, judge_terms, program_of,
+    Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
+    is_right, judge_factor, judge_features, judge_terms, program_of,
 };
 use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
@@ -44,7 +44,7 @@ pub(super) enum Cause {
         found: Vec<FoundMistake>,
     },
     /// All is right but for some features, and a known mistake where there is one.
-    Parts(Parts),
+    Parts(FeatureExplanation),
     /// The colour does not come from the equation at all.
     HardCoded,
     /// Nothing known explains it, but it is never off by much.
@@ -216,7 +216,7 @@ fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + '
 /// many mistakes together explain much by chance.
 fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     let assignment = evidence.assignment;
-    let mut points = Points::new(evidence, assignment);
+    let mut points = TracedProbes::new(evidence, assignment);
     if points.is_none() {
         return true;
     }
@@ -318,7 +318,7 @@ impl Cause {
                 let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
                 changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
             }
-            Self::Parts(Parts { found, parts }) => {
+            Self::Parts(FeatureExplanation { found, parts }) => {
                 let mut ids: Vec<String> = found.iter().map(|found| found.id.clone()).collect();
                 let kinds = parts.iter().map(|(_, part)| part_id(*part).to_owned());
                 ids.extend(kinds);
@@ -338,10 +338,10 @@ impl Cause {
 }
 
 /// What is said of a feature.
-const fn part_id(part: Part) -> &'static str {
+const fn part_id(part: FeatureDefect) -> &'static str {
     match part {
-        Part::Missing => PART_MISSING,
-        Part::Factor(_) => PART_SCALED,
+        FeatureDefect::Missing => PART_MISSING,
+        FeatureDefect::Factor(_) => PART_SCALED,
     }
 }
 
@@ -354,7 +354,7 @@ pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, caus
             .iter()
             .find(|term| term.line == line.id)
             .map_or(!assignment.judges_position(line), |term| !term.is_right()),
-        (Cause::Parts(Parts { parts, .. }), PART_MISSING | PART_SCALED) => {
+        (Cause::Parts(FeatureExplanation { parts, .. }), PART_MISSING | PART_SCALED) => {
             parts.iter().any(|(at, part)| assignment.rubric[*at].id == line.id && part_id(*part) == id)
         }
         (Cause::Repaired(repairs), _) if repairs.iter().any(|(_, repaired)| repaired.mistake.id == id) => {
@@ -364,7 +364,7 @@ pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, caus
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
-        (Cause::Known { found, .. } | Cause::Parts(Parts { found, .. }), _)
+        (Cause::Known { found, .. } | Cause::Parts(FeatureExplanation { found, .. }), _)
             if let Some(found) = found.iter().find(|found| found.id == id) =>
         {
             return assignment.keeps(found, line);

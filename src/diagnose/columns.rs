@@ -6,10 +6,10 @@ use reference::Value;
 use reference::interpreter::trace::Event;
 
 /// The scalars of a value, each for all samples.
-pub(super) type Columns = Vec<Vec<f64>>;
+pub(super) type ScalarColumns = Vec<Vec<f64>>;
 
 /// The columns of what has one of these values at each place, which has so many samples `each`.
-pub(super) fn of_places(values: &[Value], each: usize) -> Columns {
+pub(super) fn of_places(values: &[Value], each: usize) -> ScalarColumns {
     let count = values.first().map_or(0, |value| value.numbers().len());
     let column = |scalar: usize| {
         let numbers = values.iter().map(|value| value.numbers()[scalar]);
@@ -35,12 +35,12 @@ pub(super) fn is_colour(wanted: DVec3, found: DVec3) -> bool {
 }
 
 /// Whether a value is the same at all places.
-pub(super) fn is_constant(columns: &Columns) -> bool {
+pub(super) fn is_constant(columns: &ScalarColumns) -> bool {
     columns.iter().all(|column| column.iter().all(|value| is_number(*value, column[0])))
 }
 
 /// Whether two values are the same everywhere.
-pub(super) fn is_equal(a: &Columns, b: &Columns) -> bool {
+pub(super) fn is_equal(a: &ScalarColumns, b: &ScalarColumns) -> bool {
     let is_one = |(a, b): (&f64, &f64)| a.is_nan() && b.is_nan() || is_number(*a, *b);
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(is_one))
 }
@@ -51,7 +51,7 @@ pub(super) fn fits(value: usize, quantity: usize) -> bool {
 }
 
 /// Whether a value equals a quantity wherever both are there.
-pub(super) fn is_same(event: &Event, quantity: &Columns) -> bool {
+pub(super) fn is_same(event: &Event, quantity: &ScalarColumns) -> bool {
     if !fits(event.values.len(), quantity.len()) {
         return false;
     }
@@ -71,7 +71,7 @@ pub(super) fn is_zero(event: &Event) -> bool {
 }
 
 /// A quantity in the shape of a value: what it has not stays as it is.
-pub(super) fn shaped(event: &Event, quantity: &Columns) -> Columns {
+pub(super) fn shaped(event: &Event, quantity: &ScalarColumns) -> ScalarColumns {
     let own = event.values.iter().enumerate();
     own.map(|(scalar, own)| quantity.get(scalar).unwrap_or(own).clone()).collect()
 }

@@ -17,15 +17,15 @@ mod words;
 
 use super::Evidence;
 use super::columns::is_colour;
-use super::locate::{Located, Role, is_handed_out};
-use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
+use super::locate::{Located, MistakeOrigin, is_handed_out};
+use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use crate::compare::POSITION_TOLERANCE;
 use glam::DVec3;
 pub(super) use own_values::own_values;
 use quantities::Quantities;
 pub(super) use quantities::made_of;
 use reference::Assignment;
-use reference::equation::Variant;
+use reference::equation::EquationVariant;
 use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
 use reference::mistake::FoundMistake;
@@ -122,7 +122,7 @@ pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<F
 impl Finding {
     /// The place as others name it.
     pub fn located(&self) -> Located {
-        Located { line: self.line, name: self.name.clone(), role: Role::Wrong, stage: Some(self.stage) }
+        Located { line: self.line, name: self.name.clone(), role: MistakeOrigin::Wrong, stage: Some(self.stage) }
     }
 }
 
@@ -145,7 +145,7 @@ pub(super) fn variable(sites: &[Site], site: usize) -> Option<String> {
 fn within<T: Default>(
     evidence: &Evidence<'_>,
     assignment: &Assignment,
-    right: Option<&Variant<'_>>,
+    right: Option<&EquationVariant<'_>>,
     more: &[Place<'_>],
     look: impl FnOnce(&mut Search<'_, '_>) -> T,
 ) -> Option<T> {
@@ -157,12 +157,13 @@ fn within<T: Default>(
     }
     let places: Vec<Place<'_>> = chosen.iter().map(|at| place(evidence, *at)).chain(more.iter().copied()).collect();
     let in_quads = theirs.needs_quads(assignment) || solution.needs_quads(assignment);
-    let (own, traces) = Bench::new(assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?.trace(&Changes::default())?;
+    let (own, traces) =
+        Bench::new(assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?.trace(&StageChanges::default())?;
     if !is_drawn(evidence, &chosen, &own.colours) {
         return None;
     }
     let (mut wanted, right_traces) =
-        Bench::new(assignment, &solution, &places, in_quads, FUEL_OF_TRACE)?.trace(&Changes::default())?;
+        Bench::new(assignment, &solution, &places, in_quads, FUEL_OF_TRACE)?.trace(&StageChanges::default())?;
     let mut quantities = Quantities::of(&solution, right_traces);
     if let Some(variant) = right {
         wanted.colours = quantities.replace(assignment, variant, &places, if in_quads { 4 } else { 1 })?;

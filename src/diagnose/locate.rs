@@ -3,16 +3,16 @@
 //! The interpreter of `reference` runs the text at some of the probes. A search for names in the text would not see that a
 //! statement further down changes a value, or that a function or a variable of another name computes it.
 
-use super::columns::{Columns, is_colour, is_same, of_places};
+use super::columns::{ScalarColumns, is_colour, is_same, of_places};
 use super::inside::{self, Finding};
-use super::trials::{Changes, FUEL_OF_TRACE, Trials, chosen, is_drawn, place};
+use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use super::{Evidence, advice::Beyond};
 use crate::source::Source;
 use glam::DVec3;
 use reference::Assignment;
-use reference::equation::Variant;
+use reference::equation::EquationVariant;
 use reference::interpreter::Stage;
-use reference::interpreter::trace::{Change, Event, Site, Trace, What};
+use reference::interpreter::trace::{Event, Site, Trace, ValueChange, What};
 use reference::mistake::FoundMistake;
 use reference::traced::{Bench, Place, TracedProgram};
 
@@ -29,7 +29,7 @@ pub(super) struct Located {
     /// The variable that is given the value there.
     pub name: Option<String>,
     /// What the value is to the colour.
-    pub role: Role,
+    pub role: MistakeOrigin,
     /// The stage whose text it is; none where there is only one.
     pub stage: Option<Stage>,
 }
@@ -37,13 +37,13 @@ pub(super) struct Located {
 impl Located {
     /// A line of which no more is known.
     pub fn at(line: u32) -> Self {
-        Self { line, name: None, role: Role::Wrong, stage: None }
+        Self { line, name: None, role: MistakeOrigin::Wrong, stage: None }
     }
 }
 
 /// How the shader comes by what the mistake is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum MistakeOrigin {
     /// The place computes it, and what it computes is not right.
     Wrong,
     /// The place computes it, and it is 0 at every probe.
@@ -61,7 +61,7 @@ pub(super) fn last_position(program: &TracedProgram) -> Option<u32> {
 }
 
 /// The file's only stage at some of the probes, with every value on the way to the colour.
-pub(super) struct Points<'a> {
+pub(super) struct TracedProbes<'a> {
     /// The homework, with the student's own constants.
     pub assignment: &'a Assignment,
     source: &'a Source,
@@ -74,7 +74,7 @@ pub(super) struct Points<'a> {
     each: usize,
 }
 
-impl<'a> Points<'a> {
+impl<'a> TracedProbes<'a> {
     /// Runs it at wrong and at right samples. `None` where the answer is known by no definitions, or does not compute what
     /// the driver computed.
     pub fn new(evidence: &Evidence<'a>, assignment: &'a Assignment) -> Option<Self> {
@@ -95,7 +95,7 @@ impl<'a> Points<'a> {
         let program = evidence.traced.filter(|_| !places.is_empty())?;
         let in_quads = program.needs_quads(assignment);
         let mut bench = Bench::new(assignment, program, &places, in_quads, FUEL_OF_TRACE)?;
-        let (seen, mut traces) = bench.trace(&Changes::default())?;
+        let (seen, mut traces) = bench.trace(&StageChanges::default())?;
         let trace = traces[stage as usize].take()?;
         let trials = Trials::new(assignment, program, &places, in_quads)?;
         let (source, sites) = (evidence.source, program.stage(stage).sites());
@@ -109,7 +109,7 @@ impl<'a> Points<'a> {
     }
 
     /// The name of a variable that holds a definition at every point.
-    fn name_of(&self, right: &Columns) -> Option<&'a str> {
+    fn name_of(&self, right: &ScalarColumns) -> Option<&'a str> {
         // A colour may have three components instead of four, and nothing else.
         let fits = |event: &&Event| event.values.len() <= right.len() && is_same(event, right);
         let mut holding = self.trace.events.iter().filter(fits);
@@ -121,10 +121,10 @@ impl<'a> Points<'a> {
     }
 
     /// The definitions of a variant of the equation at each point, in the equation's order.
-    fn definitions(&self, variant: &Variant<'_>) -> Vec<Columns> {
+    fn definitions(&self, variant: &EquationVariant<'_>) -> Vec<ScalarColumns> {
         let outcomes: Vec<_> =
             self.places.iter().map(|at| variant.evaluate(at.uniforms, &at.probe.attributes)).collect();
-        let columns = |name: &str| -> Columns {
+        let columns = |name: &str| -> ScalarColumns {
             let values: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.get(name)).collect();
             of_places(&values, self.each)
         };
@@ -132,14 +132,14 @@ impl<'a> Points<'a> {
     }
 
     /// The colours that a variant shows.
-    fn colours(&self, variant: &Variant<'_>) -> Vec<DVec3> {
+    fn colours(&self, variant: &EquationVariant<'_>) -> Vec<DVec3> {
         let colour = |at: &Place<'_>| variant.evaluate(at.uniforms, &at.probe.attributes).colour();
         self.places.iter().map(colour).collect()
     }
 
     /// Whether the colour is `wanted` at every point when this is changed.
-    fn becomes(&mut self, wanted: &[DVec3], change: impl IntoIterator<Item = Change>) -> bool {
-        let mut changes = Changes::default();
+    fn becomes(&mut self, wanted: &[DVec3], change: impl IntoIterator<Item = ValueChange>) -> bool {
+        let mut changes = StageChanges::default();
         changes[self.stage as usize].extend(change);
         self.trials.holds(&changes, &|seen, count| {
             seen.colours.iter().zip(wanted).take(count).all(|(own, wanted)| is_colour(*wanted, *own))
@@ -152,7 +152,7 @@ impl<'a> Points<'a> {
     }
 
     /// The place of an event.
-    fn located(&self, event: usize, role: Role) -> Located {
+    fn located(&self, event: usize, role: MistakeOrigin) -> Located {
         let site = self.trace.events[event].site;
         let name = inside::variable(self.sites, site);
         Located { line: self.sites[site].line, name, role, stage: None }
@@ -164,7 +164,7 @@ impl<'a> Points<'a> {
 pub(super) fn mistake(
     evidence: &Evidence<'_>,
     assignment: &Assignment,
-    points: &mut Option<Points<'_>>,
+    points: &mut Option<TracedProbes<'_>>,
     found: &[FoundMistake],
     index: usize,
     only: Option<&Finding>,

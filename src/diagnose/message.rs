@@ -5,7 +5,7 @@
 use super::cause::{NEARLY_RIGHT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
-use super::locate::{self, Located, Points, Role, Words, is_handed_out};
+use super::locate::{self, Located, MistakeOrigin, TracedProbes, Words, is_handed_out};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
 use crate::report::FrameResult;
@@ -13,7 +13,7 @@ use crate::source::Source;
 use crate::translate::NO_LINE;
 use reference::assignment::RubricLine;
 use reference::equation::DISCARDED;
-use reference::fit::{Part, Parts, Worst};
+use reference::fit::{FeatureDefect, FeatureExplanation, Worst};
 use reference::mistake::{Condition, FoundMistake, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
@@ -108,7 +108,7 @@ impl Facts {
         };
         let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
         let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
-        let mut points = Points::new(evidence, &theirs);
+        let mut points = TracedProbes::new(evidence, &theirs);
         let only = (found.len() > 1).then(|| inside::only(evidence, &theirs)).flatten();
         let mut place = |index| locate::mistake(evidence, &theirs, &mut points, found, index, only.as_ref());
         let places = found.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
@@ -120,7 +120,7 @@ impl Facts {
             Cause::Unexplained { findings, .. } => findings.clone(),
         };
         let mut names = Self::handed_out(evidence);
-        let own = points.as_ref().map(Points::names).unwrap_or_default();
+        let own = points.as_ref().map(TracedProbes::names).unwrap_or_default();
         let own = own.into_iter().chain(std::iter::repeat(None));
         for (definition, own) in evidence.assignment.equation.definitions().iter().zip(own) {
             let symbol = definition.symbol.clone();
@@ -155,7 +155,7 @@ impl Facts {
 struct Blanks<'f> {
     values: Vec<(&'f str, String)>,
     line: Option<u32>,
-    role: Option<Role>,
+    role: Option<MistakeOrigin>,
     worst: Option<Worst>,
     /// The file of the line, where there are several.
     file: Option<String>,
@@ -185,9 +185,9 @@ impl<'f> Blanks<'f> {
                 let throws_away = evidence.source.words().any(|(_, word)| word == "discard");
                 blanks.worst(worst, throws_away);
             }
-            (Cause::Parts(Parts { parts, .. }), PART_SCALED) => {
+            (Cause::Parts(FeatureExplanation { parts, .. }), PART_SCALED) => {
                 let factor = parts.iter().find_map(|(at, part)| match part {
-                    Part::Factor(factor) if evidence.assignment.rubric[*at].id == line.id => Some(factor),
+                    FeatureDefect::Factor(factor) if evidence.assignment.rubric[*at].id == line.id => Some(factor),
                     _ => None,
                 });
                 let [red, others @ ..] = factor.copied().unwrap_or_default();
@@ -259,8 +259,8 @@ impl<'f> Blanks<'f> {
         move |condition| match condition {
             Condition::Forms(forms) => form.is_some_and(|form| forms.contains(&form)),
             Condition::Lacks(words) => !words.iter().any(|word| code.has(word)),
-            Condition::Zero => role == Some(Role::Zero),
-            Condition::Absent => role == Some(Role::Absent),
+            Condition::Zero => role == Some(MistakeOrigin::Zero),
+            Condition::Absent => role == Some(MistakeOrigin::Absent),
         }
     }
 

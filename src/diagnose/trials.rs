@@ -1,11 +1,11 @@
 //! The student's program at some of the probes, run again and again with some of its values changed.
 
-use super::columns::{Columns, is_colour};
+use super::columns::{ScalarColumns, is_colour};
 use super::{Evidence, position_scale};
 use crate::compare::{POSITION_TOLERANCE, position_difference};
 use glam::DVec3;
 use reference::Assignment;
-use reference::interpreter::trace::{Change, Trace};
+use reference::interpreter::trace::{Trace, ValueChange};
 use reference::traced::{Bench, Place, Seen, TracedProgram};
 
 /// How many wrong and how many right samples are looked at.
@@ -21,7 +21,7 @@ const FUEL: u64 = 30_000_000;
 pub(super) const FUEL_OF_TRACE: u64 = 10_000_000;
 
 /// What is changed in the vertex and in the fragment stage.
-pub(super) type Changes = [Vec<Change>; 2];
+pub(super) type StageChanges = [Vec<ValueChange>; 2];
 
 /// A program at some probes, the first of which are asked first.
 #[derive(Debug)]
@@ -43,25 +43,25 @@ impl<'p> Trials<'p> {
         let mut few = Bench::new(assignment, program, first, in_quads, FUEL)?;
         let mut all = Bench::new(assignment, program, places, in_quads, FUEL_OF_TRACE)?;
         // How many steps a run may take is known from the first.
-        few.with(&Changes::default())?;
-        all.with(&Changes::default())?;
+        few.with(&StageChanges::default())?;
+        all.with(&StageChanges::default())?;
         Some(Self { few, all, count: places.len() })
     }
 
     /// Whether what is seen with these changes is right, at the first places and then at all.
-    pub fn holds(&mut self, changes: &Changes, is_right: &dyn Fn(&Seen, usize) -> bool) -> bool {
+    pub fn holds(&mut self, changes: &StageChanges, is_right: &dyn Fn(&Seen, usize) -> bool) -> bool {
         let first = self.count.min(FIRST);
         self.at_first(changes).is_some_and(|seen| is_right(&seen, first))
             && self.all.with(changes).is_some_and(|seen| is_right(&seen, self.count))
     }
 
     /// What is seen with these changes at all places.
-    pub fn at_all(&mut self, changes: &Changes) -> Option<Seen> {
+    pub fn at_all(&mut self, changes: &StageChanges) -> Option<Seen> {
         self.all.with(changes)
     }
 
     /// What is seen with these changes at the first places.
-    pub fn at_first(&mut self, changes: &Changes) -> Option<Seen> {
+    pub fn at_first(&mut self, changes: &StageChanges) -> Option<Seen> {
         let mut changes = changes.clone();
         let all = changes.iter_mut().flatten().flat_map(|change| &mut change.values);
         for column in all.flatten() {
@@ -73,11 +73,11 @@ impl<'p> Trials<'p> {
 }
 
 /// An event has other values, and only it of all that its site computes.
-pub(super) fn change(trace: &Trace, event: usize, values: &Columns) -> Change {
+pub(super) fn change(trace: &Trace, event: usize, values: &ScalarColumns) -> ValueChange {
     let site = trace.events[event].site;
     let turns = trace.events.iter().enumerate().filter(|(_, other)| other.site == site);
     let values = turns.map(|(at, other)| if at == event { values.clone() } else { other.values.clone() });
-    Change { site, values: values.collect() }
+    ValueChange { site, values: values.collect() }
 }
 
 /// Wrong and right samples in turn, a wrong one first; right ones alone where none is wrong.

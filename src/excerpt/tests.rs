@@ -1,5 +1,5 @@
 use super::*;
-use crate::diagnostic::Stage;
+use crate::diagnostic::DiagnosticStage;
 use crate::language::Text;
 use crate::source::read;
 
@@ -11,7 +11,7 @@ fn source(text: &str) -> Source {
 }
 
 fn error() -> Diagnostic {
-    Diagnostic::error(Stage::Compile, Text::new("wrong", "間違い"))
+    Diagnostic::error(DiagnosticStage::Compile, Text::new("wrong", "間違い"))
 }
 
 fn shown(text: &str, diagnostic: Diagnostic) -> String {
@@ -102,7 +102,7 @@ fn nothing_of_the_student_reaches_the_terminal_as_a_command() {
     let mut source = source(&format!("// {hostile}\n"));
     source.facts.name = format!("a{hostile}\n.vert");
     let text = Text::verbatim(format!("bad {hostile}"));
-    let diagnostic = Diagnostic::error(Stage::Compile, text.clone()).at(1, Some(4)).hint(text);
+    let diagnostic = Diagnostic::error(DiagnosticStage::Compile, text.clone()).at(1, Some(4)).hint(text);
     for colour in [false, true] {
         let shown = excerpt(std::slice::from_ref(&source), std::slice::from_ref(&diagnostic), Language::En, colour);
         let plain = shown

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 /// Under whose rules the text is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rules {
+pub enum GlslangRules {
     /// Desktop OpenGL: these give the verdict.
     OpenGl,
     /// Desktop OpenGL as far as SPIR-V can express it, with automatic locations: these give SPIR-V.
@@ -70,17 +70,17 @@ impl<'a> StageText<'a> {
 
 /// How a program is to be read.
 #[derive(Clone, Copy, Debug)]
-pub struct Request<'a> {
+pub struct GlslangRequest<'a> {
     /// Its stages in order; one by itself is linked alone.
     pub stages: &'a [StageText<'a>],
     /// Whose rules.
-    pub rules: Rules,
-    /// The stage to write as SPIR-V under [`Rules::SpirV`].
+    pub rules: GlslangRules,
+    /// The stage to write as SPIR-V under [`GlslangRules::SpirV`].
     pub emit: Stage,
 }
 
-/// Compiles the stages and links them; under [`Rules::SpirV`] also writes SPIR-V.
-pub fn compile(request: &Request<'_>) -> CompilerOutput {
+/// Compiles the stages and links them; under [`GlslangRules::SpirV`] also writes SPIR-V.
+pub fn compile(request: &GlslangRequest<'_>) -> CompilerOutput {
     static PROCESS: OnceLock<()> = OnceLock::new();
     PROCESS.get_or_init(|| {
         // SAFETY: called once, before any other call into glslang; it has no other precondition.
@@ -90,7 +90,7 @@ pub fn compile(request: &Request<'_>) -> CompilerOutput {
         CompilerOutput { reached: Reached::Link, logs: Vec::new(), link_log: String::new(), spirv: Vec::new() };
     let mut shaders = Vec::with_capacity(request.stages.len());
     for text in request.stages {
-        let shader = Shader::new(request.rules, text);
+        let shader = GlslangShader::new(request.rules, text);
         let parsed = shader.parse();
         outcome.logs.push((text.stage, shader.log()));
         if !parsed && outcome.reached == Reached::Link {
@@ -101,10 +101,10 @@ pub fn compile(request: &Request<'_>) -> CompilerOutput {
     if outcome.reached != Reached::Link {
         return outcome;
     }
-    let program = Program::new(&shaders);
+    let program = GlslangProgram::new(&shaders);
     if program.link(request.rules) {
         outcome.reached = Reached::Done;
-        if request.rules == Rules::SpirV {
+        if request.rules == GlslangRules::SpirV {
             outcome.spirv = program.spirv(request.emit);
         }
     }
@@ -119,30 +119,30 @@ fn raw(stage: Stage) -> sys::glslang_stage_t {
     }
 }
 
-impl Rules {
+impl GlslangRules {
     fn messages(self) -> sys::glslang_messages_t {
         use sys::glslang_messages_t as m;
         let both = m::CASCADING_ERRORS | m::DISPLAY_ERROR_COLUMN | m::VALIDATE_CROSS_STAGE_IO;
         match self {
-            Rules::OpenGl => both,
-            Rules::SpirV => both | m::SPV_RULES,
+            GlslangRules::OpenGl => both,
+            GlslangRules::SpirV => both | m::SPV_RULES,
         }
     }
 }
 
 /// Owns a shader object together with the C text that it reads from.
-struct Shader {
+struct GlslangShader {
     raw: *mut sys::glslang_shader_t,
     input: Box<sys::glslang_input_t>,
     _resource: Box<sys::glslang_resource_t>,
     _code: CString,
 }
 
-impl Shader {
-    fn new(rules: Rules, text: &StageText<'_>) -> Self {
+impl GlslangShader {
+    fn new(rules: GlslangRules, text: &StageText<'_>) -> Self {
         let code: CString = text.text.to_owned();
         let resource = Box::new(crate::translate::limits::desktop());
-        let spirv = rules == Rules::SpirV;
+        let spirv = rules == GlslangRules::SpirV;
         let input = Box::new(sys::glslang_input_t {
             language: sys::glslang_source_t::GLSL,
             stage: raw(text.stage),
@@ -199,7 +199,7 @@ impl Shader {
     }
 }
 
-impl Drop for Shader {
+impl Drop for GlslangShader {
     fn drop(&mut self) {
         // SAFETY: created in `new`, deleted once, after every program that refers to it.
         unsafe { sys::glslang_shader_delete(self.raw) }
@@ -207,13 +207,13 @@ impl Drop for Shader {
 }
 
 /// A program of shaders that outlive it.
-struct Program<'a> {
+struct GlslangProgram<'a> {
     raw: *mut sys::glslang_program_t,
-    _shaders: &'a [Shader],
+    _shaders: &'a [GlslangShader],
 }
 
-impl<'a> Program<'a> {
-    fn new(shaders: &'a [Shader]) -> Self {
+impl<'a> GlslangProgram<'a> {
+    fn new(shaders: &'a [GlslangShader]) -> Self {
         // SAFETY: no precondition; the shaders are parsed and outlive the program by the lifetime.
         let raw = unsafe {
             let raw = sys::glslang_program_create();
@@ -223,11 +223,11 @@ impl<'a> Program<'a> {
         Self { raw, _shaders: shaders }
     }
 
-    fn link(&self, rules: Rules) -> bool {
+    fn link(&self, rules: GlslangRules) -> bool {
         // SAFETY: `raw` is live and has parsed shaders; map_io follows a successful link.
         unsafe {
             sys::glslang_program_link(self.raw, rules.messages().0) != 0
-                && (rules == Rules::OpenGl || sys::glslang_program_map_io(self.raw) != 0)
+                && (rules == GlslangRules::OpenGl || sys::glslang_program_map_io(self.raw) != 0)
         }
     }
 
@@ -266,7 +266,7 @@ impl<'a> Program<'a> {
     }
 }
 
-impl Drop for Program<'_> {
+impl Drop for GlslangProgram<'_> {
     fn drop(&mut self) {
         // SAFETY: created in `new`, deleted once.
         unsafe { sys::glslang_program_delete(self.raw) }

@@ -1,6 +1,6 @@
 //! The machine's OpenGL driver, without a display.
 //!
-//! Two facts carry every call. A [`Context`] is current in its thread as long as it lives and cannot leave it, so the functions
+//! Two facts carry every call. A [`OpenglContext`] is current in its thread as long as it lives and cannot leave it, so the functions
 //! that glow loaded may be called. Each object name that is handed to them was made by this context.
 
 mod context;
@@ -8,9 +8,9 @@ mod scene;
 mod texture;
 
 pub use context::Version;
-pub use scene::{Draw, Kind, UniformValue, Window};
+pub use scene::{OpenglDraw, UniformValue, ValueKind, Window};
 
-use context::Context;
+use context::OpenglContext;
 use glow::HasContext;
 
 /// Who refused a shader.
@@ -44,7 +44,7 @@ impl LinkedProgram {
 
 /// OpenGL 4.1 core or newer in this thread. Depth test, culling, blending, multisampling and dithering are off.
 pub struct Driver {
-    context: Context,
+    context: OpenglContext,
 }
 
 impl Driver {
@@ -54,7 +54,7 @@ impl Driver {
     /// There is no driver, and then the message names the packages to install. Or this thread has a context already, or the
     /// process has started the driver with another version.
     pub fn start(version: Version) -> Result<Self, String> {
-        Ok(Self { context: Context::start(version)? })
+        Ok(Self { context: OpenglContext::start(version)? })
     }
 
     /// Renderer and version.

@@ -2,10 +2,10 @@
 
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::report::Advice;
+use crate::report::AdviceLine;
 use crate::source::Source;
-use crate::translate::{Interface, Program, Stage};
-use reference::free::Taken;
+use crate::translate::{HomeworkProgram, LinkedInterface, Stage};
+use reference::free::RecognisedUniform;
 use reference::probes::ProbeSet;
 use reference::{Assignment, interpreter};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub(super) struct Extended {
     /// The homework.
     pub assignment: Assignment,
     /// Its program.
-    pub program: Program,
+    pub program: HomeworkProgram,
     /// The probes that judge.
     pub probes: ProbeSet,
     /// How many uniforms are added.
@@ -45,12 +45,12 @@ impl Extended {
         }
         let extended = assignment.with(&taken);
         let own = extended.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
-        let note = |taken: &Taken<'_>| {
+        let note = |taken: &RecognisedUniform<'_>| {
             let note = taken.as_what.note.as_ref()?;
             Some((taken.name.clone(), taken.as_what.id.clone(), Text::new(&*note.en, &*note.ja)))
         };
         Ok(Some(Self {
-            program: Program::new(Interface::of(&extended)?, own)?,
+            program: HomeworkProgram::new(LinkedInterface::of(&extended)?, own)?,
             probes: extended.probes_with(probes, taken.len()),
             count: taken.len(),
             notes: taken.iter().filter_map(note).collect(),
@@ -64,7 +64,7 @@ impl Extended {
     }
 
     /// What is said of what the uniforms are taken for, each where it is declared.
-    pub fn notes(&self, sources: &[(Stage, &Source)]) -> impl Iterator<Item = Advice> {
+    pub fn notes(&self, sources: &[(Stage, &Source)]) -> impl Iterator<Item = AdviceLine> {
         let advice = |(name, id, message): &(String, String, Text)| {
             let line = |source: &Source| {
                 let is_it = |line: &u32| {
@@ -75,7 +75,7 @@ impl Extended {
             };
             let found = sources.iter().find_map(|(_, source)| Some((source.facts.name.clone(), line(source)?)));
             let (file, line) = found.map_or((String::new(), None), |(file, line)| (file, Some(line)));
-            Advice { id: id.clone(), message: message.clone(), file, line }
+            AdviceLine { id: id.clone(), message: message.clone(), file, line }
         };
         self.notes.iter().map(advice).collect::<Vec<_>>().into_iter()
     }

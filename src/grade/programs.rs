@@ -1,17 +1,17 @@
 //! Homework of which a fragment stage is handed in, or several files: they are linked and run as one program.
 
 use super::extended::Extended;
-use super::{Graded, Grader, Judged, Order, map_lookup};
+use super::{Graded, Grader, JudgedHandIn, Order, map_lookup};
 use crate::cross_check;
 use crate::diagnose::UNEXPLAINED;
-use crate::diagnostic::{Diagnostic, Stage as Speaker};
+use crate::diagnostic::{Diagnostic, DiagnosticStage as Speaker};
 use crate::fault::Fault;
 use crate::hand_in::HandedInFile;
 use crate::language::Text;
-use crate::render::{Captured, Pixel, Rendering, Sample, Scene};
+use crate::render::{Captured, Pixel, RenderScene, Rendering, Sample};
 use crate::report::{SourceInfo, Verdict};
 use crate::source::{self, Source};
-use crate::translate::{self, Interface, Linked, Program, ProgramRefusal, Refusal, Stage};
+use crate::translate::{self, HomeworkProgram, Linked, LinkedInterface, ProgramRefusal, Stage, TranslationRefusal};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
 use reference::probes::ProbeSet;
@@ -19,7 +19,7 @@ use reference::probes::ProbeSet;
 /// The program of a homework, as far as it is not handed in.
 #[derive(Debug)]
 pub(super) struct Programs {
-    program: Program,
+    program: HomeworkProgram,
     /// The frames' vertices after the fixed vertex stage, once they were needed.
     captured: Option<Captured>,
 }
@@ -31,7 +31,7 @@ impl Programs {
             return Ok(None);
         }
         let own = assignment.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
-        let program = Program::new(Interface::of(assignment)?, own)?;
+        let program = HomeworkProgram::new(LinkedInterface::of(assignment)?, own)?;
         Ok(Some(Self { program, captured: None }))
     }
 }
@@ -69,12 +69,12 @@ impl Grader {
         let program = extended.as_ref().map_or(&programs.program, |extended| &extended.program);
         let linked = match program.translate(&given) {
             Ok(linked) => linked,
-            Err(ProgramRefusal { refusal: Refusal::Fault(fault), .. }) => return Err(fault),
-            Err(ProgramRefusal { stage, refusal: Refusal::Rejected(diagnostics) }) => {
+            Err(ProgramRefusal { refusal: TranslationRefusal::Fault(fault), .. }) => return Err(fault),
+            Err(ProgramRefusal { stage, refusal: TranslationRefusal::Rejected(diagnostics) }) => {
                 let diagnostics = in_file(name(stage), diagnostics).chain(notes()).collect();
                 return Ok(self.rejected(infos, diagnostics));
             }
-            Err(ProgramRefusal { stage, refusal: Refusal::Stopped(diagnostics) }) => {
+            Err(ProgramRefusal { stage, refusal: TranslationRefusal::Stopped(diagnostics) }) => {
                 let diagnostics = in_file(name(stage), diagnostics).chain(notes()).collect();
                 return Ok(self.refused(infos, Verdict::Stopped, diagnostics));
             }
@@ -90,7 +90,7 @@ impl Grader {
         let own_scene = extended.as_ref().zip(own_fresh.as_ref()).map(|(extended, fresh)| {
             let across = own_crossings.iter().map(|crossings| &crossings.probes);
             let sets: Vec<&ProbeSet> = [&extended.probes, fresh].into_iter().chain(across).collect();
-            Scene::of(&extended.assignment, &sets)
+            RenderScene::of(&extended.assignment, &sets)
         });
         let rendering = self.render_linked(&linked, own_scene.as_ref().unwrap_or(&probing.scene))?;
         let stages = [(&linked.vertex, rendering.ran_out), (&linked.fragment, rendering.of_fragments.ran_out)];
@@ -106,7 +106,7 @@ impl Grader {
         let fresh = own_fresh.as_ref().unwrap_or(&probing.fresh);
         let crossings = own_crossings.as_ref().or(self.crossings.as_ref());
         let (sources, rendering) = (&given[..], &drawn);
-        let judged = Judged { source, sources, assignment, probes, fresh, crossings, rendering };
+        let judged = JudgedHandIn { source, sources, assignment, probes, fresh, crossings, rendering };
         let mut report = self.report(judged, diagnostics, order.hints);
         if report.verdict == Verdict::Wrong {
             report.map_lookup = map_lookup::of(assignment, &given, &self.expected, &rendering.frames, &report.frames);
@@ -124,7 +124,7 @@ impl Grader {
     }
 
     /// Draws a program. What the fixed vertex stage does with the frames is the same for every submission.
-    fn render_linked(&mut self, linked: &Linked, scene: &Scene) -> Result<Rendering, Fault> {
+    fn render_linked(&mut self, linked: &Linked, scene: &RenderScene) -> Result<Rendering, Fault> {
         if !linked.vertex.is_fixed {
             return self.renderer.render_program(linked, scene);
         }

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// What ends in `;`, `{` or `}`.
 #[derive(Clone, Debug)]
-pub struct Statement {
+pub struct TextStatement {
     /// The file that it stands in, as its place in the hand-in.
     pub file: usize,
     /// Its place among the statements of the file.
@@ -26,17 +26,17 @@ pub struct Passage {
 }
 
 /// The statements of a file; comments are white space, and a directive ends with its line.
-pub fn statements(file: usize, text: &str) -> Vec<Statement> {
+pub fn statements(file: usize, text: &str) -> Vec<TextStatement> {
     let directives: HashSet<u32> =
         (1..).zip(text.lines()).filter(|(_, line)| line.trim_start().starts_with('#')).map(|(line, _)| line).collect();
     // Directives are words as well: a macro is no hiding place. The text keeps its length, and every word its place.
     let words = outline::words(&text.replace('#', " "));
-    let mut statements: Vec<Statement> = Vec::new();
+    let mut statements: Vec<TextStatement> = Vec::new();
     let mut own: Vec<Word> = Vec::new();
     let mut close = |own: &mut Vec<Word>| {
         if !own.is_empty() {
             let number = statements.len();
-            statements.push(Statement { file, number, words: std::mem::take(own) });
+            statements.push(TextStatement { file, number, words: std::mem::take(own) });
         }
     };
     for mut word in words {
@@ -66,7 +66,7 @@ fn spelt(word: String) -> String {
 }
 
 /// The words of statements as texts, for looking them up.
-pub fn texts(statement: &Statement) -> Vec<String> {
+pub fn texts(statement: &TextStatement) -> Vec<String> {
     statement.words.iter().map(|word| word.text.clone()).collect()
 }
 
@@ -74,7 +74,7 @@ pub fn texts(statement: &Statement) -> Vec<String> {
 const NO_TYPES: [&str; 4] = ["return", "else", "do", "case"];
 
 /// The names that the statements declare, but for `kept`: those that a student can change at will.
-pub fn own_names(statements: &[Statement], kept: &HashSet<String>) -> HashSet<String> {
+pub fn own_names(statements: &[TextStatement], kept: &HashSet<String>) -> HashSet<String> {
     let mut names = HashSet::new();
     for statement in statements {
         let (mut depth, mut declares) = (0_i32, false);
@@ -99,12 +99,12 @@ pub fn own_names(statements: &[Statement], kept: &HashSet<String>) -> HashSet<St
 
 /// The fingerprints of statements, in their order. Within a run of tokens, the student's own names count by the order in which
 /// they come up in it; `kept` names count as they are.
-pub fn passages(statements: &[Statement], kept: &HashSet<String>) -> Vec<Passage> {
+pub fn passages(statements: &[TextStatement], kept: &HashSet<String>) -> Vec<Passage> {
     let own = own_names(statements, kept);
-    let words: Vec<Placed<'_>> = statements
+    let words: Vec<PlacedWord<'_>> = statements
         .iter()
-        .flat_map(|Statement { file, number, words }| {
-            words.iter().map(|word| Placed { file: *file, number: *number, word })
+        .flat_map(|TextStatement { file, number, words }| {
+            words.iter().map(|word| PlacedWord { file: *file, number: *number, word })
         })
         .collect();
     // A member is not the name that it is spelt like.
@@ -115,16 +115,16 @@ pub fn passages(statements: &[Statement], kept: &HashSet<String>) -> Vec<Passage
 }
 
 /// A word with the file and the statement that it stands in.
-struct Placed<'a> {
+struct PlacedWord<'a> {
     file: usize,
     number: usize,
     word: &'a Word,
 }
 
-fn print(run: &[Placed<'_>], is_own: &[bool]) -> u64 {
+fn print(run: &[PlacedWord<'_>], is_own: &[bool]) -> u64 {
     let mut order: HashMap<&str, usize> = HashMap::new();
     let mut hasher = DefaultHasher::new();
-    for (Placed { word, .. }, is_own) in run.iter().zip(is_own) {
+    for (PlacedWord { word, .. }, is_own) in run.iter().zip(is_own) {
         let next = order.len();
         let text = word.text.as_str();
         match is_own {
@@ -135,10 +135,10 @@ fn print(run: &[Placed<'_>], is_own: &[bool]) -> u64 {
     hasher.finish()
 }
 
-fn places(run: &[Placed<'_>]) -> Vec<(usize, Range<usize>)> {
+fn places(run: &[PlacedWord<'_>]) -> Vec<(usize, Range<usize>)> {
     let mut places: Vec<(usize, Range<usize>)> = Vec::new();
     let mut before: Option<(usize, usize)> = None;
-    for Placed { file, number, word } in run {
+    for PlacedWord { file, number, word } in run {
         // Where statements of the hand-out lie between, the words are not in one piece.
         let goes_on = before.is_some_and(|(in_file, last)| in_file == *file && *number <= last + 1);
         match places.last_mut().filter(|_| goes_on) {

@@ -38,12 +38,12 @@ fn hidden(source: &Source) -> String {
             }
         }
     }
-    let set = |statement: &Statement| {
+    let set = |statement: &TextStatement| {
         let equals = statement.words.iter().position(|word| word.text == "=")?;
         let is_plain = statement.words.iter().all(|word| !matches!(word.text.as_str(), "{" | "}" | "const" | "for"));
         (is_plain && equals > 0).then(|| statement.words[equals - 1].text.clone())
     };
-    let needs = |statement: &Statement, name: &str| statement.words.iter().any(|word| word.text == name);
+    let needs = |statement: &TextStatement, name: &str| statement.words.iter().any(|word| word.text == name);
     for round in 0..2 {
         for at in (round..statements.len().saturating_sub(1)).step_by(2) {
             let (a, b) = (&statements[at], &statements[at + 1]);
@@ -55,7 +55,7 @@ fn hidden(source: &Source) -> String {
             }
         }
     }
-    let line = |statement: &Statement| {
+    let line = |statement: &TextStatement| {
         statement.words.iter().map(|word| word.text.as_str()).collect::<Vec<_>>().join(" ") + "\n"
     };
     statements.iter().map(line).collect()

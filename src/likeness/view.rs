@@ -22,12 +22,12 @@ pub struct Side {
     /// Its name. Untrusted.
     pub name: String,
     /// Its lines.
-    pub lines: Vec<Vec<Piece>>,
+    pub lines: Vec<Vec<LinePiece>>,
 }
 
 /// A piece of a line.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct LinePiece {
     /// As it was handed in. Untrusted.
     pub text: String,
     /// Whether the other answer has it as well.
@@ -89,11 +89,11 @@ fn side(source: &Source, marks: &[Range<usize>]) -> Side {
             // White space at the edges of a line is nobody's.
             let text = &source.text[mark.clone()];
             let mark = mark.start + (text.len() - text.trim_start().len())..mark.end;
-            pieces.push(Piece { text: source.text[at..mark.start].to_owned(), is_shared: false });
-            pieces.push(Piece { text: source.text[mark.clone()].to_owned(), is_shared: true });
+            pieces.push(LinePiece { text: source.text[at..mark.start].to_owned(), is_shared: false });
+            pieces.push(LinePiece { text: source.text[mark.clone()].to_owned(), is_shared: true });
             at = mark.end;
         }
-        pieces.push(Piece { text: source.text[at..end].to_owned(), is_shared: false });
+        pieces.push(LinePiece { text: source.text[at..end].to_owned(), is_shared: false });
         pieces.retain(|piece| !piece.text.is_empty());
         lines.push(pieces);
         start += line.len();

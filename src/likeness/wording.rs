@@ -1,6 +1,6 @@
 //! What anybody would write: the hand-out, and the lecture's equation.
 
-use super::reading::{Statement, passages, statements, texts};
+use super::reading::{TextStatement, passages, statements, texts};
 use crate::source::Source;
 use reference::interpreter::outline::Word;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -13,16 +13,16 @@ const MOST_WORDS: usize = 200;
 
 /// The wording of the hand-out and of the right answers that the homework knows.
 #[derive(Debug)]
-pub struct Wording {
+pub struct KnownWording {
     statements: HashSet<Vec<String>>,
     names: HashSet<String>,
     prints: HashSet<u64>,
 }
 
-impl Wording {
+impl KnownWording {
     /// Of a hand-out, and of right answers.
     pub fn new<'a>(hand_out: &[Source], solutions: impl Iterator<Item = &'a str>) -> Self {
-        let handed_out: Vec<Statement> = all(hand_out);
+        let handed_out: Vec<TextStatement> = all(hand_out);
         let names: HashSet<String> = handed_out
             .iter()
             .flat_map(|statement| &statement.words)
@@ -50,17 +50,17 @@ impl Wording {
     }
 
     /// The statements of a hand-in that are not the hand-out's.
-    pub fn own(&self, sources: &[Source]) -> Vec<Statement> {
+    pub fn own(&self, sources: &[Source]) -> Vec<TextStatement> {
         self.without_hand_out(all(sources))
     }
 
-    fn without_hand_out(&self, mut statements: Vec<Statement>) -> Vec<Statement> {
+    fn without_hand_out(&self, mut statements: Vec<TextStatement>) -> Vec<TextStatement> {
         statements.retain(|statement| !self.statements.contains(&texts(statement)));
         statements
     }
 
     /// Takes up the fingerprints of a text, as it is and with the hand-out's statements left out.
-    fn learn(&mut self, statements: &[Statement]) {
+    fn learn(&mut self, statements: &[TextStatement]) {
         let own = self.without_hand_out(statements.to_vec());
         for text in [statements, &own] {
             self.prints.extend(passages(text, &self.names).into_iter().map(|passage| passage.print));
@@ -68,13 +68,13 @@ impl Wording {
     }
 }
 
-fn all(sources: &[Source]) -> Vec<Statement> {
+fn all(sources: &[Source]) -> Vec<TextStatement> {
     sources.iter().enumerate().flat_map(|(file, source)| statements(file, &source.text)).collect()
 }
 
 /// A solution as people cut it into statements: as it is, and with the definitions of each choice of types put in where they
 /// are used, with brackets around sums and without.
-fn readings(solution: &[Statement], kept: &HashSet<String>) -> Vec<Vec<Statement>> {
+fn readings(solution: &[TextStatement], kept: &HashSet<String>) -> Vec<Vec<TextStatement>> {
     let types: BTreeSet<&str> = solution.iter().filter_map(|it| definition(it, kept)).map(|found| found.kind).collect();
     let types: Vec<&str> = types.into_iter().take(MOST_TYPES).collect();
     let mut readings = vec![solution.to_vec()];
@@ -89,19 +89,19 @@ fn readings(solution: &[Statement], kept: &HashSet<String>) -> Vec<Vec<Statement
 }
 
 /// `kind name = value;`
-struct Definition<'a> {
+struct LocalDefinition<'a> {
     kind: &'a str,
     name: &'a str,
     value: &'a [Word],
 }
 
-fn definition<'a>(statement: &'a Statement, kept: &HashSet<String>) -> Option<Definition<'a>> {
+fn definition<'a>(statement: &'a TextStatement, kept: &HashSet<String>) -> Option<LocalDefinition<'a>> {
     let [kind, name, equals, value @ .., _] = statement.words.as_slice() else { return None };
     let is_one = kind.is_name && name.is_name && equals.text == "=" && !kept.contains(&name.text);
-    is_one.then_some(Definition { kind: &kind.text, name: &name.text, value })
+    is_one.then_some(LocalDefinition { kind: &kind.text, name: &name.text, value })
 }
 
-fn put_in(solution: &[Statement], kept: &HashSet<String>, kinds: &[&str], brackets: bool) -> Vec<Statement> {
+fn put_in(solution: &[TextStatement], kept: &HashSet<String>, kinds: &[&str], brackets: bool) -> Vec<TextStatement> {
     let mut values: HashMap<&str, Vec<Word>> = HashMap::new();
     let mut text = Vec::new();
     for statement in solution {
@@ -126,7 +126,7 @@ fn put_in(solution: &[Statement], kept: &HashSet<String>, kinds: &[&str], bracke
                 values.insert(found.name, written);
             }
             Some(_) => text.push(statement.clone()),
-            None => text.push(Statement { words: written, ..*statement }),
+            None => text.push(TextStatement { words: written, ..*statement }),
         }
     }
     text

@@ -1,6 +1,6 @@
 //! Each term of the equation on its own: as a right answer computes it, and as a submission does where that is explained.
 
-use super::{Drawn, once, picture};
+use super::{PicturesOnce, once, picture};
 use crate::diagnose::constants;
 use crate::report::{Hypothesis, Picture, TermPictures};
 use crate::source::Source;
@@ -103,7 +103,7 @@ impl<'a> Terms<'a> {
 
     /// All of them, drawn. Those of right answers are drawn once a process.
     pub fn pictures(&self) -> Arc<[TermPictures]> {
-        static RIGHT: Drawn<TermPictures> = Mutex::new(Vec::new());
+        static RIGHT: PicturesOnce<TermPictures> = Mutex::new(Vec::new());
         let pictures = |scene: TermScene<'_>| {
             let expected = self.expected(&scene)?;
             // Most wrong answers compute most terms as they should: such a term is drawn once.

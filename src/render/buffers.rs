@@ -1,6 +1,6 @@
 //! Uniforms and attributes by name, laid out as one shader reads them.
 
-use super::scene::Batch;
+use super::scene::DrawCall;
 use super::uniforms::fill;
 use crate::translate::{TEXTURES, UniformBlock};
 use reference::interpreter::Scalar;
@@ -10,16 +10,21 @@ use wgpu::util::DeviceExt;
 pub(super) const ATTRIBUTE_STRIDE: u64 = 16;
 
 /// The uniform blocks of a shader, filled for every batch.
-pub(super) struct Uniforms {
+pub(super) struct UniformBuffers {
     pub layout: wgpu::BindGroupLayout,
     pub group: wgpu::BindGroup,
     /// Bytes from one batch's uniforms to the next, by block.
     pub strides: Vec<u32>,
 }
 
-impl Uniforms {
+impl UniformBuffers {
     /// For the stage that reads them.
-    pub fn new(device: &wgpu::Device, stage: wgpu::ShaderStages, blocks: &[UniformBlock], batches: &[&Batch]) -> Self {
+    pub fn new(
+        device: &wgpu::Device,
+        stage: wgpu::ShaderStages,
+        blocks: &[UniformBlock],
+        batches: &[&DrawCall],
+    ) -> Self {
         let alignment = device.limits().min_uniform_buffer_offset_alignment;
         let strides: Vec<u32> = blocks.iter().map(|block| block.size.max(16).next_multiple_of(alignment)).collect();
         let buffers: Vec<wgpu::Buffer> = blocks
@@ -64,7 +69,7 @@ impl Uniforms {
 pub(super) fn vertex_buffer(
     device: &wgpu::Device,
     name: &str,
-    batches: &[&Batch],
+    batches: &[&DrawCall],
 ) -> (wgpu::Buffer, wgpu::VertexFormat) {
     let columns = || batches.iter().map(|batch| batch.attributes.iter().find(|(attribute, _)| attribute == name));
     let scalar = columns().flatten().next().and_then(|(_, values)| values.kind.scalar());

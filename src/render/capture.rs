@@ -2,9 +2,9 @@
 //!
 //! The pipeline has no fragment stage and paints nothing, so that the driver compiles the student's text and no more.
 
-use super::buffers::{ATTRIBUTE_STRIDE, Uniforms, capture_group, capture_layout, vertex_buffer};
+use super::buffers::{ATTRIBUTE_STRIDE, UniformBuffers, capture_group, capture_layout, vertex_buffer};
 use super::device::Device;
-use super::scene::{Batch, Scene};
+use super::scene::{DrawCall, RenderScene};
 use crate::translate::{CAPTURE_GROUP, CAPTURE_HEADER, Shader};
 use std::borrow::Cow;
 
@@ -53,11 +53,11 @@ impl Capture {
         device: &wgpu::Device,
         stage: &FrameStage,
         shader: &Shader,
-        scene: &Scene,
+        scene: &RenderScene,
         textures: Option<&wgpu::Buffer>,
     ) -> Self {
-        let batches: Vec<&Batch> = scene.batches().collect();
-        let uniforms = Uniforms::new(device, wgpu::ShaderStages::VERTEX, &shader.uniforms, &batches);
+        let batches: Vec<&DrawCall> = scene.batches().collect();
+        let uniforms = UniformBuffers::new(device, wgpu::ShaderStages::VERTEX, &shader.uniforms, &batches);
         let size = CAPTURE_HEADER + u64::from(scene.drawn().max(1)) * shader.record_stride();
         let buffer = |label, usage| {
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
@@ -81,14 +81,14 @@ impl Capture {
     }
 
     /// Runs the vertices of the whole scene.
-    pub fn submit(&self, device: &Device, stage: &FrameStage, scene: &Scene) {
+    pub fn submit(&self, device: &Device, stage: &FrameStage, scene: &RenderScene) {
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw(&mut encoder, stage, scene);
         encoder.copy_buffer_to_buffer(&self.records, 0, &self.readback, 0, self.records.size());
         device.queue.submit([encoder.finish()]);
     }
 
-    fn draw(&self, encoder: &mut wgpu::CommandEncoder, stage: &FrameStage, scene: &Scene) {
+    fn draw(&self, encoder: &mut wgpu::CommandEncoder, stage: &FrameStage, scene: &RenderScene) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("vertices"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {

@@ -4,9 +4,9 @@
 //! Every pass is drawn upside down: row 0 of the target is the bottom one, as in OpenGL, so that `gl_FragCoord`, `dFdy`
 //! and `gl_FrontFacing` are those of OpenGL.
 
-use super::buffers::{Uniforms, capture_group, capture_layout};
-use super::scene::{Batch, DrawState};
-use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader, UniformBlock};
+use super::buffers::{UniformBuffers, capture_group, capture_layout};
+use super::scene::{DrawCall, DrawState};
+use crate::translate::{CAPTURE_HEADER, CAPTURE_SLOT, InputInterpolation, Shader, StageVariable, UniformBlock};
 use naga::ScalarKind;
 use reference::scene::{Cull, DepthTest};
 use std::borrow::Cow;
@@ -25,9 +25,9 @@ pub(super) struct FragmentStage {
     pass_on: wgpu::ShaderModule,
     module: wgpu::ShaderModule,
     /// What it is fed.
-    pub inputs: Vec<Attribute>,
+    pub inputs: Vec<StageVariable>,
     /// What it gives.
-    pub outputs: Vec<Attribute>,
+    pub outputs: Vec<StageVariable>,
     blocks: Vec<UniformBlock>,
     /// Whether it reads `gl_FragCoord`.
     pub is_placed: bool,
@@ -59,7 +59,7 @@ pub(super) struct PipelineKey {
 
 /// What a fragment stage reads besides its inputs, for the batches of one pass.
 pub(super) struct FragmentData {
-    uniforms: Uniforms,
+    uniforms: UniformBuffers,
     header: Option<PassHeader>,
 }
 
@@ -191,7 +191,7 @@ impl FragmentData {
     pub fn new(
         device: &wgpu::Device,
         stage: &FragmentStage,
-        batches: &[&Batch],
+        batches: &[&DrawCall],
         textures: Option<&wgpu::Buffer>,
         is_frame: bool,
     ) -> Self {
@@ -213,7 +213,7 @@ impl FragmentData {
             let group = capture_group(device, &layout, &buffer, textures.filter(|_| stage.reads_textures));
             PassHeader { buffer, readback, group }
         });
-        Self { uniforms: Uniforms::new(device, wgpu::ShaderStages::FRAGMENT, &stage.blocks, batches), header }
+        Self { uniforms: UniformBuffers::new(device, wgpu::ShaderStages::FRAGMENT, &stage.blocks, batches), header }
     }
 
     /// Binds what the batch of this number reads.
@@ -238,11 +238,11 @@ impl FragmentData {
     }
 }
 
-pub(super) fn is_flat(input: &Attribute) -> bool {
-    input.qualifiers.interpolation == Interpolation::Flat || input.kind != Some(ScalarKind::Float)
+pub(super) fn is_flat(input: &StageVariable) -> bool {
+    input.qualifiers.interpolation == InputInterpolation::Flat || input.kind != Some(ScalarKind::Float)
 }
 
-fn format(input: &Attribute) -> wgpu::VertexFormat {
+fn format(input: &StageVariable) -> wgpu::VertexFormat {
     use wgpu::VertexFormat as F;
     match (input.kind, input.size) {
         (Some(ScalarKind::Sint), 1) => F::Sint32,
@@ -267,7 +267,7 @@ fn format(input: &Attribute) -> wgpu::VertexFormat {
 /// at every pixel that shows any of it, as it is anyway, but the driver's conversion to 8 bits goes through an `i32` and
 /// would make black of what that cannot hold.
 fn pass_on(fragment: &Shader) -> String {
-    let ty = |input: &Attribute| {
+    let ty = |input: &StageVariable| {
         let scalar = match input.kind {
             Some(ScalarKind::Sint) => "i32",
             Some(ScalarKind::Uint) => "u32",
@@ -279,8 +279,8 @@ fn pass_on(fragment: &Shader) -> String {
     for (number, input) in fragment.inputs.iter().enumerate() {
         let interpolation = match input.qualifiers.interpolation {
             _ if is_flat(input) => "flat, first",
-            Interpolation::NoPerspective if input.qualifiers.centroid => "linear, centroid",
-            Interpolation::NoPerspective => "linear, center",
+            InputInterpolation::NoPerspective if input.qualifiers.centroid => "linear, centroid",
+            InputInterpolation::NoPerspective => "linear, center",
             _ if input.qualifiers.centroid => "perspective, centroid",
             _ => "perspective, center",
         };

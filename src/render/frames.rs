@@ -1,8 +1,8 @@
 //! What a rendering gives back.
 
 use super::pixels::Pixel;
-use super::scene::Scene;
-use super::tiles::{Tile, Tiles};
+use super::scene::RenderScene;
+use super::tiles::{TextureTile, Tiles};
 use crate::report::{Area, Picture};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub struct Frames {
     pub count: u32,
     /// The colour that each is cleared to, RGBA8.
     pub background: [u8; 4],
-    tiles: Vec<Tile>,
+    tiles: Vec<TextureTile>,
     bytes_per_row: usize,
     bytes: Bytes,
 }
@@ -82,7 +82,7 @@ impl Drop for Mapped {
 
 impl Frames {
     /// The frames of a scene from the texture that they are tiles of, whose rows run upwards.
-    pub(super) fn new(scene: &Scene, tiles: Tiles, bytes: Arc<Mapped>) -> Self {
+    pub(super) fn new(scene: &RenderScene, tiles: Tiles, bytes: Arc<Mapped>) -> Self {
         Self {
             width: scene.width,
             height: scene.height,
@@ -98,7 +98,7 @@ impl Frames {
     pub fn of(background: [u8; 4], pictures: &[(Picture, Area)]) -> Self {
         let (width, height) = pictures.first().map_or((0, 0), |(picture, _)| (picture.width, picture.height));
         let bottom = |area: Area| height - area.y - area.height;
-        let tile = |index: usize, area: Area| Tile { area, x: area.x, y: index as u32 * height + bottom(area) };
+        let tile = |index: usize, area: Area| TextureTile { area, x: area.x, y: index as u32 * height + bottom(area) };
         let upwards = |picture: &Picture| -> Vec<u8> {
             picture.rgba.chunks_exact(width.max(1) as usize * 4).rev().flatten().copied().collect()
         };
@@ -130,7 +130,7 @@ impl Frames {
     /// # Panics
     /// Where the area has no such row.
     pub fn row(&self, index: u32, y: u32) -> &[u8] {
-        let Tile { area, x, y: bottom } = self.tiles[index as usize];
+        let TextureTile { area, x, y: bottom } = self.tiles[index as usize];
         assert!((area.y..area.y + area.height).contains(&y), "row {y} of {area:?}");
         let start = (bottom + area.y + area.height - 1 - y) as usize * self.bytes_per_row + x as usize * 4;
         &self.bytes()[start..start + area.width as usize * 4]

@@ -3,9 +3,9 @@
 use super::device::Device;
 use super::fragments::{DEPTH, FragmentData, FragmentStage, PipelineKey};
 use super::frames::Mapped;
-use super::scene::{Batch, Scene};
-use super::tiles::{Tile, Tiles};
-use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT};
+use super::scene::{DrawCall, RenderScene};
+use super::tiles::{TextureTile, Tiles};
+use crate::translate::{CAPTURE_HEADER, CAPTURE_SLOT, StageVariable};
 use std::sync::Weak;
 use wgpu::util::DeviceExt;
 
@@ -34,7 +34,7 @@ pub(super) struct Records<'a> {
     /// A header, and record after record.
     pub buffer: &'a wgpu::Buffer,
     /// What stands in the slots of a record.
-    pub outputs: &'a [Attribute],
+    pub outputs: &'a [StageVariable],
 }
 
 impl Records<'_> {
@@ -43,8 +43,8 @@ impl Records<'_> {
     }
 
     /// The slot of each input.
-    fn slots(&self, inputs: &[Attribute]) -> Vec<usize> {
-        let slot = |input: &Attribute| self.outputs.iter().position(|output| output.name == input.name);
+    fn slots(&self, inputs: &[StageVariable]) -> Vec<usize> {
+        let slot = |input: &StageVariable| self.outputs.iter().position(|output| output.name == input.name);
         inputs.iter().map(|input| slot(input).unwrap_or(0)).collect()
     }
 }
@@ -56,11 +56,11 @@ impl Painter {
         device: &Device,
         stage: &mut FragmentStage,
         records: &Records<'_>,
-        scene: &Scene,
+        scene: &RenderScene,
         textures: Option<&wgpu::Buffer>,
         tiles: &Tiles,
     ) -> (&mut RenderTarget, FragmentData) {
-        let is_tested = |draw: &Batch| draw.state.depth_test.is_some();
+        let is_tested = |draw: &DrawCall| draw.state.depth_test.is_some();
         let has_depth = stage.writes_depth || scene.frames.iter().flatten().any(is_tested);
         let target = match self.target.take() {
             Some(target)
@@ -73,7 +73,7 @@ impl Painter {
             _ => RenderTarget::new(&device.device, tiles.clone(), has_depth),
         };
         let target = self.target.insert(target);
-        let draws: Vec<&Batch> = scene.frames.iter().flatten().collect();
+        let draws: Vec<&DrawCall> = scene.frames.iter().flatten().collect();
         let data = FragmentData::new(&device.device, stage, &draws, textures, true);
         let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         target.paint(&device.device, &mut encoder, stage, &data, records, scene);
@@ -127,7 +127,7 @@ impl RenderTarget {
         stage: &mut FragmentStage,
         data: &FragmentData,
         records: &Records<'_>,
-        scene: &Scene,
+        scene: &RenderScene,
     ) {
         let [r, g, b, a] = scene.background.map(|channel| f64::from(channel) / 255.0);
         let view = self.texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -195,7 +195,7 @@ impl RenderTarget {
                 // A viewport for the whole frame, of which the tile shows its part.
                 let [left, bottom] = tile.origin(scene.height);
                 pass.set_viewport(left, bottom, width, height, 0.0, 1.0);
-                let Tile { area, x, y } = *tile;
+                let TextureTile { area, x, y } = *tile;
                 pass.set_scissor_rect(x, y, area.width, area.height);
                 pass.draw_indexed(own, base, frame..frame + 1);
             }

@@ -2,8 +2,8 @@
 
 use super::device::Device;
 use super::fragments::{DEPTH, FragmentData, FragmentStage, PipelineKey, is_flat};
-use super::scene::{Batch, DrawState, Scene};
-use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Interpolation, Shader};
+use super::scene::{DrawCall, DrawState, RenderScene};
+use crate::translate::{CAPTURE_HEADER, CAPTURE_SLOT, InputInterpolation, Shader, StageVariable};
 use naga::ScalarKind;
 use reference::Values;
 use reference::interpreter::Type;
@@ -25,7 +25,7 @@ pub struct Pixel {
 }
 
 /// The pass over all probes.
-pub(super) struct Pixels {
+pub(super) struct PixelPass {
     readbacks: Vec<wgpu::Buffer>,
     pub data: FragmentData,
 }
@@ -34,16 +34,16 @@ pub(super) struct Pixels {
 const PLACE: &str = "gl_FragCoord";
 const FACING: &str = "gl_FrontFacing";
 
-impl Pixels {
+impl PixelPass {
     pub fn submit(
         device: &Device,
         stage: &mut FragmentStage,
-        batches: &[Batch],
+        batches: &[DrawCall],
         textures: Option<&wgpu::Buffer>,
     ) -> Self {
-        let drawn: Vec<&Batch> = batches.iter().collect();
+        let drawn: Vec<&DrawCall> = batches.iter().collect();
         let data = FragmentData::new(&device.device, stage, &drawn, textures, false);
-        let count: u32 = batches.iter().map(Batch::vertices).sum();
+        let count: u32 = batches.iter().map(DrawCall::vertices).sum();
         let size = wgpu::Extent3d { width: SIDE, height: count.div_ceil(SIDE).max(1), depth_or_array_layers: 1 };
         let [records, shifts] = corners(stage, batches, size.height).map(|contents| {
             device.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -156,13 +156,13 @@ impl Pixels {
 }
 
 /// The pixels of each batch from what was read back of each output.
-pub(super) fn split(stage: &FragmentStage, batches: &[Batch], outputs: &[Vec<u32>]) -> Vec<Vec<Pixel>> {
+pub(super) fn split(stage: &FragmentStage, batches: &[DrawCall], outputs: &[Vec<u32>]) -> Vec<Vec<Pixel>> {
     let mut number = 0;
     let mut next = || {
         let words = |output: &Vec<u32>| -> [u32; 4] { std::array::from_fn(|axis| output[4 * number + axis]) };
         let all: Vec<[u32; 4]> = outputs.iter().map(words).collect();
         number += 1;
-        let value = |(output, words): (&Attribute, &[u32; 4])| {
+        let value = |(output, words): (&StageVariable, &[u32; 4])| {
             words.map(|word| match output.kind {
                 Some(ScalarKind::Sint) => word.cast_signed() as f32,
                 Some(ScalarKind::Uint) => word as f32,
@@ -170,7 +170,7 @@ pub(super) fn split(stage: &FragmentStage, batches: &[Batch], outputs: &[Vec<u32
             })
         };
         let outputs: Vec<[f32; 4]> = stage.outputs.iter().zip(&all).map(value).collect();
-        let is_untouched = |(output, value): (&Attribute, &[f32; 4])| {
+        let is_untouched = |(output, value): (&StageVariable, &[f32; 4])| {
             output.kind == Some(ScalarKind::Float) && value.iter().all(|component| *component == NOTHING as f32)
         };
         Pixel { is_discarded: stage.outputs.iter().zip(&outputs).any(is_untouched), outputs }
@@ -179,7 +179,7 @@ pub(super) fn split(stage: &FragmentStage, batches: &[Batch], outputs: &[Vec<u32
 }
 
 /// A few pixels of the first batch.
-pub(super) fn some_of(batches: &[Batch]) -> Option<Batch> {
+pub(super) fn some_of(batches: &[DrawCall]) -> Option<DrawCall> {
     /// Enough that a loop that never ends shows, and few enough that it ends soon.
     const SOME: usize = 4;
     let first = batches.first()?;
@@ -187,19 +187,24 @@ pub(super) fn some_of(batches: &[Batch]) -> Option<Batch> {
         let numbers = values.iter().take(SOME).flatten().copied().collect();
         (name.clone(), Values { kind: values.kind.clone(), numbers })
     };
-    Some(Batch { attributes: first.attributes.iter().map(column).collect(), ..first.clone() })
+    Some(DrawCall { attributes: first.attributes.iter().map(column).collect(), ..first.clone() })
 }
 
 /// The batches of a scene's pixels with what a vertex stage hands over to them, from its captured header and records.
 /// How that is interpolated is said by the `fragment` stage.
-pub(super) fn between(captured: &[u8], outputs: &[Attribute], fragment: &Shader, scene: &Scene) -> Vec<Batch> {
+pub(super) fn between(
+    captured: &[u8],
+    outputs: &[StageVariable],
+    fragment: &Shader,
+    scene: &RenderScene,
+) -> Vec<DrawCall> {
     let stride = (outputs.len() + 1) * CAPTURE_SLOT as usize;
     let records = captured.get(CAPTURE_HEADER as usize..).unwrap_or_default();
-    let frames: u32 = scene.frames.iter().flatten().map(Batch::drawn).sum();
+    let frames: u32 = scene.frames.iter().flatten().map(DrawCall::drawn).sum();
     let mut first = frames as usize;
     let has_derivatives = fragment.has_derivatives();
     let batches = scene.pixels.iter().zip(&scene.probes).zip(&scene.shares);
-    let of_batch = |((pixels, probes), shares): ((&Batch, &Batch), &Vec<[[f64; 3]; 3]>)| {
+    let of_batch = |((pixels, probes), shares): ((&DrawCall, &DrawCall), &Vec<[[f64; 3]; 3]>)| {
         let own = first;
         first += probes.drawn() as usize;
         // The first slot is the position.
@@ -209,7 +214,7 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], fragment: &Shader,
         };
         let w = |vertex: usize| f64::from(f32::from_bits(word(vertex, 0, 3)));
         // Of the pixel itself, and of those beside.
-        let column = |place: usize, slot: usize, output: &Attribute| {
+        let column = |place: usize, slot: usize, output: &StageVariable| {
             let number = |vertex: usize, axis: usize| match output.kind {
                 Some(ScalarKind::Sint) => f64::from(word(vertex, slot + 1, axis).cast_signed()),
                 Some(ScalarKind::Uint) => f64::from(word(vertex, slot + 1, axis)),
@@ -218,10 +223,10 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], fragment: &Shader,
             let input = fragment.inputs.iter().find(|input| input.name == output.name).unwrap_or(output);
             let interpolation = match output.kind {
                 Some(ScalarKind::Float) => input.qualifiers.interpolation,
-                _ => Interpolation::Flat,
+                _ => InputInterpolation::Flat,
             };
             let weights = |pixel: usize| match interpolation {
-                Interpolation::NoPerspective => {
+                InputInterpolation::NoPerspective => {
                     reference::probes::linear(shares[pixel][place], [0, 1, 2].map(|corner| w(3 * pixel + corner)))
                 }
                 _ => shares[pixel][place],
@@ -229,14 +234,14 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], fragment: &Shader,
             let between = |pixel: usize| -> [f64; 4] {
                 let weights = weights(pixel);
                 [0, 1, 2, 3].map(|axis| match interpolation {
-                    Interpolation::Flat => number(3 * pixel + 2, axis),
+                    InputInterpolation::Flat => number(3 * pixel + 2, axis),
                     _ => (0..3).map(|corner| weights[corner] * number(3 * pixel + corner, axis)).sum(),
                 })
             };
             (output.name.clone(), Values { kind: Type::VEC4, numbers: (0..shares.len()).flat_map(between).collect() })
         };
         let handed = |place: usize| outputs.iter().enumerate().map(move |(slot, output)| column(place, slot, output));
-        Batch {
+        DrawCall {
             attributes: pixels.attributes.iter().cloned().chain(handed(0)).collect(),
             beside: [1, 2].map(|place| if has_derivatives { handed(place).collect() } else { Vec::new() }),
             ..pixels.clone()
@@ -246,12 +251,12 @@ pub(super) fn between(captured: &[u8], outputs: &[Attribute], fragment: &Shader,
 }
 
 /// The records of three corners around the middle of each probe's pixel, and what is added to its `gl_FragCoord`.
-fn corners(stage: &FragmentStage, batches: &[Batch], rows: u32) -> [Vec<u8>; 2] {
+fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) -> [Vec<u8>; 2] {
     let (mut records, mut shifts): (Vec<u32>, Vec<f32>) = (Vec::new(), Vec::new());
     let mut number = 0;
     for batch in batches {
         let column = |name: &str| batch.attributes.iter().find(|(own, _)| own == name).map(|(_, column)| column);
-        let beside = |pixel: usize, input: &Attribute| {
+        let beside = |pixel: usize, input: &StageVariable| {
             let is_mixed = stage.has_derivatives && !is_flat(input);
             batch.beside[pixel].iter().find(|(own, _)| is_mixed && *own == input.name).map(|(_, column)| column)
         };
@@ -305,7 +310,7 @@ fn corners(stage: &FragmentStage, batches: &[Batch], rows: u32) -> [Vec<u8>; 2] 
     [bytemuck::cast_slice(&records).to_vec(), bytemuck::cast_slice(&shifts).to_vec()]
 }
 
-fn format(output: &Attribute) -> wgpu::TextureFormat {
+fn format(output: &StageVariable) -> wgpu::TextureFormat {
     match output.kind {
         Some(ScalarKind::Sint) => wgpu::TextureFormat::Rgba32Sint,
         Some(ScalarKind::Uint) => wgpu::TextureFormat::Rgba32Uint,

@@ -5,14 +5,14 @@ use super::device::Device;
 use super::fragments::FragmentStage;
 use super::frames::{Frames, Mapped, Met, Rendering, Sample};
 use super::painter::{Painter, Records};
-use super::pixels::{self, Pixels};
-use super::scene::{Batch, Scene};
-use super::textures::Textures;
+use super::pixels::{self, PixelPass};
+use super::scene::{DrawCall, RenderScene};
+use super::textures::UploadedTextures;
 use super::tiles::Tiles;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::report::Area;
-use crate::translate::{Attribute, CAPTURE_HEADER, CAPTURE_SLOT, Linked, Shader};
+use crate::translate::{CAPTURE_HEADER, CAPTURE_SLOT, Linked, Shader, StageVariable};
 use reference::interpreter::Texture;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -25,13 +25,13 @@ pub struct Renderer {
     /// The fixed fragment stage of vertex shaders.
     fragments: Option<FragmentStage>,
     painter: Painter,
-    textures: RefCell<Textures>,
+    textures: RefCell<UploadedTextures>,
 }
 
 /// The vertices of a scene after a vertex stage.
 pub struct Captured {
     capture: Capture,
-    outputs: Vec<Attribute>,
+    outputs: Vec<StageVariable>,
     rendering: Rendering,
     /// Header and records, where this stage feeds the fragments that are probed.
     handed: Option<Vec<u8>>,
@@ -73,7 +73,7 @@ impl Renderer {
     }
 
     /// Draws the scene with the shader and the fixed fragment stage. An error is ours: the shader was found valid before.
-    pub fn render(&mut self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+    pub fn render(&mut self, shader: &Shader, scene: &RenderScene) -> Result<Rendering, Fault> {
         let (capture, rendering) = self.run(shader, scene)?;
         if rendering.ran_out.is_some() {
             return Ok(rendering);
@@ -86,13 +86,13 @@ impl Renderer {
     }
 
     /// Draws the scene with a program of which any stage may be handed in, and computes the probes of both stages.
-    pub fn render_program(&mut self, program: &Linked, scene: &Scene) -> Result<Rendering, Fault> {
+    pub fn render_program(&mut self, program: &Linked, scene: &RenderScene) -> Result<Rendering, Fault> {
         let captured = self.capture(&program.vertex, scene)?;
         self.draw(&captured, &program.fragment, scene)
     }
 
     /// Runs a vertex stage on all vertices of a scene.
-    pub fn capture(&self, vertex: &Shader, scene: &Scene) -> Result<Captured, Fault> {
+    pub fn capture(&self, vertex: &Shader, scene: &RenderScene) -> Result<Captured, Fault> {
         let (capture, rendering) = self.run(vertex, scene)?;
         let outputs = vertex.outputs.clone();
         let handed = (!scene.shares.is_empty() && rendering.ran_out.is_none())
@@ -102,7 +102,7 @@ impl Renderer {
     }
 
     /// Draws a scene whose vertices are known, and computes the probes of the fragment stage.
-    pub fn draw(&mut self, captured: &Captured, fragment: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+    pub fn draw(&mut self, captured: &Captured, fragment: &Shader, scene: &RenderScene) -> Result<Rendering, Fault> {
         let Captured { capture, outputs, rendering, handed } = captured;
         if rendering.ran_out.is_some() {
             return Ok(rendering.clone());
@@ -119,22 +119,22 @@ impl Renderer {
     }
 
     /// What the fragment stage computes for the probes of the scene; no frame is drawn.
-    pub fn compute_pixels(&self, fragment: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+    pub fn compute_pixels(&self, fragment: &Shader, scene: &RenderScene) -> Result<Rendering, Fault> {
         Ok(self.run_pixels(fragment, scene, &scene.pixels, Rendering::default())?.1)
     }
 
     fn run_pixels(
         &self,
         fragment: &Shader,
-        scene: &Scene,
-        pixels: &[Batch],
+        scene: &RenderScene,
+        pixels: &[DrawCall],
         mut rendering: Rendering,
     ) -> Result<(FragmentStage, Rendering), Fault> {
         let device = &self.device;
         let textures = self.textures(&[fragment], scene);
         let mut stage = checked(&device.device, || FragmentStage::new(&device.device, fragment))?;
-        let mut run = |pixels: &[Batch]| -> Result<_, Fault> {
-            let pass = checked(&device.device, || Pixels::submit(device, &mut stage, pixels, textures.as_ref()))?;
+        let mut run = |pixels: &[DrawCall]| -> Result<_, Fault> {
+            let pass = checked(&device.device, || PixelPass::submit(device, &mut stage, pixels, textures.as_ref()))?;
             let met = met(device, pass.data.header())?;
             Ok((pass, met))
         };
@@ -158,17 +158,17 @@ impl Renderer {
     }
 
     /// What the shader computes for every vertex of the scene; no frame is drawn.
-    pub fn compute(&self, shader: &Shader, scene: &Scene) -> Result<Rendering, Fault> {
+    pub fn compute(&self, shader: &Shader, scene: &RenderScene) -> Result<Rendering, Fault> {
         Ok(self.run(shader, scene)?.1)
     }
 
     /// The textures of the scene, where a stage reads them.
-    fn textures(&self, stages: &[&Shader], scene: &Scene) -> Option<wgpu::Buffer> {
+    fn textures(&self, stages: &[&Shader], scene: &RenderScene) -> Option<wgpu::Buffer> {
         let is_read = stages.iter().any(|stage| stage.reads_textures);
         is_read.then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures))
     }
 
-    fn run(&self, shader: &Shader, scene: &Scene) -> Result<(Capture, Rendering), Fault> {
+    fn run(&self, shader: &Shader, scene: &RenderScene) -> Result<(Capture, Rendering), Fault> {
         let device = &self.device;
         let textures = self.textures(&[shader], scene);
         let capture =
@@ -207,7 +207,7 @@ fn paint(
     painter: &mut Painter,
     stage: &mut FragmentStage,
     records: &Records<'_>,
-    scene: &Scene,
+    scene: &RenderScene,
     textures: Option<&wgpu::Buffer>,
     mut rendering: Rendering,
 ) -> Result<Rendering, Fault> {
@@ -231,12 +231,12 @@ fn met(device: &Device, header: Option<&wgpu::Buffer>) -> Result<Met, Fault> {
 }
 
 /// The captured header and records; there are no frames yet.
-fn split(captured: &[u8], outputs: &[Attribute], scene: &Scene) -> Rendering {
+fn split(captured: &[u8], outputs: &[StageVariable], scene: &RenderScene) -> Rendering {
     let (header, records) = captured.split_at((CAPTURE_HEADER as usize).min(captured.len()));
     let Met { ran_out, undefined } = Met::of(header);
     let samples = samples(records, outputs.len());
     let mut rest = samples.as_slice();
-    let mut take = |batches: &[Batch]| {
+    let mut take = |batches: &[DrawCall]| {
         let mut all = Vec::new();
         for batch in batches {
             let (these, others) = rest.split_at((batch.drawn() as usize).min(rest.len()));

@@ -18,7 +18,7 @@ pub struct DrawState {
 
 /// A draw: its vertices by attribute, and the uniforms that hold for them.
 #[derive(Clone, Debug, Default)]
-pub struct Batch {
+pub struct DrawCall {
     /// Uniforms by path, such as `lights[1].colour`; a part of a structure, array or block may be set by itself.
     pub uniforms: Vec<(String, Value)>,
     /// Attributes by name; all of one length.
@@ -31,7 +31,7 @@ pub struct Batch {
     pub state: DrawState,
 }
 
-impl Batch {
+impl DrawCall {
     /// The corners of its triangles in the order in which they are drawn. For `flat` values the last one counts, and wgpu
     /// takes the first.
     pub(super) fn corners(&self, is_flat: bool) -> Vec<u32> {
@@ -59,7 +59,7 @@ impl Batch {
 
 /// What is drawn: frames, which are seen, and probes, of which only the numbers count.
 #[derive(Clone, Debug, Default)]
-pub struct Scene {
+pub struct RenderScene {
     /// Pixels in a row of a frame.
     pub width: u32,
     /// Rows of a frame.
@@ -67,12 +67,12 @@ pub struct Scene {
     /// Colour that a frame is cleared to, RGBA8.
     pub background: [u8; 4],
     /// The draws of each frame.
-    pub frames: Vec<Vec<Batch>>,
+    pub frames: Vec<Vec<DrawCall>>,
     /// The probes of a vertex stage, one a vertex.
-    pub probes: Vec<Batch>,
+    pub probes: Vec<DrawCall>,
     /// The probes of a fragment stage, one a pixel: what it is fed, as attributes by path. `gl_FragCoord` and
     /// `gl_FrontFacing` may be among them.
-    pub pixels: Vec<Batch>,
+    pub pixels: Vec<DrawCall>,
     /// Where a vertex stage that is handed in feeds the fragments that are probed: for each batch of pixels the shares of three
     /// vertices in each, which stand one after the other in the batch of probes with the same number.
     pub shares: Vec<Vec<[[f64; 3]; 3]>>,
@@ -80,14 +80,14 @@ pub struct Scene {
     pub textures: Arc<[Texture]>,
 }
 
-impl Scene {
+impl RenderScene {
     /// The frames, then the probes.
-    pub(super) fn batches(&self) -> impl Iterator<Item = &Batch> {
+    pub(super) fn batches(&self) -> impl Iterator<Item = &DrawCall> {
         self.frames.iter().flatten().chain(&self.probes)
     }
 
     /// How many vertices are drawn in all.
     pub(super) fn drawn(&self) -> u32 {
-        self.batches().map(Batch::drawn).sum()
+        self.batches().map(DrawCall::drawn).sum()
     }
 }

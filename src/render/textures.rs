@@ -7,11 +7,11 @@ use wgpu::util::DeviceExt;
 
 /// The textures of the last scene, which many submissions are drawn with.
 #[derive(Debug, Default)]
-pub(super) struct Textures {
+pub(super) struct UploadedTextures {
     last: Option<(Arc<[Texture]>, wgpu::Buffer)>,
 }
 
-impl Textures {
+impl UploadedTextures {
     /// The buffer of a scene's textures.
     pub fn buffer(&mut self, device: &wgpu::Device, textures: &Arc<[Texture]>) -> wgpu::Buffer {
         if let Some((_, buffer)) = self.last.as_ref().filter(|(known, _)| Arc::ptr_eq(known, textures)) {

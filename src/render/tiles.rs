@@ -49,14 +49,14 @@ impl Area {
 
 /// One frame's part and where it lies in the texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Tile {
+pub(super) struct TextureTile {
     pub area: Area,
     /// Its lower left corner in the texture, whose rows run upwards.
     pub x: u32,
     pub y: u32,
 }
 
-impl Tile {
+impl TextureTile {
     /// Where the lower left corner of the whole frame, `height` rows high, is in the texture, whose rows run upwards.
     pub fn origin(&self, height: u32) -> [f32; 2] {
         let bottom = height - self.area.y - self.area.height;
@@ -72,7 +72,7 @@ impl Tile {
 /// How the parts of all frames lie in one texture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Tiles {
-    pub tiles: Vec<Tile>,
+    pub tiles: Vec<TextureTile>,
     width: u32,
     height: u32,
 }
@@ -86,14 +86,14 @@ impl Tiles {
         let limit = (pixels.isqrt() as u32 + widest / 2).max(widest);
         let mut order: Vec<usize> = (0..areas.len()).filter(|index| !areas[*index].is_empty()).collect();
         order.sort_by_key(|index| (std::cmp::Reverse(areas[*index].height), *index));
-        let mut tiles: Vec<Tile> = areas.iter().map(|&area| Tile { area, x: 0, y: 0 }).collect();
+        let mut tiles: Vec<TextureTile> = areas.iter().map(|&area| TextureTile { area, x: 0, y: 0 }).collect();
         let (mut x, mut y, mut row, mut width) = (0, 0, 0, 0);
         for index in order {
             let area = areas[index];
             if x + area.width > limit {
                 (x, y, row) = (0, y + row, 0);
             }
-            tiles[index] = Tile { area, x, y };
+            tiles[index] = TextureTile { area, x, y };
             // Even, so that a block of 2 × 2 pixels is one in the texture as well.
             x += area.width.next_multiple_of(2);
             row = row.max(area.height.next_multiple_of(2));
@@ -166,7 +166,7 @@ mod tests {
             (0..40).map(|n| Area { x: 0, y: 0, width: n * 37 % 200, height: n * 53 % 170 }).collect();
         let placed = Tiles::place(&areas).unwrap();
         let size = placed.size();
-        let shown: Vec<&Tile> = placed.tiles.iter().filter(|tile| !tile.area.is_empty()).collect();
+        let shown: Vec<&TextureTile> = placed.tiles.iter().filter(|tile| !tile.area.is_empty()).collect();
         assert!(shown.len() > 30);
         for (index, a) in shown.iter().enumerate() {
             assert!(a.x + a.area.width <= size.width && a.y + a.area.height <= size.height);

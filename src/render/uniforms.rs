@@ -1,15 +1,15 @@
 //! Values → the bytes of uniform blocks, as one shader lays them out.
 
-use super::scene::Batch;
-use crate::translate::{Uniform, UniformBlock};
+use super::scene::DrawCall;
+use crate::translate::{UniformBlock, UniformMember};
 use naga::{Scalar, ScalarKind, TypeInner, VectorSize};
 use reference::interpreter::Type;
 use std::collections::HashMap;
 
 /// The bytes of one block for all batches, `stride` bytes each; what the program does not set is zero, as in OpenGL.
-pub(super) fn fill(block: &UniformBlock, stride: usize, batches: &[&Batch]) -> Vec<u8> {
+pub(super) fn fill(block: &UniformBlock, stride: usize, batches: &[&DrawCall]) -> Vec<u8> {
     let mut bytes = vec![0; stride * batches.len().max(1)];
-    let members: HashMap<&str, &Uniform> =
+    let members: HashMap<&str, &UniformMember> =
         block.members.iter().flat_map(|member| member.paths().map(move |path| (path, member))).collect();
     for (batch, chunk) in batches.iter().zip(bytes.chunks_mut(stride)) {
         for (path, value) in &batch.uniforms {
@@ -20,7 +20,7 @@ pub(super) fn fill(block: &UniformBlock, stride: usize, batches: &[&Batch]) -> V
 }
 
 /// Writes a value, or each part of it that the shader has.
-fn set(members: &HashMap<&str, &Uniform>, bytes: &mut [u8], path: &str, kind: &Type, numbers: &[f64]) {
+fn set(members: &HashMap<&str, &UniformMember>, bytes: &mut [u8], path: &str, kind: &Type, numbers: &[f64]) {
     match kind {
         Type::Struct(structure) => {
             let mut rest = numbers;
@@ -83,7 +83,7 @@ mod tests {
     const F32: Scalar = Scalar::F32;
 
     fn block(members: &[(&str, u32, TypeInner)]) -> UniformBlock {
-        let member = |(path, offset, ty): &(&str, u32, TypeInner)| Uniform {
+        let member = |(path, offset, ty): &(&str, u32, TypeInner)| UniformMember {
             path: (*path).into(),
             offset: *offset,
             ty: ty.clone(),
@@ -96,7 +96,7 @@ mod tests {
         let value = |(path, kind, numbers): &(&str, Type, &[f64])| {
             ((*path).into(), Value::new(kind.clone(), numbers.to_vec()).expect("as many numbers as the type has"))
         };
-        let batch = Batch { uniforms: uniforms.iter().map(value).collect(), ..Batch::default() };
+        let batch = DrawCall { uniforms: uniforms.iter().map(value).collect(), ..DrawCall::default() };
         bytemuck::pod_collect_to_vec(&fill(block, 256, &[&batch]))
     }
 

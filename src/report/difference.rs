@@ -65,18 +65,18 @@ pub(super) fn band_of(difference: f64) -> Option<usize> {
 /// Where they agree within the tolerance, and on the silhouette, the expected picture shows through as a faint negative in four steps, so that
 /// a difference can be placed. Both pictures have one size.
 pub(super) fn difference(yours: &Picture, expected: &Picture) -> Vec<[u8; 3]> {
-    let ramp = Ramp::new();
+    let ramp = ColourRamp::new();
     let (yours, expected) = (yours.pixels(), expected.pixels());
     yours.iter().zip(expected.iter()).map(|(yours, expected)| ramp.pixel(yours, expected)).collect()
 }
 
 /// The colour of every difference, and of every sum of channels where it is within the tolerance.
-pub(super) struct Ramp {
+pub(super) struct ColourRamp {
     bands: [[u8; 3]; 256],
     ghosts: [[u8; 3]; 3 * 255 + 1],
 }
 
-impl Ramp {
+impl ColourRamp {
     pub fn new() -> Self {
         let band = |level| band_of(level as f64).map_or([0; 3], |band| BANDS[band].colour);
         Self { bands: std::array::from_fn(band), ghosts: std::array::from_fn(ghost) }

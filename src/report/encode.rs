@@ -74,11 +74,11 @@ pub(super) struct Canvas {
     pub width: usize,
     pub height: usize,
     palette: Palette,
-    pixels: Pixels,
+    pixels: CanvasPixels,
 }
 
 #[derive(Clone)]
-enum Pixels {
+enum CanvasPixels {
     Indexed(Vec<u8>),
     Full(Vec<Rgb>),
 }
@@ -88,28 +88,28 @@ impl Canvas {
     pub fn new(width: usize, height: usize, blank: Rgb) -> Self {
         let mut palette = Palette::default();
         let first = palette.index(blank).unwrap_or_default();
-        Self { width, height, palette, pixels: Pixels::Indexed(vec![first; width * height]) }
+        Self { width, height, palette, pixels: CanvasPixels::Indexed(vec![first; width * height]) }
     }
 
     /// Paints pixels from the `start`th on, counted row by row.
     pub fn put(&mut self, start: usize, colours: impl Iterator<Item = Rgb> + Clone) {
-        if let Pixels::Indexed(indices) = &mut self.pixels {
+        if let CanvasPixels::Indexed(indices) = &mut self.pixels {
             let mut cells = indices[start..].iter_mut().zip(colours.clone());
             let fits = cells.all(|(cell, colour)| self.palette.index(colour).map(|index| *cell = index).is_some());
             if fits {
                 return;
             }
             let full = indices.iter().map(|index| self.palette.colours[usize::from(*index)]);
-            self.pixels = Pixels::Full(full.collect());
+            self.pixels = CanvasPixels::Full(full.collect());
         }
-        if let Pixels::Full(pixels) = &mut self.pixels {
+        if let CanvasPixels::Full(pixels) = &mut self.pixels {
             pixels[start..].iter_mut().zip(colours).for_each(|(cell, colour)| *cell = colour);
         }
     }
 
     /// Whether a palette was enough so far.
     pub fn is_indexed(&self) -> bool {
-        matches!(self.pixels, Pixels::Indexed(_))
+        matches!(self.pixels, CanvasPixels::Indexed(_))
     }
 
     /// It as a PNG. Where it has more colours than a palette, nearly the same ones stand for them: a third of the size, and seldom
@@ -117,8 +117,8 @@ impl Canvas {
     pub fn encode(&self) -> Result<Vec<u8>, Fault> {
         let size = (self.width, self.height);
         match &self.pixels {
-            Pixels::Indexed(indices) => write(size, Some(&self.palette.colours), &[indices], 0.0),
-            Pixels::Full(pixels) => {
+            CanvasPixels::Indexed(indices) => write(size, Some(&self.palette.colours), &[indices], 0.0),
+            CanvasPixels::Full(pixels) => {
                 let (colours, indices) = palette::reduced(pixels);
                 write(size, Some(&colours), &[&indices], 0.0)
             }

@@ -13,9 +13,9 @@ mod shots;
 mod values;
 
 pub use self::body::Mark;
-pub use self::film::{Film, FilmUse, Gallery, Motion, Term, expected_sheet};
+pub use self::film::{Film, FilmUse, Motion, PictureAddresses, TermFilm, expected_sheet};
 
-use self::body::Body;
+use self::body::ReportBody;
 use super::{Pictures, Report};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
@@ -34,7 +34,7 @@ pub const SYMBOLS: &str = include_str!("html/templates/symbols.html");
 
 /// What goes into a page; what is not there is left out of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Page<'a> {
+pub struct ReportPage<'a> {
     /// The homework.
     pub assignment: &'a Assignment,
     /// The report.
@@ -47,7 +47,7 @@ pub struct Page<'a> {
     pub language: Language,
 }
 
-impl Page<'_> {
+impl ReportPage<'_> {
     /// The page; a fault when the pictures do not go together.
     pub fn render(&self) -> Result<String, Fault> {
         let film = self
@@ -59,23 +59,23 @@ impl Page<'_> {
             (Some(film), Some(pictures)) => Some(film.embedded(pictures, values::still(self.report, pictures)?)?),
             _ => None,
         };
-        let body = Body::of(&Part {
+        let body = ReportBody::of(&ReportFragment {
             assignment: self.assignment,
             report: self.report,
-            source: Lines::of(self.sources),
+            source: LineLinks::of(self.sources),
             gallery: gallery.as_ref(),
             language: self.language,
             level: 1,
             has_footer: true,
         });
         let motion = film.filter(|_| body.moves()).map(|film| film.motion.style(self.assignment.scene.cycle));
-        Document { script: SCRIPT, motion, body }.render().map_err(unwritten)
+        ReportDocument { script: SCRIPT, motion, body }.render().map_err(unwritten)
     }
 }
 
 /// Where the lines of the student's files are shown, which messages link to as `#L12`, or `#F2L12` in the second file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lines<'a> {
+pub enum LineLinks<'a> {
     /// In the report: the files as text.
     Here(&'a [Source]),
     /// Elsewhere in the same page.
@@ -84,7 +84,7 @@ pub enum Lines<'a> {
     Nowhere,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> LineLinks<'a> {
     /// In the report, where there are files that can be read as text.
     pub fn of(sources: &'a [Source]) -> Self {
         if sources.is_empty() { Self::Nowhere } else { Self::Here(sources) }
@@ -93,15 +93,15 @@ impl<'a> Lines<'a> {
 
 /// A report as a part of a larger page, which brings [`SYMBOLS`], the styles and the script.
 #[derive(Clone, Copy, Debug)]
-pub struct Part<'a> {
+pub struct ReportFragment<'a> {
     /// The homework.
     pub assignment: &'a Assignment,
     /// The report.
     pub report: &'a Report,
     /// The student's files.
-    pub source: Lines<'a>,
+    pub source: LineLinks<'a>,
     /// Where the pictures are.
-    pub gallery: Option<&'a Gallery>,
+    pub gallery: Option<&'a PictureAddresses>,
     /// The language of every word.
     pub language: Language,
     /// Level of the report's own heading, 1 to 4.
@@ -110,10 +110,10 @@ pub struct Part<'a> {
     pub has_footer: bool,
 }
 
-impl Part<'_> {
+impl ReportFragment<'_> {
     /// The part, without an element around it.
     pub fn render(&self) -> Result<String, Fault> {
-        Body::of(self).render().map_err(unwritten)
+        ReportBody::of(self).render().map_err(unwritten)
     }
 }
 
@@ -127,8 +127,8 @@ fn unwritten(error: askama::Error) -> Fault {
 /// The page around a report.
 #[derive(Template)]
 #[template(path = "report/html/templates/report.html")]
-struct Document<'a> {
-    body: Body<'a>,
+struct ReportDocument<'a> {
+    body: ReportBody<'a>,
     script: &'static str,
     motion: Option<String>,
 }

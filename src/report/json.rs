@@ -1,11 +1,11 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
 use super::{
-    Advice, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, OwnValues, ProbeResult, Repair, Report,
+    AdviceLine, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, OwnValues, ProbeResult, Repair, Report,
     RubricLine, SourceInfo, ValueAt, ValueLine, ValuePlace, Verdict,
 };
 use crate::cross_check::{CrossCheck, Opinion};
-use crate::diagnostic::{Diagnostic, Severity, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage, Severity};
 use crate::language::Language;
 use serde::{Serialize, Serializer};
 
@@ -26,7 +26,7 @@ pub fn view(report: &Report, language: Language) -> JsonReport<'_> {
     if report.hints > Hints::None {
         return view;
     }
-    let rubric = view.rubric.into_iter().map(|line| Rubric { mistake: None, file: None, line: None, ..line });
+    let rubric = view.rubric.into_iter().map(|line| JsonRubricLine { mistake: None, file: None, line: None, ..line });
     JsonReport { rubric: rubric.collect(), mistakes: &[], ..view }
 }
 
@@ -43,16 +43,16 @@ pub fn staff_view(report: &Report, language: Language) -> JsonReport<'_> {
         max_score: Number(report.max_score),
         lateness: report.lateness,
         total: report.lateness.map(|_| Number(report.total())),
-        rubric: report.rubric.iter().map(|line| Rubric::of(report, line, language)).collect(),
+        rubric: report.rubric.iter().map(|line| JsonRubricLine::of(report, line, language)).collect(),
         comments: &report.comments,
         mistakes: &report.mistakes,
         repairs: &report.repairs,
-        advice: report.advice.iter().map(|advice| Remark::of(advice, language)).collect(),
-        diagnostics: report.diagnostics.iter().map(|d| Message::of(report, d, language)).collect(),
-        frames: report.frames.iter().map(Frame::of).collect(),
-        probes: Probes::of(&report.probes),
+        advice: report.advice.iter().map(|advice| JsonAdvice::of(advice, language)).collect(),
+        diagnostics: report.diagnostics.iter().map(|d| JsonMessage::of(report, d, language)).collect(),
+        frames: report.frames.iter().map(JsonFrame::of).collect(),
+        probes: JsonProbes::of(&report.probes),
         map_lookup: report.map_lookup.as_ref(),
-        own_values: report.own_values.as_ref().map(|values| Values::of(report, values, language)),
+        own_values: report.own_values.as_ref().map(|values| JsonValues::of(report, values, language)),
         cross_check: report.cross_check.as_ref().map(|checked| CrossChecked::of(checked, language)),
         environment: &report.environment,
         elapsed_ms: Number(report.elapsed_ms),
@@ -97,7 +97,7 @@ pub struct JsonReport<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     total: Option<Number>,
-    rubric: Vec<Rubric<'a>>,
+    rubric: Vec<JsonRubricLine<'a>>,
     /// What people say about lines of the files.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     comments: &'a [Comment],
@@ -105,16 +105,16 @@ pub struct JsonReport<'a> {
     /// The changes by which the files become right; only for who teaches.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     repairs: &'a [Repair],
-    advice: Vec<Remark<'a>>,
-    diagnostics: Vec<Message<'a>>,
-    frames: Vec<Frame>,
-    probes: Probes,
+    advice: Vec<JsonAdvice<'a>>,
+    diagnostics: Vec<JsonMessage<'a>>,
+    frames: Vec<JsonFrame>,
+    probes: JsonProbes,
     /// Where the map that a pass draws is looked up for a pixel that is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     map_lookup: Option<&'a MapLookup>,
     /// What the files compute on their way, line by line, at a few places; only of a wrong answer.
     #[serde(skip_serializing_if = "Option::is_none")]
-    own_values: Option<Values<'a>>,
+    own_values: Option<JsonValues<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cross_check: Option<CrossChecked<'a>>,
     environment: &'a Environment,
@@ -149,8 +149,8 @@ fn file_of<'a>(report: &'a Report, file: Option<&'a str>, line: Option<u32>) -> 
 }
 
 #[derive(Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-struct Rubric<'a> {
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Rubric))]
+struct JsonRubricLine<'a> {
     id: &'a str,
     #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     points: Number,
@@ -167,7 +167,7 @@ struct Rubric<'a> {
     line: Option<u32>,
 }
 
-impl<'a> Rubric<'a> {
+impl<'a> JsonRubricLine<'a> {
     fn of(report: &'a Report, line: &'a RubricLine, language: Language) -> Self {
         Self {
             id: &line.id,
@@ -186,7 +186,7 @@ impl<'a> Rubric<'a> {
 /// What the files compute on their way.
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = OwnValues))]
-struct Values<'a> {
+struct JsonValues<'a> {
     places: &'a [ValuePlace],
     lines: Vec<Followed<'a>>,
 }
@@ -205,7 +205,7 @@ struct Followed<'a> {
     values: &'a [Option<ValueAt>],
 }
 
-impl<'a> Values<'a> {
+impl<'a> JsonValues<'a> {
     fn of(report: &'a Report, values: &'a OwnValues, language: Language) -> Self {
         let line = |followed: &'a ValueLine| Followed {
             file: file_of(report, followed.file.as_deref(), Some(followed.line)),
@@ -222,25 +222,25 @@ impl<'a> Values<'a> {
 
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Advice))]
-struct Remark<'a> {
+struct JsonAdvice<'a> {
     id: &'a str,
     message: &'a str,
     file: &'a str,
     line: Option<u32>,
 }
 
-impl<'a> Remark<'a> {
-    fn of(advice: &'a Advice, language: Language) -> Self {
-        let Advice { id, message, file, line } = advice;
+impl<'a> JsonAdvice<'a> {
+    fn of(advice: &'a AdviceLine, language: Language) -> Self {
+        let AdviceLine { id, message, file, line } = advice;
         Self { id, message: message.get(language), file, line: *line }
     }
 }
 
 #[derive(Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-struct Message<'a> {
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Message))]
+struct JsonMessage<'a> {
     severity: Severity,
-    stage: Stage,
+    stage: DiagnosticStage,
     file: Option<&'a str>,
     line: Option<u32>,
     column: Option<u32>,
@@ -248,7 +248,7 @@ struct Message<'a> {
     hint: Option<&'a str>,
 }
 
-impl<'a> Message<'a> {
+impl<'a> JsonMessage<'a> {
     fn of(report: &'a Report, diagnostic: &'a Diagnostic, language: Language) -> Self {
         Self {
             severity: diagnostic.severity,
@@ -263,8 +263,8 @@ impl<'a> Message<'a> {
 }
 
 #[derive(Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-struct Frame {
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Frame))]
+struct JsonFrame {
     #[cfg_attr(feature = "service", schema(value_type = Option<f64>))]
     t: Number,
     coverage_mismatches: u32,
@@ -275,7 +275,7 @@ struct Frame {
     mismatched_pixels: u32,
 }
 
-impl Frame {
+impl JsonFrame {
     fn of(frame: &FrameResult) -> Self {
         Self {
             t: Number(frame.t),
@@ -288,8 +288,8 @@ impl Frame {
 }
 
 #[derive(Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema))]
-struct Probes {
+#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = Probes))]
+struct JsonProbes {
     seed: u64,
     samples: u32,
     mismatched: u32,
@@ -297,7 +297,7 @@ struct Probes {
     max_difference: Option<Number>,
 }
 
-impl Probes {
+impl JsonProbes {
     fn of(probes: &ProbeResult) -> Self {
         Self {
             seed: probes.seed,

@@ -3,7 +3,7 @@
 use super::text::number;
 use super::{Lateness, Report, Verdict};
 use crate::cross_check::{CrossCheck, Opinion};
-use crate::diagnostic::{Severity, Stage};
+use crate::diagnostic::{DiagnosticStage, Severity};
 use crate::language::{Language, span};
 use reference::Assignment;
 
@@ -266,18 +266,18 @@ impl Labels {
         }
     }
 
-    pub fn stage(&self, stage: Stage) -> &'static str {
+    pub fn stage(&self, stage: DiagnosticStage) -> &'static str {
         match (stage, self.japanese()) {
-            (Stage::Source, false) => "reading the file",
-            (Stage::Source, true) => "ファイルの読み込み",
-            (Stage::Compile, false) => "compiling",
-            (Stage::Compile, true) => "コンパイル",
-            (Stage::Link, false) => "linking",
-            (Stage::Link, true) => "リンク",
-            (Stage::Interface, false) => "checking the interface",
-            (Stage::Interface, true) => "入出力の確認",
-            (Stage::Run, false) => "running",
-            (Stage::Run, true) => "実行",
+            (DiagnosticStage::Source, false) => "reading the file",
+            (DiagnosticStage::Source, true) => "ファイルの読み込み",
+            (DiagnosticStage::Compile, false) => "compiling",
+            (DiagnosticStage::Compile, true) => "コンパイル",
+            (DiagnosticStage::Link, false) => "linking",
+            (DiagnosticStage::Link, true) => "リンク",
+            (DiagnosticStage::Interface, false) => "checking the interface",
+            (DiagnosticStage::Interface, true) => "入出力の確認",
+            (DiagnosticStage::Run, false) => "running",
+            (DiagnosticStage::Run, true) => "実行",
         }
     }
 

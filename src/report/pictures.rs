@@ -16,13 +16,13 @@ const GAP_COLOUR: [u8; 3] = [0x80; 3];
 
 /// One pose: what was drawn, what is expected, and where they differ.
 #[derive(Clone, Debug)]
-struct Pose {
+struct PosePictures {
     yours: Raster,
     expected: Raster,
     difference: Raster,
 }
 
-impl Pose {
+impl PosePictures {
     /// The pose of two pictures of one size.
     fn of(yours: &Picture, expected: &Picture) -> Result<Self, Fault> {
         let (yours_raster, expected_raster) = (Raster::opaque(yours)?, Raster::opaque(expected)?);
@@ -62,7 +62,7 @@ pub(super) fn fit(yours: &[Picture], expected: &[Picture]) -> Result<(), Fault> 
 ///
 /// Returns the files that it wrote: none when nothing was drawn.
 pub fn write(pictures: &Pictures, directory: &Path) -> Result<Vec<PathBuf>, Fault> {
-    let poses = Pose::all(pictures)?;
+    let poses = PosePictures::all(pictures)?;
     fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
     let mut written = Vec::new();
     let mut save = |name: String, bytes: Vec<u8>| {
@@ -84,7 +84,7 @@ pub fn write(pictures: &Pictures, directory: &Path) -> Result<Vec<PathBuf>, Faul
 
 /// The poses as one animated PNG, which repeats for ever: yours, expected and difference, from the left.
 pub fn animation(pictures: &Pictures) -> Result<Vec<u8>, Fault> {
-    animate(&Pose::all(pictures)?, pictures.cycle)
+    animate(&PosePictures::all(pictures)?, pictures.cycle)
 }
 
 /// One picture as an opaque PNG.
@@ -94,7 +94,7 @@ pub fn png(picture: &Picture) -> Result<Vec<u8>, Fault> {
 
 /// Where two pictures of one size differ, as a PNG.
 pub fn difference_png(yours: &Picture, expected: &Picture) -> Result<Vec<u8>, Fault> {
-    encode(&Pose::of(yours, expected)?.difference)
+    encode(&PosePictures::of(yours, expected)?.difference)
 }
 
 /// Some pictures of one size as one animated PNG, which takes `cycle` seconds and repeats for ever.
@@ -109,8 +109,8 @@ pub fn decode(png: &[u8]) -> Result<Picture, Fault> {
     Ok(Picture::whole(image.width(), image.height(), image.into_raw()))
 }
 
-fn animate(poses: &[Pose], cycle: f64) -> Result<Vec<u8>, Fault> {
-    let frames: Vec<Raster> = poses.iter().map(Pose::side_by_side).collect();
+fn animate(poses: &[PosePictures], cycle: f64) -> Result<Vec<u8>, Fault> {
+    let frames: Vec<Raster> = poses.iter().map(PosePictures::side_by_side).collect();
     encode_animated(&frames.iter().collect::<Vec<_>>(), cycle)
 }
 

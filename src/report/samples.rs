@@ -1,7 +1,7 @@
 //! Reports and pictures made by hand, for the tests of the views.
 
 use super::*;
-use crate::diagnostic::Stage;
+use crate::diagnostic::DiagnosticStage;
 use crate::hand_in::HandedInFile;
 use crate::source::{self, Source};
 use std::sync::Arc;
@@ -114,7 +114,7 @@ pub(crate) fn wrong() -> Report {
     };
     report.diagnostics = vec![
         Diagnostic::warning(
-            Stage::Compile,
+            DiagnosticStage::Compile,
             Text::new("This drivers' extension <b>differs</b>.", "この書き方を受け付けないドライバがあります <b>。"),
         )
         .at(12, Some(9))
@@ -182,14 +182,20 @@ pub(crate) fn two_files() -> Report {
 pub(crate) fn rejected() -> Report {
     let mut report = nothing_drawn(Verdict::Rejected);
     report.diagnostics = vec![
-        Diagnostic::error(Stage::Compile, Text::new("`Max` is not declared.", "`Max` は宣言されていません。"))
-            .at(11, Some(12))
-            .spanning(3)
-            .hint(Text::new(
-                "GLSL tells capital letters from small ones: look at `max`.",
-                "GLSL は大文字と小文字を区別します。`max` と比べてみましょう。",
-            )),
-        Diagnostic::error(Stage::Link, Text::new("The output `vc` is missing.", "出力変数 `vc` がありません。")),
+        Diagnostic::error(
+            DiagnosticStage::Compile,
+            Text::new("`Max` is not declared.", "`Max` は宣言されていません。"),
+        )
+        .at(11, Some(12))
+        .spanning(3)
+        .hint(Text::new(
+            "GLSL tells capital letters from small ones: look at `max`.",
+            "GLSL は大文字と小文字を区別します。`max` と比べてみましょう。",
+        )),
+        Diagnostic::error(
+            DiagnosticStage::Link,
+            Text::new("The output `vc` is missing.", "出力変数 `vc` がありません。"),
+        ),
     ];
     report
 }
@@ -198,7 +204,7 @@ pub(crate) fn stopped() -> Report {
     let mut report = nothing_drawn(Verdict::Stopped);
     report.diagnostics = vec![
         Diagnostic::error(
-            Stage::Run,
+            DiagnosticStage::Run,
             Text::new("A loop ran more than 65536 times.", "ループが 65536 回を超えて繰り返されました。"),
         )
         .at(10, None),

@@ -13,7 +13,7 @@ use reference::Assignment;
 
 /// How to write a report.
 #[derive(Clone, Copy, Debug)]
-pub struct Options<'a> {
+pub struct TextOptions<'a> {
     /// The homework.
     pub assignment: &'a Assignment,
     /// The language of every word.
@@ -38,9 +38,9 @@ const BAD: Style = AnsiColor::Red.on_default();
 const CODE: Style = AnsiColor::Cyan.on_default();
 
 /// The report as text, with a final newline.
-pub fn render(report: &Report, options: &Options) -> String {
+pub fn render(report: &Report, options: &TextOptions) -> String {
     let report = &*report.for_student();
-    let mut writer = Writer {
+    let mut writer = ReportWriter {
         out: String::new(),
         labels: Labels::of(options.language),
         language: options.language,
@@ -70,7 +70,7 @@ pub(crate) fn number(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-struct Writer {
+struct ReportWriter {
     out: String,
     labels: &'static Labels,
     language: Language,
@@ -78,7 +78,7 @@ struct Writer {
     colour: bool,
 }
 
-impl Writer {
+impl ReportWriter {
     fn paint(&self, style: Style, text: &str) -> String {
         if self.colour { format!("{style}{text}{style:#}") } else { text.to_owned() }
     }

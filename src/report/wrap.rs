@@ -89,9 +89,9 @@ fn units(text: &str) -> Vec<Unit> {
             previous = None;
             continue;
         }
-        let after = previous.map(|p| Edge::of(p, !in_code));
+        let after = previous.map(|p| BreakClass::of(p, !in_code));
         in_code ^= c == '`';
-        let joined = after.is_some_and(|after| !after.may_break(Edge::of(c, !in_code)));
+        let joined = after.is_some_and(|after| !after.may_break(BreakClass::of(c, !in_code)));
         match units.last_mut() {
             Some(unit) if joined => unit.text.push(c),
             _ => units.push(Unit { text: c.to_string(), spaced: previous.is_none() }),
@@ -102,13 +102,13 @@ fn units(text: &str) -> Vec<Unit> {
 }
 
 /// How a character behaves at the edge of a line.
-struct Edge {
+struct BreakClass {
     wide: bool,
     opens: bool,
     closes: bool,
 }
 
-impl Edge {
+impl BreakClass {
     /// A back-quote opens or closes code by turns: `closing` says which.
     fn of(c: char, closing: bool) -> Self {
         Self {

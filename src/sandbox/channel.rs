@@ -3,7 +3,7 @@
 //! A worker that does not read, does not write or writes nonsense costs the caller its deadline and no more, so all
 //! ends are non-blocking and waited on together.
 
-use super::protocol::{self, Body, Longest};
+use super::protocol::{self, Longest, MessageBody};
 use nix::fcntl::{FcntlArg, OFlag, fcntl};
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 use serde::de::DeserializeOwned;
@@ -30,7 +30,7 @@ pub(super) struct Channel {
 
 /// Why no answer came.
 #[derive(Debug)]
-pub(super) enum Lost {
+pub(super) enum LostAnswer {
     /// Not within the deadline.
     Timeout,
     /// The worker closed its output.
@@ -61,12 +61,12 @@ impl Channel {
         longest: Longest,
         mut deadline: Instant,
         later: &dyn Fn() -> Option<Instant>,
-    ) -> Result<(T, Body), Lost> {
+    ) -> Result<(T, MessageBody), LostAnswer> {
         let mut unsent = message;
         let mut received = Vec::new();
         loop {
             match self.wait(!unsent.is_empty(), deadline) {
-                Err(Lost::Timeout) => deadline = later().ok_or(Lost::Timeout)?,
+                Err(LostAnswer::Timeout) => deadline = later().ok_or(LostAnswer::Timeout)?,
                 waited => waited?,
             }
             self.listen();
@@ -75,8 +75,8 @@ impl Channel {
             match protocol::decode(&mut received, longest) {
                 Ok(Some(answer)) => return Ok(answer),
                 Ok(None) if open => {}
-                Ok(None) => return Err(Lost::Closed),
-                Err(error) => return Err(Lost::Garbled(error.to_string())),
+                Ok(None) => return Err(LostAnswer::Closed),
+                Err(error) => return Err(LostAnswer::Garbled(error.to_string())),
             }
         }
     }
@@ -88,10 +88,10 @@ impl Channel {
     }
 
     /// Waits until something can be read or, where asked for, written.
-    fn wait(&self, sending: bool, deadline: Instant) -> Result<(), Lost> {
+    fn wait(&self, sending: bool, deadline: Instant) -> Result<(), LostAnswer> {
         let left = deadline.saturating_duration_since(Instant::now());
         if left.is_zero() {
-            return Err(Lost::Timeout);
+            return Err(LostAnswer::Timeout);
         }
         let mut ends = vec![PollFd::new(self.stdout.as_fd(), PollFlags::POLLIN)];
         ends.extend(self.stderr.as_ref().map(|stderr| PollFd::new(stderr.as_fd(), PollFlags::POLLIN)));
@@ -102,7 +102,7 @@ impl Channel {
         let milliseconds = i32::try_from(left.as_millis() + 1).unwrap_or(i32::MAX);
         match poll(&mut ends, PollTimeout::try_from(milliseconds).unwrap_or(PollTimeout::MAX)) {
             Ok(_) | Err(nix::Error::EINTR) => Ok(()),
-            Err(error) => Err(Lost::Garbled(format!("poll: {error}"))),
+            Err(error) => Err(LostAnswer::Garbled(format!("poll: {error}"))),
         }
     }
 
@@ -119,9 +119,9 @@ impl Channel {
     }
 
     /// Reads what is there; false at the end of the pipe.
-    fn pull(&mut self, received: &mut Vec<u8>, longest: Longest) -> Result<bool, Lost> {
+    fn pull(&mut self, received: &mut Vec<u8>, longest: Longest) -> Result<bool, LostAnswer> {
         loop {
-            let needed = protocol::needed(received, longest).map_err(|error| Lost::Garbled(error.to_string()))?;
+            let needed = protocol::needed(received, longest).map_err(|error| LostAnswer::Garbled(error.to_string()))?;
             // One byte more would show: a writer that never pauses is left to who decodes.
             let end = needed + 1;
             if received.len() >= end {
@@ -133,7 +133,7 @@ impl Channel {
                 Ok(0) => return Ok(false),
                 Ok(_) => {}
                 Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(true),
-                Err(error) => return Err(Lost::Garbled(error.to_string())),
+                Err(error) => return Err(LostAnswer::Garbled(error.to_string())),
             }
         }
     }

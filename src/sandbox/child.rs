@@ -1,10 +1,10 @@
 //! The parent's side of one worker: start, ask, wait no longer than the deadline, end.
 
-use super::channel::{Channel, Lost};
+use super::channel::{Channel, LostAnswer};
 use super::ending::Ending;
-use super::library::{Library, Turn};
+use super::library::{PictureLibrary, Turn};
 use super::protection::{Policy, Protection};
-use super::protocol::{self, Answered, Body, Demand, Hello, Load, Longest, Reply, Request};
+use super::protocol::{self, Answered, Demand, GradingRequest, Hello, Load, Longest, MessageBody, Reply};
 use super::{Settings, environment, memory, schedule};
 use crate::expected::Pack;
 use crate::fault::Fault;
@@ -112,9 +112,9 @@ impl Worker {
         let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE, &|| None);
         let hello = hello.map_err(|lost| {
             let how = match lost {
-                Lost::Timeout => format!("not ready after {} s", START_DEADLINE.as_secs()),
-                Lost::Garbled(detail) => detail,
-                Lost::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
+                LostAnswer::Timeout => format!("not ready after {} s", START_DEADLINE.as_secs()),
+                LostAnswer::Garbled(detail) => detail,
+                LostAnswer::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
             };
             // No student's text has met this worker: what it says can be shown.
             let said = self.channel.tail();
@@ -138,12 +138,17 @@ impl Worker {
     }
 
     /// Whether it may read another assignment.
-    pub fn may_read(&self, assignment: &Assignment, library: &Library) -> bool {
+    pub fn may_read(&self, assignment: &Assignment, library: &PictureLibrary) -> bool {
         self.assignments.len() < MOST_ASSIGNMENTS && (self.gradings == 0 || library.is_settled(assignment))
     }
 
     /// Has it read an assignment, with the right pictures where they are known.
-    pub fn read(&mut self, assignment: &Assignment, library: &Library, settings: &Settings) -> Result<(), NotStarted> {
+    pub fn read(
+        &mut self,
+        assignment: &Assignment,
+        library: &PictureLibrary,
+        settings: &Settings,
+    ) -> Result<(), NotStarted> {
         let turn = library.turn(assignment, settings);
         let given = if let Turn::Given(pack) = &turn { Some(pack.bytes()) } else { None };
         let (mut load, body) = Load::new(0, &assignment.folder, given);
@@ -174,13 +179,13 @@ impl Worker {
         body: &[u8],
         longest: Longest,
         deadline: Duration,
-    ) -> Result<(Reply, Body), String> {
+    ) -> Result<(Reply, MessageBody), String> {
         let message = protocol::encode(demand, body).map_err(|error| error.to_string())?;
         self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &|| None).map_err(|lost| {
             let how = match lost {
-                Lost::Timeout => format!("no answer after {} s", deadline.as_secs()),
-                Lost::Garbled(detail) => detail,
-                Lost::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
+                LostAnswer::Timeout => format!("no answer after {} s", deadline.as_secs()),
+                LostAnswer::Garbled(detail) => detail,
+                LostAnswer::Closed => self.died().map_or_else(|| "no answer".into(), |status| status.to_string()),
             };
             format!("{how} {}", self.channel.tail()).trim_end().to_owned()
         })
@@ -194,11 +199,11 @@ impl Worker {
     /// Has one submission graded.
     pub fn grade(
         &mut self,
-        request: &Request,
+        request: &GradingRequest,
         hand_in: &HandIn,
         frames_bytes: usize,
         deadline: Duration,
-    ) -> Result<(Reply, Body), Ending> {
+    ) -> Result<(Reply, MessageBody), Ending> {
         self.gradings += 1;
         let message = protocol::encode(&Demand::Grade(request.clone()), &hand_in.concatenated())
             .map_err(|error| Ending::Garbled(error.to_string()))?;
@@ -209,9 +214,9 @@ impl Worker {
         match self.channel.exchange::<Reply>(&message, longest, begin + deadline, &later) {
             Ok((reply, body)) if reply.id == request.id => Ok((reply, body)),
             Ok(_) => Err(Ending::Garbled("the answer to another question".into())),
-            Err(Lost::Garbled(detail)) => Err(Ending::Garbled(detail)),
-            Err(Lost::Timeout) => Err(schedule::of_late(self.id(), before, deadline)),
-            Err(Lost::Closed) => Err(match self.died() {
+            Err(LostAnswer::Garbled(detail)) => Err(Ending::Garbled(detail)),
+            Err(LostAnswer::Timeout) => Err(schedule::of_late(self.id(), before, deadline)),
+            Err(LostAnswer::Closed) => Err(match self.died() {
                 Some(status) => Ending::of(status, &self.channel.tail()),
                 None => Ending::Garbled("the output was closed".into()),
             }),

@@ -1,7 +1,7 @@
 //! What a worker gives up before its first thread starts: rights, descriptors, memory, files.
 
 use super::protection::{Layer, LayerState};
-use super::{Limits, files};
+use super::{WorkerLimits, files};
 use crate::render::AdapterKind;
 use nix::sys::prctl;
 use nix::sys::resource::{Resource, UsageWho, getrlimit, getrusage, setrlimit};
@@ -33,15 +33,15 @@ pub(super) struct Confined {
     /// How the layers hold.
     pub layers: Vec<LayerState>,
     /// The worker's own bounds, to be set anew for each file.
-    pub meter: Meter,
+    pub meter: GradingMeter,
 }
 
 /// Gives up all that grading does not need. To be called while the process has one thread, for some of it is by thread.
-pub(super) fn enter(limits: Limits, adapter: AdapterKind) -> io::Result<Confined> {
+pub(super) fn enter(limits: WorkerLimits, adapter: AdapterKind) -> io::Result<Confined> {
     let output = File::from(dup(io::stdout())?);
     dup2_stdout(io::stderr())?;
     close_others(&output)?;
-    let meter = Meter { status: File::open("/proc/self/status")?, limits };
+    let meter = GradingMeter { status: File::open("/proc/self/status")?, limits };
     std::env::set_current_dir("/")?;
     umask(Mode::all());
     let user = drop_root();
@@ -87,7 +87,7 @@ fn drop_root() -> Result<String, String> {
     Ok(format!("uid {NOBODY}"))
 }
 
-/// The bounds that hold from the start; [`Meter::next`] draws those of memory and time closer.
+/// The bounds that hold from the start; [`GradingMeter::next`] draws those of memory and time closer.
 fn bound(adapter: AdapterKind) -> nix::Result<String> {
     lower(Resource::RLIMIT_CORE, 0)?;
     lower(Resource::RLIMIT_NOFILE, MOST_DESCRIPTORS)?;
@@ -113,20 +113,20 @@ pub(super) fn lower(resource: Resource, limit: u64) -> nix::Result<()> {
 
 /// Bounds on one grading, over what the worker took before it: an earlier file's leak is never a later one's limit.
 #[derive(Debug)]
-pub(super) struct Meter {
+pub(super) struct GradingMeter {
     /// Opened while files could be opened.
     status: File,
-    limits: Limits,
+    limits: WorkerLimits,
 }
 
-impl Meter {
+impl GradingMeter {
     /// Gives the next file its own share of memory and CPU time; the size of the process beforehand.
     pub fn next(&self, adapter: AdapterKind) -> io::Result<u64> {
         self.give(self.limits, adapter)
     }
 
     /// Gives what comes next such a share.
-    pub fn give(&self, limits: Limits, adapter: AdapterKind) -> io::Result<u64> {
+    pub fn give(&self, limits: WorkerLimits, adapter: AdapterKind) -> io::Result<u64> {
         let usage = getrusage(UsageWho::RUSAGE_SELF)?;
         let used = (usage.user_time().tv_sec() + usage.system_time().tv_sec()).unsigned_abs();
         soft(Resource::RLIMIT_CPU, used + 1 + limits.cpu_seconds)?;

@@ -8,13 +8,13 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// The right pictures of assignments, by the assignment's digest.
 #[derive(Debug, Default)]
-pub(super) struct Library {
-    pictures: Mutex<HashMap<String, Pictures>>,
+pub(super) struct PictureLibrary {
+    pictures: Mutex<HashMap<String, PictureState>>,
     changed: Condvar,
 }
 
 #[derive(Clone, Debug)]
-enum Pictures {
+enum PictureState {
     /// A worker is at it, and the others wait.
     InTheMaking,
     Known(Pack),
@@ -36,32 +36,32 @@ pub(super) enum Turn<'a> {
 /// The duty to compute the pictures, which another worker gets where it is not done.
 #[derive(Debug)]
 pub(super) struct Maker<'a> {
-    library: &'a Library,
+    library: &'a PictureLibrary,
     digest: String,
-    outcome: Option<Pictures>,
+    outcome: Option<PictureState>,
 }
 
-impl Library {
+impl PictureLibrary {
     /// What the next worker is to do. Waits while another one computes the pictures.
     pub fn turn(&self, assignment: &Assignment, settings: &Settings) -> Turn<'_> {
         let digest = assignment.digest.clone();
         let mut pictures = self.lock();
         loop {
             match pictures.get(&digest) {
-                Some(Pictures::Known(pack)) => return Turn::Given(pack.clone()),
-                Some(Pictures::Cheap) => return Turn::Own,
-                Some(Pictures::InTheMaking) => {
+                Some(PictureState::Known(pack)) => return Turn::Given(pack.clone()),
+                Some(PictureState::Cheap) => return Turn::Own,
+                Some(PictureState::InTheMaking) => {
                     pictures = self.changed.wait(pictures).unwrap_or_else(PoisonError::into_inner);
                 }
                 None => break,
             }
         }
-        pictures.insert(digest.clone(), Pictures::InTheMaking);
+        pictures.insert(digest.clone(), PictureState::InTheMaking);
         drop(pictures);
         let mut maker = Maker { library: self, digest, outcome: None };
         match settings.cache.as_deref().and_then(|folder| cache::read(folder, assignment)) {
             Some(pack) => {
-                maker.outcome = Some(Pictures::Known(pack.clone()));
+                maker.outcome = Some(PictureState::Known(pack.clone()));
                 Turn::Given(pack)
             }
             None => Turn::ForAll(maker),
@@ -70,10 +70,10 @@ impl Library {
 
     /// Whether a worker that has met a student's file may read the assignment: one that computes for all may not have.
     pub fn is_settled(&self, assignment: &Assignment) -> bool {
-        matches!(self.lock().get(&assignment.digest), Some(Pictures::Known(_) | Pictures::Cheap))
+        matches!(self.lock().get(&assignment.digest), Some(PictureState::Known(_) | PictureState::Cheap))
     }
 
-    fn lock(&self) -> MutexGuard<'_, HashMap<String, Pictures>> {
+    fn lock(&self) -> MutexGuard<'_, HashMap<String, PictureState>> {
         self.pictures.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -85,7 +85,7 @@ impl Maker<'_> {
             // Where it cannot be written, the next process computes them again.
             let _ = cache::write(folder, assignment, pack);
         }
-        self.outcome = Some(pack.map_or(Pictures::Cheap, Pictures::Known));
+        self.outcome = Some(pack.map_or(PictureState::Cheap, PictureState::Known));
     }
 }
 

@@ -5,10 +5,10 @@ use super::child::Worker;
 use super::drawings::Drawings;
 use super::ending::{Blame, Ending};
 use super::protection::Protection;
-use super::protocol::{Answered, Reply, Request};
+use super::protocol::{Answered, GradingRequest, Reply};
 use super::roster::{Roster, WorkerKind, WorkerPermit};
 use super::{Policy, Settings, memory};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
@@ -28,7 +28,7 @@ const LEFT_TO_CONFIRM: f64 = 0.4;
 
 /// What is to be graded.
 #[derive(Clone, Copy, Debug)]
-pub struct Submission<'a> {
+pub struct GradingTask<'a> {
     /// The homework.
     pub assignment: &'a Arc<Assignment>,
     /// Its files.
@@ -118,7 +118,7 @@ impl Pool {
     }
 
     /// Grades one submission. A fault is ours; whatever the file does to a worker is a verdict.
-    pub fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    pub fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         let place = self.roster.place();
         let mut grading = Grading { pool: self, place, submission, blamed: None };
         let mut wanted = WorkerKind::Any;
@@ -133,19 +133,19 @@ impl Pool {
         }
     }
 
-    fn stopped(&self, submission: Submission<'_>, ending: &Ending, environment: Environment) -> Report {
+    fn stopped(&self, submission: GradingTask<'_>, ending: &Ending, environment: Environment) -> Report {
         let message = ending.message(self.settings.deadline, self.settings.memory);
         crate::grade::unfinished(
             submission.assignment,
             crate::grade::sources(submission.assignment, submission.hand_in),
             Verdict::Stopped,
-            vec![Diagnostic::error(Stage::Run, message)],
+            vec![Diagnostic::error(DiagnosticStage::Run, message)],
             environment,
         )
     }
 }
 
-impl Submission<'_> {
+impl GradingTask<'_> {
     /// Bytes of all frames of a grading.
     fn frames_bytes(&self) -> usize {
         let scene = &self.assignment.scene;
@@ -157,7 +157,7 @@ impl Submission<'_> {
 struct Grading<'a> {
     pool: &'a Pool,
     place: WorkerPermit<'a>,
-    submission: Submission<'a>,
+    submission: GradingTask<'a>,
     /// An ending that a fresh worker has to confirm, and when the attempt began that ended so.
     blamed: Option<(Ending, Instant)>,
 }
@@ -172,7 +172,7 @@ impl Grading<'_> {
     fn attempt(&mut self, wanted: WorkerKind) -> Result<Attempted, Fault> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
-        let Submission { assignment, hand_in, order, wants_frames } = self.submission;
+        let GradingTask { assignment, hand_in, order, wants_frames } = self.submission;
         if !worker.has_read(assignment) {
             if !worker.may_read(assignment, self.pool.roster.library()) {
                 self.place.give_up(worker);
@@ -185,7 +185,7 @@ impl Grading<'_> {
         }
         let was_fresh = worker.gradings == 0;
         let id = next_id.fetch_add(1, Ordering::Relaxed);
-        let request = Request::new(id, &assignment.digest, hand_in, order, wants_frames);
+        let request = GradingRequest::new(id, &assignment.digest, hand_in, order, wants_frames);
         let frames_bytes = if wants_frames { self.submission.frames_bytes() } else { 0 };
         let start = Instant::now();
         // Confirming a crash takes what it left of the deadline: no file has twice the time.

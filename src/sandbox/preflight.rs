@@ -54,7 +54,7 @@ fn is_refused(outcome: &io::Result<()>) -> bool {
 /// One thing that code which has broken into a worker would try. `ggrade worker --attempt` does it behind all layers:
 /// the proof of the sandbox that needs no shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Attempt {
+pub enum IntrusionAttempt {
     /// Open a file for reading.
     Read,
     /// Create a file.
@@ -79,7 +79,7 @@ pub enum Attempt {
     Nothing,
 }
 
-impl Attempt {
+impl IntrusionAttempt {
     /// Tries it.
     pub fn make(self) -> io::Result<()> {
         let first = |reach: Reach| {

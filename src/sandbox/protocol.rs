@@ -20,7 +20,7 @@ const PIECE: usize = 256 << 10;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) enum Demand {
     Load(Load),
-    Grade(Request),
+    Grade(GradingRequest),
     /// Unpack the archive that is the body, read the folder of a homework in it, and grade that folder's own files.
     Check,
 }
@@ -40,7 +40,7 @@ pub(super) struct Load {
 
 /// Grade this; the body is the files, one behind the other.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Request {
+pub(super) struct GradingRequest {
     /// Comes back in the reply, so that an answer is never taken for another file's.
     pub id: u64,
     /// The digest of an assignment that was read.
@@ -98,7 +98,7 @@ impl Load {
     }
 }
 
-impl Request {
+impl GradingRequest {
     /// A request to grade these files.
     pub fn new(id: u64, assignment: &str, hand_in: &HandIn, order: Order, wants_frames: bool) -> Self {
         let head = |file: &HandedInFile| FileHead::of(&file.name, &file.bytes);
@@ -164,13 +164,13 @@ pub(super) const REQUEST: Longest = Longest { head: 1 << 20, body: 256 << 20 };
 
 /// What follows the head of a message.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Body {
+pub(super) struct MessageBody {
     /// The whole message: a body can be large, and is not copied out of it.
     message: Vec<u8>,
     start: usize,
 }
 
-impl Deref for Body {
+impl Deref for MessageBody {
     type Target = [u8];
 
     fn deref(&self) -> &[u8] {
@@ -216,14 +216,17 @@ fn lengths(start: &[u8], longest: Longest) -> io::Result<Option<(usize, usize)>>
 
 /// The message in `bytes`, once it is there in full, and takes it out of there; bytes beyond it are an error, for nobody asked
 /// for them.
-pub(super) fn decode<T: DeserializeOwned>(bytes: &mut Vec<u8>, longest: Longest) -> io::Result<Option<(T, Body)>> {
+pub(super) fn decode<T: DeserializeOwned>(
+    bytes: &mut Vec<u8>,
+    longest: Longest,
+) -> io::Result<Option<(T, MessageBody)>> {
     let Some((head, body)) = lengths(bytes, longest)? else { return Ok(None) };
     let start = LENGTHS + head;
     match bytes.len().cmp(&(start + body)) {
         std::cmp::Ordering::Less => Ok(None),
         std::cmp::Ordering::Equal => {
             let head = serde_json::from_slice(&bytes[LENGTHS..start])?;
-            Ok(Some((head, Body { message: std::mem::take(bytes), start })))
+            Ok(Some((head, MessageBody { message: std::mem::take(bytes), start })))
         }
         std::cmp::Ordering::Greater => Err(io::Error::new(io::ErrorKind::InvalidData, "more than one answer")),
     }
@@ -243,7 +246,7 @@ pub(super) fn send<W: Write>(
 }
 
 /// Reads one message; an error of kind `UnexpectedEof` where the other side is gone.
-pub(super) fn receive<T: DeserializeOwned>(from: &mut impl Read, longest: Longest) -> io::Result<(T, Body)> {
+pub(super) fn receive<T: DeserializeOwned>(from: &mut impl Read, longest: Longest) -> io::Result<(T, MessageBody)> {
     let mut bytes = vec![0; LENGTHS];
     from.read_exact(&mut bytes)?;
     // Grows as bytes come, so that a length alone costs no memory.
@@ -273,7 +276,7 @@ mod tests {
     fn a_request_has_its_files() {
         let files = [("a.vert", "12"), ("b.frag", ""), ("c", "3")].map(|(name, text)| HandedInFile::new(name, text));
         let hand_in = HandIn { files: files.into() };
-        let request = Request::new(1, "", &hand_in, Order::default(), false);
+        let request = GradingRequest::new(1, "", &hand_in, Order::default(), false);
         assert_eq!(request.hand_in(b"123").unwrap(), hand_in);
         for body in ["", "12", "1234"] {
             assert_eq!(request.hand_in(body.as_bytes()).unwrap_err().kind(), io::ErrorKind::InvalidData, "{body}");

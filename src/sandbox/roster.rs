@@ -4,7 +4,7 @@ mod keeper;
 
 use super::Settings;
 use super::child::{NotStarted, Worker, end_group};
-use super::library::Library;
+use super::library::PictureLibrary;
 use super::protection::Protection;
 use crate::fault::Fault;
 use crate::report::Environment;
@@ -30,16 +30,16 @@ pub(super) enum WorkerKind {
 /// Keeps workers ready.
 #[derive(Debug)]
 pub(super) struct Roster {
-    shared: Arc<Shared>,
+    shared: Arc<SharedRoster>,
     keeper: Option<JoinHandle<()>>,
 }
 
 #[derive(Debug)]
-struct Shared {
+struct SharedRoster {
     settings: Settings,
     /// How many may grade at once.
     places: usize,
-    library: Library,
+    library: PictureLibrary,
     state: Mutex<RosterState>,
     changed: Condvar,
 }
@@ -68,17 +68,17 @@ struct RosterState {
 /// The right to have one worker at a time.
 #[derive(Debug)]
 pub(super) struct WorkerPermit<'a> {
-    shared: &'a Shared,
+    shared: &'a SharedRoster,
 }
 
 impl Roster {
     /// Starts workers for `places` callers and the spares, and waits until the first is confined and has a device. That it
     /// has read the assignment is for callers to wait for.
     pub fn start(settings: Settings, places: usize) -> Result<(Self, Environment, Protection), Fault> {
-        let shared = Shared {
+        let shared = SharedRoster {
             settings,
             places: places.max(1),
-            library: Library::default(),
+            library: PictureLibrary::default(),
             state: Mutex::default(),
             changed: Condvar::new(),
         };
@@ -92,7 +92,7 @@ impl Roster {
     }
 
     /// What is known of the assignments.
-    pub fn library(&self) -> &Library {
+    pub fn library(&self) -> &PictureLibrary {
         &self.shared.library
     }
 
@@ -209,7 +209,7 @@ impl RosterState {
     }
 }
 
-impl Shared {
+impl SharedRoster {
     fn lock(&self) -> MutexGuard<'_, RosterState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

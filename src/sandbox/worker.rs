@@ -1,11 +1,11 @@
 //! The child's side: a confined process with a warm device, which reads assignments, and grades one submission after the
 //! other.
 
-use super::confine::{self, Confined, Meter, lower};
-use super::preflight::{self, Attempt};
+use super::confine::{self, Confined, GradingMeter, lower};
+use super::preflight::{self, IntrusionAttempt};
 use super::protection::{Layer, Protection};
-use super::protocol::{Answered, Demand, Hello, Load, REQUEST, Reply, Request, receive, send};
-use super::{Limits, check, syscalls};
+use super::protocol::{Answered, Demand, GradingRequest, Hello, Load, REQUEST, Reply, receive, send};
+use super::{WorkerLimits, check, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
 use crate::grade::{self, Graded, Grader, Order};
@@ -25,7 +25,7 @@ use std::time::Duration;
 const STACK_BYTES: usize = 256 << 20;
 
 /// What reading an assignment may take: its pictures may be shaded pixel by pixel, which takes seconds.
-const LOADING: Limits = Limits { memory: 1 << 30, cpu_seconds: 120 };
+const LOADING: WorkerLimits = WorkerLimits { memory: 1 << 30, cpu_seconds: 120 };
 
 /// What a worker is started for.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ pub struct WorkerTask {
     /// What renders.
     pub adapter: AdapterKind,
     /// What one submission may take.
-    pub limits: Limits,
+    pub limits: WorkerLimits,
     /// Whether to end once the first assignment is read.
     pub rehearsal: bool,
 }
@@ -45,7 +45,7 @@ pub fn run(job: WorkerTask) -> io::Result<()> {
 }
 
 /// Enters the sandbox as [`run`] does, tries one forbidden thing there, and gives what came of it.
-pub fn attempt(job: WorkerTask, attempt: Attempt) -> io::Result<io::Result<()>> {
+pub fn attempt(job: WorkerTask, attempt: IntrusionAttempt) -> io::Result<io::Result<()>> {
     let confined = confine::enter(job.limits, job.adapter)?;
     on_large_stack(move || {
         let Confined { layers, meter, .. } = confined;
@@ -69,7 +69,7 @@ fn serve(job: WorkerTask, confined: Confined) -> io::Result<()> {
     let hello = Hello::Ready { environment: grade::environment(&device), protection };
     send(&mut output, &hello, 0, |_| Ok(()))?;
     let size = meter.size()?;
-    let mut desk = Desk { job, output, meter, device, graders: HashMap::new(), size };
+    let mut desk = ReadyWorker { job, output, meter, device, graders: HashMap::new(), size };
     let mut input = io::stdin().lock();
     loop {
         let (demand, body) = match receive::<Demand>(&mut input, REQUEST) {
@@ -109,10 +109,10 @@ fn prepare(job: WorkerTask, mut layers: Vec<super::LayerState>) -> Result<(Devic
 }
 
 /// A worker that is ready: its device, and the assignments that it has read.
-struct Desk {
+struct ReadyWorker {
     job: WorkerTask,
     output: File,
-    meter: Meter,
+    meter: GradingMeter,
     device: Device,
     /// By the digest of the assignment.
     graders: HashMap<String, Grader>,
@@ -120,7 +120,7 @@ struct Desk {
     size: u64,
 }
 
-impl Desk {
+impl ReadyWorker {
     fn load(&mut self, load: &Load, body: &[u8]) -> io::Result<()> {
         self.meter.give(LOADING, self.job.adapter)?;
         let (folder, pictures) = load.folder(body)?;
@@ -161,7 +161,7 @@ impl Desk {
     }
 
     /// Grades one submission.
-    fn grade(&mut self, request: &Request, body: &[u8]) -> io::Result<()> {
+    fn grade(&mut self, request: &GradingRequest, body: &[u8]) -> io::Result<()> {
         self.meter.next(self.job.adapter)?;
         let unread = || Fault::new(Text::verbatim("the assignment was not read"));
         let hand_in = request.hand_in(body)?;

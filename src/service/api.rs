@@ -59,11 +59,11 @@ pub const MAX_BODY: usize = 16 * super::submit::MAX_UPLOAD;
         (name = "operations", description = "For who runs the service.")
     )
 )]
-struct Document;
+struct ApiDocument;
 
 /// The API's routes with their description.
 fn described() -> OpenApiRouter<Service> {
-    OpenApiRouter::with_openapi(Document::openapi())
+    OpenApiRouter::with_openapi(ApiDocument::openapi())
         .routes(routes!(assignments::list))
         .routes(routes!(submissions::create))
         .routes(routes!(submissions::read))

@@ -5,8 +5,8 @@ mod download;
 mod jobs;
 mod people;
 
-pub use download::{Download, Pick, Steps, Wanted, Whose, archive, download, is_slow, language};
-pub use jobs::{Job, Jobs, Made};
+pub use download::{Download, DownloadOptions, DownloadSelection, Pick, Steps, archive, download, is_slow, language};
+pub use jobs::{DownloadJob, Jobs, Made};
 #[cfg(test)]
 pub(in crate::service) use people::samples;
 pub use people::{People, Person, PersonStanding, of_batch, people};
@@ -17,9 +17,9 @@ use super::grading;
 use super::idempotency;
 use super::identity::new_id;
 use super::roster::Matcher;
-use super::store::{Batch, BatchEntry, Key, NewSubmission, Priority, Via};
+use super::store::{Batch, BatchEntry, NewSubmission, Priority, StoredKey, Via};
 use super::submit::file_name;
-use crate::batch::intake::{self, Content, Intake, StudentWork};
+use crate::batch::intake::{self, HandInContent, Intake, StudentWork};
 use crate::language::Text;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,14 +29,14 @@ const NAMELESS: &str = "archive";
 
 /// Stores a teacher's archive to be graded in the background. `path` is the archive, `title` the name that it came with,
 /// `key` that with which it may come again.
-pub async fn submit(state: &State, path: PathBuf, title: &str, key: Option<Key>) -> Result<Batch, Problem> {
+pub async fn submit(state: &State, path: PathBuf, title: &str, key: Option<StoredKey>) -> Result<Batch, Problem> {
     let assignment = Arc::clone(&state.assignment);
     if let Some(batch) = stored_earlier(state, key.as_ref()).await? {
         return Ok(batch);
     }
     let title = if title.is_empty() { NAMELESS } else { title }.to_owned();
     let read = tokio::task::spawn_blocking(move || {
-        let options = intake::Options::new(&assignment);
+        let options = intake::IntakeOptions::new(&assignment);
         intake::read_archive(&path, &title, &options)
     });
     let intake = read.await.map_err(|panic| Problem::internal(&panic))?;
@@ -66,14 +66,14 @@ fn nothing(intake: &Intake) -> Problem {
 }
 
 /// What an earlier request with this key stored.
-async fn stored_earlier(state: &State, key: Option<&Key>) -> Result<Option<Batch>, Problem> {
+async fn stored_earlier(state: &State, key: Option<&StoredKey>) -> Result<Option<Batch>, Problem> {
     let earlier = idempotency::earlier(state, key).await?;
     let Some(id) = earlier.and_then(|earlier| earlier.batch_id) else { return Ok(None) };
     Ok(state.store.batch(&id).await?)
 }
 
 /// Stores what was read; none where the request's key is taken.
-async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Option<Batch>, Problem> {
+async fn store(state: &State, intake: Intake, key: Option<&StoredKey>) -> Result<Option<Batch>, Problem> {
     let settings = state.store.assignment(&state.assignment.id).await?;
     let now = state.clock.now();
     let batch = Batch {
@@ -93,8 +93,8 @@ async fn store(state: &State, intake: Intake, key: Option<&Key>) -> Result<Optio
         let student = hand_in.student;
         let mut entry = BatchEntry { position, student, path, submission_id: None, note: None, student_id };
         match hand_in.content {
-            Content::Nothing(why) => entry.note = Some(why),
-            Content::Files { mut hand_in, .. } => {
+            HandInContent::Nothing(why) => entry.note = Some(why),
+            HandInContent::Files { mut hand_in, .. } => {
                 for (file, slot) in hand_in.files.iter_mut().zip(&state.assignment.files) {
                     file.name = file_name(&file.name, Some(slot));
                 }

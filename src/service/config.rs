@@ -2,7 +2,7 @@
 
 use super::sign_in::Provider;
 use super::store::Location;
-use crate::cli::{LogFormat, Role, Serve};
+use crate::cli::{LogFormat, ProcessRole, ServeArguments};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::Policy;
@@ -29,7 +29,7 @@ pub struct Config {
     pub sign_in: Vec<Provider>,
     #[serde(deserialize_with = "one_or_several")]
     pub assignment: Vec<String>,
-    pub role: Role,
+    pub role: ProcessRole,
     pub workers: usize,
     pub sandbox: Policy,
     pub single_use_workers: bool,
@@ -81,7 +81,7 @@ impl Default for Config {
             identity_proxies: Vec::new(),
             sign_in: Vec::new(),
             assignment: Vec::new(),
-            role: Role::All,
+            role: ProcessRole::All,
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
             single_use_workers: false,
@@ -120,7 +120,7 @@ impl Default for Timeouts {
 
 impl Config {
     /// The configuration of a command line; a fault names the option that is wrong and where it stands.
-    pub fn load(flags: &Serve) -> Result<Self, Fault> {
+    pub fn load(flags: &ServeArguments) -> Result<Self, Fault> {
         let mut figment = Figment::from(Serialized::defaults(Self::default()));
         if let Some(path) = &flags.config {
             figment = figment.merge(Toml::file_exact(path));
@@ -210,7 +210,7 @@ impl Config {
             }
             _ => {}
         }
-        if self.role != Role::All && matches!(self.location()?, Location::File(_)) {
+        if self.role != ProcessRole::All && matches!(self.location()?, Location::File(_)) {
             return wrong(
                 "role",
                 "divides the work among processes, which takes PostgreSQL: an SQLite file has one process",

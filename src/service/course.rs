@@ -28,7 +28,7 @@ pub struct Course {
 
 /// The course as it is stored.
 #[derive(Serialize, Deserialize)]
-struct Stored {
+struct StoredCourse {
     zone: String,
     language: Language,
     #[serde(default)]
@@ -84,7 +84,7 @@ impl Store {
     /// The course as the teacher set it.
     pub async fn course(&self) -> Result<Course> {
         let Some(json) = self.setting(SETTING).await? else { return Ok(Course::default()) };
-        let Stored { zone, language, title } = serde_json::from_str(&json)?;
+        let StoredCourse { zone, language, title } = serde_json::from_str(&json)?;
         // A machine without this zone shows the instant itself rather than no page at all.
         let course = Course::new(&zone, language);
         Ok(course.unwrap_or(Course { zone: TimeZone::UTC, language, title: String::new() }).titled(&title))
@@ -93,7 +93,7 @@ impl Store {
     /// Sets the course.
     pub async fn set_course(&self, course: &Course) -> Result<()> {
         let zone = course.zone_name().to_owned();
-        let stored = Stored { zone, language: course.language, title: course.title.clone() };
+        let stored = StoredCourse { zone, language: course.language, title: course.title.clone() };
         self.set_setting(SETTING, &serde_json::to_string(&stored)?).await
     }
 }

@@ -13,12 +13,12 @@ mod way;
 pub use archived::archived;
 pub(super) use archived::keep;
 pub use copy::copy;
-pub use plan::{Plan, arrange, changed, reread, too_many};
+pub use plan::{CoursePlan, arrange, changed, reread, too_many};
 pub(super) use way::{answer, within};
 pub use way::{at, public_address, root, root_of};
 
 use super::errors::Problem;
-use super::store::{Result as StoreResult, Stored};
+use super::store::{Result as StoreResult, StoredSubmission};
 use super::{Service, app, grading};
 use axum::Router;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -31,17 +31,17 @@ const MOST_COURSES: usize = 64;
 
 /// The courses beside the first one that are open in this process.
 #[derive(Debug, Default)]
-pub struct Courses(Mutex<Vec<Open>>);
+pub struct Courses(Mutex<Vec<OpenCourse>>);
 
 #[derive(Clone, Debug)]
-struct Open {
+struct OpenCourse {
     id: String,
     service: Service,
     routes: Router,
 }
 
 impl Courses {
-    fn open(&self) -> MutexGuard<'_, Vec<Open>> {
+    fn open(&self) -> MutexGuard<'_, Vec<OpenCourse>> {
         // Nothing in here is left half done by a panic.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -82,7 +82,7 @@ pub(super) async fn follow(first: &Service) -> StoreResult<()> {
         if first.course(&id).is_none() {
             let service = first.beside(&id).await?;
             grading::take_over(&service).await?;
-            let open = Open { id, routes: app(service.clone()), service };
+            let open = OpenCourse { id, routes: app(service.clone()), service };
             let mut courses = first.courses.open();
             if courses.iter().all(|known| known.id != open.id) {
                 courses.push(open);
@@ -93,7 +93,7 @@ pub(super) async fn follow(first: &Service) -> StoreResult<()> {
 }
 
 /// The course of a submission, where a graders' process has only its id, and the submission.
-pub(super) async fn holding(first: &Service, id: &str) -> StoreResult<Option<(Service, Stored)>> {
+pub(super) async fn holding(first: &Service, id: &str) -> StoreResult<Option<(Service, StoredSubmission)>> {
     for course in first.everywhere() {
         if let Some(stored) = course.store.stored(id).await? {
             return Ok(Some((course, stored)));

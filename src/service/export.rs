@@ -4,7 +4,7 @@ use super::Service;
 use super::clock::rfc3339;
 use super::download::plain_name;
 use super::errors::Problem;
-use super::store::{Student, Submission, word};
+use super::store::{StudentRecord, Submission, word};
 use crate::language::Language;
 use crate::report::{json, text};
 use serde_json::{Value, json};
@@ -12,12 +12,12 @@ use std::io::Write;
 use zip::write::SimpleFileOptions;
 
 /// A file of an export: its path, and its bytes.
-type Entry = (String, Vec<u8>);
+type ExportedFile = (String, Vec<u8>);
 
 /// The ZIP: who they are, each hand-in with its files and its report, and whatever else names them.
-pub async fn of_student(service: &Service, student: &Student) -> Result<Vec<u8>, Problem> {
+pub async fn of_student(service: &Service, student: &StudentRecord) -> Result<Vec<u8>, Problem> {
     let language = service.store.course().await?.language;
-    let mut entries: Vec<Entry> = Vec::new();
+    let mut entries: Vec<ExportedFile> = Vec::new();
     let mut hand_ins: Vec<Value> = Vec::new();
     for (number, submission) in service.store.submissions_of_student(&student.id).await?.into_iter().enumerate() {
         let folder = format!("hand-ins/{}/{:03}-{}", submission.assignment, number + 1, word(&submission.via));
@@ -56,7 +56,7 @@ async fn hand_in(
     submission: &Submission,
     folder: &str,
     language: Language,
-    entries: &mut Vec<Entry>,
+    entries: &mut Vec<ExportedFile>,
 ) -> Result<Value, Problem> {
     let files = service.store.hand_in(&submission.id).await?.unwrap_or_default();
     for (place, file) in files.files.iter().enumerate() {
@@ -69,7 +69,7 @@ async fn hand_in(
         // In words as well, where the homework is still served.
         if let Some(state) = service.homework(&submission.assignment) {
             let assignment = &state.assignment;
-            let options = text::Options { assignment, language, width: 100, colour: false, excerpts: None };
+            let options = text::TextOptions { assignment, language, width: 100, colour: false, excerpts: None };
             entries.push((format!("{folder}/report.txt"), text::render(report, &options).into_bytes()));
         }
     }
@@ -87,7 +87,7 @@ async fn hand_in(
 }
 
 /// A ZIP of these files.
-fn zipped(entries: &[Entry]) -> zip::result::ZipResult<Vec<u8>> {
+fn zipped(entries: &[ExportedFile]) -> zip::result::ZipResult<Vec<u8>> {
     let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     for (path, bytes) in entries {
         zip.start_file(path, SimpleFileOptions::default())?;

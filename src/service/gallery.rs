@@ -45,7 +45,7 @@ pub type Pngs = Vec<Vec<u8>>;
 
 /// What is kept: pictures of one kind of one hand-in.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Key {
+struct GalleryKey {
     /// The digest of the homework's folder: the same hand-in draws something else for another one.
     assignment: String,
     /// The digest of the hand-in; empty for pictures of a right answer.
@@ -70,7 +70,7 @@ enum GalleryItem {
 /// The pictures made lately.
 #[derive(Debug)]
 pub struct Gallery {
-    kept: Cache<Key, Arc<Pngs>>,
+    kept: Cache<GalleryKey, Arc<Pngs>>,
     /// One file is run at a time: who looks does not take the processors from who hands in.
     turn: Semaphore,
 }
@@ -125,13 +125,14 @@ pub async fn goal(state: &State) -> Result<Vec<u8>, Problem> {
 
 impl Default for Gallery {
     fn default() -> Self {
-        let weight =
-            |_: &Key, pngs: &Arc<Pngs>| u32::try_from(pngs.iter().map(Vec::len).sum::<usize>()).unwrap_or(u32::MAX);
+        let weight = |_: &GalleryKey, pngs: &Arc<Pngs>| {
+            u32::try_from(pngs.iter().map(Vec::len).sum::<usize>()).unwrap_or(u32::MAX)
+        };
         Self { kept: Cache::builder().max_capacity(ROOM).weigher(weight).build(), turn: Semaphore::new(1) }
     }
 }
 
-impl Key {
+impl GalleryKey {
     fn new(state: &State, sha256: &str, kind: GalleryItem) -> Self {
         Self { assignment: state.assignment.digest.clone(), sha256: sha256.to_owned(), kind }
     }
@@ -148,13 +149,13 @@ impl Gallery {
             let order = Order { seed: submission.seed, hints: submission.hints, ..Order::default() };
             self.in_turn(state, move |state| {
                 let assignment = &state.assignment;
-                let submission = sandbox::Submission { assignment, hand_in: &hand_in, order, wants_frames: true };
+                let submission = sandbox::GradingTask { assignment, hand_in: &hand_in, order, wants_frames: true };
                 let frames = state.pool.grade(submission)?.frames;
                 frames.iter().map(pictures::png).collect()
             })
             .await
         };
-        self.once(Key::new(state, &submission.sha256, GalleryItem::Frames), run).await
+        self.once(GalleryKey::new(state, &submission.sha256, GalleryItem::Frames), run).await
     }
 
     /// Does work that takes a worker and that nobody who hands in waits for: one at a time.
@@ -168,7 +169,11 @@ impl Gallery {
     }
 
     /// What is kept under a key; made where nothing is, once for all who ask meanwhile.
-    async fn once(&self, key: Key, make: impl Future<Output = Result<Pngs, Problem>>) -> Result<Arc<Pngs>, Problem> {
+    async fn once(
+        &self,
+        key: GalleryKey,
+        make: impl Future<Output = Result<Pngs, Problem>>,
+    ) -> Result<Arc<Pngs>, Problem> {
         let made = self.kept.try_get_with(key, async { make.await.map(Arc::new) });
         made.await.map_err(|problem: Arc<Problem>| Problem::clone(&problem))
     }
@@ -186,7 +191,7 @@ impl Gallery {
             return Ok(frames);
         }
         let make = blocking(state, move |state| make(decoded(&frames)?, &expected_pictures(&state.assignment)));
-        self.once(Key::new(state, &submission.sha256, kind), make).await
+        self.once(GalleryKey::new(state, &submission.sha256, kind), make).await
     }
 
     /// One picture of a pose, from 0; none where there is no such pose, or nothing was drawn.
@@ -234,7 +239,7 @@ impl Gallery {
             let make = blocking(state, move |state| {
                 Ok(vec![pictures::animated(&expected_pictures(&state.assignment), cycle)?])
             });
-            self.once(Key::new(state, "", kind), make).await?
+            self.once(GalleryKey::new(state, "", kind), make).await?
         } else {
             let make = move |yours, expected: &Arc<[Picture]>| {
                 let pictures = Pictures { yours, expected: Arc::clone(expected), terms: Arc::default(), cycle };
@@ -273,7 +278,7 @@ impl Gallery {
         draw: impl FnOnce(&State) -> Result<Option<Vec<u8>>, Fault> + Send + 'static,
     ) -> Result<Arc<Pngs>, Problem> {
         let make = blocking(state, move |state| Ok(draw(state)?.into_iter().collect()));
-        self.once(Key::new(state, sha256, GalleryItem::Report(shown)), make).await
+        self.once(GalleryKey::new(state, sha256, GalleryItem::Report(shown)), make).await
     }
 
     /// The small picture of a submission for class tables, a PNG: kept in the database, since a table shows hundreds. None
@@ -296,7 +301,8 @@ impl Gallery {
 
     /// Forgets every picture of a file.
     pub async fn forget(&self, sha256: &str) {
-        let keys: Vec<Arc<Key>> = self.kept.iter().map(|(key, _)| key).filter(|key| key.sha256 == sha256).collect();
+        let keys: Vec<Arc<GalleryKey>> =
+            self.kept.iter().map(|(key, _)| key).filter(|key| key.sha256 == sha256).collect();
         for key in keys {
             self.kept.invalidate(&*key).await;
         }

@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Gradebook {
     /// The homeworks in the order of the course.
-    pub homeworks: Vec<Column>,
+    pub homeworks: Vec<HomeworkColumn>,
     /// Everybody of the class who has a student number, by it.
-    pub lines: Vec<Line>,
+    pub lines: Vec<GradebookPerson>,
 }
 
 /// A homework in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
+pub struct HomeworkColumn {
     /// Id.
     pub id: String,
     /// Title.
@@ -31,7 +31,7 @@ pub struct Column {
 
 /// One person.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct GradebookPerson {
     /// Student number.
     pub number: String,
     /// Name.
@@ -40,7 +40,7 @@ pub struct Line {
     pub points: Vec<Option<f64>>,
 }
 
-impl Line {
+impl GradebookPerson {
     /// Points of the course; 0 and not -0 for who has none.
     pub fn total(&self) -> f64 {
         self.points.iter().flatten().fold(0.0, |sum, points| sum + points)
@@ -58,16 +58,16 @@ impl Gradebook {
         let places = service.store.places().await?;
         let states: Vec<State> = service.homeworks().collect();
         let mut homeworks = Vec::new();
-        let mut lines: BTreeMap<String, Line> = BTreeMap::new();
+        let mut lines: BTreeMap<String, GradebookPerson> = BTreeMap::new();
         for (index, state) in states.iter().enumerate() {
             let id = state.assignment.id.clone();
             let own = places.iter().find(|place| place.id == id).and_then(|place| place.points);
             let points = own.unwrap_or_else(|| state.assignment.max_score());
-            homeworks.push(Column { id, title: language.of(&state.assignment.title).to_owned(), points });
+            homeworks.push(HomeworkColumn { id, title: language.of(&state.assignment.title).to_owned(), points });
             // Whoever gave no number is nobody whose homeworks could be put together.
             for person in people(state).await?.class.into_iter().filter(|person| !person.number.is_empty()) {
                 let graded = person.counted().and_then(|it| Some((it.row.total()?, it.row.max_score?)));
-                let line = lines.entry(person.number.clone()).or_insert_with(|| Line {
+                let line = lines.entry(person.number.clone()).or_insert_with(|| GradebookPerson {
                     number: person.number.clone(),
                     name: person.name.clone(),
                     points: vec![None; states.len()],
@@ -86,7 +86,7 @@ impl Gradebook {
         };
         let ids = self.homeworks.iter().map(|homework| cell(&homework.id)).collect();
         let most = self.homeworks.iter().map(|homework| rounded(homework.points)).collect();
-        let of_line = |line: &Line| {
+        let of_line = |line: &GradebookPerson| {
             let points = line.points.iter().map(|points| points.map(rounded).unwrap_or_default()).collect();
             row([&line.number, &line.name].map(|text| cell(text)), points, rounded(line.total()))
         };

@@ -17,7 +17,7 @@ use super::Service;
 use super::store::News;
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::sandbox::{CheckedFolder, GradedSubmission, Pool, Submission};
+use crate::sandbox::{CheckedFolder, GradedSubmission, GradingTask, Pool};
 
 /// Tells graders, here and in other processes, that files wait.
 pub async fn files_wait(service: &Service) {
@@ -33,7 +33,7 @@ pub(super) async fn folders_changed(service: &Service) {
 /// What grades a file: the pool of workers, or what a test puts in its place.
 pub trait Judge: Send + Sync + std::fmt::Debug {
     /// Grades one file; may take until the deadline.
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault>;
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault>;
 
     /// Whether an archive has the folder of a homework; what to tell its teacher, where it has none. May take a minute.
     fn check(&self, _archive: &[u8]) -> Result<Result<CheckedFolder, Text>, Fault> {
@@ -42,7 +42,7 @@ pub trait Judge: Send + Sync + std::fmt::Debug {
 }
 
 impl Judge for Pool {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         Self::grade(self, submission)
     }
 

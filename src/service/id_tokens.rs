@@ -44,7 +44,7 @@ pub(super) fn unproved(token: &str, claim: &str) -> Option<String> {
 
 /// What the library does not check.
 #[derive(Deserialize)]
-struct Common {
+struct CommonClaims {
     aud: Value,
     azp: Option<String>,
     iat: Option<f64>,
@@ -82,11 +82,11 @@ pub(super) async fn read<C: DeserializeOwned>(
         tracing::warn!(%error, "the claims of an id token");
         Text::new("its claims cannot be read", "内容を読み取れません")
     };
-    Common::deserialize(&claims).map_err(unreadable)?.check(of.client_id)?;
+    CommonClaims::deserialize(&claims).map_err(unreadable)?.check(of.client_id)?;
     C::deserialize(claims).map_err(unreadable)
 }
 
-impl Common {
+impl CommonClaims {
     fn check(&self, client_id: &str) -> Result<(), Text> {
         let is_for_several = self.aud.as_array().is_some_and(|audience| audience.len() > 1);
         if self.azp.as_deref().map_or(is_for_several, |party| party != client_id) {

@@ -7,7 +7,7 @@
 
 use super::errors::Problem;
 use super::limits::Client;
-use super::store::{Key, KeyResult};
+use super::store::{KeyResult, StoredKey};
 use super::{Service, identity::Identity, submit::sha256};
 use axum::http::{HeaderMap, StatusCode};
 use std::time::Duration;
@@ -56,7 +56,7 @@ impl RequestKey {
     }
 
     /// The key of what `identity` sends; `parts` are all that makes the request another one.
-    pub(super) fn of_student(&self, identity: &Identity, parts: &[&str]) -> Key {
+    pub(super) fn of_student(&self, identity: &Identity, parts: &[&str]) -> StoredKey {
         let who = match (identity, identity.owner_id(), identity.student()) {
             (Identity::OnBehalf(_), _, Some(student)) => format!("student {}", student.id),
             (_, Some(owner), _) => format!("browser {owner}"),
@@ -66,20 +66,20 @@ impl RequestKey {
     }
 
     /// The key of what a teacher sends.
-    pub(super) fn of_teacher(&self, parts: &[&str]) -> Key {
+    pub(super) fn of_teacher(&self, parts: &[&str]) -> StoredKey {
         self.of("teacher", parts)
     }
 
-    fn of(&self, who: &str, parts: &[&str]) -> Key {
+    fn of(&self, who: &str, parts: &[&str]) -> StoredKey {
         // A name may have anything in it: hashed, no part passes for two.
         let hashes: Vec<String> = parts.iter().map(|part| sha256(part.as_bytes())).collect();
         let fingerprint = sha256(hashes.concat().as_bytes());
-        Key { id: sha256([who, &self.text].join("\0").as_bytes()), fingerprint }
+        StoredKey { id: sha256([who, &self.text].join("\0").as_bytes()), fingerprint }
     }
 }
 
 /// What came of an earlier request with this key; a problem where that was another request.
-pub(super) async fn earlier(service: &Service, key: Option<&Key>) -> Result<Option<KeyResult>, Problem> {
+pub(super) async fn earlier(service: &Service, key: Option<&StoredKey>) -> Result<Option<KeyResult>, Problem> {
     let Some(key) = key else { return Ok(None) };
     let Some(found) = service.store.result_of_key(&key.id).await? else { return Ok(None) };
     if found.fingerprint == key.fingerprint { Ok(Some(found)) } else { Err(reused()) }

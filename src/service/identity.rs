@@ -37,7 +37,7 @@ pub(super) use teacher::{bearer, is_teachers_program};
 pub use tokens::{LONGEST_DAYS, WantedToken, end_token, make_token, tokens_for};
 pub use visitor::{Visitor, visit};
 
-use super::store::{Owner, Student, Submission};
+use super::store::{Owner, StudentRecord, Submission};
 
 /// Who hands in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,11 +47,11 @@ pub enum Identity {
     /// A browser.
     Browser(Owner),
     /// A browser in which somebody gave a number that they have not proved to be theirs.
-    Claimed(Owner, Student),
+    Claimed(Owner, StudentRecord),
     /// A student who proved in a browser who they are.
-    Student(Owner, Student),
+    Student(Owner, StudentRecord),
     /// A student for whom the teacher's program hands in.
-    OnBehalf(Student),
+    OnBehalf(StudentRecord),
 }
 
 impl Identity {
@@ -64,7 +64,7 @@ impl Identity {
     }
 
     /// The student.
-    pub fn student(&self) -> Option<&Student> {
+    pub fn student(&self) -> Option<&StudentRecord> {
         match self {
             Self::Student(_, student) | Self::OnBehalf(student) => Some(student),
             Self::Nobody | Self::Browser(_) | Self::Claimed(..) => None,
@@ -85,7 +85,7 @@ impl Identity {
     }
 
     /// The student whose number was given without a proof.
-    pub fn claimed(&self) -> Option<&Student> {
+    pub fn claimed(&self) -> Option<&StudentRecord> {
         match self {
             Self::Claimed(_, student) => Some(student),
             _ => None,

@@ -29,16 +29,16 @@ pub struct Insights {
     /// How many have handed in nothing.
     pub nothing: usize,
     /// The time between the first and the last hand-in, in equal parts.
-    pub stretches: Vec<Stretch>,
+    pub stretches: Vec<TimeStretch>,
     /// The mistakes that were handed in, with their titles, the most frequent first.
     pub mistakes: Vec<(String, Text)>,
     /// What was said, the most frequent first.
-    pub messages: Vec<Message>,
+    pub messages: Vec<MessageInsight>,
 }
 
 /// A part of the time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stretch {
+pub struct TimeStretch {
     /// When it begins,
     pub from: Millis,
     /// and ends.
@@ -53,7 +53,7 @@ pub struct Stretch {
 
 /// A message, and what came after it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Message {
+pub struct MessageInsight {
     /// Id of the mistake; none for what the compiler and its like say.
     pub mistake: Option<String>,
     /// What was said: the mistake's title, or the message without what it quotes from a file.
@@ -88,7 +88,7 @@ type MessageKey = (Option<String>, String);
 
 fn gather(class: &[Person], refusals: &HashMap<String, Vec<Diagnostic>>, title: &dyn Fn(&str) -> Text) -> Insights {
     let mut insights = Insights::default();
-    let mut messages: BTreeMap<MessageKey, (Message, BTreeSet<&str>)> = BTreeMap::new();
+    let mut messages: BTreeMap<MessageKey, (MessageInsight, BTreeSet<&str>)> = BTreeMap::new();
     for person in class {
         // The oldest first.
         let graded: Vec<&ClassRow> = person.rows.iter().rev().filter(|row| row.row.verdict.is_some()).collect();
@@ -102,7 +102,7 @@ fn gather(class: &[Person], refusals: &HashMap<String, Vec<Diagnostic>>, title: 
             for (mistake, text) in own {
                 let key = (mistake.clone(), text.en.clone());
                 let (message, students) =
-                    messages.entry(key).or_insert_with(|| (Message::new(mistake, text), BTreeSet::new()));
+                    messages.entry(key).or_insert_with(|| (MessageInsight::new(mistake, text), BTreeSet::new()));
                 message.said += 1;
                 students.insert(&person.key);
                 match graded.get(at + 1) {
@@ -114,7 +114,8 @@ fn gather(class: &[Person], refusals: &HashMap<String, Vec<Diagnostic>>, title: 
             }
         }
     }
-    let finished = |(message, students): (Message, BTreeSet<&str>)| Message { students: students.len(), ..message };
+    let finished =
+        |(message, students): (MessageInsight, BTreeSet<&str>)| MessageInsight { students: students.len(), ..message };
     insights.messages = messages.into_values().map(finished).collect();
     insights.messages.sort_by(|a, b| b.said.cmp(&a.said).then_with(|| a.text.en.cmp(&b.text.en)));
     insights.messages.truncate(MOST_MESSAGES);
@@ -158,16 +159,16 @@ fn unquoted(text: &str) -> String {
     pieces.map(|(at, piece)| if at % 2 == 1 { "`…`" } else { piece }).collect()
 }
 
-fn stretches(class: &[Person]) -> Vec<Stretch> {
+fn stretches(class: &[Person]) -> Vec<TimeStretch> {
     let graded = || class.iter().flat_map(|person| &person.rows).filter(|row| row.row.verdict.is_some());
     let at = |row: &ClassRow| row.row.submission.received_at;
     let (Some(from), Some(to)) = (graded().map(at).min(), graded().map(at).max()) else { return Vec::new() };
     let width = ((to - from) / STRETCHES as Millis + 1).max(1);
     let stretch = |number: usize| {
         let from = from + width * number as Millis;
-        Stretch { from, to: from + width, hand_ins: 0, right: 0, mistakes: HashMap::new() }
+        TimeStretch { from, to: from + width, hand_ins: 0, right: 0, mistakes: HashMap::new() }
     };
-    let mut stretches: Vec<Stretch> = (0..STRETCHES).map(stretch).collect();
+    let mut stretches: Vec<TimeStretch> = (0..STRETCHES).map(stretch).collect();
     for row in graded() {
         let place = usize::try_from((at(row) - from) / width).unwrap_or(0).min(STRETCHES - 1);
         let stretch = &mut stretches[place];
@@ -178,7 +179,7 @@ fn stretches(class: &[Person]) -> Vec<Stretch> {
     stretches
 }
 
-impl Message {
+impl MessageInsight {
     fn new(mistake: &Option<String>, text: &Text) -> Self {
         let (said, students, right, gone, again, last) = Default::default();
         Self { mistake: mistake.clone(), text: text.clone(), said, students, right, gone, again, last }
@@ -224,7 +225,7 @@ impl Table {
             }
             Self::Mistakes => {
                 let headings = words(&["from", "to", "hand_ins", "right", "mistake", "title", "count"]);
-                let row = |stretch: &Stretch, id: &str, title: &str, had: usize| {
+                let row = |stretch: &TimeStretch, id: &str, title: &str, had: usize| {
                     let [from, to] = [stretch.from, stretch.to].map(super::clock::rfc3339);
                     vec![
                         from,
@@ -255,8 +256,8 @@ impl Table {
                     "next_again",
                     "no_next",
                 ]);
-                let row = |it: &Message| {
-                    let Message { mistake, text, said, students, right, gone, again, last } = it;
+                let row = |it: &MessageInsight| {
+                    let MessageInsight { mistake, text, said, students, right, gone, again, last } = it;
                     let texts = [mistake.clone().unwrap_or_default(), text.get(language).to_owned()];
                     texts.into_iter().chain([said, students, right, gone, again, last].map(count)).collect()
                 };
@@ -284,7 +285,7 @@ mod tests {
         let found = gather(&class, &HashMap::new(), &title);
         assert_eq!(found.right_at, BTreeMap::from([(1, 1), (3, 1)]));
         assert_eq!((&found.trying, found.nothing), (&BTreeMap::from([(2, 1)]), 1));
-        let counts = |message: &Message| {
+        let counts = |message: &MessageInsight| {
             [message.said, message.students, message.right, message.gone, message.again, message.last]
         };
         let messages: Vec<_> = found.messages.iter().map(|it| (it.text.en.as_str(), counts(it))).collect();

@@ -4,7 +4,7 @@
 use super::Service;
 use super::errors::Problem;
 use super::identity::{Identity, Teacher, new_id};
-use super::store::{Appeal, Stored, StoredComment, Submission, Via};
+use super::store::{Appeal, StoredComment, StoredSubmission, Submission, Via};
 use crate::report::Report;
 use axum::http::StatusCode;
 
@@ -24,7 +24,7 @@ fn text(given: &str) -> Result<String, Problem> {
 }
 
 /// The report of what was handed in; a problem where there is none yet, or it is a draft.
-fn report(stored: &Stored) -> Result<&Report, Problem> {
+fn report(stored: &StoredSubmission) -> Result<&Report, Problem> {
     let of_hand_in = stored.submission.via != Via::Editor;
     stored.report.as_ref().filter(|_| of_hand_in).ok_or_else(Problem::not_found)
 }
@@ -48,7 +48,7 @@ fn no_such_line(report: &Report, line: &str) -> Problem {
 pub async fn override_line(
     service: &Service,
     teacher: &Teacher,
-    stored: &Stored,
+    stored: &StoredSubmission,
     line: &str,
     given: Option<(f64, &str)>,
 ) -> Result<String, Problem> {
@@ -75,7 +75,7 @@ pub async fn override_line(
 pub async fn comment(
     service: &Service,
     teacher: &Teacher,
-    stored: &Stored,
+    stored: &StoredSubmission,
     (file, line): (&str, u32),
     said: &str,
 ) -> Result<StoredComment, Problem> {
@@ -113,7 +113,7 @@ pub fn asker(submission: &Submission) -> Option<&str> {
 pub async fn ask(
     service: &Service,
     identity: &Identity,
-    stored: &Stored,
+    stored: &StoredSubmission,
     line: &str,
     question: &str,
 ) -> Result<(), Problem> {

@@ -14,7 +14,7 @@ const MOST: usize = 200;
 
 /// One of two whose answers are alike.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Member {
+pub struct AlikePerson {
     /// What tells them apart, see [`Person::key`].
     pub key: String,
     /// Student number, or what stands for it.
@@ -27,7 +27,7 @@ pub struct Member {
     pub is_of_class: bool,
 }
 
-impl Member {
+impl AlikePerson {
     /// By what they are called on a page.
     pub fn called(&self) -> String {
         match (self.number.is_empty(), self.name.is_empty()) {
@@ -41,25 +41,25 @@ impl Member {
 
 /// What was found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct AlikePairs {
     /// How many answers of the class were looked at,
     pub class: usize,
     /// and how many others.
     pub others: usize,
     /// Who is alike, the most alike first.
-    pub pairs: Vec<(Pair, [Member; 2])>,
+    pub pairs: Vec<(Pair, [AlikePerson; 2])>,
     /// How many pairs are left out, because there are too many.
     pub left_out: usize,
 }
 
 /// Holds the answers of a class against each other.
-pub async fn find(state: &State) -> Result<Found, Problem> {
+pub async fn find(state: &State) -> Result<AlikePairs, Problem> {
     let People { class, apart } = people(state).await?;
-    let of_class: Vec<Member> = class.iter().filter_map(|person| member(person, true)).collect();
-    let others: Vec<Member> = apart.iter().filter_map(|person| member(person, false)).collect();
+    let of_class: Vec<AlikePerson> = class.iter().filter_map(|person| member(person, true)).collect();
+    let others: Vec<AlikePerson> = apart.iter().filter_map(|person| member(person, false)).collect();
     let mut hand_ins = state.store.hand_ins(&state.assignment.id).await?;
     let (class, others_count) = (of_class.len(), others.len());
-    let members: Vec<Member> = of_class.into_iter().chain(others).collect();
+    let members: Vec<AlikePerson> = of_class.into_iter().chain(others).collect();
     let files: Vec<_> = members.iter().map(|member| hand_ins.remove(&member.submission).unwrap_or_default()).collect();
     let mut pairs = blocking(state, move |state| {
         let likeness = Likeness::of(&state.assignment);
@@ -73,13 +73,13 @@ pub async fn find(state: &State) -> Result<Found, Problem> {
         let members = [members[pair.places.0].clone(), members[pair.places.1].clone()];
         (pair, members)
     };
-    Ok(Found { class, others: others_count, pairs: pairs.into_iter().map(named).collect(), left_out })
+    Ok(AlikePairs { class, others: others_count, pairs: pairs.into_iter().map(named).collect(), left_out })
 }
 
 /// Somebody with the attempt that counts, or the last one while none is graded.
-fn member(person: &Person, is_of_class: bool) -> Option<Member> {
+fn member(person: &Person, is_of_class: bool) -> Option<AlikePerson> {
     let row = person.counted().or_else(|| person.rows.first())?;
-    Some(Member {
+    Some(AlikePerson {
         key: person.key.clone(),
         number: person.number.clone(),
         name: person.name.clone(),
@@ -109,12 +109,12 @@ pub async fn compare(state: &State, ids: [&str; 2], names: [String; 2]) -> Resul
 }
 
 /// Who handed this in.
-pub async fn member_of(state: &State, submission: &str) -> Result<Member, Problem> {
+pub async fn member_of(state: &State, submission: &str) -> Result<AlikePerson, Problem> {
     let People { class, apart } = people(state).await?;
     let all = class.iter().map(|person| (person, true)).chain(apart.iter().map(|person| (person, false)));
     let mut found = all.filter(|(person, _)| person.rows.iter().any(|row| row.row.submission.id == submission));
     let (person, is_of_class) = found.next().ok_or_else(Problem::not_found)?;
-    Ok(Member {
+    Ok(AlikePerson {
         key: person.key.clone(),
         number: person.number.clone(),
         name: person.name.clone(),

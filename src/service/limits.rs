@@ -2,7 +2,7 @@
 
 mod rates;
 
-pub use rates::{Counted, Limits};
+pub use rates::{Counted, RateLimits};
 
 use super::Scope;
 use crate::fault::Fault;

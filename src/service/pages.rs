@@ -26,7 +26,7 @@ mod teacher;
 mod terms;
 
 pub use assets::warm;
-pub use frame::Frame;
+pub use frame::PageFrame;
 pub(super) use lti::{launch_lost, shown_choice};
 pub use preview::broken_folder;
 pub use problem::problem;

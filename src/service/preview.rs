@@ -15,7 +15,7 @@ use crate::fault::Fault;
 use crate::grade::{handed_out, solution};
 use crate::hand_in::HandIn;
 use crate::language::Text;
-use crate::sandbox::{GradedSubmission, Submission};
+use crate::sandbox::{GradedSubmission, GradingTask};
 use axum::Router;
 use axum::extract::{Query, Request, State as Shared};
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -53,11 +53,11 @@ struct Front {
     version: u64,
     /// Whether the folder's own files are graded.
     is_graded: bool,
-    shown: Shown,
+    shown: PreviewedFolder,
 }
 
 #[derive(Clone, Debug)]
-enum Shown {
+enum PreviewedFolder {
     Homework(Router),
     Broken(Text),
 }
@@ -82,10 +82,10 @@ pub struct OwnFiles {
 
 /// Grades nothing: there is no homework.
 #[derive(Debug)]
-struct Nothing;
+struct NoGrading;
 
-impl Judge for Nothing {
-    fn grade(&self, _: Submission<'_>) -> Result<GradedSubmission, Fault> {
+impl Judge for NoGrading {
+    fn grade(&self, _: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         Err(Fault::new(Text::verbatim("a preview without a homework grades nothing")))
     }
 }
@@ -95,9 +95,9 @@ impl Preview {
     pub async fn start(config: Config) -> Result<Self, Fault> {
         let store = server::open(&config).await?;
         let (listener, address) = server::listen(config.listen).await?;
-        let shell = Service::serving(Vec::new(), config, store, Arc::new(Nothing), Clock::system()).await?;
+        let shell = Service::serving(Vec::new(), config, store, Arc::new(NoGrading), Clock::system()).await?;
         let reading = Text::new("The folder is being read.", "フォルダを読み込んでいます。");
-        let front = watch::Sender::new(Front { version: 0, is_graded: false, shown: Shown::Broken(reading) });
+        let front = watch::Sender::new(Front { version: 0, is_graded: false, shown: PreviewedFolder::Broken(reading) });
         let door = door(&shell, &front);
         let serving = tokio::spawn(server::accept(listener, door, shell.clone()));
         Ok(Self { address, shell, front, serving, homework: None })
@@ -108,7 +108,7 @@ impl Preview {
         let assignment = match folder {
             Ok(assignment) => assignment,
             Err(why) => {
-                self.replace(Shown::Broken(why), None);
+                self.replace(PreviewedFolder::Broken(why), None);
                 return Ok(None);
             }
         };
@@ -125,7 +125,7 @@ impl Preview {
         warmed.await.map_err(|panic| Fault::new(Text::verbatim(panic.to_string())))??;
         let version = self.front.borrow().version + 1;
         let _ = service.preview.set(FolderVersion { version, own: OnceLock::new() });
-        self.replace(Shown::Homework(app(service.clone())), Some((service.clone(), graders)));
+        self.replace(PreviewedFolder::Homework(app(service.clone())), Some((service.clone(), graders)));
         let Some(state) = service.only() else { return Ok(None) };
         let own = own_files(&state).await?;
         if let Some(shown) = service.preview.get() {
@@ -136,7 +136,7 @@ impl Preview {
     }
 
     /// Puts another version in the place of the one that is shown, whose gradings end.
-    fn replace(&mut self, shown: Shown, homework: Option<(Service, Graders)>) {
+    fn replace(&mut self, shown: PreviewedFolder, homework: Option<(Service, Graders)>) {
         self.front.send_modify(|front| {
             *front = Front { version: front.version + 1, is_graded: false, shown };
         });
@@ -177,16 +177,16 @@ fn door(shell: &Service, front: &watch::Sender<Front>) -> Router {
     let routes = pages::router(shell)
         .route(
             EVENTS,
-            get(async move |Shared(shell): Shared<Service>, Query(seen): Query<Seen>| {
+            get(async move |Shared(shell): Shared<Service>, Query(seen): Query<PreviewQuery>| {
                 events(shell, watched.subscribe(), seen)
             }),
         )
-        .fallback(async move |frame: pages::Frame| {
+        .fallback(async move |frame: pages::PageFrame| {
             let front = at.borrow().clone();
             let why = match front.shown {
-                Shown::Broken(why) => why,
+                PreviewedFolder::Broken(why) => why,
                 // The folder was mended this very moment.
-                Shown::Homework(_) => Text::default(),
+                PreviewedFolder::Homework(_) => Text::default(),
             };
             pages::broken_folder(frame, &why, front.version)
         });
@@ -195,7 +195,7 @@ fn door(shell: &Service, front: &watch::Sender<Front>) -> Router {
     Router::new().fallback(async move |request: Request| -> Result<Response, Infallible> {
         let shown = front.borrow().shown.clone();
         match shown {
-            Shown::Homework(app) if request.uri().path() != EVENTS => app.oneshot(request).await,
+            PreviewedFolder::Homework(app) if request.uri().path() != EVENTS => app.oneshot(request).await,
             _ => shell.oneshot(request).await,
         }
     })
@@ -203,7 +203,7 @@ fn door(shell: &Service, front: &watch::Sender<Front>) -> Router {
 
 /// What a page knows already.
 #[derive(Clone, Copy, Debug, Deserialize)]
-struct Seen {
+struct PreviewQuery {
     version: u64,
     #[serde(default)]
     graded: bool,
@@ -211,7 +211,7 @@ struct Seen {
 
 /// Server-sent events: `folder` where another version is shown than the page has, `graded` where that version's own files
 /// are graded and the page does not show it.
-fn events(shell: Service, front: watch::Receiver<Front>, seen: Seen) -> Response {
+fn events(shell: Service, front: watch::Receiver<Front>, seen: PreviewQuery) -> Response {
     let changes = futures_util::stream::unfold((shell, front, seen), async |(shell, mut front, mut seen)| {
         loop {
             let (version, is_graded) = {
@@ -220,7 +220,7 @@ fn events(shell: Service, front: watch::Receiver<Front>, seen: Seen) -> Response
             };
             let event = |name| Some(Ok::<_, Infallible>(Event::default().event(name).data("{}")));
             let news = if version != seen.version {
-                seen = Seen { version, graded: false };
+                seen = PreviewQuery { version, graded: false };
                 event("folder")
             } else if is_graded && !seen.graded {
                 seen.graded = true;

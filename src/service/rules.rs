@@ -1,7 +1,7 @@
 //! What a homework's rules may be, whoever sets them: a form or a program.
 
 use super::clock::Millis;
-use super::store::Assignment;
+use super::store::AssignmentSettings;
 use crate::language::Text;
 
 /// A minute.
@@ -11,7 +11,7 @@ pub const MINUTE: Millis = 60_000;
 pub const LONGEST_GRACE: Millis = 10_080;
 
 /// What is wrong with rules, where something is.
-pub fn check(rules: &Assignment) -> Result<(), Text> {
+pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
     let (opens, due, late) = (rules.opens_at, rules.closes_at, &rules.late);
     let share = |number: f64| (0.0..=100.0).contains(&number);
     if opens.zip(due).is_some_and(|(opens, due)| due <= opens) {

@@ -48,7 +48,7 @@ fn refused(en: impl Into<String>, ja: impl Into<String>) -> Problem {
 /// Where to go on afterwards.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Wish {
+pub struct SignInQuery {
     /// Id of a homework.
     homework: String,
 }
@@ -57,7 +57,7 @@ pub struct Wish {
 async fn begin(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    Query(wish): Query<Wish>,
+    Query(wish): Query<SignInQuery>,
 ) -> Result<Response, Problem> {
     let provider = service.config.sign_in.iter().find(|provider| provider.id == id).ok_or_else(Problem::not_found)?;
     let found = provider.discovered(&service).await?;
@@ -88,7 +88,7 @@ async fn begin(
 /// What an issuer sends a browser back with.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Answer {
+pub struct IssuerResponse {
     code: String,
     state: String,
     iss: Option<String>,
@@ -101,7 +101,7 @@ async fn finish(
     Shared(service): Shared<Service>,
     headers: HeaderMap,
     visitor: Visitor,
-    Query(answer): Query<Answer>,
+    Query(answer): Query<IssuerResponse>,
 ) -> Result<Response, Problem> {
     let begun = service.store.take_sign_in(&token_hash(&answer.state), service.clock.now()).await?;
     let begun = begun.filter(|_| has_launch(&service, &headers, &answer.state)).ok_or_else(|| {

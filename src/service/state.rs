@@ -5,15 +5,15 @@ mod making;
 use super::Config;
 use super::classes::Jobs;
 use super::clock::Clock;
-use super::courses::{Courses, Plan};
+use super::courses::{CoursePlan, Courses};
 use super::errors::Problem;
 use super::folders::FolderCache;
 use super::gallery::{Gallery, RightPictures};
 use super::grading::{CrossChecks, Judge, Queue};
-use super::limits::{Limits, Proxies};
+use super::limits::{Proxies, RateLimits};
 use super::lti::Connections;
 use super::preview::FolderVersion;
-use super::store::{Store, Stored, Submission};
+use super::store::{Store, StoredSubmission, Submission};
 use reference::Assignment;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
@@ -21,7 +21,7 @@ use tokio::sync::{Semaphore, watch};
 
 /// What every request shares, whatever homework it is about; cheap to clone.
 #[derive(Clone, Debug)]
-pub struct Service(Arc<Shared>);
+pub struct Service(Arc<ServiceParts>);
 
 /// The service as the requests about one homework see it; cheap to clone. Whatever takes a [`Service`] takes this as well.
 #[derive(Clone, Debug)]
@@ -34,9 +34,9 @@ pub struct State {
 }
 
 impl std::ops::Deref for Service {
-    type Target = Shared;
+    type Target = ServiceParts;
 
-    fn deref(&self) -> &Shared {
+    fn deref(&self) -> &ServiceParts {
         &self.0
     }
 }
@@ -51,7 +51,7 @@ impl std::ops::Deref for State {
 
 /// The parts of a [`Service`].
 #[derive(Debug)]
-pub struct Shared {
+pub struct ServiceParts {
     /// The configuration.
     pub config: Config,
     /// The database.
@@ -69,7 +69,7 @@ pub struct Shared {
     /// The downloads that take a while to make.
     pub downloads: Jobs,
     /// Rates.
-    pub limits: Arc<Limits>,
+    pub limits: Arc<RateLimits>,
     /// What is kept of learning platforms between requests.
     pub lti: Connections,
     /// What the addresses of a course begin with: nothing for the first one, `/c/COURSE` for another.
@@ -81,7 +81,7 @@ pub struct Shared {
     /// The homeworks that the command line names, or those from which another course chooses.
     named: Vec<Arc<Assignment>>,
     /// Which of them the course has, and in which order.
-    pub(super) plan: RwLock<Plan>,
+    pub(super) plan: RwLock<CoursePlan>,
     /// The homeworks that are served, each with its right pictures.
     homeworks: RwLock<Vec<(Arc<Assignment>, Arc<RightPictures>)>>,
     /// Counts how often they have changed.
@@ -225,7 +225,7 @@ impl Service {
     }
 
     /// The submission with this id with its report, and its homework.
-    pub async fn stored(&self, id: &str) -> Result<(State, Stored), Problem> {
+    pub async fn stored(&self, id: &str) -> Result<(State, StoredSubmission), Problem> {
         let stored = self.store.stored(id).await?.ok_or_else(Problem::not_found)?;
         Ok((self.homework_of(&stored.submission.assignment)?, stored))
     }

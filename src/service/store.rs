@@ -40,14 +40,14 @@ mod tokens;
 
 pub use acts::{Act, NamedAct};
 pub use appeals::Appeal;
-pub use assignments::{Assignment, Audience};
+pub use assignments::{AssignmentSettings, Audience};
 pub use batches::{Batch, BatchEntry, Progress};
-pub use courses::Place;
+pub use courses::CoursePlace;
 pub use deletions::{Counts, Deletion, DeletionTarget};
 pub use extensions::{Beneficiary, Extension, NamedExtension};
 pub use folders::UploadedFolder;
 pub use judgements::{OverriddenAgain, Override, StoredComment};
-pub use keys::{Key, KeyResult};
+pub use keys::{KeyResult, StoredKey};
 pub use late::{LateRules, LateSpan};
 pub use lti::{Deployment, Launch, Link, Platform, PlatformPerson};
 pub use lti_contexts::PlatformCourse;
@@ -56,14 +56,14 @@ pub use open::Location;
 pub use owners::{Owner, Proof};
 pub use queue::{Claimed, Listener, News, Priority};
 pub use regradings::{Again, Compared, Regrading};
-pub use reports::{ClassRow, HistoryRow, Stored};
-pub use retention::Removed;
+pub use reports::{ClassRow, HistoryRow, StoredSubmission};
+pub use retention::RemovedCounts;
 pub(crate) use rows::word;
-pub use rows::{State, Submission, Via};
+pub use rows::{Submission, SubmissionState, Via};
 pub use senders::Sender;
 pub use sign_ins::SignIn;
-pub use staff::{Role, Session, StaffMember};
-pub use students::{EntryMatch, RosterLine, Student};
+pub use staff::{StaffMember, StaffRole, TeacherSession};
+pub use students::{EntryMatch, RosterLine, StudentRecord};
 pub use submissions::NewSubmission;
 pub use tokens::{AccessToken, OwnedToken, TokenScope};
 
@@ -91,7 +91,7 @@ pub type Result<T> = std::result::Result<T, StoreError>;
 
 /// A pool of either database.
 #[derive(Clone, Debug)]
-pub(crate) enum Pool {
+pub(crate) enum DatabasePool {
     Sqlite(SqlitePool),
     Postgres(PgPool),
 }
@@ -100,8 +100,8 @@ pub(crate) enum Pool {
 macro_rules! on {
     ($pool:expr, $db:ident => $body:expr) => {
         match $pool {
-            $crate::service::store::Pool::Sqlite($db) => $body,
-            $crate::service::store::Pool::Postgres($db) => $body,
+            $crate::service::store::DatabasePool::Sqlite($db) => $body,
+            $crate::service::store::DatabasePool::Postgres($db) => $body,
         }
     };
 }
@@ -110,8 +110,8 @@ pub(crate) use on;
 /// The database.
 #[derive(Clone, Debug)]
 pub struct Store {
-    read: Pool,
-    write: Pool,
+    read: DatabasePool,
+    write: DatabasePool,
     location: std::sync::Arc<Location>,
     /// Held while an SQLite file is open, so that no second service works on it.
     _lock: Option<std::sync::Arc<std::fs::File>>,

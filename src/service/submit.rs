@@ -9,7 +9,7 @@ use super::errors::Problem;
 use super::grading::{self, GradingResult};
 use super::idempotency;
 use super::identity::{Identity, new_id};
-use super::store::{Key, NewSubmission, Priority, Sender, Stored, Submission, Via};
+use super::store::{NewSubmission, Priority, Sender, StoredKey, StoredSubmission, Submission, Via};
 use super::{Config, metrics, store};
 use crate::diagnose::Hints;
 use crate::fault::Fault;
@@ -107,18 +107,18 @@ async fn with_lateness(state: &State, mut receipt: Receipt) -> Result<Receipt, P
 }
 
 /// The key of an upload: everything counts that makes another upload of it.
-fn key(state: &State, given: &idempotency::RequestKey, upload: &Upload) -> Key {
+fn key(state: &State, given: &idempotency::RequestKey, upload: &Upload) -> StoredKey {
     let Upload { hand_in, identity, via, hints, .. } = upload;
     let parts = [&state.assignment.id, &hand_in.names(), &store::word(via), &store::word(hints), &hand_in.sha256()];
     given.of_student(identity, &parts.map(String::as_str))
 }
 
 /// What an earlier request with this key stored, with what has come of it or comes of it in time.
-async fn stored_earlier(state: &State, key: Option<&Key>) -> Result<Option<Receipt>, Problem> {
+async fn stored_earlier(state: &State, key: Option<&StoredKey>) -> Result<Option<Receipt>, Problem> {
     let earlier = idempotency::earlier(state, key).await?;
     let Some(id) = earlier.and_then(|earlier| earlier.submission_id) else { return Ok(None) };
     let mut listener = state.queue.listen(&id);
-    let Some(Stored { submission, report, .. }) = state.store.stored(&id).await? else { return Ok(None) };
+    let Some(StoredSubmission { submission, report, .. }) = state.store.stored(&id).await? else { return Ok(None) };
     let outcome = match (report, &submission.fault) {
         (Some(report), _) => Some(GradingResult::Graded(Arc::new(report))),
         (None, Some(fault)) => Some(GradingResult::Failed(Arc::new(fault.clone()))),
@@ -137,7 +137,7 @@ async fn in_time(state: &State, listener: &mut broadcast::Receiver<GradingResult
 }
 
 /// Stores a file, and waits a while for its report; none where the key is taken.
-async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<Option<Receipt>, Problem> {
+async fn carry_out(state: &State, upload: Upload, key: Option<&StoredKey>) -> Result<Option<Receipt>, Problem> {
     let (assignment, hand_in) = checked(state, &upload).await?;
     let mut new = new_submission(state, &assignment, &upload, hand_in);
     let known = state.store.known_report(&new.assignment, &new.hand_in.sha256(), new.seed, new.hints).await?;
@@ -171,7 +171,7 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&Key>) -> Result<O
         state.queue.tidy();
         return added.map(|_| None).map_err(Problem::from);
     }
-    let submission = submission_of(&new, store::State::Queued);
+    let submission = submission_of(&new, store::SubmissionState::Queued);
     metrics::uploaded(&submission, false);
     drop(place);
     grading::files_wait(state).await;
@@ -189,7 +189,12 @@ pub(super) fn too_large() -> Problem {
     )
 }
 
-fn new_submission(state: &State, assignment: &store::Assignment, upload: &Upload, hand_in: HandIn) -> NewSubmission {
+fn new_submission(
+    state: &State,
+    assignment: &store::AssignmentSettings,
+    upload: &Upload,
+    hand_in: HandIn,
+) -> NewSubmission {
     let now = state.clock.now();
     let owner = upload.identity.student_id().or(upload.identity.owner_id()).map(|id| Sender::Owner(id.to_owned()));
     NewSubmission {
@@ -226,14 +231,14 @@ pub(super) fn file_name(name: &str, slot: Option<&Slot>) -> String {
 async fn keep_known(
     state: &State,
     new: NewSubmission,
-    key: Option<&Key>,
+    key: Option<&StoredKey>,
     mut report: Report,
 ) -> Result<Option<Receipt>, Problem> {
     report.of_files(crate::grade::sources(&state.assignment, &new.hand_in));
     if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
         return Ok(None);
     }
-    let submission = submission_of(&new, store::State::Graded);
+    let submission = submission_of(&new, store::SubmissionState::Graded);
     metrics::uploaded(&submission, true);
     if report.cross_check.take().is_none() {
         state.cross_checks.expect(&submission, &report);
@@ -241,7 +246,7 @@ async fn keep_known(
     Ok(Some(Receipt { submission, outcome: Some(GradingResult::Graded(Arc::new(report))) }))
 }
 
-fn submission_of(new: &NewSubmission, state: store::State) -> Submission {
+fn submission_of(new: &NewSubmission, state: store::SubmissionState) -> Submission {
     Submission {
         id: new.id.clone(),
         assignment: new.assignment.clone(),

@@ -5,7 +5,7 @@ use reference::assignment::Stage;
 
 /// How well a file's name fits, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Fit {
+pub enum NameFit {
     /// The slot's file name.
     Exact,
     /// That name with the mark of a copy.
@@ -20,7 +20,7 @@ pub enum Fit {
     Other,
 }
 
-impl Fit {
+impl NameFit {
     /// The ranks of files that may be chosen.
     pub const CHOSEN: [Self; 5] = [Self::Exact, Self::Copy, Self::Shader, Self::Renamed, Self::Text];
 
@@ -50,11 +50,11 @@ fn extensions(stage: Stage) -> (&'static str, &'static [&'static str]) {
 }
 
 /// How well `name` fits the slot.
-pub fn fit(name: &str, slot: &Slot) -> Fit {
+pub fn fit(name: &str, slot: &Slot) -> NameFit {
     let name = name.trim().to_lowercase();
     let wanted = slot.name.to_lowercase();
     if name == wanted {
-        return Fit::Exact;
+        return NameFit::Exact;
     }
     let (own, others) = of_slot(slot);
     let is_text = |extension: &str| ["", "txt", "text"].contains(&extension) || OF_ANY.contains(&extension);
@@ -62,16 +62,18 @@ pub fn fit(name: &str, slot: &Slot) -> Fit {
     let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
     let is_wanted_stem = without_copy_mark(stem) == wanted_stem;
     match extension {
-        _ if extension == own && is_wanted_stem => Fit::Copy,
-        _ if extension == own => Fit::Shader,
-        _ if stem == wanted || is_wanted_stem && (is_text(extension) || others.contains(&extension)) => Fit::Renamed,
-        _ if stem.strip_suffix(own).is_some_and(|rest| rest.ends_with('.')) && is_text(extension) => Fit::Renamed,
-        _ if others.contains(&extension) => Fit::Renamed,
+        _ if extension == own && is_wanted_stem => NameFit::Copy,
+        _ if extension == own => NameFit::Shader,
+        _ if stem == wanted || is_wanted_stem && (is_text(extension) || others.contains(&extension)) => {
+            NameFit::Renamed
+        }
+        _ if stem.strip_suffix(own).is_some_and(|rest| rest.ends_with('.')) && is_text(extension) => NameFit::Renamed,
+        _ if others.contains(&extension) => NameFit::Renamed,
         // What has another stage in its name is none of this one.
-        _ if is_text(extension) && tells_stage(stem) => Fit::Other,
-        _ if OF_ANY.contains(&extension) => Fit::Renamed,
-        "txt" | "" => Fit::Text,
-        _ => Fit::Other,
+        _ if is_text(extension) && tells_stage(stem) => NameFit::Other,
+        _ if OF_ANY.contains(&extension) => NameFit::Renamed,
+        "txt" | "" => NameFit::Text,
+        _ => NameFit::Other,
     }
 }
 

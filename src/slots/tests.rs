@@ -113,44 +113,44 @@ fn a_file_that_a_person_names_needs_no_name_of_its_own() {
 #[test]
 fn names_are_ranked() {
     for (name, expected) in [
-        ("ggsample06.vert", Fit::Exact),
-        ("GGSample06.VERT", Fit::Exact),
-        ("ggsample06 (1).vert", Fit::Copy),
-        ("ggsample06(2).vert", Fit::Copy),
-        ("ggsample06 - Copy.vert", Fit::Copy),
-        ("ggsample06 - Copy (2).vert", Fit::Copy),
-        ("ggsample06 - コピー.vert", Fit::Copy),
-        ("ggsample06 - コピー (3).vert", Fit::Copy),
-        ("ggsample06のコピー.vert", Fit::Copy),
-        ("ggsample06 copy 2.vert", Fit::Copy),
-        ("ggsample06 2.vert", Fit::Copy),
-        ("ggsample06_1234567890.vert", Fit::Copy),
-        ("ggsample06-1.vert", Fit::Copy),
-        ("ggsample05.vert", Fit::Shader),
-        ("ggsample0.vert", Fit::Shader),
-        ("ggsample061.vert", Fit::Shader),
-        ("kadai6_s2012345.vert", Fit::Shader),
-        ("ggsample06.vert.txt", Fit::Renamed),
-        ("ggsample06.txt", Fit::Renamed),
-        ("ggsample06", Fit::Renamed),
-        ("ggsample06 (1).txt", Fit::Renamed),
-        ("answer.glsl", Fit::Renamed),
-        ("old.vert.txt", Fit::Renamed),
-        ("ggsample06.vert.bak", Fit::Renamed),
-        ("readme.txt", Fit::Text),
-        ("LICENSE", Fit::Text),
-        ("ggsample06.frag", Fit::Other),
-        ("ggsample06.docx", Fit::Other),
-        ("ggsample06.cpp", Fit::Other),
-        ("(1).vert", Fit::Shader),
-        ("", Fit::Text),
+        ("ggsample06.vert", NameFit::Exact),
+        ("GGSample06.VERT", NameFit::Exact),
+        ("ggsample06 (1).vert", NameFit::Copy),
+        ("ggsample06(2).vert", NameFit::Copy),
+        ("ggsample06 - Copy.vert", NameFit::Copy),
+        ("ggsample06 - Copy (2).vert", NameFit::Copy),
+        ("ggsample06 - コピー.vert", NameFit::Copy),
+        ("ggsample06 - コピー (3).vert", NameFit::Copy),
+        ("ggsample06のコピー.vert", NameFit::Copy),
+        ("ggsample06 copy 2.vert", NameFit::Copy),
+        ("ggsample06 2.vert", NameFit::Copy),
+        ("ggsample06_1234567890.vert", NameFit::Copy),
+        ("ggsample06-1.vert", NameFit::Copy),
+        ("ggsample05.vert", NameFit::Shader),
+        ("ggsample0.vert", NameFit::Shader),
+        ("ggsample061.vert", NameFit::Shader),
+        ("kadai6_s2012345.vert", NameFit::Shader),
+        ("ggsample06.vert.txt", NameFit::Renamed),
+        ("ggsample06.txt", NameFit::Renamed),
+        ("ggsample06", NameFit::Renamed),
+        ("ggsample06 (1).txt", NameFit::Renamed),
+        ("answer.glsl", NameFit::Renamed),
+        ("old.vert.txt", NameFit::Renamed),
+        ("ggsample06.vert.bak", NameFit::Renamed),
+        ("readme.txt", NameFit::Text),
+        ("LICENSE", NameFit::Text),
+        ("ggsample06.frag", NameFit::Other),
+        ("ggsample06.docx", NameFit::Other),
+        ("ggsample06.cpp", NameFit::Other),
+        ("(1).vert", NameFit::Shader),
+        ("", NameFit::Text),
     ] {
         assert_eq!(fit(name, &slot("ggsample06.vert", Stage::Vertex)), expected, "{name}");
     }
 }
 
 /// The names of what is placed by slot, or what is said instead.
-fn placed(files: &[(&str, &str)]) -> Result<Vec<Option<String>>, Vec<Problem>> {
+fn placed(files: &[(&str, &str)]) -> Result<Vec<Option<String>>, Vec<SlotProblem>> {
     let files: Vec<_> = files.iter().map(|(name, text)| HandedInFile::new(*name, *text)).collect();
     let placed = place(&both(), &files)?;
     Ok(placed.into_iter().map(|index| index.map(|index| files[index].name.clone())).collect())
@@ -164,7 +164,7 @@ fn a_part_of_the_files_is_placed_by_itself() {
     assert_eq!(placed(&[("a.frag", "f"), ("b.vert", "v")]).unwrap(), [named("b.vert"), named("a.frag")]);
     assert_eq!(placed(&[("main.cpp", "")]).unwrap(), [None, None]);
     let double = placed(&[("a.frag", "1"), ("b.frag", "2")]).unwrap_err();
-    assert_eq!(double, [Problem::Several { slot: 1, files: vec![0, 1] }]);
+    assert_eq!(double, [SlotProblem::Several { slot: 1, files: vec![0, 1] }]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What a student is told whose files do not fill the homework's slots.
 
 use super::fit::tells;
-use super::{Problem, Slot};
+use super::{Slot, SlotProblem};
 use crate::language::Text;
 use reference::assignment::Stage;
 
@@ -11,17 +11,17 @@ const LISTED: usize = 4;
 const SHOWN: usize = 60;
 
 /// What is missing or double among the files with these names.
-pub(crate) fn unfilled(slots: &[Slot], names: &[String], problems: &[Problem]) -> Text {
+pub(crate) fn unfilled(slots: &[Slot], names: &[String], problems: &[SlotProblem]) -> Text {
     let missing: Vec<&Slot> = problems
         .iter()
         .filter_map(|problem| match problem {
-            Problem::Missing { slot } => Some(&slots[*slot]),
-            Problem::Several { .. } => None,
+            SlotProblem::Missing { slot } => Some(&slots[*slot]),
+            SlotProblem::Several { .. } => None,
         })
         .collect();
     let several = problems.iter().filter_map(|problem| match problem {
-        Problem::Several { slot, files } => Some(several(slots, *slot, files, names)),
-        Problem::Missing { .. } => None,
+        SlotProblem::Several { slot, files } => Some(several(slots, *slot, files, names)),
+        SlotProblem::Missing { .. } => None,
     });
     let absent = (!missing.is_empty()).then(|| absent(slots, &missing, names));
     let texts: Vec<Text> = several.chain(absent).collect();

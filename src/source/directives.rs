@@ -22,7 +22,7 @@ struct Conditional {
 }
 
 /// The preprocessor's state, as far as a glance at the file tells.
-struct Preprocessor<'a> {
+struct DirectiveState<'a> {
     /// The words that stand anywhere but in conditions and as the name that is defined.
     uses: HashSet<&'a str>,
     standing: LineState,
@@ -34,7 +34,7 @@ struct Preprocessor<'a> {
 /// The standing of each line of `code`, which has no comments.
 pub(super) fn standings(code: &str) -> Vec<LineState> {
     let mut preprocessor =
-        Preprocessor { uses: uses(code), standing: LineState::Compiled, open: Vec::new(), macros: HashMap::new() };
+        DirectiveState { uses: uses(code), standing: LineState::Compiled, open: Vec::new(), macros: HashMap::new() };
     let mut standings = Vec::new();
     let mut lines = code.lines().peekable();
     while let Some(first) = lines.next() {
@@ -65,7 +65,7 @@ fn uses(code: &str) -> HashSet<&str> {
     uses
 }
 
-impl Preprocessor<'_> {
+impl DirectiveState<'_> {
     /// Takes one line, continuations joined, and says how it stands.
     fn line(&mut self, line: &str) -> LineState {
         let blank = |c: char| matches!(c, ' ' | '\t' | '\u{B}' | '\u{C}');

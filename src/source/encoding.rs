@@ -7,7 +7,7 @@ mod plausibility;
 #[cfg(test)]
 mod tests;
 
-use crate::diagnostic::{Diagnostic, Severity, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage, Severity};
 use crate::language::Text;
 use encoding_rs::{EUC_JP, ISO_2022_JP, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use serde::{Deserialize, Serialize};
@@ -120,7 +120,7 @@ fn has_jis_escape(bytes: &[u8]) -> bool {
 
 fn utf8_mark() -> Diagnostic {
     Diagnostic::warning(
-        Stage::Source,
+        DiagnosticStage::Source,
         Text::new(
             "The file begins with a byte-order mark (U+FEFF). It is left out here, but some OpenGL drivers, Mesa 22.3 \
              among them, refuse a shader that begins with one.",
@@ -136,7 +136,7 @@ fn utf8_mark() -> Diagnostic {
 
 fn utf16() -> Diagnostic {
     Diagnostic::warning(
-        Stage::Source,
+        DiagnosticStage::Source,
         Text::new(
             "The file is written in UTF-16. It is read here, but an OpenGL driver cannot compile it as it is.",
             "ファイルが UTF-16 で書かれています。採点では読み取りますが、OpenGL ドライバはこのままではコンパイルできません。",
@@ -150,5 +150,5 @@ fn western() -> Diagnostic {
         "The file is neither UTF-8 nor a Japanese encoding; it is read as Windows-1252 (western European).",
         "ファイルが UTF-8 でも日本語の文字コードでもないため、Windows-1252（西欧）として読み取りました。",
     );
-    Diagnostic { severity: Severity::Note, ..Diagnostic::warning(Stage::Source, message) }
+    Diagnostic { severity: Severity::Note, ..Diagnostic::warning(DiagnosticStage::Source, message) }
 }

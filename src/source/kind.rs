@@ -8,7 +8,7 @@ pub(super) use binary::{binary, no_sense};
 pub use prose::fragment_shader;
 pub(super) use prose::wrong_text;
 
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 
 /// The refusal in the words of a homework that asks for a fragment shader.
@@ -50,7 +50,7 @@ pub(super) fn of_program(mut refusal: Diagnostic) -> Diagnostic {
 /// The refusal of a file that seems to be `en`, `ja`.
 fn looks_like(en: &str, ja: &str) -> Diagnostic {
     Diagnostic::error(
-        Stage::Source,
+        DiagnosticStage::Source,
         Text::new(
             format!("This is not a vertex shader: the file seems to be {en}."),
             format!("頂点シェーダではありません。{ja}のようです。"),

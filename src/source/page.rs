@@ -1,7 +1,7 @@
 //! A fragment shader as a page for sharing shaders has it: `mainImage`, and nothing of what the page declares.
 
 use super::{Source, comments};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use reference::page::{Page, VERSION};
 
@@ -25,7 +25,10 @@ pub(super) fn complete(source: Source) -> Source {
     let has_version = source.code.lines().any(|line| is_directive(line, "version"));
     let default_version = if has_version { source.default_version } else { version() };
     let mut notes = source.notes;
-    notes.push(Diagnostic { severity: crate::diagnostic::Severity::Note, ..Diagnostic::error(Stage::Source, message) });
+    notes.push(Diagnostic {
+        severity: crate::diagnostic::Severity::Note,
+        ..Diagnostic::error(DiagnosticStage::Source, message)
+    });
     Source { notes, default_version, ..Source::new(source.facts, &text) }
 }
 

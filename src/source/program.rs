@@ -1,9 +1,9 @@
 //! A program in C++ of which numbers are read, as the shader that is judged instead: its lines are the student's own.
 
-use super::{Facts, Refusal, Source, decode, kind};
-use crate::diagnostic::{Diagnostic, Severity, Stage};
+use super::{FileFacts, Source, SourceRefusal, decode, kind};
+use crate::diagnostic::{Diagnostic, DiagnosticStage, Severity};
 use crate::language::Text;
-use reference::host::{HostArray, Listing, Unreadable};
+use reference::host::{HostArray, ProgramListing, UnreadableProgram};
 
 /// A program as it was read.
 #[derive(Clone, Debug)]
@@ -11,19 +11,19 @@ pub struct ReadProgram {
     /// The shader that is judged, by the name of the program, with the program's lines.
     pub source: Source,
     /// What else is known of the numbers.
-    pub listing: Listing,
+    pub listing: ProgramListing,
 }
 
 /// Reads the program `name`, whose content is `bytes`.
 ///
 /// # Errors
-/// A [`Refusal`] for what is no text, and for numbers that cannot be read.
-pub fn read_program(array: &HostArray, name: &str, bytes: &[u8]) -> Result<ReadProgram, Box<Refusal>> {
-    let mut facts = Facts::of(name, bytes);
+/// A [`SourceRefusal`] for what is no text, and for numbers that cannot be read.
+pub fn read_program(array: &HostArray, name: &str, bytes: &[u8]) -> Result<ReadProgram, Box<SourceRefusal>> {
+    let mut facts = FileFacts::of(name, bytes);
     let decoded = match decode(bytes) {
         Ok(decoded) => decoded,
         Err(error) => {
-            return Err(Box::new(Refusal { facts, source: None, diagnostics: vec![kind::of_program(*error)] }));
+            return Err(Box::new(SourceRefusal { facts, source: None, diagnostics: vec![kind::of_program(*error)] }));
         }
     };
     facts.encoding = Some(decoded.encoding);
@@ -32,7 +32,7 @@ pub fn read_program(array: &HostArray, name: &str, bytes: &[u8]) -> Result<ReadP
         Ok(listing) => listing,
         Err(unreadable) => {
             let diagnostics = std::iter::once(refused(unreadable)).chain(decoded.notes).collect();
-            return Err(Box::new(Refusal { facts, source: Some(written), diagnostics }));
+            return Err(Box::new(SourceRefusal { facts, source: Some(written), diagnostics }));
         }
     };
     let mut source = Source::new(facts, &listing.shader);
@@ -44,7 +44,7 @@ pub fn read_program(array: &HostArray, name: &str, bytes: &[u8]) -> Result<ReadP
     Ok(ReadProgram { source, listing })
 }
 
-fn refused(unreadable: Unreadable) -> Diagnostic {
+fn refused(unreadable: UnreadableProgram) -> Diagnostic {
     let error = Diagnostic { line: unreadable.line, ..said(&unreadable.message) };
     match unreadable.hint {
         Some(hint) => error.hint(Text::new(hint.en, hint.ja)),
@@ -53,5 +53,5 @@ fn refused(unreadable: Unreadable) -> Diagnostic {
 }
 
 fn said(message: &reference::Text) -> Diagnostic {
-    Diagnostic::error(Stage::Source, Text::new(&*message.en, &*message.ja))
+    Diagnostic::error(DiagnosticStage::Source, Text::new(&*message.en, &*message.ja))
 }

@@ -19,7 +19,7 @@ fn accept(bytes: impl AsRef<[u8]>) -> Source {
     read("a.vert", bytes.as_ref()).unwrap_or_else(|refusal| panic!("{:?}", refusal.diagnostics))
 }
 
-fn refuse(bytes: impl AsRef<[u8]>) -> Refusal {
+fn refuse(bytes: impl AsRef<[u8]>) -> SourceRefusal {
     *read("a.vert", bytes.as_ref()).expect_err("the file must be refused")
 }
 

@@ -2,11 +2,11 @@
 //!
 //! A driver says of it what it likes, without a line, and takes a fragment stage that reads what nobody writes.
 
-use super::entry::Attribute;
+use super::entry::StageVariable;
 use super::interface::place;
 use super::module::Shader;
-use super::{Refusal, spirv::Interpolation};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::{TranslationRefusal, spirv::InputInterpolation};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::Source;
 
@@ -14,17 +14,22 @@ use crate::source::Source;
 const FREE_INTERPOLATION: i32 = 440;
 
 /// Holds the inputs of the fragment stage against the outputs of the vertex stage, at GLSL version `version`.
-pub(super) fn check(vertex: &Shader, fragment: &Shader, source: &Source, version: i32) -> Result<(), Refusal> {
+pub(super) fn check(
+    vertex: &Shader,
+    fragment: &Shader,
+    source: &Source,
+    version: i32,
+) -> Result<(), TranslationRefusal> {
     let mut errors: Vec<Diagnostic> =
         fragment.inputs.iter().filter_map(|input| error(input, &vertex.outputs, source, version)).collect();
     // Columns and elements of one variable stand in one place, and are wrong together.
     errors.dedup_by_key(|error| (error.line, error.column));
-    if errors.is_empty() { Ok(()) } else { Err(Refusal::Rejected(errors)) }
+    if errors.is_empty() { Ok(()) } else { Err(TranslationRefusal::Rejected(errors)) }
 }
 
-fn error(input: &Attribute, outputs: &[Attribute], source: &Source, version: i32) -> Option<Diagnostic> {
+fn error(input: &StageVariable, outputs: &[StageVariable], source: &Source, version: i32) -> Option<Diagnostic> {
     let name = &input.name;
-    let at = |message| Some(place(Diagnostic::error(Stage::Link, message), source, name));
+    let at = |message| Some(place(Diagnostic::error(DiagnosticStage::Link, message), source, name));
     let Some(output) = outputs.iter().find(|output| output.name == *name) else {
         let diagnostic = at(Text::new(
             format!("The fragment shader reads `{name}`, and the vertex shader has no output of this name."),
@@ -47,11 +52,11 @@ fn error(input: &Attribute, outputs: &[Attribute], source: &Source, version: i32
         ));
     }
     let differs = version < FREE_INTERPOLATION && output.qualifiers != input.qualifiers;
-    let of = |attribute: &Attribute| {
+    let of = |attribute: &StageVariable| {
         let interpolation = match attribute.qualifiers.interpolation {
-            Interpolation::Smooth => "",
-            Interpolation::NoPerspective => "noperspective",
-            Interpolation::Flat => "flat",
+            InputInterpolation::Smooth => "",
+            InputInterpolation::NoPerspective => "noperspective",
+            InputInterpolation::Flat => "flat",
         };
         let centroid = if attribute.qualifiers.centroid { "centroid" } else { "" };
         let words: Vec<&str> = [interpolation, centroid].into_iter().filter(|word| !word.is_empty()).collect();

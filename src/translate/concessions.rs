@@ -1,8 +1,8 @@
 //! What this compiler refuses and drivers take: the text is changed so that it takes it too.
 
-use super::log::{self, Entry};
-use super::{Refusal, spirv, text, unsupported};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::log::{self, LogEntry};
+use super::{TranslationRefusal, spirv, text, unsupported};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::ffi::glslang::CompilerOutput;
 use crate::language::Text;
 use crate::source::Source;
@@ -102,7 +102,7 @@ fn old_lookups(code: &str) -> Vec<(usize, &str)> {
 }
 
 /// What neither the compiler takes nor anything else says: an old lookup that drivers have no more, or that has no other name.
-pub(super) fn refuse_old_lookups(source: &Source) -> Result<(), Refusal> {
+pub(super) fn refuse_old_lookups(source: &Source) -> Result<(), TranslationRefusal> {
     let code = source.code();
     let is_gone = source.version() >= NO_OLD_LOOKUPS;
     let found = old_lookups(code).into_iter().find(|(_, word)| is_gone || lookup_of_today(word).is_none());
@@ -116,8 +116,9 @@ pub(super) fn refuse_old_lookups(source: &Source) -> Result<(), Refusal> {
         format!("この GLSL のバージョンに関数 `{word}` はありません。"),
     );
     let hint = Text::new(format!("Its name is `{today}`."), format!("`{today}` と書きます。"));
-    let error = Diagnostic::error(Stage::Compile, message).hint(hint).at(line, Some(column)).spanning(word.len());
-    Err(Refusal::Rejected(vec![error]))
+    let error =
+        Diagnostic::error(DiagnosticStage::Compile, message).hint(hint).at(line, Some(column)).spanning(word.len());
+    Err(TranslationRefusal::Rejected(vec![error]))
 }
 
 /// The text with the lookups of today, each on as many columns, and a warning for the first.
@@ -138,12 +139,12 @@ pub(super) fn with_lookups_of_today(text: String, source: &Source) -> (String, O
         ),
     );
     let (line, column) = source.position(*at);
-    (renewed, Some(Diagnostic::warning(Stage::Compile, message).at(line, Some(column)).spanning(word.len())))
+    (renewed, Some(Diagnostic::warning(DiagnosticStage::Compile, message).at(line, Some(column)).spanning(word.len())))
 }
 
 impl Granted {
     /// A `;` outside functions that ends nothing.
-    fn semicolon(&mut self, entry: &Entry<'_>, source: &Source) {
+    fn semicolon(&mut self, entry: &LogEntry<'_>, source: &Source) {
         let Some(at) = offset(&self.text, entry).filter(|&at| self.text.as_bytes().get(at) == Some(&b';')) else {
             return;
         };
@@ -153,7 +154,7 @@ impl Granted {
             "この `;` は余分です。GLSL 4.60 より前の規格に厳密なドライバではエラーになります。",
         );
         let (line, column) = source.position(at);
-        self.warnings.push(Diagnostic::warning(Stage::Compile, message).at(line, Some(column)));
+        self.warnings.push(Diagnostic::warning(DiagnosticStage::Compile, message).at(line, Some(column)));
     }
 
     fn continuations(&mut self, source: &Source) {
@@ -165,7 +166,7 @@ impl Granted {
             "行末の `\\` による行の継続は GLSL 4.20 以降の機能です。この `#version` に厳密なドライバではエラーになります。",
         );
         let first = (1..=source.line_count()).find(|&number| source.code_line(number).ends_with('\\'));
-        let warning = Diagnostic::warning(Stage::Compile, message);
+        let warning = Diagnostic::warning(DiagnosticStage::Compile, message);
         self.warnings.push(match first {
             Some(line) => warning.at(line, Some(source.code_line(line).chars().count() as u32)),
             None => warning,
@@ -189,7 +190,7 @@ impl Granted {
 }
 
 /// Where an entry points, in bytes.
-fn offset(text: &str, entry: &Entry<'_>) -> Option<usize> {
+fn offset(text: &str, entry: &LogEntry<'_>) -> Option<usize> {
     let (line, column) = entry.place?;
     let before: usize = text.split_inclusive('\n').take((line as usize).checked_sub(1)?).map(str::len).sum();
     Some(before + (column as usize).checked_sub(1)?)

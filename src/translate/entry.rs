@@ -17,8 +17,8 @@ mod parts;
 mod vertex;
 
 pub(super) use inputs::{leave_unset, locate};
-pub use parts::Attribute;
-pub(super) use parts::{Part, is_input, parts};
+pub use parts::StageVariable;
+pub(super) use parts::{AttributePart, is_input, parts};
 
 use super::build::Build;
 use super::fuel::{self, Gauge};
@@ -45,7 +45,7 @@ pub(super) struct Hooks {
 }
 
 /// Rebuilds the only entry point of a vertex stage. `inputs` are what the program feeds, `outputs` what is captured.
-pub(super) fn rebuild_vertex(module: &mut Module, inputs: &[Part], outputs: &[Part], hooks: &Hooks) {
+pub(super) fn rebuild_vertex(module: &mut Module, inputs: &[AttributePart], outputs: &[AttributePart], hooks: &Hooks) {
     let mut entry = module.entry_points.remove(0);
     vertex::rebuild(module, &mut entry.function, inputs, outputs, hooks);
     entry.name = "main".into();
@@ -56,8 +56,8 @@ pub(super) fn rebuild_vertex(module: &mut Module, inputs: &[Part], outputs: &[Pa
 /// stage reads that. A stage without hooks is trusted.
 pub(super) fn rebuild_fragment(
     module: &mut Module,
-    inputs: &[Part],
-    outputs: &[Part],
+    inputs: &[AttributePart],
+    outputs: &[AttributePart],
     hooks: Option<&Hooks>,
 ) -> Option<u32> {
     let mut entry = module.entry_points.remove(0);

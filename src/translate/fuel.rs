@@ -20,7 +20,7 @@ pub(super) use tank::run;
 pub(super) use total::settle;
 
 use super::gate::{Costs, each_statement};
-use super::spirv::{Lines, OURS};
+use super::spirv::{LineTable, OURS};
 use naga::{
     AddressSpace, Block, Expression, Function, GlobalVariable, Handle, Module, Scalar, Span, Statement, Type, TypeInner,
 };
@@ -43,7 +43,7 @@ pub const CUT: u32 = u32::MAX;
 
 /// A loop that takes fuel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Meter {
+pub struct LoopFuel {
     /// Its line in the student's file.
     pub line: Option<u32>,
     /// How many of its turns empty a full tank.
@@ -63,7 +63,12 @@ pub(super) struct Gauge {
 /// the counters; none where there is no loop.
 ///
 /// `words` are those that the module was made from, with their lines.
-pub(super) fn meter(module: &mut Module, costs: &Costs, words: &[u32], lines: &Lines) -> (Vec<Meter>, Option<Gauge>) {
+pub(super) fn meter(
+    module: &mut Module,
+    costs: &Costs,
+    words: &[u32],
+    lines: &LineTable,
+) -> (Vec<LoopFuel>, Option<Gauge>) {
     let u32_type = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
     let mut counter = |name: &str| {
         let variable = GlobalVariable {

@@ -18,24 +18,24 @@ pub(super) use cost::{Costs, each_statement};
 pub(super) use storage::check_words;
 pub(super) use text::check_text;
 
-use super::Refusal;
-use crate::diagnostic::{Diagnostic, Stage};
+use super::TranslationRefusal;
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 
 /// The answer to a `switch` whose cases run into one another at length; the translator needs each by itself.
-pub(super) fn too_many_cases(line: Option<u32>) -> Refusal {
+pub(super) fn too_many_cases(line: Option<u32>) -> TranslationRefusal {
     let message = Text::new(
         "the cases of this `switch` run into one another, and each written out with all that it runs into, they are too \
          long (limit of the grader)",
         "この `switch` では case が次の case に続いています。続く文をそれぞれの case に書き足すと長くなりすぎます \
          (採点システムの上限)",
     );
-    stopped(Stage::Compile, line, message)
+    stopped(DiagnosticStage::Compile, line, message)
 }
 
 /// The answer to a file that exceeds a bound.
-fn stopped(stage: Stage, line: Option<u32>, message: Text) -> Refusal {
-    Refusal::Stopped(vec![placed(Diagnostic::error(stage, message), line)])
+fn stopped(stage: DiagnosticStage, line: Option<u32>, message: Text) -> TranslationRefusal {
+    TranslationRefusal::Stopped(vec![placed(Diagnostic::error(stage, message), line)])
 }
 
 fn placed(diagnostic: Diagnostic, line: Option<u32>) -> Diagnostic {

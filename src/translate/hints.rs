@@ -24,10 +24,10 @@ mod types;
 mod vocabulary;
 
 pub use directives::{missing_version, refused_line_directive, without_line_directives};
-pub use file::File;
+pub use file::HintContext;
 pub use overlooked::overlooked_errors;
 
-use super::log::Entry;
+use super::log::LogEntry;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Text;
 use std::ops::Range;
@@ -35,9 +35,9 @@ pub use tokens::Lexeme;
 
 /// A message of the compiler with its place in the file.
 #[derive(Clone, Debug)]
-pub struct Finding<'e, 'a> {
+pub struct CompilerMessage<'e, 'a> {
     /// The message.
-    pub entry: &'e Entry<'a>,
+    pub entry: &'e LogEntry<'a>,
     /// Index of the code token that it is about; the number of tokens for the end of the file.
     pub index: usize,
     /// Index of the first token of the statement around it.
@@ -46,7 +46,7 @@ pub struct Finding<'e, 'a> {
     pub unknown_function: bool,
 }
 
-impl Finding<'_, '_> {
+impl CompilerMessage<'_, '_> {
     /// Whether a real driver refuses the file for this too.
     pub fn is_error(&self) -> bool {
         self.entry.is_error && !matches!(self.entry.token, "line continuation" | "extraneous semicolon")
@@ -61,7 +61,7 @@ impl Finding<'_, '_> {
     }
 
     /// Whether it follows from `earlier`, wherever that stands.
-    pub fn follows_from(&self, earlier: &Finding<'_, '_>) -> bool {
+    pub fn follows_from(&self, earlier: &CompilerMessage<'_, '_>) -> bool {
         let (before, now) = (earlier.entry, self.entry);
         let undeclared = before.message.starts_with("undeclared identifier") && before.token == now.token;
         // The compiler declares a name that it missed, and a declaration further down is then the second.
@@ -89,7 +89,7 @@ impl Finding<'_, '_> {
     }
 
     /// Whether the parser gave up at `syntax` because of this.
-    pub fn explains_syntax_error(&self, file: &File<'_>, syntax: &Finding<'_, '_>) -> bool {
+    pub fn explains_syntax_error(&self, file: &HintContext<'_>, syntax: &CompilerMessage<'_, '_>) -> bool {
         let before = syntax.index.checked_sub(1);
         self.is_alien()
             || self.entry.message.starts_with("Reserved word")
@@ -100,7 +100,7 @@ impl Finding<'_, '_> {
 }
 
 /// Finds the place that `entry` is about.
-pub fn find<'e, 'a>(file: &File<'a>, entry: &'e Entry<'a>) -> Finding<'e, 'a> {
+pub fn find<'e, 'a>(file: &HintContext<'a>, entry: &'e LogEntry<'a>) -> CompilerMessage<'e, 'a> {
     let index = match entry.place {
         Some((line, column)) if entry.is_syntax_error() => {
             syntax::unexpected_token(file, entry, file.offset(line, column))
@@ -110,26 +110,29 @@ pub fn find<'e, 'a>(file: &File<'a>, entry: &'e Entry<'a>) -> Finding<'e, 'a> {
     };
     let unknown_function =
         entry.message.starts_with("no matching overloaded") && !names::is_callable(file, entry.token);
-    Finding { entry, index, statement: file.statement(index), unknown_function }
+    CompilerMessage { entry, index, statement: file.statement(index), unknown_function }
 }
 
 /// The index of the `}` that ended a function too early, where the parser gave up for that.
-pub fn stray_brace(file: &File<'_>, syntax: &Finding<'_, '_>) -> Option<usize> {
+pub fn stray_brace(file: &HintContext<'_>, syntax: &CompilerMessage<'_, '_>) -> Option<usize> {
     brackets::stray_brace(file, syntax.index)
 }
 
 /// The words of the statement that `finding` is about.
-pub fn statement_words<'a>(file: &File<'a>, finding: &Finding<'_, '_>) -> impl Iterator<Item = &'a str> {
+pub fn statement_words<'a>(file: &HintContext<'a>, finding: &CompilerMessage<'_, '_>) -> impl Iterator<Item = &'a str> {
     file.code[statement_range(file, finding)].iter().map(|token| token.text)
 }
 
 /// The names that the statement around `finding` declares.
-pub fn declared_in_statement<'a>(file: &File<'a>, finding: &Finding<'_, '_>) -> impl Iterator<Item = &'a str> {
+pub fn declared_in_statement<'a>(
+    file: &HintContext<'a>,
+    finding: &CompilerMessage<'_, '_>,
+) -> impl Iterator<Item = &'a str> {
     let statement = statement_range(file, finding);
     file.declarations.iter().filter(move |d| statement.contains(&d.index)).map(|d| d.name)
 }
 
-fn statement_range(file: &File<'_>, finding: &Finding<'_, '_>) -> Range<usize> {
+fn statement_range(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Range<usize> {
     let start = finding.statement.min(file.code.len());
     let ends = |token: &Lexeme<'_>| matches!(token.text, ";" | "{" | "}");
     let end = file.code[start..].iter().position(ends).map_or(file.code.len(), |length| start + length);
@@ -137,7 +140,7 @@ fn statement_range(file: &File<'_>, finding: &Finding<'_, '_>) -> Range<usize> {
 }
 
 /// Puts an error into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     directives::explain(file, finding)
         .or_else(|| syntax::explain(file, finding))
         .or_else(|| names::explain(file, finding))
@@ -147,12 +150,12 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 }
 
 /// Puts a warning into words, if it matters to a student.
-pub fn warn(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn warn(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let diagnostic = disallowed::warn(file, finding)?;
     Some(Diagnostic { severity: Severity::Warning, ..diagnostic })
 }
 
-fn in_the_compilers_words(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn in_the_compilers_words(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let words = finding.entry.message.trim_end_matches([':', '.', ' ']);
     let text = match finding.entry.token {
         "" => Text::new(
@@ -170,6 +173,6 @@ fn in_the_compilers_words(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnos
             Some(token) if file.line(token.start) == line => file.error_at(finding.index, text),
             _ => file.error(file.offset(line, column), 1, text),
         },
-        None => Diagnostic::error(crate::diagnostic::Stage::Compile, text),
+        None => Diagnostic::error(crate::diagnostic::DiagnosticStage::Compile, text),
     }
 }

@@ -1,8 +1,8 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
-use super::spirv::{Alike, Declared};
-use super::{Refusal, Shader};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::spirv::{CommonTexture, DeclaredUniform};
+use super::{Shader, TranslationRefusal};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::source::Source;
@@ -21,7 +21,7 @@ pub struct Variable {
 
 /// The interface between the assignment's program and the student's vertex shader.
 #[derive(Clone, Debug)]
-pub struct Interface {
+pub struct LinkedInterface {
     /// Vertex attributes.
     pub inputs: Vec<Variable>,
     /// Uniforms of the default block.
@@ -35,10 +35,10 @@ pub struct Interface {
     /// The line with `#version` of what is handed out.
     pub version: String,
     /// What all textures have in common, where they do.
-    pub alike: Option<Alike>,
+    pub alike: Option<CommonTexture>,
 }
 
-impl Interface {
+impl LinkedInterface {
     /// What the program of an assignment feeds and takes. The fixed fragment stage is empty where that is handed in.
     pub fn of(assignment: &Assignment) -> Result<Self, Fault> {
         let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
@@ -66,7 +66,7 @@ impl Interface {
                 .unwrap_or("#version 410 core")
                 .trim()
                 .to_owned(),
-            alike: Alike::of(&assignment.textures),
+            alike: CommonTexture::of(&assignment.textures),
             fragment: CString::new(fixed).map_err(|_| broken("a NUL in the fixed stage"))?,
         })
     }
@@ -80,7 +80,7 @@ impl Interface {
     }
 }
 
-impl Declared {
+impl DeclaredUniform {
     /// Whether the program sets this part by `path`; an array without an index is its first element.
     fn is_at(&self, path: &str) -> bool {
         let is_it = |own: &str| own == path || own.strip_suffix("[0]") == Some(path);
@@ -113,7 +113,11 @@ impl Declared {
 ///
 /// # Errors
 /// A uniform or attribute of the program's that the shader declares with a type it cannot be fed with.
-pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> Result<Vec<Diagnostic>, Refusal> {
+pub(super) fn check(
+    shader: &Shader,
+    source: &Source,
+    interface: &LinkedInterface,
+) -> Result<Vec<Diagnostic>, TranslationRefusal> {
     let mut errors = Vec::new();
     let mut notes = Vec::new();
     let mut noted: Vec<&str> = Vec::new();
@@ -147,13 +151,13 @@ pub(super) fn check(shader: &Shader, source: &Source, interface: &Interface) -> 
             errors.push(wrong_type(source, "in", expected, &attribute.ty));
         }
     }
-    if errors.is_empty() { Ok(notes) } else { Err(Refusal::Rejected(errors)) }
+    if errors.is_empty() { Ok(notes) } else { Err(TranslationRefusal::Rejected(errors)) }
 }
 
 fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &str) -> Diagnostic {
     let Variable { name, ty } = expected;
     let diagnostic = Diagnostic::error(
-        Stage::Interface,
+        DiagnosticStage::Interface,
         Text::new(
             format!("`{name}` is declared as `{declared}`, but the program passes a `{ty}`"),
             format!("`{name}` が `{declared}` と宣言されていますが、プログラムが渡すのは `{ty}` です"),
@@ -169,10 +173,10 @@ fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &
     ))
 }
 
-fn unset_uniform(source: &Source, name: &str, interface: &Interface) -> Diagnostic {
+fn unset_uniform(source: &Source, name: &str, interface: &LinkedInterface) -> Diagnostic {
     let known: Vec<_> = interface.uniforms.iter().map(|uniform| format!("`{}`", uniform.name)).collect();
     let diagnostic = Diagnostic::warning(
-        Stage::Interface,
+        DiagnosticStage::Interface,
         Text::new(
             format!("the program never sets the uniform `{name}`: it keeps its initial value, 0 where there is none"),
             format!("uniform 変数 `{name}` にはプログラムから値が渡されません。初期値 (なければ 0) のままになります"),

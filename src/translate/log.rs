@@ -1,7 +1,7 @@
 //! The compiler's log → diagnostics: the cause first, at its own line, in words for a student.
 
-use super::Interface;
-use super::hints::{self, File, Finding};
+use super::LinkedInterface;
+use super::hints::{self, CompilerMessage, HintContext};
 use crate::diagnostic::{Diagnostic, Severity};
 
 /// No reader fixes more than this at a time; a hostile file can cause thousands.
@@ -12,7 +12,7 @@ const MAX_ENTRIES: usize = 100;
 
 /// One message of the compiler.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Entry<'a> {
+pub struct LogEntry<'a> {
     /// Whether it refuses the file.
     pub is_error: bool,
     /// Line, and column in bytes, both from 1, where it names a place.
@@ -25,7 +25,7 @@ pub struct Entry<'a> {
     pub more: Vec<&'a str>,
 }
 
-impl Entry<'_> {
+impl LogEntry<'_> {
     /// Whether this is where the parser gave up.
     pub fn is_syntax_error(&self) -> bool {
         self.message.starts_with("syntax error")
@@ -33,8 +33,8 @@ impl Entry<'_> {
 }
 
 /// Reads a log, without its sums.
-pub fn entries(log: &str) -> Vec<Entry<'_>> {
-    let mut all: Vec<Entry<'_>> = Vec::new();
+pub fn entries(log: &str) -> Vec<LogEntry<'_>> {
+    let mut all: Vec<LogEntry<'_>> = Vec::new();
     for line in log.lines() {
         let error = line.strip_prefix("ERROR: ");
         match error.or_else(|| line.strip_prefix("WARNING: ")) {
@@ -50,10 +50,10 @@ pub fn entries(log: &str) -> Vec<Entry<'_>> {
     all
 }
 
-fn entry(rest: &str, is_error: bool) -> Entry<'_> {
+fn entry(rest: &str, is_error: bool) -> LogEntry<'_> {
     let (place, rest) = place(rest).map_or((None, rest), |(place, rest)| (Some(place), rest));
     let (token, message) = rest.strip_prefix('\'').and_then(|quoted| quoted.split_once("' : ")).unwrap_or(("", rest));
-    Entry { is_error, place, token, message: message.trim(), more: Vec::new() }
+    LogEntry { is_error, place, token, message: message.trim(), more: Vec::new() }
 }
 
 /// Reads `0:LINE:COLUMN: `; the first number is that of the text, which `#line` can change.
@@ -72,15 +72,15 @@ pub fn stage_diagnostics(
     log: &str,
     text: &str,
     implied_version: Option<i32>,
-    interface: &Interface,
+    interface: &LinkedInterface,
 ) -> Vec<Diagnostic> {
     let mut entries = entries(log);
     // The parser's giving up is the last error, and tells most about the ones before it.
-    let syntax = entries.iter().position(Entry::is_syntax_error).filter(|&at| at >= MAX_ENTRIES);
+    let syntax = entries.iter().position(LogEntry::is_syntax_error).filter(|&at| at >= MAX_ENTRIES);
     let last = syntax.map(|at| entries.swap_remove(at));
     entries.truncate(MAX_ENTRIES);
     entries.extend(last);
-    let file = File::new(text, interface);
+    let file = HintContext::new(text, interface);
     if entries.iter().any(|entry| entry.is_error)
         && implied_version.is_none()
         && let Some(missing) = hints::missing_version(&file)
@@ -92,7 +92,7 @@ pub fn stage_diagnostics(
     if chosen.is_empty() {
         chosen.extend(findings.iter().find(|finding| finding.is_error()));
     }
-    let is_error = |finding: &&&Finding<'_, '_>| finding.is_error();
+    let is_error = |finding: &&&CompilerMessage<'_, '_>| finding.is_error();
     let errors: Vec<_> = chosen.iter().filter(is_error).map(|finding| hints::explain(&file, finding)).collect();
     let warnings =
         findings.iter().filter(|finding| !finding.is_error()).filter_map(|finding| hints::warn(&file, finding));
@@ -109,18 +109,21 @@ pub fn stage_diagnostics(
 }
 
 /// The errors that are causes: those that follow from another are left out.
-fn causes<'f, 'e, 'a>(file: &File<'a>, findings: &'f [Finding<'e, 'a>]) -> Vec<&'f Finding<'e, 'a>> {
+fn causes<'f, 'e, 'a>(
+    file: &HintContext<'a>,
+    findings: &'f [CompilerMessage<'e, 'a>],
+) -> Vec<&'f CompilerMessage<'e, 'a>> {
     let errors: Vec<_> = findings.iter().filter(|finding| finding.is_error()).collect();
     if let Some(first) = errors.iter().find(|finding| finding.ends_everything()) {
         return vec![first];
     }
     let syntax = errors.iter().find(|finding| finding.entry.is_syntax_error());
     let stray = syntax.and_then(|syntax| hints::stray_brace(file, syntax));
-    let mut kept: Vec<&Finding<'_, '_>> = Vec::new();
+    let mut kept: Vec<&CompilerMessage<'_, '_>> = Vec::new();
     // Names whose declaration is wrong: what is said about their use follows from that.
     let mut tainted: Vec<&str> = Vec::new();
     for &finding in &errors {
-        let same = |other: &&Finding<'_, '_>| other.statement == finding.statement;
+        let same = |other: &&CompilerMessage<'_, '_>| other.statement == finding.statement;
         let earlier = kept.iter().copied().find(same);
         let outside = stray.is_some_and(|brace| finding.index > brace && !finding.entry.is_syntax_error());
         let follows = if outside || kept.iter().any(|other| finding.follows_from(other)) {
@@ -128,7 +131,7 @@ fn causes<'f, 'e, 'a>(file: &File<'a>, findings: &'f [Finding<'e, 'a>]) -> Vec<&
         } else if finding.entry.is_syntax_error() {
             earlier.is_some_and(|earlier| earlier.explains_syntax_error(file, finding))
         } else if finding.stands_alone() {
-            let again = |other: &&Finding<'_, '_>| other.is_alien() || other.entry.token == finding.entry.token;
+            let again = |other: &&CompilerMessage<'_, '_>| other.is_alien() || other.entry.token == finding.entry.token;
             kept.iter().copied().any(|other| same(&other) && other.stands_alone() && again(&other))
         } else {
             earlier.is_some()
@@ -145,8 +148,8 @@ fn causes<'f, 'e, 'a>(file: &File<'a>, findings: &'f [Finding<'e, 'a>]) -> Vec<&
 }
 
 /// What the compiler's log of linking says about the vertex shader `text`.
-pub fn link_diagnostics(log: &str, text: &str, interface: &Interface) -> Vec<Diagnostic> {
-    let file = File::new(text, interface);
+pub fn link_diagnostics(log: &str, text: &str, interface: &LinkedInterface) -> Vec<Diagnostic> {
+    let file = HintContext::new(text, interface);
     let mut all: Vec<_> =
         entries(log).iter().filter(|entry| entry.is_error).map(|entry| hints::link::explain(&file, entry)).collect();
     all.dedup();

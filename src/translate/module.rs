@@ -1,12 +1,12 @@
 //! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
 
-use super::entry::{self, Attribute, CAPTURE_SLOT, Part};
-use super::fuel::{self, Meter};
+use super::entry::{self, AttributePart, CAPTURE_SLOT, StageVariable};
+use super::fuel::{self, LoopFuel};
 use super::gate::{self, Costs};
 use super::opaque;
-use super::spirv::{self, Lines, Reworked, Uniforms, Unworkable};
+use super::spirv::{self, LineTable, Reworked, UniformVariables, Unworkable};
 use super::undefined;
-use super::{Interface, Refusal};
+use super::{LinkedInterface, TranslationRefusal};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::Stage;
@@ -16,7 +16,7 @@ use naga::{AddressSpace, Handle, Module, ResourceBinding, Type, TypeInner};
 
 /// A scalar, vector or matrix in a block of uniforms.
 #[derive(Clone, Debug)]
-pub struct Uniform {
+pub struct UniformMember {
     /// Its path, such as `lights[1].colour` or, in a named block, `Light.ambient`.
     pub path: String,
     /// Its path without the block's name, where the block has no instance name.
@@ -27,7 +27,7 @@ pub struct Uniform {
     pub ty: TypeInner,
 }
 
-impl Uniform {
+impl UniformMember {
     /// The paths by which the program may set it.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
         [Some(self.path.as_str()), self.alias.as_deref()].into_iter().flatten()
@@ -44,7 +44,7 @@ pub struct UniformBlock {
     /// Whether it is OpenGL's default block, whose members the program sets by name.
     pub is_default: bool,
     /// Its members.
-    pub members: Vec<Uniform>,
+    pub members: Vec<UniformMember>,
 }
 
 /// A stage that wgpu can run.
@@ -55,10 +55,10 @@ pub struct Shader {
     /// The module; its entry point is `main`.
     pub module: Module,
     /// What it is fed, at locations from 0 on.
-    pub inputs: Vec<Attribute>,
+    pub inputs: Vec<StageVariable>,
     /// What it hands over: a vertex stage in the slots of a captured record behind the position, a fragment stage to the
     /// targets of their locations.
-    pub outputs: Vec<Attribute>,
+    pub outputs: Vec<StageVariable>,
     /// Whether it is the homework's own, which nothing watches.
     pub is_fixed: bool,
     /// The location of what is to be added to `gl_FragCoord`, where a fragment stage reads that.
@@ -68,11 +68,11 @@ pub struct Shader {
     /// Whether it reads textures, which are bound at [`TEXTURES`](super::TEXTURES).
     pub reads_textures: bool,
     /// Its uniforms as its text declares them.
-    pub(super) known: Uniforms,
+    pub(super) known: UniformVariables,
     /// From a span of the module to the line of the student's file.
-    pub lines: Lines,
+    pub lines: LineTable,
     /// Its loops, numbered from 1 where the capture's header names one.
-    pub meters: Vec<Meter>,
+    pub meters: Vec<LoopFuel>,
     /// What the compiler wrote.
     written: Vec<u32>,
 }
@@ -80,13 +80,13 @@ pub struct Shader {
 impl Shader {
     /// The same shader, but where its text leaves a result undefined (see [`super::undefined`]) it computes a number that
     /// shows in whatever depends on it.
-    pub fn poisoned(&self, source: &Source, interface: &Interface) -> Result<Self, Refusal> {
+    pub fn poisoned(&self, source: &Source, interface: &LinkedInterface) -> Result<Self, TranslationRefusal> {
         build(self.written.clone(), source, interface, self.as_built(true))
     }
 
     /// The module as the compiler wrote it, without fuel, capture and whatever else ggrade adds: to measure what they cost.
     /// Its attributes have locations in the interface's order, its output location 0, its uniforms binding 0 of group 0.
-    pub fn plain(&self, interface: &Interface) -> Result<Module, Fault> {
+    pub fn plain(&self, interface: &LinkedInterface) -> Result<Module, Fault> {
         let how = spirv::How { set: &interface.set_uniforms(), ..spirv::How::default() };
         let mut module = parse(&spirv::rework(&self.written, how).map_err(damaged)?.words)?;
         bind_uniforms(&mut module);
@@ -144,7 +144,12 @@ pub(super) struct Built {
 }
 
 /// Makes the module. A fault here is our limit, not the student's.
-pub(super) fn build(written: Vec<u32>, source: &Source, interface: &Interface, how: Built) -> Result<Shader, Refusal> {
+pub(super) fn build(
+    written: Vec<u32>,
+    source: &Source,
+    interface: &LinkedInterface,
+    how: Built,
+) -> Result<Shader, TranslationRefusal> {
     let has_textures = interface.uniforms.iter().any(|uniform| uniform.ty.contains("sampler"));
     let (set, alike) = (&interface.set_uniforms(), interface.alike);
     let rework = spirv::How { set, has_textures, alike, is_split: true, poisons: how.poisons };
@@ -165,13 +170,13 @@ pub(super) fn build(written: Vec<u32>, source: &Source, interface: &Interface, h
     let shift = match how.stage {
         Stage::Vertex => {
             entry::leave_unset(&mut module, &inputs);
-            let is_fed = |part: &Part| {
+            let is_fed = |part: &AttributePart| {
                 let name = &part.attribute.name;
                 interface.inputs.iter().any(|input| input.name == *name)
             };
             inputs.retain(is_fed);
             if let Some(wanted) = &how.outputs {
-                let place = |part: &Part| wanted.iter().position(|name| *name == part.attribute.name);
+                let place = |part: &AttributePart| wanted.iter().position(|name| *name == part.attribute.name);
                 outputs.retain(|part| place(part).is_some());
                 outputs.sort_by_key(place);
             }
@@ -185,7 +190,7 @@ pub(super) fn build(written: Vec<u32>, source: &Source, interface: &Interface, h
         }
     };
     let uniforms = bind_uniforms(&mut module);
-    let mut inputs: Vec<Attribute> = inputs.into_iter().map(|part| part.attribute).collect();
+    let mut inputs: Vec<StageVariable> = inputs.into_iter().map(|part| part.attribute).collect();
     // The compiler's automatic locations may collide with the student's own.
     (0..).zip(&mut inputs).for_each(|(location, input)| input.location = location);
     let outputs = outputs.into_iter().map(|part| part.attribute).collect();
@@ -207,7 +212,7 @@ pub(super) fn build(written: Vec<u32>, source: &Source, interface: &Interface, h
     Ok(shader)
 }
 
-fn refusal(unworkable: Unworkable) -> Refusal {
+fn refusal(unworkable: Unworkable) -> TranslationRefusal {
     match unworkable {
         Unworkable::Damaged => damaged(unworkable).into(),
         Unworkable::Cases(line) => gate::too_many_cases(line),
@@ -281,7 +286,13 @@ fn block(types: &naga::UniqueArena<Type>, variable: &naga::GlobalVariable, bindi
 }
 
 /// The scalars, vectors and matrices that a type consists of.
-fn leaves(types: &naga::UniqueArena<Type>, ty: Handle<Type>, path: String, offset: u32, found: &mut Vec<Uniform>) {
+fn leaves(
+    types: &naga::UniqueArena<Type>,
+    ty: Handle<Type>,
+    path: String,
+    offset: u32,
+    found: &mut Vec<UniformMember>,
+) {
     match &types[ty].inner {
         TypeInner::Struct { members, .. } => {
             for member in members {
@@ -294,6 +305,6 @@ fn leaves(types: &naga::UniqueArena<Type>, ty: Handle<Type>, path: String, offse
                 leaves(types, *base, format!("{path}[{index}]"), offset + index * stride, found);
             }
         }
-        inner => found.push(Uniform { path, alias: None, offset, ty: inner.clone() }),
+        inner => found.push(UniformMember { path, alias: None, offset, ty: inner.clone() }),
     }
 }

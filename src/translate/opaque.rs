@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 
 /// What a value hangs on; of two operands the greater decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Source {
+enum ValueSource {
     Constants,
     /// Uniforms, as far as is known here.
     Uniforms,
@@ -70,8 +70,8 @@ fn inputs(entry: &Function) -> HashSet<Handle<GlobalVariable>> {
 }
 
 /// What each expression of the function hangs on.
-fn sources(function: &Function, inputs: &HashSet<Handle<GlobalVariable>>) -> Vec<Source> {
-    let mut locals: HashMap<Handle<LocalVariable>, Source> = HashMap::new();
+fn sources(function: &Function, inputs: &HashSet<Handle<GlobalVariable>>) -> Vec<ValueSource> {
+    let mut locals: HashMap<Handle<LocalVariable>, ValueSource> = HashMap::new();
     loop {
         let mut sources = Vec::with_capacity(function.expressions.len());
         for (_, expression) in function.expressions.iter() {
@@ -79,9 +79,9 @@ fn sources(function: &Function, inputs: &HashSet<Handle<GlobalVariable>>) -> Vec
         }
         let before = locals.clone();
         super::gate::each_statement(&function.body, &mut |statement, _| {
-            let mut raise = |pointer, source: Source| {
+            let mut raise = |pointer, source: ValueSource| {
                 if let Some(local) = root(function, pointer) {
-                    let known = locals.entry(local).or_insert(Source::Constants);
+                    let known = locals.entry(local).or_insert(ValueSource::Constants);
                     *known = source.max(*known);
                 }
             };
@@ -90,7 +90,7 @@ fn sources(function: &Function, inputs: &HashSet<Handle<GlobalVariable>>) -> Vec
                     raise(*pointer, sources[value.index()].max(sources[pointer.index()]));
                 }
                 Statement::Call { arguments, .. } => {
-                    arguments.iter().for_each(|argument| raise(*argument, Source::Uniforms));
+                    arguments.iter().for_each(|argument| raise(*argument, ValueSource::Uniforms));
                 }
                 _ => {}
             }
@@ -103,16 +103,16 @@ fn sources(function: &Function, inputs: &HashSet<Handle<GlobalVariable>>) -> Vec
 
 fn source(
     expression: &Expression,
-    sources: &[Source],
-    locals: &HashMap<Handle<LocalVariable>, Source>,
+    sources: &[ValueSource],
+    locals: &HashMap<Handle<LocalVariable>, ValueSource>,
     inputs: &HashSet<Handle<GlobalVariable>>,
-) -> Source {
+) -> ValueSource {
     let of = |handle: &Handle<Expression>| sources[handle.index()];
     match expression {
-        Expression::Literal(_) | Expression::Constant(_) | Expression::ZeroValue(_) => Source::Constants,
-        Expression::GlobalVariable(variable) if inputs.contains(variable) => Source::Attributes,
-        Expression::LocalVariable(local) => locals.get(local).copied().unwrap_or(Source::Constants),
-        Expression::Compose { components, .. } => components.iter().map(of).max().unwrap_or(Source::Constants),
+        Expression::Literal(_) | Expression::Constant(_) | Expression::ZeroValue(_) => ValueSource::Constants,
+        Expression::GlobalVariable(variable) if inputs.contains(variable) => ValueSource::Attributes,
+        Expression::LocalVariable(local) => locals.get(local).copied().unwrap_or(ValueSource::Constants),
+        Expression::Compose { components, .. } => components.iter().map(of).max().unwrap_or(ValueSource::Constants),
         Expression::Access { base, index } => of(base).max(of(index)),
         Expression::AccessIndex { base, .. } => of(base),
         Expression::Splat { value, .. } => of(value),
@@ -128,7 +128,7 @@ fn source(
             .map(of)
             .max()
             .unwrap_or(of(arg)),
-        _ => Source::Uniforms,
+        _ => ValueSource::Uniforms,
     }
 }
 
@@ -144,7 +144,7 @@ fn root(function: &Function, mut pointer: Handle<Expression>) -> Option<Handle<L
 }
 
 struct Hide {
-    sources: Vec<Source>,
+    sources: Vec<ValueSource>,
     zero: Handle<GlobalVariable>,
     is_used: bool,
 }
@@ -196,7 +196,7 @@ impl Hide {
         block: &mut Block,
         condition: Handle<Expression>,
     ) -> Handle<Expression> {
-        if self.sources[condition.index()] != Source::Uniforms {
+        if self.sources[condition.index()] != ValueSource::Uniforms {
             return condition;
         }
         let mut build = Build::new(expressions);
@@ -216,7 +216,7 @@ impl Hide {
         selector: Handle<Expression>,
         is_signed: bool,
     ) -> Handle<Expression> {
-        if self.sources[selector.index()] != Source::Uniforms {
+        if self.sources[selector.index()] != ValueSource::Uniforms {
             return selector;
         }
         let mut build = Build::new(expressions);

@@ -1,8 +1,8 @@
 //! What the compiler takes and only some drivers do: it is graded, with a warning.
 
-use super::strict::{Statement, statements};
-use super::{Interface, text};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::strict::{CodeStatement, statements};
+use super::{LinkedInterface, text};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::Source;
 
@@ -16,7 +16,7 @@ const FREE_INVARIANCE: i32 = 420;
 const FREE_LOCATIONS: i32 = i32::MAX;
 
 /// The warnings about `source`, which the compiler accepts.
-pub(super) fn warnings(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
+pub(super) fn warnings(source: &Source, interface: &LinkedInterface) -> Vec<Diagnostic> {
     let version = source.version();
     let mut warnings: Vec<_> = version_line(source, version).into_iter().collect();
     warnings.extend(late_extension(source));
@@ -32,7 +32,7 @@ pub(super) fn warnings(source: &Source, interface: &Interface) -> Vec<Diagnostic
 
 fn warning(source: &Source, (at, word): (usize, &str), message: Text) -> Diagnostic {
     let (line, column) = source.position(at);
-    Diagnostic::warning(Stage::Compile, message).at(line, Some(column)).spanning(word.len())
+    Diagnostic::warning(DiagnosticStage::Compile, message).at(line, Some(column)).spanning(word.len())
 }
 
 /// The directives called `name`, each with the words behind that.
@@ -108,7 +108,7 @@ fn differs(qualifier: &str, output: &str) -> Text {
 }
 
 /// What stands before the output and not before the fragment shader's input.
-fn qualifier(source: &Source, statement: &Statement<'_>, version: i32, output: &str) -> Option<Diagnostic> {
+fn qualifier(source: &Source, statement: &CodeStatement<'_>, version: i32, output: &str) -> Option<Diagnostic> {
     let named = statement.position(output)?;
     let before = &statement.words[..named];
     let is_declaration = before.iter().any(|(_, word)| matches!(*word, "out" | "varying"));

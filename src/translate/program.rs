@@ -2,7 +2,8 @@
 
 use super::module::{self, Built, Shader};
 use super::{
-    Interface, Refusal, Submitted, Variable, boundary, check_text, first_pass, fixed, gate, interface, linked, text,
+    LinkedInterface, Submitted, TranslationRefusal, Variable, boundary, check_text, first_pass, fixed, gate, interface,
+    linked, text,
 };
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -12,14 +13,14 @@ use std::ffi::CString;
 
 /// A homework's program, whose other stages are handed in.
 #[derive(Clone, Debug)]
-pub struct Program {
-    interface: Interface,
-    fixed: Option<Fixed>,
+pub struct HomeworkProgram {
+    interface: LinkedInterface,
+    fixed: Option<LinkedFixedStage>,
 }
 
 /// A stage of the homework's own.
 #[derive(Clone, Debug)]
-struct Fixed {
+struct LinkedFixedStage {
     stage: Stage,
     text: CString,
     shader: Shader,
@@ -42,25 +43,25 @@ pub struct ProgramRefusal {
     /// The stage that it is about.
     pub stage: Stage,
     /// Why.
-    pub refusal: Refusal,
+    pub refusal: TranslationRefusal,
 }
 
-impl Program {
+impl HomeworkProgram {
     /// The program of a homework with this interface, whose `stage` is fixed as `text`; both are handed in where there is
     /// none.
-    pub fn new(interface: Interface, own: Option<(Stage, &str)>) -> Result<Self, Fault> {
+    pub fn new(interface: LinkedInterface, own: Option<(Stage, &str)>) -> Result<Self, Fault> {
         let Some((stage, text)) = own else { return Ok(Self { interface, fixed: None }) };
         let text = text::c_text(text);
         // The compiler's table of built-ins is made under OpenGL's rules.
         super::compiled(std::iter::once(StageText::plain(stage, &text)), &[]);
         let shader = fixed(stage, &text, &interface)?;
-        Ok(Self { interface, fixed: Some(Fixed { stage, text, shader }) })
+        Ok(Self { interface, fixed: Some(LinkedFixedStage { stage, text, shader }) })
     }
 
     /// Compiles, links and translates the stages that are handed in, vertex before fragment.
     pub fn translate(&self, sources: &[(Stage, &Source)]) -> Result<Linked, ProgramRefusal> {
-        let about = |stage| move |refusal: Refusal| ProgramRefusal { stage, refusal };
-        let interfaces: Vec<Interface> = sources.iter().map(|(stage, _)| self.seen_by(*stage)).collect();
+        let about = |stage| move |refusal: TranslationRefusal| ProgramRefusal { stage, refusal };
+        let interfaces: Vec<LinkedInterface> = sources.iter().map(|(stage, _)| self.seen_by(*stage)).collect();
         let mut stages = Vec::with_capacity(sources.len());
         for ((stage, source), interface) in sources.iter().zip(&interfaces) {
             check_text(source).map_err(about(*stage))?;
@@ -105,7 +106,7 @@ impl Program {
         Ok(Linked { vertex, fragment, diagnostics })
     }
 
-    fn build(one: &Submitted<'_>, read: Option<Vec<String>>) -> Result<Shader, Refusal> {
+    fn build(one: &Submitted<'_>, read: Option<Vec<String>>) -> Result<Shader, TranslationRefusal> {
         let spirv = one.second_pass()?;
         gate::check_words(&spirv, one.source, one.stage, &one.interface.set_uniforms())?;
         let how = Built { stage: one.stage, outputs: read, is_fixed: false, poisons: false };
@@ -137,7 +138,7 @@ impl Program {
     }
 
     /// The interface as a stage sees it: what the vertex stage hands over is fed to the fragment stage.
-    fn seen_by(&self, stage: Stage) -> Interface {
+    fn seen_by(&self, stage: Stage) -> LinkedInterface {
         let mut interface = self.interface.clone();
         if stage == Stage::Fragment {
             let written = self.fixed.iter().flat_map(|fixed| &fixed.shader.outputs);

@@ -19,16 +19,16 @@ mod tests;
 mod textures;
 mod walk;
 
-pub(super) use declared::Declared;
-pub(super) use globals::{DEFAULT_BLOCK, Uniforms};
+pub(super) use declared::DeclaredUniform;
+pub(super) use globals::{DEFAULT_BLOCK, UniformVariables};
 pub(super) use io::Io;
-pub use io::{Interpolation, Qualifiers};
+pub use io::{InputInterpolation, InterfaceQualifiers};
 pub(super) use poison::NEGATIVE;
 pub(super) use textures::OURS;
-pub use textures::{Alike, DESCRIPTION, TEXTURES, descriptions};
-pub(super) use walk::{Instruction, instructions, rename, text};
+pub use textures::{CommonTexture, DESCRIPTION, TEXTURES, descriptions};
+pub(super) use walk::{RawInstruction, instructions, rename, text};
 
-use code::Code;
+use code::SpirvCode;
 use std::collections::BTreeMap;
 
 /// What the compiler wrote, as naga's front end takes it.
@@ -36,9 +36,9 @@ pub(super) struct Reworked {
     /// The words, with the same meaning.
     pub words: Vec<u32>,
     /// Which line of the source each instruction comes from.
-    pub lines: Lines,
+    pub lines: LineTable,
     /// What became of the uniforms.
-    pub uniforms: Uniforms,
+    pub uniforms: UniformVariables,
     /// Inputs and outputs that are plain variables.
     pub io: Vec<Io>,
     /// Whether textures are read.
@@ -62,7 +62,7 @@ pub(super) struct How<'a> {
     /// Whether there are textures among them.
     pub has_textures: bool,
     /// What all textures have in common, where they do.
-    pub alike: Option<Alike>,
+    pub alike: Option<CommonTexture>,
     /// Whether inputs and outputs become plain variables.
     pub is_split: bool,
     /// Whether what is undefined becomes a number that shows.
@@ -83,8 +83,8 @@ pub(super) struct How<'a> {
 ///   there, and zero is the same each time.
 /// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
 pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable> {
-    let mut code = Code::parse(words).ok_or(Unworkable::Damaged)?;
-    let samplers = if how.has_textures { textures::Samplers::take(&mut code) } else { Default::default() };
+    let mut code = SpirvCode::parse(words).ok_or(Unworkable::Damaged)?;
+    let samplers = if how.has_textures { textures::SamplerTypes::take(&mut code) } else { Default::default() };
     let is_fragment = code.is_fragment();
     let (uniforms, io) = globals::rework(&mut code, how, &samplers);
     undefined(&mut code);
@@ -100,7 +100,7 @@ pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable
     Ok(Reworked { words, lines, uniforms, io, reads_textures })
 }
 
-fn undefined(code: &mut Code) {
+fn undefined(code: &mut SpirvCode) {
     let mut moved = Vec::new();
     code.functions.retain(|instruction| {
         let keep = instruction.opcode != op::UNDEF;
@@ -118,9 +118,9 @@ fn undefined(code: &mut Code) {
 
 /// From a byte of the words to the line of the source.
 #[derive(Clone, Debug, Default)]
-pub struct Lines(BTreeMap<u32, Option<u32>>);
+pub struct LineTable(BTreeMap<u32, Option<u32>>);
 
-impl Lines {
+impl LineTable {
     /// The line, from 1, of what stands at `span` of a module made from these words.
     pub fn line(&self, span: naga::Span) -> Option<u32> {
         let range = span.to_range()?;

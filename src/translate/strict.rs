@@ -1,7 +1,7 @@
 //! What real drivers refuse and the compiler lets pass, as far as it is sure.
 
-use super::{Interface, text};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::{LinkedInterface, text};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::Source;
 
@@ -11,7 +11,7 @@ const FREE_LAYOUTS: i32 = 420;
 const STRICT_LOCATIONS: i32 = 420;
 
 /// The errors of `source`, which the compiler accepts.
-pub(super) fn errors(source: &Source, interface: &Interface) -> Vec<Diagnostic> {
+pub(super) fn errors(source: &Source, interface: &LinkedInterface) -> Vec<Diagnostic> {
     let version = source.version();
     let mut errors: Vec<_> = before_version(source, version_line(source.code())).into_iter().collect();
     let code = text::without_directives(source.code());
@@ -73,38 +73,38 @@ fn before_version(source: &Source, version: Option<usize>) -> Option<Diagnostic>
         "Delete this, or move it below the line of `#version`.",
         "ここを削除するか、`#version` の行より下に移してください。",
     );
-    Some(error(source, Stage::Compile, (at, &before[at..end]), message).hint(hint))
+    Some(error(source, DiagnosticStage::Compile, (at, &before[at..end]), message).hint(hint))
 }
 
 /// A piece of code between `;`, `{` and `}`: its words with the bytes that they stand at.
-pub(super) struct Statement<'a> {
+pub(super) struct CodeStatement<'a> {
     pub words: Vec<(usize, &'a str)>,
 }
 
 /// The pieces of `code`, which has no directives.
-pub(super) fn statements(code: &str) -> impl Iterator<Item = Statement<'_>> {
+pub(super) fn statements(code: &str) -> impl Iterator<Item = CodeStatement<'_>> {
     let mut start = 0;
     code.split_inclusive([';', '{', '}']).map(move |piece| {
         let words = text::words(piece).map(|(at, word)| (start + at, word)).collect();
         start += piece.len();
-        Statement { words }
+        CodeStatement { words }
     })
 }
 
-impl Statement<'_> {
+impl CodeStatement<'_> {
     /// Which of its words is `wanted`.
     pub fn position(&self, wanted: &str) -> Option<usize> {
         self.words.iter().position(|(_, word)| *word == wanted)
     }
 }
 
-fn error(source: &Source, stage: Stage, (at, word): (usize, &str), message: Text) -> Diagnostic {
+fn error(source: &Source, stage: DiagnosticStage, (at, word): (usize, &str), message: Text) -> Diagnostic {
     let (line, column) = source.position(at);
     Diagnostic::error(stage, message).at(line, Some(column)).spanning(word.len())
 }
 
 /// `layout(location = 1, location = 0)`, and `layout(…) layout(…)`.
-fn repeated_layout(source: &Source, statement: &Statement<'_>) -> Option<Diagnostic> {
+fn repeated_layout(source: &Source, statement: &CodeStatement<'_>) -> Option<Diagnostic> {
     let code = source.code();
     let is_name = |&&(at, _): &&(usize, &str)| text::is_in_layout(code, at);
     let names = ["location", "layout", "std140", "shared", "packed", "row_major", "column_major"];
@@ -118,11 +118,11 @@ fn repeated_layout(source: &Source, statement: &Statement<'_>) -> Option<Diagnos
         format!("`{}` stands twice; before GLSL 4.20 drivers refuse that.", place.1),
         format!("`{}` が重複しています。GLSL 4.20 より前ではドライバがエラーにします。", place.1),
     );
-    Some(error(source, Stage::Compile, place, message))
+    Some(error(source, DiagnosticStage::Compile, place, message))
 }
 
 /// `layout(location = 1) out vec4 vc` where the fixed fragment shader's input has no location.
-fn located_output(source: &Source, statement: &Statement<'_>, interface: &Interface) -> Option<Diagnostic> {
+fn located_output(source: &Source, statement: &CodeStatement<'_>, interface: &LinkedInterface) -> Option<Diagnostic> {
     let name = interface.output.name.as_str();
     let place = statement.words[statement.position("location")?];
     let is_output = statement.position("out").is_some() && statement.position(name).is_some();
@@ -131,16 +131,16 @@ fn located_output(source: &Source, statement: &Statement<'_>, interface: &Interf
         format!("GLSL 4.20 では、location の指定がないフラグメントシェーダの `{name}` とこの変数が結び付きません。"),
     );
     let hint = Text::new("Leave the `layout` away.", "`layout` を付けずに宣言してください。");
-    is_output.then(|| error(source, Stage::Link, place, message).hint(hint))
+    is_output.then(|| error(source, DiagnosticStage::Link, place, message).hint(hint))
 }
 
 /// `precise float f() { … }`.
-fn qualified_result(source: &Source, statement: &Statement<'_>) -> Option<Diagnostic> {
+fn qualified_result(source: &Source, statement: &CodeStatement<'_>) -> Option<Diagnostic> {
     let [place @ (_, "precise"), (_, _), (at, name), ..] = statement.words[..] else { return None };
     let is_function = source.code()[at + name.len()..].trim_start().starts_with('(');
     let message = Text::new(
         format!("The result of the function `{name}` cannot be `precise`."),
         format!("関数 `{name}` の戻り値の型に `precise` は付けられません。"),
     );
-    is_function.then(|| error(source, Stage::Compile, place, message))
+    is_function.then(|| error(source, DiagnosticStage::Compile, place, message))
 }

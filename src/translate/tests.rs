@@ -1,15 +1,15 @@
 //! Valid shaders that take more than the two passes, and what only drivers refuse.
 
-use super::{Interface, Program, Refusal, Stage, Translation, translate};
+use super::{HomeworkProgram, LinkedInterface, Stage, Translation, TranslationRefusal, translate};
 use crate::diagnostic::Severity;
 use crate::source;
 
-fn interface() -> Interface {
-    Interface::of(reference::assignment("ggsample06").expect("it is built in")).expect("it is whole")
+fn interface() -> LinkedInterface {
+    LinkedInterface::of(reference::assignment("ggsample06").expect("it is built in")).expect("it is whole")
 }
 
 /// Translates a right shader at this version, with these globals, from line 5 on, and this body.
-fn run(version: &str, globals: &str, body: &str) -> Result<Translation, Refusal> {
+fn run(version: &str, globals: &str, body: &str) -> Result<Translation, TranslationRefusal> {
     let text = format!(
         "#version {version}\nin vec4 pv, cv;\nuniform mat4 mw, mc, mg;\nout vec4 vc;\n{globals}\n\
          void main() {{\nvc = mg * cv + mw * pv;\n{body}\ngl_Position = mc * pv;\n}}\n"
@@ -28,7 +28,7 @@ fn warnings(version: &str, globals: &str, body: &str) -> Vec<(Option<u32>, Optio
 /// The places of the errors of a shader that must be rejected.
 fn errors(version: &str, globals: &str, body: &str) -> Vec<(Option<u32>, Option<u32>)> {
     match run(version, globals, body) {
-        Err(Refusal::Rejected(diagnostics)) => diagnostics.iter().map(|d| (d.line, d.column)).collect(),
+        Err(TranslationRefusal::Rejected(diagnostics)) => diagnostics.iter().map(|d| (d.line, d.column)).collect(),
         other => panic!("{globals}{body}: {:?}", other.map(|_| "accepted")),
     }
 }
@@ -75,9 +75,9 @@ fn own_functions_may_be_called_as_built_in_ones() {
 fn what_the_compiler_lacks_is_our_fault() {
     let subroutine =
         "subroutine float F(float a);\nsubroutine(F) float f(float a) { return a; }\nsubroutine uniform F g;";
-    assert!(matches!(run("410", subroutine, "vc *= g(1.0);"), Err(Refusal::Fault(_))));
+    assert!(matches!(run("410", subroutine, "vc *= g(1.0);"), Err(TranslationRefusal::Fault(_))));
     let shadow = "uniform sampler2DShadow t;";
-    assert!(matches!(run("410", shadow, "vc *= shadow2D(t, pv.xyz);"), Err(Refusal::Fault(_))));
+    assert!(matches!(run("410", shadow, "vc *= shadow2D(t, pv.xyz);"), Err(TranslationRefusal::Fault(_))));
     // The student's own function of that name is none of the compiler's.
     assert_eq!(warnings("410", "vec4 texture2D(vec2 a) { return a.xyxy; }", "vc *= texture2D(pv.xy);"), []);
 }
@@ -121,7 +121,7 @@ fn what_some_drivers_refuse_is_warned_of() {
 }
 
 /// Translates a right shader that the program sets these uniforms for as well.
-fn with_uniforms(set: &[(&str, &str)], globals: &str, body: &str) -> Result<Translation, Refusal> {
+fn with_uniforms(set: &[(&str, &str)], globals: &str, body: &str) -> Result<Translation, TranslationRefusal> {
     let text = format!(
         "#version 410\nin vec4 pv, cv;\nuniform mat4 mw, mc, mg;\nout vec4 vc;\n{globals}\n\
          void main() {{\nvc = mg * cv + mw * pv;\n{body}\ngl_Position = mc * pv;\n}}\n"
@@ -148,7 +148,7 @@ fn parts_of_uniforms_are_held_against_what_the_program_sets() {
     assert_eq!((offset("K.ambient"), offset("ambient")), (Some(0), Some(0)));
 
     let place = |set: &[(&str, &str)]| match with_uniforms(set, light, body) {
-        Err(Refusal::Rejected(diagnostics)) => (diagnostics[0].line, diagnostics[0].message.en.clone()),
+        Err(TranslationRefusal::Rejected(diagnostics)) => (diagnostics[0].line, diagnostics[0].message.en.clone()),
         other => panic!("{:?}", other.map(|_| "accepted")),
     };
     let (line, message) = place(&[("l[0].at", "vec4")]);
@@ -162,20 +162,22 @@ fn parts_of_uniforms_are_held_against_what_the_program_sets() {
 }
 
 /// The program of a homework with this fixed vertex shader, or one of which both stages are handed in.
-fn program(vertex: Option<&str>) -> Program {
+fn program(vertex: Option<&str>) -> HomeworkProgram {
     let mut interface = interface();
     interface.fragment = c"".to_owned();
-    Program::new(interface, vertex.map(|text| (Stage::Vertex, text))).expect("the fixed stage is right")
+    HomeworkProgram::new(interface, vertex.map(|text| (Stage::Vertex, text))).expect("the fixed stage is right")
 }
 
 /// Line and message of the first error of these stages; none where they are taken.
-fn refused(program: &Program, texts: &[(Stage, &str)]) -> Option<(Stage, Option<u32>, String)> {
+fn refused(program: &HomeworkProgram, texts: &[(Stage, &str)]) -> Option<(Stage, Option<u32>, String)> {
     let read = |(stage, text): &(Stage, &str)| source::read_stage(*stage, "a", text.as_bytes()).expect("a text");
     let sources: Vec<_> = texts.iter().map(read).collect();
     let stages: Vec<_> = texts.iter().zip(&sources).map(|((stage, _), source)| (*stage, source)).collect();
     let refused = program.translate(&stages).err()?;
     match refused.refusal {
-        Refusal::Rejected(diagnostics) => Some((refused.stage, diagnostics[0].line, diagnostics[0].message.en.clone())),
+        TranslationRefusal::Rejected(diagnostics) => {
+            Some((refused.stage, diagnostics[0].line, diagnostics[0].message.en.clone()))
+        }
         other => panic!("{other:?}"),
     }
 }

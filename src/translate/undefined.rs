@@ -5,7 +5,7 @@
 //! when the shader runs once more with such results poisoned ([`super::Shader::poisoned`]).
 
 use super::build::Build;
-use super::spirv::{Lines, NEGATIVE};
+use super::spirv::{LineTable, NEGATIVE};
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
 use naga::{
@@ -22,7 +22,7 @@ type Powers = HashMap<Handle<Expression>, (Handle<Expression>, Option<VectorSize
 
 /// Adds the watch. Gives the variable that holds, after `main`, the line of such a `pow` (or [`NO_LINE`]); 0 if none was
 /// met. `None` where the shader raises nothing to a power.
-pub(super) fn watch(module: &mut Module, lines: &Lines) -> Option<Handle<GlobalVariable>> {
+pub(super) fn watch(module: &mut Module, lines: &LineTable) -> Option<Handle<GlobalVariable>> {
     let all: Vec<Powers> = module.functions.iter().map(|(_, function)| powers(module, function)).collect();
     if all.iter().all(Powers::is_empty) {
         return None;
@@ -41,7 +41,7 @@ pub(super) fn watch(module: &mut Module, lines: &Lines) -> Option<Handle<GlobalV
     );
     for ((_, function), powers) in module.functions.iter_mut().zip(&all).filter(|(_, powers)| !powers.is_empty()) {
         let body = std::mem::take(&mut function.body);
-        let watch = Watch { powers, lines, met };
+        let watch = UndefinedWatch { powers, lines, met };
         function.body = watch.block(body, &mut function.expressions);
     }
     Some(met)
@@ -86,13 +86,13 @@ fn is_kept_positive(module: &Module, expressions: &Arena<Expression>, base: Hand
     }
 }
 
-struct Watch<'a> {
+struct UndefinedWatch<'a> {
     powers: &'a Powers,
-    lines: &'a Lines,
+    lines: &'a LineTable,
     met: Handle<GlobalVariable>,
 }
 
-impl Watch<'_> {
+impl UndefinedWatch<'_> {
     /// The block with a note behind the evaluation of each power.
     fn block(&self, block: Block, expressions: &mut Arena<Expression>) -> Block {
         let mut out = Block::new();

@@ -3,7 +3,7 @@
 use super::opengl::{Given, Matrix, OpenGl, Texels, Version};
 use super::programs::{Random, program};
 use super::scenes::texture;
-use ggrade::cross_check::{self, CrossCheck, Drawn, Opinion};
+use ggrade::cross_check::{self, CrossCheck, DriverOutput, Opinion};
 use reference::interpreter::{Outputs, Precision, Program, Stage, Texture};
 
 /// How many programs there are.
@@ -100,7 +100,7 @@ fn generated_fragment_programs_agree() {
         thrown_away += discarded.iter().filter(|discarded| **discarded).count();
         let interpreted =
             Program::compile(&text, Stage::Fragment).unwrap_or_else(|refusal| panic!("{refusal}\n{text}"));
-        let drawn = Drawn { outputs: vec![("vc", pixels)], discarded };
+        let drawn = DriverOutput { outputs: vec![("vc", pixels)], discarded };
         let checked = cross_check::compare(&drawn, |precision| scene.run(&interpreted, &textures, precision));
         agreeing += checked.agreeing;
         open += checked.undefined + checked.unsettled;

@@ -2,9 +2,9 @@
 
 use super::opengl::{OpenGl, Version};
 use ggrade::opengl::{disagreeing, frame, texts};
-use ggrade::render::{AdapterKind, Device, Renderer, Scene};
+use ggrade::render::{AdapterKind, Device, RenderScene, Renderer};
 use ggrade::source;
-use ggrade::translate::{Interface, Program, Stage};
+use ggrade::translate::{HomeworkProgram, LinkedInterface, Stage};
 use reference::interpreter::{Program as Compiled, Stage as InterpreterStage, Texels};
 use reference::rasteriser::{Coverage, Frame};
 use reference::{Assignment, Folder, assignment};
@@ -35,7 +35,7 @@ fn differs(from: &[u8], from_opengl: [u8; 4], by: u8) -> bool {
 fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let texts = texts(assignment, |file| &file.solution.text);
     let own = assignment.fixed.first().map(|fixed| (Stage::from(fixed.stage), fixed.text.as_str()));
-    let program = Program::new(Interface::of(assignment).unwrap(), own).unwrap();
+    let program = HomeworkProgram::new(LinkedInterface::of(assignment).unwrap(), own).unwrap();
     let read = |file: &assignment::HandedIn| {
         let stage = Stage::from(file.stage);
         (stage, source::read_stage(stage, &file.solution.name, file.solution.text.as_bytes()).expect("a text"))
@@ -45,7 +45,7 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let linked = program.translate(&given).unwrap_or_else(|refusal| panic!("{refusal:?}"));
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
     let mut renderer = Renderer::new(device, None).unwrap();
-    let scene = Scene::of(assignment, &[]);
+    let scene = RenderScene::of(assignment, &[]);
     let ours = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
     let mut counts = Counts::default();
     for (index, right) in assignment.frames().into_iter().enumerate() {
@@ -95,7 +95,7 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
     let (mut count, mut wrong) = (0, Vec::new());
     // The first homework has 447 of them, and tests of its own.
     for assignment in reference::assignments().filter(|assignment| assignment.id != "ggsample06") {
-        let scene = Scene::of(assignment, &[]);
+        let scene = RenderScene::of(assignment, &[]);
         let mut frames: BTreeMap<usize, Vec<Frame>> = BTreeMap::new();
         for (index, pose) in assignment.scene.all_poses().iter().enumerate().step_by(SOME_FRAMES) {
             let accepted = assignment.accepted().map(|answer| assignment.frame_of(answer, pose));
@@ -130,7 +130,7 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
             }
             count += 1;
             let extended = extended(assignment, [vertex, fragment]);
-            let extended_scene = extended.as_ref().map(|extended| Scene::of(extended, &[]));
+            let extended_scene = extended.as_ref().map(|extended| RenderScene::of(extended, &[]));
             let scene = extended_scene.as_ref().unwrap_or(&scene);
             for (index, right) in &frames {
                 let drawn = match frame(gl.driver(), assignment, scene, [vertex, fragment], *index) {

@@ -1,8 +1,8 @@
 //! Fragment stages that mean harm: each ends soon, by itself or by a limit that names its line, and the renderer goes on.
 
 use super::scenes::{renderer, sheets};
-use ggrade::diagnostic::{Diagnostic, Stage};
-use ggrade::translate::Refusal;
+use ggrade::diagnostic::{Diagnostic, DiagnosticStage};
+use ggrade::translate::TranslationRefusal;
 
 /// What becomes of a hostile stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -264,9 +264,9 @@ fn hostile_fragment_stages_end_by_name() {
     let mut wrong = Vec::new();
     for (name, promised, globals, body) in STAGES {
         let (end, said) = match homework.translate(&text(globals, body)) {
-            Err(Refusal::Rejected(diagnostics)) => (Refused, diagnostics.into_iter().next()),
-            Err(Refusal::Stopped(diagnostics)) => (TooMuch, diagnostics.into_iter().next()),
-            Err(Refusal::Fault(fault)) => {
+            Err(TranslationRefusal::Rejected(diagnostics)) => (Refused, diagnostics.into_iter().next()),
+            Err(TranslationRefusal::Stopped(diagnostics)) => (TooMuch, diagnostics.into_iter().next()),
+            Err(TranslationRefusal::Fault(fault)) => {
                 wrong.push(format!("{name}: {fault}"));
                 continue;
             }
@@ -282,7 +282,7 @@ fn hostile_fragment_stages_end_by_name() {
             },
         };
         let is_named =
-            |said: &Diagnostic| !said.message.en.is_empty() && (end != OutOfFuel || said.stage == Stage::Run);
+            |said: &Diagnostic| !said.message.en.is_empty() && (end != OutOfFuel || said.stage == DiagnosticStage::Run);
         if end != *promised || (end != Runs && !said.as_ref().is_some_and(is_named)) {
             wrong.push(format!("{name}: promised {promised:?}, seen {end:?}: {:?}", said.map(|said| said.message.en)));
         }

@@ -2,9 +2,9 @@
 
 use super::{Bench, opengl, poses};
 use ggrade::cross_check::{self, CrossCheck, Opinion};
-use ggrade::render::{Batch, Sample, Scene};
+use ggrade::render::{DrawCall, RenderScene, Sample};
 use ggrade::source::{self, Source};
-use ggrade::translate::{self, Refusal};
+use ggrade::translate::{self, TranslationRefusal};
 use opengl::{Mesh, Vertex};
 use reference::interpreter::Type;
 use reference::{Value, Values};
@@ -18,13 +18,13 @@ const PROGRAMS: u64 = 300;
 const VERTICES: usize = 12;
 
 /// What the interpreter says of what OpenGL recorded.
-pub fn interpreted(source: &Source, batches: &[Batch], captured: &[Vec<Vertex>]) -> CrossCheck {
+pub fn interpreted(source: &Source, batches: &[DrawCall], captured: &[Vec<Vertex>]) -> CrossCheck {
     let sample = |vertex: &Vertex| Sample { position: vertex.position, colour: vertex.vc };
     let samples: Vec<Vec<Sample>> = captured.iter().map(|vertices| vertices.iter().map(sample).collect()).collect();
     cross_checked(source, batches, &samples)
 }
 
-fn cross_checked(source: &Source, batches: &[Batch], samples: &[Vec<Sample>]) -> CrossCheck {
+fn cross_checked(source: &Source, batches: &[DrawCall], samples: &[Vec<Sample>]) -> CrossCheck {
     let samples: Vec<&[Sample]> = samples.iter().map(Vec::as_slice).collect();
     cross_check::check(&source.text, "vc", &batches.iter().collect::<Vec<_>>(), &samples)
 }
@@ -93,10 +93,15 @@ fn generated_programs_agree() {
 }
 
 /// What the interpreter says of each driver's values; none where ggrade stops the program.
-fn run(bench: &mut Bench, source: &Source, scene: &Scene, mesh: Mesh<'_>) -> Option<[(&'static str, CrossCheck); 2]> {
+fn run(
+    bench: &mut Bench,
+    source: &Source,
+    scene: &RenderScene,
+    mesh: Mesh<'_>,
+) -> Option<[(&'static str, CrossCheck); 2]> {
     let shader = match translate::translate(source, &bench.interface) {
         Ok(translation) => translation.shader,
-        Err(Refusal::Stopped(_)) => return None,
+        Err(TranslationRefusal::Stopped(_)) => return None,
         Err(refusal) => panic!("{refusal:?}\n{}", source.text),
     };
     let rendering = bench.renderer.compute(&shader, scene).unwrap();

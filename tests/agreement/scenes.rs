@@ -1,9 +1,9 @@
 //! Programs of which the fragment stage is handed in: what ggrade paints and computes, against a real OpenGL driver.
 
-use super::opengl::{Draw, Kind, OpenGl, Texels, Version, Window};
-use ggrade::render::{AdapterKind, Batch, Device, DrawState, Pixel, Renderer, Scene};
+use super::opengl::{OpenGl, OpenglDraw, Texels, ValueKind, Version, Window};
+use ggrade::render::{AdapterKind, Device, DrawCall, DrawState, Pixel, RenderScene, Renderer};
 use ggrade::source;
-use ggrade::translate::{self, Interface, Linked, Program, Refusal, Stage, Variable};
+use ggrade::translate::{self, HomeworkProgram, Linked, LinkedInterface, Stage, TranslationRefusal, Variable};
 use reference::interpreter::{Filter, Scalar, Texture, Type, Wrap};
 use reference::scene::{Cull, DepthTest};
 use reference::{Value, Values};
@@ -20,28 +20,28 @@ const NUMBER_TOLERANCE: f32 = 1e-4;
 /// A homework with a fixed vertex stage, and what it draws.
 pub struct Homework {
     vertex: &'static str,
-    draws: Vec<Draw>,
+    draws: Vec<OpenglDraw>,
     textures: Vec<(&'static str, Texels)>,
 }
 
-fn kind(kind: Kind) -> Type {
+fn kind(kind: ValueKind) -> Type {
     match kind {
-        Kind::Float(size) => Type::Vector(Scalar::Float, size),
-        Kind::Int(size) => Type::Vector(Scalar::Int, size),
-        Kind::Uint(size) => Type::Vector(Scalar::Uint, size),
-        Kind::Bool(size) => Type::Vector(Scalar::Bool, size),
-        Kind::Matrix(columns, rows) => Type::Matrix(Scalar::Float, columns, rows),
+        ValueKind::Float(size) => Type::Vector(Scalar::Float, size),
+        ValueKind::Int(size) => Type::Vector(Scalar::Int, size),
+        ValueKind::Uint(size) => Type::Vector(Scalar::Uint, size),
+        ValueKind::Bool(size) => Type::Vector(Scalar::Bool, size),
+        ValueKind::Matrix(columns, rows) => Type::Matrix(Scalar::Float, columns, rows),
     }
 }
 
-fn batch(draw: &Draw) -> Batch {
-    let uniform = |(path, of, numbers): &(String, Kind, Vec<f64>)| {
+fn batch(draw: &OpenglDraw) -> DrawCall {
+    let uniform = |(path, of, numbers): &(String, ValueKind, Vec<f64>)| {
         (path.clone(), Value::new(kind(*of), numbers.clone()).expect("as many numbers as the type has"))
     };
-    let attribute = |(name, of, numbers): &(String, Kind, Vec<f64>)| {
+    let attribute = |(name, of, numbers): &(String, ValueKind, Vec<f64>)| {
         (name.clone(), Values { kind: kind(*of), numbers: numbers.clone() })
     };
-    Batch {
+    DrawCall {
         uniforms: draw.uniforms.iter().map(uniform).collect(),
         attributes: draw.attributes.iter().map(attribute).collect(),
         triangles: draw.triangles.clone(),
@@ -51,12 +51,12 @@ fn batch(draw: &Draw) -> Batch {
 }
 
 impl Homework {
-    fn interface(&self) -> Interface {
+    fn interface(&self) -> LinkedInterface {
         let variable =
-            |(name, of, _): &(String, Kind, Vec<f64>)| Variable { name: name.clone(), ty: kind(*of).to_string() };
+            |(name, of, _): &(String, ValueKind, Vec<f64>)| Variable { name: name.clone(), ty: kind(*of).to_string() };
         let first = &self.draws[0];
         let sampler = |(name, _): &(&str, Texels)| Variable { name: (*name).into(), ty: "sampler2D".into() };
-        Interface {
+        LinkedInterface {
             inputs: first.attributes.iter().map(variable).collect(),
             uniforms: first.uniforms.iter().map(variable).chain(self.textures.iter().map(sampler)).collect(),
             output: Variable { name: "colour".into(), ty: "vec4".into() },
@@ -67,16 +67,16 @@ impl Homework {
         }
     }
 
-    pub fn translate(&self, fragment: &str) -> Result<Linked, Refusal> {
-        let program =
-            Program::new(self.interface(), Some((Stage::Vertex, self.vertex))).expect("the fixed stage is right");
+    pub fn translate(&self, fragment: &str) -> Result<Linked, TranslationRefusal> {
+        let program = HomeworkProgram::new(self.interface(), Some((Stage::Vertex, self.vertex)))
+            .expect("the fixed stage is right");
         let source = source::read_stage(Stage::Fragment, "a.frag", fragment.as_bytes()).expect("a text");
         program.translate(&[(Stage::Fragment, &source)]).map_err(|refused| refused.refusal)
     }
 
-    pub fn scene(&self) -> Scene {
+    pub fn scene(&self) -> RenderScene {
         let [width, height] = SIZE.map(|side| side as u32);
-        let draw = |draw: &Draw| {
+        let draw = |draw: &OpenglDraw| {
             let mut batch = batch(draw);
             let sampler = Type::named("sampler2D").unwrap();
             for (number, (name, _)) in self.textures.iter().enumerate() {
@@ -87,7 +87,7 @@ impl Homework {
         };
         let frames = vec![self.draws.iter().map(draw).collect()];
         let textures = self.textures.iter().map(|(_, from)| texture(from)).collect();
-        Scene { width, height, background: [51, 102, 153, 0], frames, textures, ..Scene::default() }
+        RenderScene { width, height, background: [51, 102, 153, 0], frames, textures, ..RenderScene::default() }
     }
 }
 
@@ -143,37 +143,37 @@ pub fn sheets() -> Homework {
         let view = [cos, 0.0, -sin, 0.0, 0.0, 1.0, 0.0, 0.0, sin, 0.0, cos, 0.0, 0.1, 0.05, -back, 1.0];
         let matrix = |numbers: [f64; 16]| numbers.map(|x| f64::from(x as f32)).to_vec();
         let mat3 = numbers(seed + 9, 9, -1.0, 1.0);
-        Draw {
+        OpenglDraw {
             uniforms: [
-                ("projection", Kind::Matrix(4, 4), matrix(projection)),
-                ("view", Kind::Matrix(4, 4), matrix(view)),
-                ("lights[0].on", Kind::Bool(1), vec![1.0]),
-                ("lights[1].on", Kind::Bool(1), vec![0.0]),
-                ("lights[0].at", Kind::Float(3), numbers(seed + 1, 3, -2.0, 2.0)),
-                ("lights[1].at", Kind::Float(3), numbers(seed + 2, 3, -2.0, 2.0)),
-                ("lights[0].colours[0]", Kind::Float(3), vec![0.25, 0.5, 0.75]),
-                ("lights[0].colours[1]", Kind::Float(3), vec![0.5, 0.25, 0.0]),
-                ("lights[1].colours[1]", Kind::Float(3), vec![1.0, 0.0, 0.5]),
-                ("turn", Kind::Matrix(3, 3), mat3),
-                ("squeeze", Kind::Matrix(2, 2), numbers(seed + 4, 4, -1.0, 1.0)),
-                ("count", Kind::Int(1), vec![-3.0]),
-                ("mask", Kind::Uint(2), vec![6.0, 4_000_000_000.0]),
-                ("weights[0]", Kind::Float(1), vec![0.25]),
-                ("weights[1]", Kind::Float(1), vec![0.5]),
-                ("weights[2]", Kind::Float(1), vec![0.125]),
-                ("switches", Kind::Bool(3), vec![1.0, 0.0, 1.0]),
-                ("Surface.ambient", Kind::Float(4), numbers(seed + 5, 4, 0.0, 1.0)),
-                ("Surface.shine", Kind::Float(1), vec![3.5]),
-                ("Surface.basis", Kind::Matrix(4, 4), numbers(seed + 6, 16, -1.0, 1.0)),
-                ("unused", Kind::Float(1), vec![1.0]),
+                ("projection", ValueKind::Matrix(4, 4), matrix(projection)),
+                ("view", ValueKind::Matrix(4, 4), matrix(view)),
+                ("lights[0].on", ValueKind::Bool(1), vec![1.0]),
+                ("lights[1].on", ValueKind::Bool(1), vec![0.0]),
+                ("lights[0].at", ValueKind::Float(3), numbers(seed + 1, 3, -2.0, 2.0)),
+                ("lights[1].at", ValueKind::Float(3), numbers(seed + 2, 3, -2.0, 2.0)),
+                ("lights[0].colours[0]", ValueKind::Float(3), vec![0.25, 0.5, 0.75]),
+                ("lights[0].colours[1]", ValueKind::Float(3), vec![0.5, 0.25, 0.0]),
+                ("lights[1].colours[1]", ValueKind::Float(3), vec![1.0, 0.0, 0.5]),
+                ("turn", ValueKind::Matrix(3, 3), mat3),
+                ("squeeze", ValueKind::Matrix(2, 2), numbers(seed + 4, 4, -1.0, 1.0)),
+                ("count", ValueKind::Int(1), vec![-3.0]),
+                ("mask", ValueKind::Uint(2), vec![6.0, 4_000_000_000.0]),
+                ("weights[0]", ValueKind::Float(1), vec![0.25]),
+                ("weights[1]", ValueKind::Float(1), vec![0.5]),
+                ("weights[2]", ValueKind::Float(1), vec![0.125]),
+                ("switches", ValueKind::Bool(3), vec![1.0, 0.0, 1.0]),
+                ("Surface.ambient", ValueKind::Float(4), numbers(seed + 5, 4, 0.0, 1.0)),
+                ("Surface.shine", ValueKind::Float(1), vec![3.5]),
+                ("Surface.basis", ValueKind::Matrix(4, 4), numbers(seed + 6, 16, -1.0, 1.0)),
+                ("unused", ValueKind::Float(1), vec![1.0]),
             ]
             .map(|(path, kind, numbers)| (path.to_owned(), kind, numbers))
             .to_vec(),
             attributes: [
-                ("place", Kind::Float(3), places(seed)),
-                ("paint", Kind::Float(2), numbers(seed + 3, 2 * 49, 0.0, 1.0)),
-                ("label", Kind::Int(1), (0..49).map(|n| f64::from(n * 7 % 5 - 2)).collect()),
-                ("mark", Kind::Uint(2), (0..98).map(|n| f64::from(n * 3 % 11)).collect()),
+                ("place", ValueKind::Float(3), places(seed)),
+                ("paint", ValueKind::Float(2), numbers(seed + 3, 2 * 49, 0.0, 1.0)),
+                ("label", ValueKind::Int(1), (0..49).map(|n| f64::from(n * 7 % 5 - 2)).collect()),
+                ("mark", ValueKind::Uint(2), (0..98).map(|n| f64::from(n * 3 % 11)).collect()),
             ]
             .map(|(name, kind, numbers)| (name.to_owned(), kind, numbers))
             .to_vec(),
@@ -335,7 +335,7 @@ fn text(body: &str) -> String {
 
 pub fn renderer() -> Renderer {
     let assignment = reference::assignment("ggsample06").unwrap();
-    let interface = ggrade::translate::Interface::of(assignment).unwrap();
+    let interface = ggrade::translate::LinkedInterface::of(assignment).unwrap();
     let fixed = translate::fixed_stage(&interface, assignment.files[0].starter_shader()).unwrap();
     let device = Device::open(AdapterKind::Software).unwrap_or_else(|fault| panic!("{fault}"));
     Renderer::new(device, Some(&fixed)).unwrap()
@@ -399,7 +399,7 @@ fn probes_of_fragment_stages_are_what_opengl_computes() {
     let column =
         |name: &str, kind: Type, numbers: &[f64]| (name.to_owned(), Values { kind, numbers: numbers.to_vec() });
     let vec3 = || Type::Vector(Scalar::Float, 3);
-    let probes = Batch {
+    let probes = DrawCall {
         uniforms: batch(&homework.draws[0]).uniforms,
         attributes: vec![
             column("normal", vec3(), &normals),
@@ -410,9 +410,9 @@ fn probes_of_fragment_stages_are_what_opengl_computes() {
             column("gl_FragCoord", Type::VEC4, &places),
             column("gl_FrontFacing", Type::FLOAT, &facing),
         ],
-        ..Batch::default()
+        ..DrawCall::default()
     };
-    let scene = Scene { pixels: vec![probes], ..Scene::default() };
+    let scene = RenderScene { pixels: vec![probes], ..RenderScene::default() };
     let rendering = renderer.compute_pixels(&linked.fragment, &scene).unwrap();
     let outputs: Vec<&str> = linked.fragment.outputs.iter().map(|output| output.name.as_str()).collect();
     let output = |pixel: &Pixel, name: &str| pixel.outputs[outputs.iter().position(|own| *own == name).unwrap()];

@@ -5,7 +5,7 @@ mod files;
 
 use crate::class::{Place, ggrade};
 use files::{Hostile, Seen};
-use ggrade::batch::intake::Limits;
+use ggrade::batch::intake::IntakeLimits;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -62,7 +62,7 @@ fn student(number: usize) -> String {
 fn check(file: &Hostile, entry: Option<&Value>) -> Result<(), String> {
     let entry = entry.ok_or_else(|| format!("{}: no entry", file.name))?;
     // A member of an archive that unpacks to so much of so little is a bomb before it is a shader.
-    if entry["report"].is_null() && file.bytes.len() as u64 > Limits::default().bomb_bytes {
+    if entry["report"].is_null() && file.bytes.len() as u64 > IntakeLimits::default().bomb_bytes {
         let is_named = entry["message"].as_str().is_some_and(|message| message.contains("no text does that"));
         return is_named.then_some(()).ok_or_else(|| format!("{}: {}", file.name, entry["message"]));
     }

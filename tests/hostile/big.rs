@@ -4,7 +4,7 @@
 //! far on one side of its bound.
 
 use super::{Hostile, Promise};
-use ggrade::diagnostic::Stage;
+use ggrade::diagnostic::DiagnosticStage;
 use ggrade::report::Verdict;
 
 /// The largest file that is read, in bytes.
@@ -29,10 +29,10 @@ fn right() -> Promise {
 }
 
 fn stopped(says: &str) -> Promise {
-    Promise { verdict: Verdict::Stopped, stage: Some(Stage::Compile), says: says.into() }
+    Promise { verdict: Verdict::Stopped, stage: Some(DiagnosticStage::Compile), says: says.into() }
 }
 
-fn rejected(stage: Stage, says: &str) -> Promise {
+fn rejected(stage: DiagnosticStage, says: &str) -> Promise {
     Promise { verdict: Verdict::Rejected, stage: Some(stage), says: says.into() }
 }
 
@@ -51,7 +51,7 @@ fn answer(globals: &str, body: &str) -> String {
 
 /// The file, with the promise that holds for every file that is too large.
 fn file(name: String, text: String, promise: Promise) -> Hostile {
-    let promise = if text.len() > MAX_BYTES { rejected(Stage::Source, SIZE) } else { promise };
+    let promise = if text.len() > MAX_BYTES { rejected(DiagnosticStage::Source, SIZE) } else { promise };
     Hostile { name, bytes: text.into_bytes(), promise }
 }
 
@@ -94,7 +94,7 @@ fn nested() -> Vec<Hostile> {
         for (name, before, middle, behind) in statements {
             let body = format!("  {}{middle}{}", before.repeat(depth), behind.repeat(depth));
             let promise = match (name, depth) {
-                ("unclosed-blocks" | "unclosed-parentheses", 100) => rejected(Stage::Compile, ""),
+                ("unclosed-blocks" | "unclosed-parentheses", 100) => rejected(DiagnosticStage::Compile, ""),
                 _ => promise.clone(),
             };
             files.push(file(format!("{name}-{depth}"), answer("", &body), promise));
@@ -139,14 +139,14 @@ fn repeated() -> Vec<Hostile> {
         files.push(file(name.into(), answer("", &body), right()));
     }
     let marks = answer("", &format!("  float e{} = 1.0;", "\u{301}".repeat(10_000)));
-    files.push(file("name-of-10000-combining-marks".into(), marks, rejected(Stage::Source, "")));
+    files.push(file("name-of-10000-combining-marks".into(), marks, rejected(DiagnosticStage::Source, "")));
     let undeclared = answer("", &"x;".repeat(30_000));
-    files.push(file("undeclared-names-30000".into(), undeclared, rejected(Stage::Compile, "x")));
+    files.push(file("undeclared-names-30000".into(), undeclared, rejected(DiagnosticStage::Compile, "x")));
     let name = "x".repeat(30_000);
     let long = answer("", &format!("  float {name} = 1.0;\n  s = {name};"));
-    files.push(file("name-of-30000-characters".into(), long, rejected(Stage::Compile, "")));
+    files.push(file("name-of-30000-characters".into(), long, rejected(DiagnosticStage::Compile, "")));
     let error = answer(&format!("#error {}", "no ".repeat(20_000)), "");
-    files.push(file("error-of-60000-characters".into(), error, rejected(Stage::Compile, "#error")));
+    files.push(file("error-of-60000-characters".into(), error, rejected(DiagnosticStage::Compile, "#error")));
     files
 }
 
@@ -240,7 +240,7 @@ fn declared() -> Vec<Hostile> {
 
 /// Loops over the driver's silent cut, which comes after 65,535 turns, and loops in loops.
 fn looped() -> Vec<Hostile> {
-    let stopped = Promise { verdict: Verdict::Stopped, stage: Some(Stage::Run), says: TURNS.into() };
+    let stopped = Promise { verdict: Verdict::Stopped, stage: Some(DiagnosticStage::Run), says: TURNS.into() };
     let turns = |count: u64| {
         answer(
             "",

@@ -8,7 +8,7 @@
 #![allow(dead_code)]
 
 use ggrade::corpus::Expectation;
-use ggrade::diagnostic::{Severity, Stage};
+use ggrade::diagnostic::{DiagnosticStage, Severity};
 use ggrade::report::{Report, Verdict};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -32,7 +32,7 @@ pub struct Promise {
     /// The verdict.
     pub verdict: Verdict,
     /// Where the first error comes from, where there is one.
-    pub stage: Option<Stage>,
+    pub stage: Option<DiagnosticStage>,
     /// What its English message contains.
     pub says: String,
 }
@@ -43,7 +43,7 @@ pub struct Seen {
     /// The verdict.
     pub verdict: Verdict,
     /// Stage and English message of each error.
-    pub errors: Vec<(Stage, String)>,
+    pub errors: Vec<(DiagnosticStage, String)>,
 }
 
 impl Seen {
@@ -60,7 +60,7 @@ impl Seen {
         let errors = report.get("diagnostics")?.as_array()?.iter().filter(|error| error["severity"] == "error");
         let errors = errors
             .map(|error| Some((serde_json::from_value(error["stage"].clone()).ok()?, part(error, "message")?)))
-            .collect::<Option<Vec<(Stage, String)>>>()?;
+            .collect::<Option<Vec<(DiagnosticStage, String)>>>()?;
         Some(Self { verdict: serde_json::from_value(report.get("verdict")?.clone()).ok()?, errors })
     }
 }

@@ -6,7 +6,7 @@ use super::workers::{alone, sample};
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Picture, Report, Verdict};
-use ggrade::sandbox::{GradedSubmission, Pool, Settings, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask, Pool, Settings};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -93,7 +93,7 @@ fn reports_that_differ_are_told_apart() {
 pub fn hand_in(pool: &Pool, name: &str, bytes: &[u8]) -> GradedSubmission {
     let order = Order { seed: 7, ..Order::default() };
     let hand_in = HandIn::of_one(name, bytes);
-    let submission = Submission { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true };
+    let submission = GradingTask { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: true };
     pool.grade(submission).unwrap_or_else(|fault| panic!("{name}: {fault}"))
 }
 

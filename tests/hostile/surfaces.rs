@@ -65,7 +65,7 @@ fn a_broken_promise_is_noticed() {
     let file = files.iter().find(|file| file.name == "parentheses-1000").unwrap();
     let said = |verdict, message: &str| Seen {
         verdict,
-        errors: vec![(ggrade::diagnostic::Stage::Compile, message.to_owned())],
+        errors: vec![(ggrade::diagnostic::DiagnosticStage::Compile, message.to_owned())],
     };
     use ggrade::report::Verdict::{Rejected, Stopped};
     assert!(file.check(&said(Stopped, "… are nested more than 256 deep …")).is_ok());

@@ -203,7 +203,7 @@ fn the_file_of_the_service_has_options_only() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("ggrade.toml");
     fs::write(&file, lines.join("\n")).unwrap();
-    let serve = ggrade::cli::Serve { config: Some(file), ..Default::default() };
+    let serve = ggrade::cli::ServeArguments { config: Some(file), ..Default::default() };
     let config = ggrade::service::Config::load(&serve).map_err(|fault| fault.message.en).unwrap();
     assert_eq!(config.retention_days, 400);
 }

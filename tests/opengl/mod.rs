@@ -11,7 +11,7 @@ mod fragments;
 use driver::Recorder;
 pub use fragments::{Given, Texels};
 use ggrade::ffi::opengl::LinkedProgram;
-pub use ggrade::ffi::opengl::{Draw, Driver, Kind, Rejection, Version, Window};
+pub use ggrade::ffi::opengl::{Driver, OpenglDraw, Rejection, ValueKind, Version, Window};
 
 /// One 4 × 4 matrix, column after column.
 pub type Matrix = [f32; 16];

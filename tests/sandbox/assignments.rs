@@ -5,7 +5,7 @@ use ggrade::expected::{self, Pack, Packer, cache};
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, Verdict};
-use ggrade::sandbox::{Pool, Settings, Submission};
+use ggrade::sandbox::{GradingTask, Pool, Settings};
 use reference::{Assignment, Folder};
 use std::sync::Arc;
 use std::time::Duration;
@@ -23,7 +23,7 @@ fn changed(from: &str, to: &str) -> Arc<Assignment> {
 fn grade(pool: &Pool, assignment: &Arc<Assignment>) -> Report {
     let hand_in = &HandIn::of_one("ggsample06.vert", honest());
     let order = Order { seed: 7, ..Order::default() };
-    pool.grade(Submission { assignment, hand_in, order, wants_frames: false }).unwrap().report
+    pool.grade(GradingTask { assignment, hand_in, order, wants_frames: false }).unwrap().report
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn an_assignment_that_workers_cannot_read_costs_the_others_nothing() {
     for _ in 0..2 {
         assert_eq!((grade(&pool, ggsample06()).max_score, grade(&pool, &whole).max_score), (100.0, 150.0));
         let hand_in = &HandIn::of_one("ggsample06.vert", honest());
-        let submission = Submission { assignment: &broken, hand_in, order: Order::default(), wants_frames: false };
+        let submission = GradingTask { assignment: &broken, hand_in, order: Order::default(), wants_frames: false };
         let fault = pool.grade(submission).unwrap_err();
         assert!(fault.message.en.contains("solution.vert"), "{}", fault.message.en);
     }

@@ -5,7 +5,7 @@ use axum::Router;
 use axum::body::{Body, to_bytes};
 use axum::http::{HeaderMap, Request, StatusCode, header};
 use ggrade::fault::Fault;
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::config::Timeouts;
 use ggrade::service::grading::{Graders, Judge};
@@ -184,7 +184,7 @@ impl<F> std::fmt::Debug for Fake<F> {
 }
 
 impl<F: Fn() -> Result<(), Fault> + Send + Sync> Judge for Fake<F> {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         (self.0)()?;
         let assignment = reference::assignment("ggsample06").expect("built in");
         let sources = ggrade::grade::sources(assignment, submission.hand_in);

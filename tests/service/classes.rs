@@ -6,7 +6,7 @@ use crate::{on_both, right, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use clap::ValueEnum;
-use ggrade::batch::formats::Format;
+use ggrade::batch::formats::ClassFormat;
 use ggrade::report::Verdict;
 use ggrade::service::regrade;
 use ggrade::service::store::RosterLine;
@@ -70,9 +70,9 @@ async fn a_moodle_archive_is_graded_behind_the_scenes(database: Database) {
         json["students"].as_array().expect("students").iter().filter(|s| !s["note"].is_null()).collect();
     assert_eq!(nothing.len(), 1);
 
-    for format in Format::value_variants() {
+    for format in ClassFormat::value_variants() {
         let reply = get(&bench, &format!("{location}/files/{}", format.id())).await;
-        if *format == Format::MoodleWorksheet {
+        if *format == ClassFormat::MoodleWorksheet {
             assert_eq!(reply.problem(), "unprocessable");
             continue;
         }

@@ -9,7 +9,7 @@ use axum::http::{Request, StatusCode, header};
 use ggrade::service::Service;
 use ggrade::service::clock::Clock;
 use ggrade::service::identity::{course_secret, personal_code};
-use ggrade::service::store::{Assignment, RosterLine};
+use ggrade::service::store::{AssignmentSettings, RosterLine};
 use reference::assignment;
 
 on_both!(
@@ -249,7 +249,7 @@ async fn a_course_goes_on_in_the_next_term(database: Database) {
     assert_eq!(form(&bench, PLAN, &format!("position.{OTHER}=0")).await.status, StatusCode::SEE_OTHER);
     let rules = course.store.assignment("ggsample06").await.expect("rules");
     let (opens_at, closes_at) = (Some(1_700_000_000_000), Some(4_000_000_000_000));
-    let rules = Assignment { opens_at, closes_at, practice: false, ..rules };
+    let rules = AssignmentSettings { opens_at, closes_at, practice: false, ..rules };
     course.store.set_assignment(&rules).await.expect("rules");
     enrol(&course, &["S1"]).await;
     let address = "/c/cg-2027/api/v1/submissions?assignment=ggsample06&student=S1";

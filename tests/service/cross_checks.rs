@@ -9,7 +9,7 @@ use ggrade::cross_check::{CrossCheck, Opinion};
 use ggrade::fault::Fault;
 use ggrade::language::Text;
 use ggrade::report::Verdict;
-use ggrade::sandbox::{GradedSubmission, Pool, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask, Pool};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
@@ -100,7 +100,7 @@ struct Mistaken {
 }
 
 impl Judge for Mistaken {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         let is_meant = String::from_utf8_lossy(&submission.hand_in.files[0].bytes).contains(self.text);
         let mut answer = self.pool.grade(submission)?;
         if let Some(checked) = answer.report.cross_check.as_mut().filter(|_| is_meant) {
@@ -162,7 +162,7 @@ struct Slow {
 }
 
 impl Judge for Slow {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         if submission.order.cross_check {
             self.began.store(true, Ordering::SeqCst);
             // The sender goes where the test fails: then nobody waits for ever.

@@ -6,7 +6,7 @@ use crate::{on_both, right_and_new};
 use axum::http::StatusCode;
 use ggrade::fault::Fault;
 use ggrade::report::Verdict;
-use ggrade::sandbox::{GradedSubmission, Pool, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask, Pool};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ struct Counting {
 }
 
 impl Judge for Counting {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         self.drawings.fetch_add(usize::from(submission.wants_frames), Ordering::SeqCst);
         Judge::grade(&*self.pool, submission)
     }
@@ -75,7 +75,7 @@ async fn many_who_look_at_once_have_the_file_run_once(database: Database) {
 struct Stopping(AtomicUsize);
 
 impl Judge for Stopping {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         self.0.fetch_add(1, Ordering::SeqCst);
         let assignment = reference::assignment("ggsample06").expect("built in");
         let sources = ggrade::grade::sources(assignment, submission.hand_in);

@@ -6,7 +6,7 @@ mod files;
 use crate::cluster::Database;
 use crate::process::{Server, command, look_up};
 use files::{Hostile, Seen};
-use ggrade::diagnostic::Stage;
+use ggrade::diagnostic::DiagnosticStage;
 use ggrade::report::Verdict;
 use ggrade::service::submit::MAX_UPLOAD;
 use ggrade::source::not_text;
@@ -61,7 +61,7 @@ async fn hand_in(client: &Client, address: &str, file: &Hostile) -> Result<(), S
     if let Some((expected, kind, says)) = problem {
         // Elsewhere such a file gets a report that says the same.
         if !file.bytes.is_empty()
-            && (file.promise.verdict, file.promise.stage) != (Verdict::Rejected, Some(Stage::Source))
+            && (file.promise.verdict, file.promise.stage) != (Verdict::Rejected, Some(DiagnosticStage::Source))
         {
             return Err(format!("refused at the door, and promised {:?}", file.promise));
         }

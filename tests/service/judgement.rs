@@ -10,7 +10,7 @@ use crate::staff;
 use axum::body::Body;
 use axum::http::{StatusCode, header};
 use ggrade::fault::Fault;
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use ggrade::service::identity::personal_code;
@@ -33,7 +33,7 @@ on_both!(
 pub struct Lenient(AtomicU32);
 
 impl Judge for Lenient {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         let more = f64::from(self.0.load(Ordering::SeqCst));
         Ok(graded(submission.hand_in, points(submission.hand_in) + more))
     }

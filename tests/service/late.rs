@@ -10,7 +10,7 @@ use axum::http::{StatusCode, header};
 use ggrade::fault::Fault;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, Verdict};
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use ggrade::service::identity::personal_code;
@@ -30,7 +30,7 @@ on_both!(
 struct Points;
 
 impl Judge for Points {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         Ok(graded(submission.hand_in, points(submission.hand_in)))
     }
 }

@@ -11,7 +11,7 @@ use axum::http::{Request, StatusCode, header};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::lti::scores::send_due;
-use ggrade::service::store::{Assignment, LateRules};
+use ggrade::service::store::{AssignmentSettings, LateRules};
 use jsonwebtoken::{Algorithm, EncodingKey, Header};
 use platform::{CLIENT, DEPLOYMENT, Platform};
 use serde_json::{Value, json};
@@ -245,7 +245,7 @@ async fn scores_go_home_until_they_arrive(database: Database) {
     // What lateness takes off goes home as well, and is said.
     let rules = bench.state.store.assignment("ggsample06").await.expect("rules");
     let late = LateRules { until: Some(now + 86_400_000), percent: 15.0, ..LateRules::default() };
-    let strict = Assignment { closes_at: Some(now - 1000), late, ..rules.clone() };
+    let strict = AssignmentSettings { closes_at: Some(now - 1000), late, ..rules.clone() };
     bench.state.store.set_assignment(&strict).await.expect("set");
     send_due(&bench.state).await;
     let late = platform.seen().scores.pop().expect("a score");

@@ -7,7 +7,7 @@ use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use base64::Engine;
 use clap::ValueEnum;
-use ggrade::batch::formats::Format;
+use ggrade::batch::formats::ClassFormat;
 use std::io::{Cursor, Read, Write};
 
 on_both!(nothing_of_an_uploaded_archive_names_a_folder_of_the_machine);
@@ -109,12 +109,12 @@ async fn nothing_of_an_uploaded_archive_names_a_folder_of_the_machine(database: 
         assert!(refused.contains(&"../../evil_105_assignsubmission_file_/ggsample06.vert".into()), "{refused:?}");
         let address = reply.header("location").to_owned();
         check("its events", &ask(&bench, "GET", &format!("{address}/events"), "", Body::empty()).await, &folders);
-        for format in Format::value_variants() {
+        for format in ClassFormat::value_variants() {
             let address = format!("{address}/files/{}", format.id());
             let sheet = "Identifier,Full name,Grade,Maximum Grade,Grade can be changed,Feedback comments\n\
                          Participant 101,山田 太郎,,100,Yes,\nParticipant 103,鈴木 一郎,,100,Yes,\n";
             let reply = match format {
-                Format::MoodleWorksheet => ask(&bench, "POST", &address, "text/csv", sheet).await,
+                ClassFormat::MoodleWorksheet => ask(&bench, "POST", &address, "text/csv", sheet).await,
                 _ => ask(&bench, "GET", &address, "", Body::empty()).await,
             };
             assert_eq!(reply.status, StatusCode::OK, "{format:?}: {reply:?}");

@@ -9,7 +9,7 @@ use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::identity::add_staff;
 use ggrade::service::limits::Peer;
-use ggrade::service::store::{Role, RosterLine};
+use ggrade::service::store::{RosterLine, StaffRole};
 use std::net::SocketAddr;
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ async fn students_and_staff_come_in_by_the_proxys_word(database: Database) {
     assert!(browser.known_as(&bench, (PROXY, &["S9"])).await.is_empty());
 
     // Who teaches has an account by that login, and comes in without a password.
-    add_staff(&bench.state, "prof@example.ac.jp", "P", Role::Administrator).await.expect("an account");
+    add_staff(&bench.state, "prof@example.ac.jp", "P", StaffRole::Administrator).await.expect("an account");
     let mut teacher = Browser::default();
     let login = teacher.send(&bench, "GET", "/teacher/login", (PROXY, &["Prof@example.ac.jp"])).await;
     assert_eq!((login.status, login.header("location")), (StatusCode::SEE_OTHER, "/teacher"));
@@ -120,7 +120,7 @@ async fn nobody_else_is_believed(database: Database) {
     ] {
         assert!(Browser::default().known_as(&bench, said).await.is_empty(), "{said:?}");
     }
-    add_staff(&bench.state, "prof", "P", Role::Administrator).await.expect("an account");
+    add_staff(&bench.state, "prof", "P", StaffRole::Administrator).await.expect("an account");
     let refused = Browser::default().send(&bench, "GET", "/teacher/login", ("192.0.2.2", &["prof"])).await;
     assert_eq!(refused.status, StatusCode::OK, "the form");
     bench.finish().await;

@@ -6,10 +6,10 @@ use crate::on_both;
 use crate::process::{Server, command, hand_in, look_up};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
-use ggrade::cli::Role;
+use ggrade::cli::ProcessRole;
 use ggrade::fault::Fault;
 use ggrade::report::Verdict;
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::{self, Judge};
 use ggrade::service::identity::new_token;
@@ -45,7 +45,7 @@ impl Noting {
 }
 
 impl Judge for Noting {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         let text = String::from_utf8_lossy(&submission.hand_in.files[0].bytes).into_owned();
         self.graded.lock().unwrap().push(text.clone());
         if text.contains("wait") {
@@ -153,7 +153,7 @@ async fn processes_on_one_database_share_all_files() {
     let database = Database::postgres().await;
     let mut benches = Vec::new();
     let judges = [0; 3].map(|_| Arc::new(Noting::default()));
-    for (judge, role) in judges.iter().zip([Role::Web, Role::Grader, Role::Grader]) {
+    for (judge, role) in judges.iter().zip([ProcessRole::Web, ProcessRole::Grader, ProcessRole::Grader]) {
         let config = Config { workers: 1, role, ..config() };
         benches.push(Bench::with(database.again(), config, judge.clone(), Clock::system()).await);
     }

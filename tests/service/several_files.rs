@@ -8,13 +8,13 @@ use crate::roster::{archive, zip};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use clap::ValueEnum;
-use ggrade::batch::formats::Format;
-use ggrade::diagnostic::{Diagnostic, Stage};
+use ggrade::batch::formats::ClassFormat;
+use ggrade::diagnostic::{Diagnostic, DiagnosticStage};
 use ggrade::fault::Fault;
 use ggrade::grade::{sources, unfinished};
 use ggrade::language::Text;
 use ggrade::report::Verdict;
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use reference::Assignment;
@@ -55,10 +55,10 @@ struct Second {
 }
 
 impl Judge for Second {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         self.gradings.fetch_add(1, Ordering::SeqCst);
         let sources = sources(&self.homework, submission.hand_in);
-        let mut missing = Diagnostic::error(Stage::Compile, Text::verbatim("`;` is missing")).at(2, Some(28));
+        let mut missing = Diagnostic::error(DiagnosticStage::Compile, Text::verbatim("`;` is missing")).at(2, Some(28));
         missing.file = sources.get(1).map(|source| source.name.clone());
         let mut report = unfinished(&self.homework, sources, Verdict::Rejected, vec![missing], Default::default());
         report.probes.seed = submission.order.seed;
@@ -305,13 +305,13 @@ async fn a_class_of_several_files_each_is_shown_and_downloaded(database: Databas
     let page = bench.get(report["links"]["page"].as_str().expect("a page")).await;
     assert_eq!(page.all(".listing").len(), 2);
     // Every format says in which of the files the mistake is.
-    for format in Format::value_variants() {
+    for format in ClassFormat::value_variants() {
         let reply = teacher(&format!("/api/v1/batches/{id}/files/{}?lang=en", format.id())).await;
         let said = match format {
             // One needs a worksheet, the other one is written in base64.
-            Format::MoodleWorksheet | Format::ClassroomLegacy => continue,
-            Format::Nbgrader | Format::Canvas | Format::GradescopeGrades => "Smith, Ann",
-            Format::Sarif => "Smith%2C%20Ann_101_assignsubmission_file_/ggsample11.frag",
+            ClassFormat::MoodleWorksheet | ClassFormat::ClassroomLegacy => continue,
+            ClassFormat::Nbgrader | ClassFormat::Canvas | ClassFormat::GradescopeGrades => "Smith, Ann",
+            ClassFormat::Sarif => "Smith%2C%20Ann_101_assignsubmission_file_/ggsample11.frag",
             _ => "ggsample11.frag",
         };
         let text = unpacked(&reply.body);

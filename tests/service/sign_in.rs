@@ -12,7 +12,7 @@ use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::identity::{add_staff, choose_password, invite};
 use ggrade::service::sign_in::Provider;
-use ggrade::service::store::{Role, RosterLine};
+use ggrade::service::store::{RosterLine, StaffRole};
 use issuer::{CLIENT, Issuer, SECRET};
 use jsonwebtoken::{Algorithm, EncodingKey, Header};
 use serde_json::{Value, json};
@@ -52,7 +52,7 @@ async fn with_provider(database: Database, clock: Clock, change: impl Fn(&mut Pr
     let line = |number: &str| RosterLine { number: number.into(), ..RosterLine::default() };
     bench.state.store.set_roster(&[line("S1"), line("S2")], 0).await.expect("a roster");
     let state = bench.state.clone();
-    let member = add_staff(&state, "prof@example.ac.jp", "Prof", Role::Administrator).await.expect("an account");
+    let member = add_staff(&state, "prof@example.ac.jp", "Prof", StaffRole::Administrator).await.expect("an account");
     let link = invite(&state, &member).await.expect("a link");
     choose_password(&state, &link, "a long password").await.expect("a password");
     (bench, issuer)

@@ -8,7 +8,7 @@ use crate::roster::{form, get, request};
 use axum::http::StatusCode;
 use ggrade::fault::Fault;
 use ggrade::report::{Report, Verdict};
-use ggrade::sandbox::{GradedSubmission, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use ggrade::service::regrade;
@@ -32,7 +32,7 @@ const DAY: u64 = 86_400;
 struct Percent(AtomicU32);
 
 impl Judge for Percent {
-    fn grade(&self, submission: Submission<'_>) -> Result<GradedSubmission, Fault> {
+    fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         let text = String::from_utf8_lossy(&submission.hand_in.files[0].bytes).into_owned();
         let percent: f64 = text.lines().next().and_then(|line| line.trim().parse().ok()).unwrap_or(0.0);
         let percent = (percent + f64::from(self.0.load(Ordering::SeqCst))).min(100.0);

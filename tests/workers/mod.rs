@@ -6,7 +6,7 @@
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::Report;
-use ggrade::sandbox::{GradedSubmission, Pool, Settings, Submission};
+use ggrade::sandbox::{GradedSubmission, GradingTask, Pool, Settings};
 use reference::Assignment;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -49,7 +49,7 @@ pub fn honest() -> Vec<u8> {
 
 /// Grades bytes with a fixed seed and without frames.
 pub fn grade(pool: &Pool, bytes: &[u8]) -> Result<GradedSubmission, ggrade::fault::Fault> {
-    pool.grade(Submission {
+    pool.grade(GradingTask {
         assignment: pool.assignment(),
         hand_in: &HandIn::of_one("ggsample06.vert", bytes),
         order: Order { seed: 7, ..Order::default() },

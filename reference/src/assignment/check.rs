@@ -23,7 +23,7 @@ use crate::accepted::AcceptedAnswer;
 use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use crate::mistake::Mistake;
-use solution::Solution;
+use solution::CheckedSolution;
 use std::collections::HashSet;
 use std::sync::{Arc, OnceLock};
 use variants::Variants;
@@ -34,12 +34,16 @@ const OF_FEATURES: [&str; 2] = ["part-missing", "part-scaled"];
 /// Rubric lines are held as the bits of a u64.
 const MAX_LINES: usize = 64;
 
-type Checked<T> = Result<T, AssignmentError>;
+type CheckResult<T> = Result<T, AssignmentError>;
 
 /// `place_at`: where a byte of `assignment.toml` stands.
-pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, folder: &Folder) -> Checked<Assignment> {
+pub(super) fn assignment(
+    mut m: Manifest,
+    place_at: &dyn Fn(usize) -> String,
+    folder: &Folder,
+) -> CheckResult<Assignment> {
     check_id(&m.id, folder)?;
-    let read = |name: &str| -> Checked<String> { folder.text(name).map(str::to_owned) };
+    let read = |name: &str| -> CheckResult<String> { folder.text(name).map(str::to_owned) };
     let mut files = files(&m.file, &read)?;
     let fixed = fixed(&m, &read)?;
     let stages = stages::Stages::of(&files, &fixed)?;
@@ -47,7 +51,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     for (file, entry) in files.iter_mut().zip(&m.file) {
         file.accepted = stages.accepted(file.stage, &entry.accepted, &read)?;
     }
-    let mut solution = Solution::read(&files, &pipeline, &m.constant)?;
+    let mut solution = CheckedSolution::read(&files, &pipeline, &m.constant)?;
     let mut scene = scene::scene(&m.scene, folder, place_at)?;
     let textures = textures::textures(&m.texture, scene.all_poses().len(), folder, place_at)?;
     let interface = interface::interface(&m, &textures, &stages, &solution, place_at)?;
@@ -75,7 +79,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, place_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
-    let advice = advice.collect::<Checked<Vec<_>>>()?;
+    let advice = advice.collect::<CheckResult<Vec<_>>>()?;
     let textures: Arc<[Texture]> = textures.into();
     let equation = solution.finish(&m, &interface, &pipeline, &constants, Arc::clone(&textures))?;
     let assignment = Assignment {
@@ -111,7 +115,7 @@ pub(super) fn assignment(mut m: Manifest, place_at: &dyn Fn(usize) -> String, fo
     Ok(assignment)
 }
 
-fn files(files: &[manifest::File], read: &dyn Fn(&str) -> Checked<String>) -> Checked<Vec<HandedIn>> {
+fn files(files: &[manifest::File], read: &dyn Fn(&str) -> CheckResult<String>) -> CheckResult<Vec<HandedIn>> {
     if files.is_empty() {
         return Err(error(
             "file",
@@ -135,7 +139,7 @@ fn files(files: &[manifest::File], read: &dyn Fn(&str) -> Checked<String>) -> Ch
     files.iter().map(handed_in).collect()
 }
 
-fn fixed(m: &Manifest, read: &dyn Fn(&str) -> Checked<String>) -> Checked<Vec<FixedStage>> {
+fn fixed(m: &Manifest, read: &dyn Fn(&str) -> CheckResult<String>) -> CheckResult<Vec<FixedStage>> {
     let all = m.fixed.iter().chain(m.file.iter().flat_map(|file| &file.fixed));
     all.map(|one| Ok(FixedStage { stage: one.stage, name: one.file.clone(), text: read(&one.file)? })).collect()
 }
@@ -146,7 +150,7 @@ fn programs(
     key: &str,
     variants: &Variants<'_>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Vec<AcceptedAnswer>> {
+) -> CheckResult<Vec<AcceptedAnswer>> {
     let program = |entry: &toml::Spanned<manifest::Variant>| {
         variants.program(entry.get_ref(), &format!("{}, {key}", place_at(entry.span().start)))
     };
@@ -154,7 +158,7 @@ fn programs(
 }
 
 /// The mistakes of what is not gradual. Edges are those of what a pass draws.
-fn gradual(m: &Manifest, mistakes: &[Mistake], place_at: &dyn Fn(usize) -> String) -> Checked<Option<Gradual>> {
+fn gradual(m: &Manifest, mistakes: &[Mistake], place_at: &dyn Fn(usize) -> String) -> CheckResult<Option<Gradual>> {
     let Some(entry) = &m.gradual else { return Ok(None) };
     let known = |id: &toml::Spanned<String>| {
         let place = format!("{}, gradual", place_at(id.span().start));
@@ -182,7 +186,7 @@ fn gradual(m: &Manifest, mistakes: &[Mistake], place_at: &dyn Fn(usize) -> Strin
     Ok(Some(Gradual { abrupt: known(&entry.abrupt)?, uneven: known(&entry.uneven)? }))
 }
 
-fn rubric(lines: &mut [manifest::RubricLine], solution: &Solution<'_>) -> Checked<HashSet<String>> {
+fn rubric(lines: &mut [manifest::RubricLine], solution: &CheckedSolution<'_>) -> CheckResult<HashSet<String>> {
     if lines.len() > MAX_LINES {
         return Err(error("rubric", both("has more than 64 lines", "64 行を超えています")));
     }
@@ -217,7 +221,7 @@ fn rubric(lines: &mut [manifest::RubricLine], solution: &Solution<'_>) -> Checke
 const LONGEST_ID: usize = 64;
 
 /// The id stands in addresses and in names of files.
-fn check_id(id: &str, folder: &Folder) -> Checked<()> {
+fn check_id(id: &str, folder: &Folder) -> CheckResult<()> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
     if (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(is_plain) && !id.starts_with('.') {
         return Ok(());
@@ -243,7 +247,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> Checked<()> {
+fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> CheckResult<()> {
     if lines.contains(line) {
         Ok(())
     } else {

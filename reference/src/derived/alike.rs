@@ -3,8 +3,8 @@
 use super::Derived;
 use crate::Value;
 use crate::assignment::RubricLine;
-use crate::equation::Variant;
-use crate::mistake::{Alternative, Condition, Form};
+use crate::equation::EquationVariant;
+use crate::mistake::{Alternative, Condition, MistakeForm};
 use glam::DVec3;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -22,14 +22,14 @@ const SOME: f64 = 1.737;
 /// What a form computes at the first places.
 struct Known<'a> {
     /// None for what is right.
-    form: Option<&'a Form>,
+    form: Option<&'a MistakeForm>,
     colours: Vec<DVec3>,
     /// At all of them, once it was asked for: where little is lit, the first places tell little.
     all: OnceCell<Vec<DVec3>>,
 }
 
 impl<'a> Known<'a> {
-    fn new(form: Option<&'a Form>, colours: Vec<DVec3>) -> Self {
+    fn new(form: Option<&'a MistakeForm>, colours: Vec<DVec3>) -> Self {
         Self { form, colours, all: OnceCell::new() }
     }
 }
@@ -78,7 +78,7 @@ impl Derived {
         0..FIRST.min(self.places.len())
     }
 
-    fn is_alike<'a>(&'a self, variant: &mut Variant<'a>, own: &Known<'a>, other: &Known<'a>) -> bool {
+    fn is_alike<'a>(&'a self, variant: &mut EquationVariant<'a>, own: &Known<'a>, other: &Known<'a>) -> bool {
         let is_free = |known: &Known<'_>| known.form.is_some_and(|form| form.free);
         let is_comparable = other.form.is_none() || is_free(own) == is_free(other);
         is_comparable && same(&own.colours, &other.colours) && {
@@ -87,20 +87,20 @@ impl Derived {
         }
     }
 
-    fn all_colours<'a, 'k>(&'a self, variant: &mut Variant<'a>, known: &'k Known<'a>) -> &'k [DVec3] {
+    fn all_colours<'a, 'k>(&'a self, variant: &mut EquationVariant<'a>, known: &'k Known<'a>) -> &'k [DVec3] {
         known.all.get_or_init(|| self.colours(variant, known.form, 0..self.places.len()))
     }
 
     /// Whether a form replaces what is the same everywhere by something else that is: nothing shows how it was made. Of what a line
     /// judges it is told all the same.
-    fn is_another_constant<'a>(&'a self, variant: &mut Variant<'a>, form: &'a Form) -> bool {
+    fn is_another_constant<'a>(&'a self, variant: &mut EquationVariant<'a>, form: &'a MistakeForm) -> bool {
         let equation = &self.assignment.equation;
         let [replaced] = &form.overrides[..] else { return false };
         let is_judged = |line: &RubricLine| equation.index(&line.judges) == Some(replaced.definition);
         if self.assignment.rubric.iter().any(is_judged) {
             return false;
         }
-        let mut is_constant = |form: Option<&'a Form>| {
+        let mut is_constant = |form: Option<&'a MistakeForm>| {
             variant.instead(form, SOME);
             let value = |(uniforms, attributes): &(Vec<Value>, Vec<Value>)| {
                 variant.evaluate(uniforms, attributes).numbers(replaced.definition).to_vec()
@@ -113,7 +113,12 @@ impl Derived {
     }
 
     /// The colours with a form in the equation at some of the places, not clamped; a number that is free has some value.
-    fn colours<'a>(&'a self, variant: &mut Variant<'a>, form: Option<&'a Form>, places: Range<usize>) -> Vec<DVec3> {
+    fn colours<'a>(
+        &'a self,
+        variant: &mut EquationVariant<'a>,
+        form: Option<&'a MistakeForm>,
+        places: Range<usize>,
+    ) -> Vec<DVec3> {
         let equation = &self.assignment.equation;
         let is_free = form.is_some_and(|form| form.free);
         variant.instead(form, if is_free { SOME } else { f64::NAN });
@@ -138,7 +143,7 @@ impl Derived {
         }
         let colour = |moved: &[usize], at: usize| {
             let (uniforms, attributes) = &self.places[at];
-            let variant: Variant<'_> = equation.right();
+            let variant: EquationVariant<'_> = equation.right();
             variant.moved(uniforms, attributes, moved, [0.31, 0.37, 0.41])
         };
         let is_sum = |at: usize| {

@@ -26,13 +26,13 @@ pub(crate) struct OperatorText {
     /// What is found, and where to look.
     pub look: Text,
     /// What is said in place of that where the bound is 0.
-    pub bounded: Option<Said>,
+    pub bounded: Option<OperatorTexts>,
 }
 
 /// Two of the texts.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Said {
+pub(crate) struct OperatorTexts {
     pub equation: Text,
     pub look: Text,
 }
@@ -40,11 +40,11 @@ pub(crate) struct Said {
 /// All of them, in the order of the file.
 pub(crate) fn operators() -> &'static [OperatorText] {
     #[derive(Deserialize)]
-    struct File {
+    struct OperatorFile {
         operator: Vec<OperatorText>,
     }
     static ALL: LazyLock<Vec<OperatorText>> = LazyLock::new(|| {
-        let read: Result<File, _> = toml::from_str(include_str!("operators.toml"));
+        let read: Result<OperatorFile, _> = toml::from_str(include_str!("operators.toml"));
         // The tests of this crate read it as well.
         read.expect("operators.toml is broken").operator
     });

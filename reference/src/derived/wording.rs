@@ -2,14 +2,19 @@
 
 use super::{OperatorText, PREFIX, operator_of};
 use crate::assignment::RubricLine;
-use crate::interpreter::{Operator, ProgramSlip, Slip};
+use crate::interpreter::{DefinitionSlip, Operator, ProgramSlip};
 use crate::mistake::{Alternative, Condition, Mistake};
 use crate::{Assignment, Text};
 
 /// A mistake without its forms, which are those of the slips.
-pub(super) fn mistake(assignment: &Assignment, operator: Operator, definition: usize, slips: &[Slip]) -> Mistake {
+pub(super) fn mistake(
+    assignment: &Assignment,
+    operator: Operator,
+    definition: usize,
+    slips: &[DefinitionSlip],
+) -> Mistake {
     let name = &assignment.equation.definitions[definition].name;
-    let quantity = Quantity::of(assignment, definition);
+    let quantity = DefinitionName::of(assignment, definition);
     let said = operator_of(operator);
     let instead = slips.iter().enumerate().map(|(form, slip)| {
         let part = quantity.part(assignment, slip);
@@ -27,7 +32,7 @@ pub(super) fn mistake(assignment: &Assignment, operator: Operator, definition: u
 
 /// A mistake without its variants, which are those of the slips.
 pub(super) fn of_program(assignment: &Assignment, operator: Operator, name: &str, slips: &[ProgramSlip]) -> Mistake {
-    let quantity = Quantity::of_program(assignment);
+    let quantity = DefinitionName::of_program(assignment);
     let said = operator_of(operator);
     let part = Text {
         en: format!("a value in {}", quantity.named.en),
@@ -45,8 +50,10 @@ pub(super) fn of_repair(
     definition: Option<usize>,
     is_bound_by_zero: bool,
 ) -> Mistake {
-    let quantity =
-        definition.map_or_else(|| Quantity::of_program(assignment), |definition| Quantity::of(assignment, definition));
+    let quantity = definition.map_or_else(
+        || DefinitionName::of_program(assignment),
+        |definition| DefinitionName::of(assignment, definition),
+    );
     let name = definition.map_or("result", |definition| &assignment.equation.definitions[definition].name);
     let said = operator_of(operator);
     let only = alternative(0, said, &quantity, &quantity.named, is_bound_by_zero);
@@ -58,7 +65,7 @@ pub(super) fn of_repair(
 fn alternative(
     form: usize,
     said: &OperatorText,
-    quantity: &Quantity,
+    quantity: &DefinitionName,
     part: &Text,
     is_bound_by_zero: bool,
 ) -> Alternative {
@@ -95,7 +102,7 @@ fn blank(assignment: &Assignment, said: &OperatorText, name: &str, seen: Text) -
 }
 
 /// What a definition is called.
-struct Quantity {
+struct DefinitionName {
     /// Without the student's own name for it.
     plain: Text,
     /// With it.
@@ -106,7 +113,7 @@ struct Quantity {
     is_everything: bool,
 }
 
-impl Quantity {
+impl DefinitionName {
     fn of(assignment: &Assignment, definition: usize) -> Self {
         let own = &assignment.equation.definitions[definition];
         let plain = match (&own.means, &own.symbol) {
@@ -148,7 +155,7 @@ impl Quantity {
     }
 
     /// What of the quantity is concerned: all of it, a value that goes into it, or some part.
-    fn part(&self, assignment: &Assignment, slip: &Slip) -> Text {
+    fn part(&self, assignment: &Assignment, slip: &DefinitionSlip) -> Text {
         if slip.is_whole || !self.is_known {
             return self.named.clone();
         }
@@ -190,7 +197,9 @@ fn is_judged(assignment: &Assignment, definition: usize) -> bool {
 /// A value by its name in the solution, where it is called anything.
 fn value_called(assignment: &Assignment, name: &str) -> Option<Text> {
     if let Some(definition) = assignment.equation.index(name) {
-        return Some(Quantity::of(assignment, definition)).filter(|quantity| quantity.is_known).map(|it| it.named);
+        return Some(DefinitionName::of(assignment, definition))
+            .filter(|quantity| quantity.is_known)
+            .map(|it| it.named);
     }
     let constant = assignment.constants.iter().find(|constant| constant.name == name)?;
     let Text { en, ja } = &constant.means;

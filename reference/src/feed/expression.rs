@@ -32,12 +32,12 @@ mat4 look_at(vec3 eye, vec3 target, vec3 up) {
 
 /// An expression of the folder, compiled.
 #[derive(Clone, Debug)]
-pub struct Expression {
+pub struct FeedExpression {
     program: Arc<Program>,
     kind: Type,
 }
 
-impl Expression {
+impl FeedExpression {
     /// Compiles an expression of a type.
     ///
     /// # Errors
@@ -95,7 +95,7 @@ mod tests {
     }
 
     fn value(text: &str, kind: &Type, moment: &Moment) -> Vec<f64> {
-        let expression = Expression::compile(text, kind).unwrap_or_else(|refusal| panic!("{text}: {refusal}"));
+        let expression = FeedExpression::compile(text, kind).unwrap_or_else(|refusal| panic!("{text}: {refusal}"));
         expression.value(moment).expect(text).numbers().to_vec()
     }
 
@@ -139,9 +139,11 @@ mod tests {
     #[test]
     fn what_is_no_expression_of_the_type_is_refused() {
         for text in ["1.0; } float f() { return 1.0", "vec2(1.0)", "later", "", "1.0 // "] {
-            let compiled = Expression::compile(text, &Type::FLOAT);
+            let compiled = FeedExpression::compile(text, &Type::FLOAT);
             assert_eq!(compiled.is_ok(), text == "1.0 // ", "{text}");
         }
-        assert!(Expression::compile("1.0 / (t - t)", &Type::FLOAT).expect("valid").value(&moment(0.0, 0)).is_none());
+        assert!(
+            FeedExpression::compile("1.0 / (t - t)", &Type::FLOAT).expect("valid").value(&moment(0.0, 0)).is_none()
+        );
     }
 }

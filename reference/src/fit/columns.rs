@@ -14,7 +14,7 @@ use std::hash::{BuildHasherDefault, Hasher};
 /// Definitions as a set of bits.
 pub(super) type Set = u64;
 
-/// A formula, known to [`Columns`].
+/// A formula, known to [`RuleColumns`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Rule(u32);
 
@@ -23,7 +23,7 @@ pub(super) type Resolved = Vec<u32>;
 
 /// A rule and the columns of the definitions that it uses; unused places are `u32::MAX`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Key {
+struct RuleKey {
     rule: Rule,
     inputs: [u32; MAX_INPUTS],
     /// The bits of its free parameter.
@@ -38,15 +38,15 @@ pub(super) struct Replaced {
     pub parameter: f64,
 }
 
-struct Column {
-    key: Key,
+struct RuleColumn {
+    key: RuleKey,
     /// The numbers of all probes that are computed, one probe after the other.
     numbers: Vec<f64>,
     /// How many are one probe's.
     width: usize,
 }
 
-impl Column {
+impl RuleColumn {
     fn has(&self, probe: usize) -> bool {
         self.numbers.len() > probe * self.width
     }
@@ -70,21 +70,21 @@ struct RuleBody<'a> {
     free: Option<usize>,
 }
 
-pub(super) struct Columns<'a> {
+pub(super) struct RuleColumns<'a> {
     equation: &'a Equation,
     /// The probes in the order in which they are tried.
     probes: Vec<&'a Probe>,
     uniforms: Vec<&'a [Value]>,
     rules: Vec<RuleBody<'a>>,
-    columns: Vec<Column>,
-    known: HashMap<Key, u32, BuildHasherDefault<Mixer>>,
+    columns: Vec<RuleColumn>,
+    known: HashMap<RuleKey, u32, BuildHasherDefault<Mixer>>,
     /// Where columns are computed.
     registers: Registers,
     /// Where combinations are computed that are not worth a column.
     scratch: Registers,
 }
 
-impl<'a> Columns<'a> {
+impl<'a> RuleColumns<'a> {
     /// `order`: the places of the probes in the set, in the order in which they are tried.
     pub(super) fn new(assignment: &'a Assignment, probes: &'a ProbeSet, order: &[usize]) -> Self {
         let tried = || order.iter().map(|place| &probes.probes[*place]);
@@ -166,13 +166,13 @@ impl<'a> Columns<'a> {
         for (slot, definition) in inputs.iter_mut().zip(&self.rules[rule.0 as usize].uses) {
             *slot = resolved[*definition];
         }
-        let key = Key { rule, inputs, parameter: parameter.to_bits() };
+        let key = RuleKey { rule, inputs, parameter: parameter.to_bits() };
         let next = u32::try_from(self.columns.len()).unwrap_or(u32::MAX);
         let column = *self.known.entry(key).or_insert(next);
         if column == next {
             let definition = self.rules[rule.0 as usize].formula.cell() - self.equation.first;
             let width = self.equation.definitions[definition].kind.slots().unwrap_or(1);
-            self.columns.push(Column { key, numbers: Vec::new(), width });
+            self.columns.push(RuleColumn { key, numbers: Vec::new(), width });
         }
         column
     }
@@ -238,14 +238,14 @@ impl<'a> Columns<'a> {
         for input in inputs.into_iter().filter(|i| *i != u32::MAX) {
             self.fill(input, probe);
         }
-        let Column { numbers, width, .. } = &self.columns[column as usize];
+        let RuleColumn { numbers, width, .. } = &self.columns[column as usize];
         for at in numbers.len() / width..=probe {
             self.compute(column, at);
         }
     }
 
     fn compute(&mut self, column: u32, probe: usize) {
-        let Key { rule, inputs, parameter } = self.columns[column as usize].key;
+        let RuleKey { rule, inputs, parameter } = self.columns[column as usize].key;
         let rule = &self.rules[rule.0 as usize];
         let Equation { sheet, first, .. } = self.equation;
         let registers = &mut self.registers;

@@ -1,7 +1,7 @@
 //! Looking for derived mistakes, where the written ones explain nothing: alone, then two at once, one of which may be written.
 
 use super::columns::Resolved;
-use super::search::{Candidate, Search, fits};
+use super::search::{Candidate, MistakeSearch, fits};
 use super::{agrees, alternating, padded};
 use crate::Assignment;
 use crate::accepted::Computed;
@@ -45,7 +45,7 @@ pub fn explain_derived(
     let is_right = |place: &usize| agrees(probes.probes[*place].colour, samples[*place], tolerance);
     let (rest, wrong): (Vec<_>, Vec<_>) = (0..samples.len()).partition(is_right);
     let order = alternating(&wrong, &rest);
-    let (search, right) = Search::new(&derived.assignment, probes, &samples, &order, tolerance);
+    let (search, right) = MistakeSearch::new(&derived.assignment, probes, &samples, &order, tolerance);
     let mut pairs = Pairs::new(derived, search, right);
     let moves = |found: &Vec<FoundMistake>| moves_as_seen(&derived.assignment, found, probes, is_there);
     let shows = |place: usize, (colour, position): &Computed| {
@@ -90,18 +90,18 @@ fn moves_as_seen(
 
 struct Pairs<'a> {
     derived: &'a Derived,
-    search: Search<'a>,
+    search: MistakeSearch<'a>,
     right: Resolved,
 }
 
 /// What a candidate without a free number adds to the colour at the first places, and to which terms.
-struct Added {
+struct Contribution {
     terms: u64,
     colours: [DVec3; SUMMED_AT],
 }
 
 impl<'a> Pairs<'a> {
-    fn new(derived: &'a Derived, search: Search<'a>, right: Resolved) -> Self {
+    fn new(derived: &'a Derived, search: MistakeSearch<'a>, right: Resolved) -> Self {
         Self { derived, search, right }
     }
 
@@ -143,7 +143,7 @@ impl<'a> Pairs<'a> {
             |one: &&Rc<Candidate<'_>>| !one.whole && (!self.is_derived(one) || self.derived.is_usual(one.mistake));
         let all: Vec<_> = self.search.candidates.iter().filter(is_usual).map(Rc::clone).collect();
         let (free, fixed): (Vec<_>, Vec<_>) = all.into_iter().partition(|one| one.free.is_some());
-        let added: Vec<Added> = fixed.iter().map(|one| self.added(one)).collect();
+        let added: Vec<Contribution> = fixed.iter().map(|one| self.added(one)).collect();
         self.in_different_terms(&fixed, &added);
         self.one_after_the_other(&fixed, &added);
         if self.search.best.is_some() {
@@ -156,7 +156,7 @@ impl<'a> Pairs<'a> {
         self.found()
     }
 
-    fn added(&mut self, candidate: &Candidate<'_>) -> Added {
+    fn added(&mut self, candidate: &Candidate<'_>) -> Contribution {
         let equation = &self.derived.assignment.equation;
         let mut colours = [DVec3::ZERO; SUMMED_AT];
         for (place, colour) in colours.iter_mut().enumerate().take(self.search.samples.len()) {
@@ -164,11 +164,11 @@ impl<'a> Pairs<'a> {
             let with = columns.unclamped_with(&self.right, &candidate.replaced, place);
             *colour = with - columns.unclamped_with(&self.right, &[], place);
         }
-        Added { terms: terms(equation, self.derived.terms, candidate), colours }
+        Contribution { terms: terms(equation, self.derived.terms, candidate), colours }
     }
 
     /// Pairs of which each is in a term of its own: what they add to the colour adds up.
-    fn in_different_terms(&mut self, fixed: &[Rc<Candidate<'a>>], added: &[Added]) {
+    fn in_different_terms(&mut self, fixed: &[Rc<Candidate<'a>>], added: &[Contribution]) {
         let places = SUMMED_AT.min(self.search.samples.len());
         let equation = &self.derived.assignment.equation;
         let right: Vec<DVec3> =
@@ -200,7 +200,7 @@ impl<'a> Pairs<'a> {
     }
 
     /// Pairs that act on the same terms.
-    fn one_after_the_other(&mut self, fixed: &[Rc<Candidate<'a>>], added: &[Added]) {
+    fn one_after_the_other(&mut self, fixed: &[Rc<Candidate<'a>>], added: &[Contribution]) {
         for (at, first) in fixed.iter().enumerate() {
             let chosen = [(Rc::clone(first), None)];
             let resolved = self.search.columns.derive(&self.right, &first.replaced);

@@ -29,7 +29,7 @@ pub fn program_of(
 }
 
 /// A channel at a probe: their places.
-pub type Cell = (usize, usize);
+pub type ProbeChannel = (usize, usize);
 
 /// Where the features of the rubric show: in which channels at which probes the solution without one differs from the solution.
 #[derive(Clone, Debug)]
@@ -40,22 +40,22 @@ pub struct Footprints {
 
 /// A line of the rubric, judged by what shows it beside nothing that may be wrong.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub struct JudgedLine {
     /// Its place in the rubric.
     pub line: usize,
     /// Whether all agrees that it is judged by.
     pub is_right: bool,
-    cells: Vec<Cell>,
+    cells: Vec<ProbeChannel>,
 }
 
-impl Judged {
+impl JudgedLine {
     /// The probes that it is judged at.
     pub fn probes(&self) -> Vec<usize> {
         probes_of(&self.cells)
     }
 }
 
-fn probes_of(cells: &[Cell]) -> Vec<usize> {
+fn probes_of(cells: &[ProbeChannel]) -> Vec<usize> {
     let mut probes: Vec<usize> = cells.iter().map(|(probe, _)| *probe).collect();
     probes.dedup();
     probes
@@ -89,7 +89,7 @@ impl Footprints {
     }
 
     /// Where a line's feature shows beside no other than those that are known to be right.
-    fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<Cell> {
+    fn beside(&self, line: usize, is_right: &dyn Fn(usize) -> bool) -> Vec<ProbeChannel> {
         let Some(Some(own)) = self.shows.get(line) else { return Vec::new() };
         let others: Vec<&Vec<[bool; 3]>> = self
             .shows
@@ -98,15 +98,16 @@ impl Footprints {
             .filter_map(|(other, shows)| shows.as_ref().filter(|_| other != line && !is_right(other)))
             .collect();
         let cells = (0..own.len()).flat_map(|probe| (0..3).map(move |channel| (probe, channel)));
-        let is_alone =
-            |(probe, channel): &Cell| own[*probe][*channel] && !others.iter().any(|other| other[*probe][*channel]);
+        let is_alone = |(probe, channel): &ProbeChannel| {
+            own[*probe][*channel] && !others.iter().any(|other| other[*probe][*channel])
+        };
         cells.filter(is_alone).collect()
     }
 
     /// The lines that can be judged, in an order in which each shows by itself beside those before it. `agrees`: whether a
     /// channel at a probe shows what is right; what differs is beside no other line.
-    pub fn judged(&self, agrees: &dyn Fn(Cell) -> bool) -> Vec<Judged> {
-        let mut judged: Vec<Judged> = Vec::new();
+    pub fn judged(&self, agrees: &dyn Fn(ProbeChannel) -> bool) -> Vec<JudgedLine> {
+        let mut judged: Vec<JudgedLine> = Vec::new();
         loop {
             let is_right = |line: usize| judged.iter().any(|known| known.line == line && known.is_right);
             let open = self.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
@@ -114,7 +115,7 @@ impl Footprints {
             let Some((line, cells)) = cells.into_iter().find(|(_, cells)| probes_of(cells).len() >= FEWEST) else {
                 return judged;
             };
-            judged.push(Judged { line, is_right: cells.iter().all(|cell| agrees(*cell)), cells });
+            judged.push(JudgedLine { line, is_right: cells.iter().all(|cell| agrees(*cell)), cells });
         }
     }
 }
@@ -149,9 +150,10 @@ pub fn judge_features(alternatives: &Alternatives<'_>, samples: &[[f64; 3]], tol
     let Alternatives { assignment, probes, .. } = *alternatives;
     let samples = super::padded(probes, samples);
     let is_right = |place: usize| agrees(probes.probes[place].colour, samples[place], tolerance);
-    let agrees =
-        |(at, channel): Cell| channel_agrees(probes.probes[at].colour[channel], samples[at][channel], tolerance);
-    let judgement = |line: usize, cells: &[Cell]| {
+    let agrees = |(at, channel): ProbeChannel| {
+        channel_agrees(probes.probes[at].colour[channel], samples[at][channel], tolerance)
+    };
+    let judgement = |line: usize, cells: &[ProbeChannel]| {
         let places = probes_of(cells);
         let apart = |place: &usize| {
             let apart = (samples[*place] - probes.probes[*place].colour).abs().max_element();

@@ -17,7 +17,7 @@ pub(super) const FULL: f64 = 1.0 - 1e-6;
 
 /// What is wrong with a feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum FeatureDefect {
     /// It is not there.
     Missing,
     /// It is there, so many times as strong: red, green and blue.
@@ -26,11 +26,11 @@ pub enum Part {
 
 /// An explanation by features, and by known mistakes beside them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parts {
+pub struct FeatureExplanation {
     /// What is known to be wrong.
     pub found: Vec<FoundMistake>,
     /// Lines of the rubric, and what is wrong with what they judge.
-    pub parts: Vec<(usize, Part)>,
+    pub parts: Vec<(usize, FeatureDefect)>,
 }
 
 /// The fewest features that explain the samples, where any do.
@@ -41,7 +41,7 @@ pub fn explain_parts(
     samples: &[[f64; 3]],
     is_there: &dyn Fn(usize, DVec4) -> bool,
     tolerance: f64,
-) -> Option<Parts> {
+) -> Option<FeatureExplanation> {
     let assignment = alternatives.assignment;
     let right = alternatives.right();
     let lines = 0..assignment.features.len();
@@ -50,7 +50,7 @@ pub fn explain_parts(
         let add = |(own, without): (&Computed, &Computed)| (own.0 - without.0, own.1 - without.1);
         (line, right.iter().zip(without).map(add).collect())
     });
-    let search = Search {
+    let search = DefectSearch {
         samples: super::padded(alternatives.probes, samples),
         added: added.collect(),
         right: right.clone(),
@@ -59,10 +59,10 @@ pub fn explain_parts(
         tolerance,
     };
     if let Some(parts) = search.missing(&search.right, 1).or_else(|| search.scaled()) {
-        return Some(Parts { found: Vec::new(), parts });
+        return Some(FeatureExplanation { found: Vec::new(), parts });
     }
     let with_one = |(found, _, shown): (&FoundMistake, _, &[Computed])| {
-        Some(Parts { parts: search.missing(shown, 1)?, found: vec![found.clone()] })
+        Some(FeatureExplanation { parts: search.missing(shown, 1)?, found: vec![found.clone()] })
     };
     if let Some(parts) = alternatives.programs().find_map(with_one) {
         return Some(parts);
@@ -73,11 +73,11 @@ pub fn explain_parts(
     pairs.filter(|((a, ..), (b, ..))| !assignment.share_a_line(a, b)).find_map(|((a, _, ours), (b, _, theirs))| {
         let both = ours.iter().zip(theirs).zip(&search.right);
         let both: Vec<Computed> = both.map(|((a, b), right)| (a.0 + b.0 - right.0, a.1 + b.1 - right.1)).collect();
-        Some(Parts { parts: search.missing(&both, 0)?, found: vec![a.clone(), b.clone()] })
+        Some(FeatureExplanation { parts: search.missing(&both, 0)?, found: vec![a.clone(), b.clone()] })
     })
 }
 
-struct Search<'a> {
+struct DefectSearch<'a> {
     samples: Vec<DVec3>,
     right: Vec<Computed>,
     /// For each line with a feature what it adds at each probe.
@@ -88,9 +88,9 @@ struct Search<'a> {
     tolerance: f64,
 }
 
-impl Search<'_> {
+impl DefectSearch<'_> {
     /// The fewest features, `least` of them or more, without which `base` is what the samples show.
-    fn missing(&self, base: &[Computed], least: u32) -> Option<Vec<(usize, Part)>> {
+    fn missing(&self, base: &[Computed], least: u32) -> Option<Vec<(usize, FeatureDefect)>> {
         let mut sets: Vec<u32> = (0..1 << self.added.len()).filter(|set: &u32| set.count_ones() >= least).collect();
         sets.sort_by_key(|set| set.count_ones());
         let lacks = |set: u32| self.added.iter().enumerate().filter(move |(number, _)| set & (1 << number) != 0);
@@ -102,11 +102,11 @@ impl Search<'_> {
             })
         };
         let set = sets.into_iter().find(explains)?;
-        Some(lacks(set).map(|(_, (line, _))| (*line, Part::Missing)).collect())
+        Some(lacks(set).map(|(_, (line, _))| (*line, FeatureDefect::Missing)).collect())
     }
 
     /// The feature that is in another strength, where all else is right.
-    fn scaled(&self) -> Option<Vec<(usize, Part)>> {
+    fn scaled(&self) -> Option<Vec<(usize, FeatureDefect)>> {
         self.added.iter().find_map(|(line, added)| {
             let factor = self.factor(added);
             let explains = |place: usize| {
@@ -115,7 +115,7 @@ impl Search<'_> {
             };
             let is_other = factor.is_finite() && (factor - 1.0).abs().max_element() > self.tolerance;
             let explained = is_other && (0..self.right.len()).all(explains);
-            explained.then(|| vec![(*line, Part::Factor(factor.to_array()))])
+            explained.then(|| vec![(*line, FeatureDefect::Factor(factor.to_array()))])
         })
     }
 

@@ -1,10 +1,10 @@
 //! Trying combinations of mistakes: the fewest first, and of as many those with the fewest free parameters.
 
-use super::columns::{Columns, Replaced, Resolved, Set};
+use super::columns::{Replaced, Resolved, RuleColumns, Set};
 use super::views::Views;
 use super::{MOST_MISTAKES, agrees};
 use crate::Assignment;
-use crate::mistake::{Form, FoundMistake, FreeParameter, Mistake};
+use crate::mistake::{FoundMistake, FreeParameter, Mistake, MistakeForm};
 use crate::probes::ProbeSet;
 use glam::DVec3;
 use std::rc::Rc;
@@ -39,11 +39,11 @@ impl Candidate<'_> {
 }
 
 /// A candidate of an explanation, and the value of what is free in it.
-pub(super) type Chosen<'a> = (Rc<Candidate<'a>>, Option<f64>);
+pub(super) type ChosenCandidate<'a> = (Rc<Candidate<'a>>, Option<f64>);
 
-pub(super) struct Search<'a> {
+pub(super) struct MistakeSearch<'a> {
     pub assignment: &'a Assignment,
-    pub columns: Columns<'a>,
+    pub columns: RuleColumns<'a>,
     /// In the order of the definitions that they replace: what is replaced last has the least to recompute.
     pub candidates: Vec<Rc<Candidate<'a>>>,
     /// In the order in which they are tried.
@@ -56,14 +56,14 @@ pub(super) struct Search<'a> {
     /// What may be spent on the combinations of the present number of mistakes.
     budget: u64,
     /// The most plausible explanation so far.
-    pub best: Option<(Rank, Vec<FoundMistake>)>,
+    pub best: Option<(ExplanationRank, Vec<FoundMistake>)>,
 }
 
 /// How plausible an explanation is among others of as many mistakes; less is more.
 ///
 /// Mistakes that touch few lines of the rubric come before those that upset everything, and then the table's order decides: an
 /// answer without diffuse and specular term is just that, and not one with a reversed light and a constant normal.
-pub(super) type Rank = (u32, Vec<usize>);
+pub(super) type ExplanationRank = (u32, Vec<usize>);
 
 /// The mistakes that explain samples that are not all right; `None` if nothing explains them.
 ///
@@ -75,7 +75,7 @@ pub(super) fn search(
     order: &[usize],
     tolerance: f64,
 ) -> Option<Vec<FoundMistake>> {
-    let (mut search, right) = Search::new(assignment, probes, samples, order, tolerance);
+    let (mut search, right) = MistakeSearch::new(assignment, probes, samples, order, tolerance);
     for count in 1..=MOST_MISTAKES {
         for free in 0..=count {
             search.count = count;
@@ -90,7 +90,7 @@ pub(super) fn search(
     None
 }
 
-fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<Rc<Candidate<'a>>> {
+fn candidates<'a>(assignment: &'a Assignment, columns: &mut RuleColumns<'a>) -> Vec<Rc<Candidate<'a>>> {
     let mut all = Vec::new();
     for (index, mistake) in assignment.mistakes.iter().enumerate() {
         for (place, form) in mistake.forms.iter().enumerate() {
@@ -113,7 +113,7 @@ fn candidates<'a>(assignment: &'a Assignment, columns: &mut Columns<'a>) -> Vec<
     all
 }
 
-fn rules<'a>(columns: &mut Columns<'a>, form: &'a Form) -> Vec<Replaced> {
+fn rules<'a>(columns: &mut RuleColumns<'a>, form: &'a MistakeForm) -> Vec<Replaced> {
     let overrides = form.overrides.iter();
     overrides
         .map(|o| Replaced { definition: o.definition, rule: columns.rule(&o.formula), parameter: f64::NAN })
@@ -127,7 +127,7 @@ fn is_refuted(
     candidate: &Candidate<'_>,
     line: usize,
     places: &[usize],
-    columns: &mut Columns<'_>,
+    columns: &mut RuleColumns<'_>,
     right: &Resolved,
     tolerance: f64,
 ) -> bool {
@@ -144,14 +144,14 @@ fn is_refuted(
 }
 
 /// The lines of which less is kept than this, as bits.
-fn lines(assignment: &Assignment, mistake: &Mistake, form: &Form, fraction: f64) -> u64 {
+fn lines(assignment: &Assignment, mistake: &Mistake, form: &MistakeForm, fraction: f64) -> u64 {
     let rubric = assignment.rubric.iter().enumerate();
     let lost = rubric.filter(|(_, line)| mistake.keeps(&line.id) < fraction && assignment.reaches(form, line));
     lost.map(|(place, _)| 1 << place).sum()
 }
 
 /// Whether the form replaces nothing before a term.
-fn is_of_all(assignment: &Assignment, form: &Form) -> bool {
+fn is_of_all(assignment: &Assignment, form: &MistakeForm) -> bool {
     let equation = &assignment.equation;
     let judged = || assignment.rubric.iter().filter_map(|line| equation.index(&line.judges));
     let replaced = form.overrides.iter().map(|o| o.definition);
@@ -161,7 +161,7 @@ fn is_of_all(assignment: &Assignment, form: &Form) -> bool {
 }
 
 /// Whether the form's colour depends on no definition that the rubric judges.
-fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
+fn replaces_everything(assignment: &Assignment, form: &MistakeForm) -> bool {
     let equation = &assignment.equation;
     let judged = |d: usize| {
         let name = &equation.definitions[d].name;
@@ -179,7 +179,7 @@ fn replaces_everything(assignment: &Assignment, form: &Form) -> bool {
     true
 }
 
-impl<'a> Search<'a> {
+impl<'a> MistakeSearch<'a> {
     /// A search that has found nothing yet, and the right equation. See [`search`].
     pub fn new(
         assignment: &'a Assignment,
@@ -188,7 +188,7 @@ impl<'a> Search<'a> {
         order: &[usize],
         tolerance: f64,
     ) -> (Self, Resolved) {
-        let mut columns = Columns::new(assignment, probes, order);
+        let mut columns = RuleColumns::new(assignment, probes, order);
         let right = columns.right();
         let mut candidates = candidates(assignment, &mut columns);
         let agreeing = Views::new(assignment, probes, samples, tolerance).agreeing(order);
@@ -210,7 +210,14 @@ impl<'a> Search<'a> {
     }
 
     /// Adds to the chosen ones `fixed` candidates without a free parameter, from `next` on, and `free` with one.
-    fn extend(&mut self, base: &Resolved, chosen: &mut Vec<Chosen<'a>>, next: usize, fixed: usize, free: usize) {
+    fn extend(
+        &mut self,
+        base: &Resolved,
+        chosen: &mut Vec<ChosenCandidate<'a>>,
+        next: usize,
+        fixed: usize,
+        free: usize,
+    ) {
         if self.spent > self.budget {
             return;
         }
@@ -242,7 +249,7 @@ impl<'a> Search<'a> {
     fn extend_free(
         &mut self,
         base: &Resolved,
-        chosen: &[Chosen<'a>],
+        chosen: &[ChosenCandidate<'a>],
         open: &mut Vec<Rc<Candidate<'a>>>,
         next: usize,
         count: usize,
@@ -275,7 +282,7 @@ impl<'a> Search<'a> {
     }
 
     /// Keeps an explanation if it is the most plausible so far.
-    pub fn keep(&mut self, chosen: &[Chosen<'a>], last: &[Chosen<'a>]) {
+    pub fn keep(&mut self, chosen: &[ChosenCandidate<'a>], last: &[ChosenCandidate<'a>]) {
         let mut all = [chosen, last].concat();
         all.sort_by_key(|(c, _)| (c.mistake, c.form));
         let lines = all.iter().map(|(c, _)| c.lines.count_ones()).sum();
@@ -283,7 +290,7 @@ impl<'a> Search<'a> {
         if self.best.as_ref().is_some_and(|(best, _)| *best <= rank) {
             return;
         }
-        let one = |(candidate, parameter): &Chosen| FoundMistake {
+        let one = |(candidate, parameter): &ChosenCandidate| FoundMistake {
             id: self.assignment.mistakes[candidate.mistake].id.clone(),
             form: candidate.form,
             parameter: *parameter,
@@ -297,13 +304,13 @@ impl<'a> Search<'a> {
 ///
 /// `free`: one of the mistakes is to have a free parameter. Then not even two of three are in the same lines, and none is in
 /// what becomes of all terms, because a number to choose makes up for nearly anything.
-pub(super) fn fits(chosen: &[Chosen<'_>], new: &Candidate<'_>, free: bool) -> bool {
+pub(super) fn fits(chosen: &[ChosenCandidate<'_>], new: &Candidate<'_>, free: bool) -> bool {
     let is_last = chosen.len() + 1 == MOST_MISTAKES;
-    let clash = |(c, _): &Chosen| {
+    let clash = |(c, _): &ChosenCandidate| {
         let empty = c.empties & new.lines == new.lines || new.empties & c.lines == c.lines;
         c.mistake == new.mistake || c.touches & new.touches != 0 || empty
     };
     let shared = chosen.iter().fold(new.lines, |lines, (c, _)| lines & c.lines);
-    let crowded = |(c, _): &Chosen| c.lines == new.lines || c.is_of_all || new.is_of_all;
+    let crowded = |(c, _): &ChosenCandidate| c.lines == new.lines || c.is_of_all || new.is_of_all;
     !chosen.iter().any(clash) && !(is_last && (shared != 0 || free && chosen.iter().any(crowded)))
 }

@@ -2,7 +2,7 @@
 
 use super::columns::{Replaced, Resolved};
 use super::digits::simpler;
-use super::search::{Candidate, Search};
+use super::search::{Candidate, MistakeSearch};
 use super::{MOST_MISTAKES, agrees, channel_agrees};
 use crate::mistake::FreeParameter;
 use std::rc::Rc;
@@ -26,7 +26,7 @@ const UNMOVED: f64 = 0.1;
 /// Each candidate with its number.
 type Solved<'a> = Vec<(Rc<Candidate<'a>>, Option<f64>)>;
 
-impl<'a> Search<'a> {
+impl<'a> MistakeSearch<'a> {
     /// The numbers with which these candidates together explain every sample.
     ///
     /// One of them is found first where the others do not show, and then the rest on top of it.

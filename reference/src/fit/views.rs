@@ -32,7 +32,7 @@ const FRACTION_ALONE: f64 = 0.1;
 const FRACTION_BESIDE: f64 = 0.3;
 
 /// A term's right values at all probes.
-pub(super) struct Term<'a> {
+pub(super) struct TermValues<'a> {
     /// Its line's place in the rubric.
     place: usize,
     pub line: &'a RubricLine,
@@ -63,7 +63,7 @@ enum Way {
 
 /// The terms of a shader at all probes.
 pub(super) struct Views<'a> {
-    pub terms: Vec<Term<'a>>,
+    pub terms: Vec<TermValues<'a>>,
     regions: &'a [Region],
     probes: &'a ProbeSet,
     samples: &'a [DVec3],
@@ -92,7 +92,8 @@ impl<'a> Views<'a> {
             let is_itself = own.iter().zip(&adds).all(|(own, adds)| (*own - *adds).abs().max_element() < ROUNDING);
             Some(if is_itself { own } else { adds })
         };
-        let terms = lines.filter_map(|(place, line)| Some(Term::new(place, line, values(place, line)?))).collect();
+        let terms =
+            lines.filter_map(|(place, line)| Some(TermValues::new(place, line, values(place, line)?))).collect();
         Self { terms, regions: &assignment.regions, probes, samples, tolerance }
     }
 
@@ -265,7 +266,7 @@ impl<'a> Views<'a> {
     }
 }
 
-impl<'a> Term<'a> {
+impl<'a> TermValues<'a> {
     fn new(place: usize, line: &'a RubricLine, values: Vec<DVec3>) -> Self {
         let strongest = values.iter().copied().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         let strongest = strongest.unwrap_or(DVec3::ZERO);

@@ -1,9 +1,9 @@
 //! A number as it is written: numbers, elements of what the program has beside, names of either, `+ - * /` and parentheses.
 
 use super::found::closing;
-use super::meaning::Meaning;
-use super::token::{Kind, Token};
-use super::{HostArray, Unreadable};
+use super::meaning::NameMeaning;
+use super::token::{HostToken, HostTokenKind};
+use super::{HostArray, UnreadableProgram};
 use crate::assignment::both;
 use std::collections::BTreeSet;
 
@@ -13,16 +13,16 @@ const MOST_PARTS: usize = 500;
 
 /// What a number is written as.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Expression {
+pub(super) enum HostExpression {
     Int(i32),
     Float(f64),
     /// An element of what the program has beside.
     Given(String),
-    Negative(Box<Expression>),
-    Of(char, Box<[Expression; 2]>),
+    Negative(Box<HostExpression>),
+    Of(char, Box<[HostExpression; 2]>),
 }
 
-impl Expression {
+impl HostExpression {
     /// The same in GLSL.
     pub fn shader(&self) -> String {
         match self {
@@ -67,38 +67,38 @@ impl Expression {
 /// Reads expressions of a program.
 pub(super) struct Reader<'a> {
     pub(super) array: &'a HostArray,
-    pub(super) tokens: &'a [Token<'a>],
+    pub(super) tokens: &'a [HostToken<'a>],
     pub(super) depth: usize,
     parts: usize,
 }
 
-pub(super) type Read<T> = Result<T, Unreadable>;
+pub(super) type HostResult<T> = Result<T, UnreadableProgram>;
 
 impl<'a> Reader<'a> {
-    pub fn new(array: &'a HostArray, tokens: &'a [Token<'a>]) -> Self {
+    pub fn new(array: &'a HostArray, tokens: &'a [HostToken<'a>]) -> Self {
         Self { array, tokens, depth: 0, parts: 0 }
     }
 
     /// The expression of these tokens; of none it is 0.
-    pub fn read(&mut self, at: usize, end: usize) -> Read<Expression> {
+    pub fn read(&mut self, at: usize, end: usize) -> HostResult<HostExpression> {
         if at == end {
-            return Ok(Expression::Int(0));
+            return Ok(HostExpression::Int(0));
         }
         self.parts = 0;
         self.whole(at, end)
     }
 
-    pub(super) fn whole(&mut self, mut at: usize, end: usize) -> Read<Expression> {
+    pub(super) fn whole(&mut self, mut at: usize, end: usize) -> HostResult<HostExpression> {
         let found = self.sum(&mut at, end)?;
         if at < end { Err(self.not_read(at)) } else { Ok(found) }
     }
 
     fn sign(&self, at: usize, end: usize, of: &[&str]) -> Option<char> {
-        let token = self.tokens.get(at).filter(|token| at < end && token.kind == Kind::Sign)?;
+        let token = self.tokens.get(at).filter(|token| at < end && token.kind == HostTokenKind::Sign)?;
         of.contains(&token.text).then(|| token.text.chars().next()).flatten()
     }
 
-    fn sum(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+    fn sum(&mut self, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         let mut left = self.product(at, end)?;
         while let Some(sign) = self.sign(*at, end, &["+", "-"]) {
             let place = *at;
@@ -109,7 +109,7 @@ impl<'a> Reader<'a> {
         Ok(left)
     }
 
-    fn product(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+    fn product(&mut self, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         let mut left = self.signed(at, end)?;
         while let Some(sign) = self.sign(*at, end, &["*", "/"]) {
             let place = *at;
@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
         Ok(left)
     }
 
-    fn signed(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+    fn signed(&mut self, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         self.parts += 1;
         self.depth += 1;
         if self.depth > DEEPEST || self.parts > MOST_PARTS {
@@ -135,9 +135,9 @@ impl<'a> Reader<'a> {
                 let of = self.signed(at, end)?;
                 match (sign, of) {
                     ('+', of) => of,
-                    (_, Expression::Int(number)) => Expression::Int(number.saturating_neg()),
-                    (_, Expression::Float(number)) => Expression::Float(-number),
-                    (_, of) => Expression::Negative(Box::new(of)),
+                    (_, HostExpression::Int(number)) => HostExpression::Int(number.saturating_neg()),
+                    (_, HostExpression::Float(number)) => HostExpression::Float(-number),
+                    (_, of) => HostExpression::Negative(Box::new(of)),
                 }
             }
             None => self.single(at, end)?,
@@ -147,7 +147,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A number, a name, or something in parentheses.
-    fn single(&mut self, at: &mut usize, end: usize) -> Read<Expression> {
+    fn single(&mut self, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         let place = *at;
         let Some(token) = self.tokens.get(place).copied().filter(|_| place < end) else {
             let last = place.min(self.tokens.len()).saturating_sub(1);
@@ -155,12 +155,12 @@ impl<'a> Reader<'a> {
         };
         *at += 1;
         match token.kind {
-            Kind::Number => number(token.text).ok_or_else(|| self.not_read(place)),
-            Kind::Sign if token.is("(") => {
+            HostTokenKind::Number => number(token.text).ok_or_else(|| self.not_read(place)),
+            HostTokenKind::Sign if token.is("(") => {
                 let close = closing(self.tokens, place).filter(|close| *close < end);
                 let close = close.ok_or_else(|| self.not_read(place))?;
                 *at = close + 1;
-                let is_type = |token: &Token<'_>| {
+                let is_type = |token: &HostToken<'_>| {
                     is_number_type(token.text) || token.is("const") || token.is("std") || token.is("::")
                 };
                 // `(GLfloat)4`
@@ -169,26 +169,26 @@ impl<'a> Reader<'a> {
                 }
                 self.whole(place + 1, close)
             }
-            Kind::Name if token.is("static_cast") => {
+            HostTokenKind::Name if token.is("static_cast") => {
                 let open = (place..end).find(|at| self.tokens[*at].is("("));
                 self.in_brackets(open.ok_or_else(|| self.not_read(place))?, at, end)
             }
-            Kind::Name if is_number_type(token.text) && self.sign(*at, end, &["(", "{"]).is_some() => {
+            HostTokenKind::Name if is_number_type(token.text) && self.sign(*at, end, &["(", "{"]).is_some() => {
                 self.in_brackets(*at, at, end)
             }
-            Kind::Name => self.named(place, at, end),
+            HostTokenKind::Name => self.named(place, at, end),
             _ => Err(self.not_read(place)),
         }
     }
 
-    fn in_brackets(&mut self, open: usize, at: &mut usize, end: usize) -> Read<Expression> {
+    fn in_brackets(&mut self, open: usize, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         let close = closing(self.tokens, open).filter(|close| *close < end).ok_or_else(|| self.not_read(open))?;
         *at = close + 1;
         self.whole(open + 1, close)
     }
 
     /// A name, with what stands behind it: `light.position[0]`, `height`.
-    fn named(&mut self, place: usize, at: &mut usize, end: usize) -> Read<Expression> {
+    fn named(&mut self, place: usize, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         let meaning = self.meaning(place, at, end)?;
         let has_index = self.sign(*at, end, &["["]).is_some();
         let member = self.sign(*at, end, &["."]).and_then(|_| {
@@ -200,7 +200,7 @@ impl<'a> Reader<'a> {
                 let close = closing(self.tokens, *at).filter(|close| *close < end).ok_or_else(|| self.not_read(*at))?;
                 let index = self.whole(*at + 1, close)?;
                 *at = close + 1;
-                let Expression::Int(index) = index else { return Err(self.not_read(place)) };
+                let HostExpression::Int(index) = index else { return Err(self.not_read(place)) };
                 Some(usize::try_from(index).map_err(|_| self.not_read(place))?)
             }
             (false, Some(member)) => {
@@ -210,10 +210,10 @@ impl<'a> Reader<'a> {
             (false, None) => None,
         };
         match (meaning, index) {
-            (Meaning::Value(value), None) => Ok(value),
-            (Meaning::Given(name), Some(index)) => {
+            (NameMeaning::Value(value), None) => Ok(value),
+            (NameMeaning::Given(name), Some(index)) => {
                 let element = self.array.given.get(&name).and_then(|all| all.get(index));
-                element.map(|element| Expression::Given(element.clone())).ok_or_else(|| {
+                element.map(|element| HostExpression::Given(element.clone())).ok_or_else(|| {
                     self.wrong(
                         place,
                         both(
@@ -223,7 +223,7 @@ impl<'a> Reader<'a> {
                     )
                 })
             }
-            (Meaning::List(all), Some(index)) => match all.get(index).cloned() {
+            (NameMeaning::List(all), Some(index)) => match all.get(index).cloned() {
                 Some(range) => self.deeper(range.start, range.end, place),
                 None => Err(self.not_read(place)),
             },
@@ -231,9 +231,15 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn combined(&self, sign: char, left: Expression, right: Expression, place: usize) -> Read<Expression> {
+    fn combined(
+        &self,
+        sign: char,
+        left: HostExpression,
+        right: HostExpression,
+        place: usize,
+    ) -> HostResult<HostExpression> {
         let none = || self.wrong(place, both("This is no number.", "この式は数になりません。"));
-        if let (Expression::Int(a), Expression::Int(b)) = (&left, &right) {
+        if let (HostExpression::Int(a), HostExpression::Int(b)) = (&left, &right) {
             let whole = match sign {
                 '+' => a.checked_add(*b),
                 '-' => a.checked_sub(*b),
@@ -241,7 +247,7 @@ impl<'a> Reader<'a> {
                 // Of whole numbers what is left is dropped, as C++ does.
                 _ => a.checked_div(*b),
             };
-            return whole.map(Expression::Int).ok_or_else(none);
+            return whole.map(HostExpression::Int).ok_or_else(none);
         }
         if let (Some(a), Some(b)) = (left.number(), right.number()) {
             let number = match sign {
@@ -251,22 +257,22 @@ impl<'a> Reader<'a> {
                 _ => a / b,
             };
             let is_number = (number as f32).is_finite();
-            return if is_number { Ok(Expression::Float(number)) } else { Err(none()) };
+            return if is_number { Ok(HostExpression::Float(number)) } else { Err(none()) };
         }
         if sign == '/' && right.number() == Some(0.0) {
             return Err(none());
         }
-        Ok(Expression::Of(sign, Box::new([left, right])))
+        Ok(HostExpression::Of(sign, Box::new([left, right])))
     }
 
-    pub(super) fn wrong(&self, at: usize, message: crate::Text) -> Unreadable {
-        Unreadable { line: self.tokens.get(at).map(|token| token.line), message, hint: None }
+    pub(super) fn wrong(&self, at: usize, message: crate::Text) -> UnreadableProgram {
+        UnreadableProgram { line: self.tokens.get(at).map(|token| token.line), message, hint: None }
     }
 
-    pub(super) fn not_read(&self, at: usize) -> Unreadable {
+    pub(super) fn not_read(&self, at: usize) -> UnreadableProgram {
         let shown: String = self.tokens.get(at).map_or("", |token| token.text).chars().take(40).collect();
         let known = self.array.given.keys().map(|name| format!("`{name}[…]`")).collect::<Vec<_>>();
-        Unreadable {
+        UnreadableProgram {
             hint: Some(both(
                 format!("Numbers, {}, `+ - * /` and parentheses are read; nothing is run.", known.join(", ")),
                 format!("読み取るのは、数、{}、`+ - * /`、括弧だけです。プログラムは実行しません。", known.join("、")),
@@ -284,7 +290,7 @@ fn is_number_type(name: &str) -> bool {
 }
 
 /// A number of C++.
-fn number(text: &str) -> Option<Expression> {
+fn number(text: &str) -> Option<HostExpression> {
     let plain = text.replace('\'', "").to_ascii_lowercase();
     if plain.starts_with("0x") || plain.starts_with("0b") {
         return None;
@@ -293,8 +299,8 @@ fn number(text: &str) -> Option<Expression> {
     let digits = plain.trim_end_matches(['f', 'l', 'u']);
     // A nought before other digits means another base.
     if is_whole && !(digits.len() > 1 && digits.starts_with('0')) {
-        return digits.parse().ok().map(Expression::Int);
+        return digits.parse().ok().map(HostExpression::Int);
     }
     let number = digits.parse::<f64>().ok().filter(|number| (*number as f32).is_finite() && !is_whole)?;
-    Some(Expression::Float(number))
+    Some(HostExpression::Float(number))
 }

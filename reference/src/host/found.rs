@@ -1,31 +1,31 @@
 //! Where the array of a program stands, and what its numbers are written as.
 
-use super::token::{Kind, Token};
-use super::{HostArray, Unreadable};
+use super::token::{HostToken, HostTokenKind};
+use super::{HostArray, UnreadableProgram};
 use crate::assignment::both;
 use std::ops::Range;
 
 /// An array in a program.
-pub(super) struct Found {
+pub(super) struct FoundArray {
     /// The lines on which it begins and ends.
     pub first: u32,
     pub last: u32,
     /// What each of its numbers is written as.
-    pub values: Vec<Values>,
+    pub values: Vec<NumberTokens>,
     /// Whether the program turns it over before it is used.
     pub is_transposed: bool,
 }
 
 /// The tokens that say a number; of none it is 0.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Values {
+pub(super) struct NumberTokens {
     pub at: usize,
     pub end: usize,
     pub line: u32,
 }
 
 /// A declaration of an array: what it is initialised with, if it is, and how many it is said to hold.
-struct Declared {
+struct DeclaredArray {
     at: usize,
     listed: Option<Vec<Range<usize>>>,
     end: usize,
@@ -36,18 +36,18 @@ struct Declared {
 const NEAR: usize = 8;
 
 /// The array of a program.
-pub(super) fn array(wanted: &HostArray, tokens: &[Token<'_>]) -> Result<Found, Unreadable> {
+pub(super) fn array(wanted: &HostArray, tokens: &[HostToken<'_>]) -> Result<FoundArray, UnreadableProgram> {
     let (name, used_by, count) = (wanted.name.as_str(), wanted.used_by.as_str(), wanted.count);
-    let all: Vec<Declared> = (0..tokens.len()).filter_map(|at| declared(tokens, at)).collect();
+    let all: Vec<DeclaredArray> = (0..tokens.len()).filter_map(|at| declared(tokens, at)).collect();
     let is_whole =
-        |one: &&Declared| one.size == Some(count) || one.listed.as_ref().is_some_and(|all| all.len() == count);
+        |one: &&DeclaredArray| one.size == Some(count) || one.listed.as_ref().is_some_and(|all| all.len() == count);
     let called = |name: &'_ str| all.iter().filter(|one| tokens[one.at].is(name)).collect::<Vec<_>>();
     // The last one: what stands above may be the one that was handed out.
     let found = [name, used_by].into_iter().find_map(|name| called(name).into_iter().rfind(is_whole));
     let found = found.or_else(|| all.iter().rfind(is_whole));
     let Some(found) = found else {
         let Some(other) = called(name).pop() else {
-            return Err(Unreadable {
+            return Err(UnreadableProgram {
                 line: None,
                 message: both(
                     format!("There is no array `{name}` of {count} numbers in the program."),
@@ -62,7 +62,7 @@ pub(super) fn array(wanted: &HostArray, tokens: &[Token<'_>]) -> Result<Found, U
             });
         };
         let own = other.listed.as_ref().map_or(0, Vec::len);
-        return Err(Unreadable::at(
+        return Err(UnreadableProgram::at(
             tokens[other.at].line,
             both(
                 format!("`{name}` has {own} numbers, and a matrix has {count}."),
@@ -74,11 +74,12 @@ pub(super) fn array(wanted: &HostArray, tokens: &[Token<'_>]) -> Result<Found, U
     is_used(wanted, tokens, own)?;
     let first = tokens[found.at].line;
     let mut last = tokens[found.end.min(tokens.len() - 1)].line;
-    let mut values: Vec<Option<Values>> = match &found.listed {
+    let mut values: Vec<Option<NumberTokens>> = match &found.listed {
         None => vec![None; count],
         Some(listed) => {
-            let of = |range: &Range<usize>| Values { at: range.start, end: range.end, line: tokens[range.start].line };
-            let rest = Values { at: 0, end: 0, line: last };
+            let of =
+                |range: &Range<usize>| NumberTokens { at: range.start, end: range.end, line: tokens[range.start].line };
+            let rest = NumberTokens { at: 0, end: 0, line: last };
             let listed = listed.iter().map(of).map(Some).chain(std::iter::repeat(Some(rest)));
             listed.take(count).collect()
         }
@@ -92,7 +93,7 @@ pub(super) fn array(wanted: &HostArray, tokens: &[Token<'_>]) -> Result<Found, U
     let values = values.into_iter().enumerate().map(|(at, value)| {
         let message =
             || both(format!("`{own}[{at}]` has no value."), format!("`{own}[{at}]` に値が代入されていません。"));
-        value.ok_or_else(|| Unreadable::at(first, message()))
+        value.ok_or_else(|| UnreadableProgram::at(first, message()))
     });
     let values = values.collect::<Result<Vec<_>, _>>()?;
     let turns = |at: usize| {
@@ -101,15 +102,15 @@ pub(super) fn array(wanted: &HostArray, tokens: &[Token<'_>]) -> Result<Found, U
         (word == "transpose" || word == "loadTranspose") && near.iter().any(|near| near.is(own) || near.is(used_by))
     };
     let is_transposed = (0..tokens.len()).filter(|at| turns(*at)).count() == 1 && count.isqrt().pow(2) == count;
-    Ok(Found { first, last, values, is_transposed })
+    Ok(FoundArray { first, last, values, is_transposed })
 }
 
 /// The array that is declared with the name at this place.
-fn declared(tokens: &[Token<'_>], at: usize) -> Option<Declared> {
-    let is_declared = |before: &Token<'_>| {
-        before.kind == Kind::Name && !before.is("return") || [">", "*", "&"].contains(&before.text)
+fn declared(tokens: &[HostToken<'_>], at: usize) -> Option<DeclaredArray> {
+    let is_declared = |before: &HostToken<'_>| {
+        before.kind == HostTokenKind::Name && !before.is("return") || [">", "*", "&"].contains(&before.text)
     };
-    if tokens[at].kind != Kind::Name || !at.checked_sub(1).is_some_and(|before| is_declared(&tokens[before])) {
+    if tokens[at].kind != HostTokenKind::Name || !at.checked_sub(1).is_some_and(|before| is_declared(&tokens[before])) {
         return None;
     }
     let mut next = at + 1;
@@ -126,7 +127,7 @@ fn declared(tokens: &[Token<'_>], at: usize) -> Option<Declared> {
     }
     let is_array = next > at + 1;
     if is_array && tokens.get(next)?.is(";") {
-        return Some(Declared { at, listed: None, end: next, size });
+        return Some(DeclaredArray { at, listed: None, end: next, size });
     }
     if tokens.get(next)?.is("=") || tokens.get(next)?.is("(") {
         next += 1;
@@ -135,17 +136,17 @@ fn declared(tokens: &[Token<'_>], at: usize) -> Option<Declared> {
         return None;
     }
     let end = closing(tokens, next)?;
-    Some(Declared { at, listed: Some(listed(tokens, next, end)), end, size: size.filter(|_| is_array) })
+    Some(DeclaredArray { at, listed: Some(listed(tokens, next, end)), end, size: size.filter(|_| is_array) })
 }
 
 /// The tokens of each number between two braces; braces within them only group.
-fn listed(tokens: &[Token<'_>], open: usize, close: usize) -> Vec<Range<usize>> {
+fn listed(tokens: &[HostToken<'_>], open: usize, close: usize) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let (mut depth, mut start) = (0, open + 1);
     for at in open + 1..=close {
         let token = &tokens[at];
         // Braces behind a name are those of a value: `GLfloat{4}`.
-        let is_value = token.is("{") && tokens[at - 1].kind == Kind::Name;
+        let is_value = token.is("{") && tokens[at - 1].kind == HostTokenKind::Name;
         if token.is("(") || token.is("[") || is_value || token.is("{") && depth > 0 {
             depth += 1;
         } else if depth > 0 {
@@ -159,7 +160,12 @@ fn listed(tokens: &[Token<'_>], open: usize, close: usize) -> Vec<Range<usize>> 
 }
 
 /// The value that is given to an element of the array here.
-fn assigned(tokens: &[Token<'_>], at: usize, name: &str, count: usize) -> Result<Option<(usize, Values)>, Unreadable> {
+fn assigned(
+    tokens: &[HostToken<'_>],
+    at: usize,
+    name: &str,
+    count: usize,
+) -> Result<Option<(usize, NumberTokens)>, UnreadableProgram> {
     let is_element = tokens[at].is(name) && tokens.get(at + 1).is_some_and(|next| next.is("["));
     if !is_element {
         return Ok(None);
@@ -186,9 +192,9 @@ fn assigned(tokens: &[Token<'_>], at: usize, name: &str, count: usize) -> Result
     match place.filter(|place| *place < count && sign == "=") {
         Some(place) => {
             let end = (next..tokens.len()).find(|at| tokens[*at].is(";")).unwrap_or(tokens.len());
-            Ok(Some((place, Values { at: next + 1, end, line })))
+            Ok(Some((place, NumberTokens { at: next + 1, end, line })))
         }
-        None => Err(Unreadable {
+        None => Err(UnreadableProgram {
             line: Some(line),
             message: both(
                 format!("`{name}` is changed here in a way that only running the program would tell."),
@@ -203,7 +209,7 @@ fn assigned(tokens: &[Token<'_>], at: usize, name: &str, count: usize) -> Result
 }
 
 /// Whether the program makes its matrix of the array, where it can be seen.
-fn is_used(wanted: &HostArray, tokens: &[Token<'_>], own: &str) -> Result<(), Unreadable> {
+fn is_used(wanted: &HostArray, tokens: &[HostToken<'_>], own: &str) -> Result<(), UnreadableProgram> {
     let used_by = wanted.used_by.as_str();
     if own == used_by {
         return Ok(());
@@ -212,7 +218,7 @@ fn is_used(wanted: &HostArray, tokens: &[Token<'_>], own: &str) -> Result<(), Un
         let next = tokens.get(at + 1).is_some_and(|next| ["{", "(", "="].contains(&next.text));
         tokens[*at].is(used_by)
             && next
-            && (tokens[at - 1].kind == Kind::Name || tokens[at - 1].is("*") || tokens[at + 1].is("="))
+            && (tokens[at - 1].kind == HostTokenKind::Name || tokens[at - 1].is("*") || tokens[at + 1].is("="))
     });
     let statement = |at: usize| {
         let end = (at..tokens.len()).find(|at| tokens[*at].is(";")).unwrap_or(tokens.len());
@@ -223,7 +229,7 @@ fn is_used(wanted: &HostArray, tokens: &[Token<'_>], own: &str) -> Result<(), Un
         return Ok(());
     }
     let line = tokens[statements[0].0].line;
-    Err(Unreadable {
+    Err(UnreadableProgram {
         line: Some(line),
         message: both(
             format!("The program does not make `{used_by}` of the numbers of `{own}`, which are what is graded."),
@@ -240,10 +246,10 @@ fn is_used(wanted: &HostArray, tokens: &[Token<'_>], own: &str) -> Result<(), Un
 const MOST_TOKENS: usize = 4_000;
 
 /// The place of the bracket that closes this one.
-pub(super) fn closing(tokens: &[Token<'_>], open: usize) -> Option<usize> {
+pub(super) fn closing(tokens: &[HostToken<'_>], open: usize) -> Option<usize> {
     let mut depth = 0_usize;
     let behind = tokens.iter().enumerate().skip(open).take(MOST_TOKENS);
-    for (at, token) in behind.filter(|(_, token)| token.kind == Kind::Sign) {
+    for (at, token) in behind.filter(|(_, token)| token.kind == HostTokenKind::Sign) {
         match token.text {
             "(" | "[" | "{" => depth += 1,
             ")" | "]" | "}" => {

@@ -1,14 +1,14 @@
 //! What names in a program stand for: what it has beside, and what it declares with a value.
 
-use super::Unreadable;
-use super::expression::{DEEPEST, Expression, Read, Reader};
+use super::UnreadableProgram;
+use super::expression::{DEEPEST, HostExpression, HostResult, Reader};
 use super::found::closing;
-use super::token::Kind;
+use super::token::HostTokenKind;
 use crate::assignment::both;
 
 /// What a name stands for.
-pub(super) enum Meaning {
-    Value(Expression),
+pub(super) enum NameMeaning {
+    Value(HostExpression),
     /// A variable that the program has beside.
     Given(String),
     /// An array of so many tokens each.
@@ -17,7 +17,7 @@ pub(super) enum Meaning {
 
 impl Reader<'_> {
     /// What the name at a place stands for: something that the program has beside, or what it is declared as further up.
-    pub fn meaning(&mut self, place: usize, at: &mut usize, end: usize) -> Read<Meaning> {
+    pub fn meaning(&mut self, place: usize, at: &mut usize, end: usize) -> HostResult<NameMeaning> {
         let text = |at: usize| self.tokens.get(at).filter(|_| at < end).map_or("", |token| token.text);
         let mut path = self.tokens[place].text.to_owned();
         let mut next = place + 1;
@@ -28,7 +28,7 @@ impl Reader<'_> {
                 if [".", "data", "(", ")"].iter().enumerate().all(|(step, sign)| text(next + step) == *sign) {
                     *at += 4;
                 }
-                return Ok(Meaning::Given(path));
+                return Ok(NameMeaning::Given(path));
             }
             let is_member =
                 text(next) == "." && self.array.given.keys().any(|given| given.starts_with(&format!("{path}.")));
@@ -44,7 +44,7 @@ impl Reader<'_> {
             declared.or_else(|| (0..self.tokens.len()).find(|at| self.tokens[*at].is(name) && self.is_macro(*at)));
         let Some(declared) = declared else {
             let known = self.array.given.keys().map(|name| format!("`{name}[…]`")).collect::<Vec<_>>();
-            return Err(Unreadable {
+            return Err(UnreadableProgram {
                 hint: Some(both(
                     format!("Numbers, {} and names that are declared with these are read.", known.join(", ")),
                     format!("読み取るのは、数、{}、およびそれらで宣言された名前です。", known.join("、")),
@@ -60,7 +60,7 @@ impl Reader<'_> {
         };
         if self.is_macro(declared) {
             let stop = (declared..self.tokens.len()).find(|at| self.tokens[*at].is(";")).unwrap_or(self.tokens.len());
-            return Ok(Meaning::Value(self.deeper(declared + 1, stop, place)?));
+            return Ok(NameMeaning::Value(self.deeper(declared + 1, stop, place)?));
         }
         self.declared(declared, place)
     }
@@ -78,7 +78,7 @@ impl Reader<'_> {
                 None => return false,
             },
         ];
-        let is_type = before.kind == Kind::Name && !["return", "else", "case"].contains(&before.text);
+        let is_type = before.kind == HostTokenKind::Name && !["return", "else", "case"].contains(&before.text);
         let is_given = match behind.text {
             // An array, and not an element of one.
             "[" => closing(self.tokens, at + 1)
@@ -90,7 +90,7 @@ impl Reader<'_> {
     }
 
     /// What a declaration gives the name at `at`.
-    fn declared(&mut self, at: usize, place: usize) -> Read<Meaning> {
+    fn declared(&mut self, at: usize, place: usize) -> HostResult<NameMeaning> {
         let mut next = at + 1;
         while self.tokens.get(next).is_some_and(|token| token.is("[")) {
             next = closing(self.tokens, next).ok_or_else(|| self.not_read(place))? + 1;
@@ -109,11 +109,12 @@ impl Reader<'_> {
         if is_list || !commas.is_empty() {
             let starts = std::iter::once(start).chain(commas.iter().map(|comma| comma + 1));
             let ends = commas.iter().copied().chain([end]);
-            return Ok(Meaning::List(starts.zip(ends).map(|(start, end)| start..end).collect()));
+            return Ok(NameMeaning::List(starts.zip(ends).map(|(start, end)| start..end).collect()));
         }
         // `const auto& l = lp;`
-        let is_path = |at: usize| self.tokens[at].kind == Kind::Name || [".", "(", ")"].contains(&self.tokens[at].text);
-        if start < end && self.tokens[start].kind == Kind::Name && (start..end).all(is_path) {
+        let is_path =
+            |at: usize| self.tokens[at].kind == HostTokenKind::Name || [".", "(", ")"].contains(&self.tokens[at].text);
+        if start < end && self.tokens[start].kind == HostTokenKind::Name && (start..end).all(is_path) {
             self.depth += 1;
             if self.depth > DEEPEST {
                 return Err(self.circle(place));
@@ -121,13 +122,13 @@ impl Reader<'_> {
             let mut behind = start + 1;
             let line = Some(self.tokens[place].line);
             let meaning = self.meaning(start, &mut behind, end);
-            let meaning = meaning.map_err(|unreadable| Unreadable { line, ..unreadable })?;
+            let meaning = meaning.map_err(|unreadable| UnreadableProgram { line, ..unreadable })?;
             self.depth -= 1;
             if behind == end {
                 return Ok(meaning);
             }
         }
-        Ok(Meaning::Value(self.deeper(start, end, place)?))
+        Ok(NameMeaning::Value(self.deeper(start, end, place)?))
     }
 
     fn end_of_value(&self, start: usize) -> usize {
@@ -159,7 +160,7 @@ impl Reader<'_> {
     }
 
     /// What a name stands for, which is said at the place where the name stands.
-    pub fn deeper(&mut self, at: usize, end: usize, place: usize) -> Read<Expression> {
+    pub fn deeper(&mut self, at: usize, end: usize, place: usize) -> HostResult<HostExpression> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(self.circle(place));
@@ -167,10 +168,10 @@ impl Reader<'_> {
         let found = self.whole(at, end);
         self.depth -= 1;
         let line = self.tokens[place].line;
-        found.map_err(|unreadable| Unreadable { line: Some(line), ..unreadable })
+        found.map_err(|unreadable| UnreadableProgram { line: Some(line), ..unreadable })
     }
 
-    fn circle(&self, place: usize) -> Unreadable {
+    fn circle(&self, place: usize) -> UnreadableProgram {
         self.wrong(place, both("Names stand for one another in a circle.", "名前が互いに参照し合っています。"))
     }
 }

@@ -13,7 +13,7 @@ fn array() -> HostArray {
 }
 
 /// The four numbers as the shader has them, of a program with this behind its first line.
-fn numbers(program: &str) -> Result<[String; 4], Unreadable> {
+fn numbers(program: &str) -> Result<[String; 4], UnreadableProgram> {
     let listing = array().read(&format!("#include \"GgApp.h\"\n{program}"))?;
     Ok([0, 1, 2, 3].map(|at| {
         let from = listing.shader.find(&format!("m{at} = ")).expect("a number") + 5;

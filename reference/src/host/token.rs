@@ -2,8 +2,8 @@
 
 /// A word, number or sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Token<'a> {
-    pub kind: Kind,
+pub(super) struct HostToken<'a> {
+    pub kind: HostTokenKind,
     pub text: &'a str,
     /// From 1.
     pub line: u32,
@@ -12,7 +12,7 @@ pub(super) struct Token<'a> {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum HostTokenKind {
     Name,
     Number,
     Sign,
@@ -20,14 +20,14 @@ pub(super) enum Kind {
     Quoted,
 }
 
-impl Token<'_> {
+impl HostToken<'_> {
     pub fn is(&self, text: &str) -> bool {
-        self.text == text && self.kind != Kind::Quoted
+        self.text == text && self.kind != HostTokenKind::Quoted
     }
 }
 
 /// The tokens of a text; comments, strings' insides and what `#if 0` leaves out are none.
-pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+pub(super) fn tokens(text: &str) -> Vec<HostToken<'_>> {
     let mut scanner = Scanner { text, at: 0, line: 1, found: Vec::new(), open: Vec::new() };
     while scanner.step() {}
     scanner.found
@@ -37,7 +37,7 @@ struct Scanner<'a> {
     text: &'a str,
     at: usize,
     line: u32,
-    found: Vec<Token<'a>>,
+    found: Vec<HostToken<'a>>,
     /// For each open `#if`: whether what follows is left out, and whether what stands behind `#else` is.
     open: Vec<[bool; 2]>,
 }
@@ -65,13 +65,13 @@ impl<'a> Scanner<'a> {
         };
         let kind = match c {
             _ if c.is_whitespace() || rest.starts_with("//") || rest.starts_with("/*") => None,
-            '"' | '\'' => Some(Kind::Quoted),
-            _ if c == '_' || c.is_alphabetic() => Some(Kind::Name),
-            _ if c.is_ascii_digit() || c == '.' && taken > 1 => Some(Kind::Number),
-            _ => Some(Kind::Sign),
+            '"' | '\'' => Some(HostTokenKind::Quoted),
+            _ if c == '_' || c.is_alphabetic() => Some(HostTokenKind::Name),
+            _ if c.is_ascii_digit() || c == '.' && taken > 1 => Some(HostTokenKind::Number),
+            _ => Some(HostTokenKind::Sign),
         };
         if let Some(kind) = kind.filter(|_| !self.is_left_out()) {
-            self.found.push(Token { kind, text: &rest[..taken], line: self.line, is_macro: false });
+            self.found.push(HostToken { kind, text: &rest[..taken], line: self.line, is_macro: false });
         }
         self.skip(taken);
         true
@@ -104,10 +104,10 @@ impl<'a> Scanner<'a> {
             "endif" => drop(self.open.pop()),
             "define" if !self.is_left_out() => {
                 let line = self.line;
-                let own = tokens(argument).into_iter().map(|token| Token { line, is_macro: true, ..token });
+                let own = tokens(argument).into_iter().map(|token| HostToken { line, is_macro: true, ..token });
                 self.found.extend(own);
                 // A line end ends it, whatever follows.
-                self.found.push(Token { kind: Kind::Sign, text: ";", line, is_macro: true });
+                self.found.push(HostToken { kind: HostTokenKind::Sign, text: ";", line, is_macro: true });
             }
             _ => {}
         }

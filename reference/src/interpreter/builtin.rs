@@ -11,28 +11,28 @@ pub use table::signatures;
 pub use variable::{constant, variable};
 
 use super::Stage;
-use super::code::{Class, Operation, Slot};
-use super::compile::{Builder, Value, class};
+use super::code::{ArithmeticClass, Operation, Slot};
+use super::compile::{CodeBuilder, CompiledValue, class};
 use super::types::{Scalar, Type};
 
 /// A call of a built-in function.
-pub struct Call<'a> {
+pub struct BuiltinCall<'a> {
     /// The function's name.
     pub name: &'a str,
     /// The values that it takes, of the types of the signature.
-    pub arguments: &'a [Value],
+    pub arguments: &'a [CompiledValue],
     /// What it returns.
     pub result: &'a Type,
     /// Where it is called.
     pub stage: Stage,
 }
 
-impl Call<'_> {
+impl BuiltinCall<'_> {
     /// Writes the instructions; gives the scalars of the result, then those of each `out` parameter.
     ///
     /// # Errors
     /// What is not supported.
-    pub fn write(&self, builder: &mut Builder) -> Result<Vec<Vec<Slot>>, String> {
+    pub fn write(&self, builder: &mut CodeBuilder) -> Result<Vec<Vec<Slot>>, String> {
         let of: Vec<&[Slot]> = self.arguments.iter().map(|argument| argument.slots.as_slice()).collect();
         if self.arguments.first().is_some_and(|argument| matches!(argument.kind, Type::Sampler(_))) {
             return self.lookup(builder).map(|result| vec![result]);
@@ -56,7 +56,7 @@ impl Call<'_> {
         self.arguments.first().and_then(|argument| argument.kind.scalar()).unwrap_or(Scalar::Float)
     }
 
-    fn class(&self) -> Class {
+    fn class(&self) -> ArithmeticClass {
         class(self.scalar())
     }
 }

@@ -13,7 +13,7 @@ mod wrappers;
 mod write;
 
 pub use programs::{ProgramSlip, program_slips};
-pub use repairs::{Ingredients, Repair, Repairable};
+pub use repairs::{Ingredients, ProgramRepair, Repairable};
 pub use write::written;
 
 use super::syntax::{Expression, ExpressionKind, Name};
@@ -156,7 +156,7 @@ pub struct Change {
 pub const FREE: &str = "free_number";
 
 /// What can be named where an expression stands.
-pub struct Scope<'a> {
+pub struct NameScope<'a> {
     /// Names, or paths of members, with their types; the first ones are the nearest.
     pub names: &'a [(Expression, Type)],
     /// Those of them that are the same everywhere.
@@ -171,10 +171,10 @@ pub struct Scope<'a> {
 const MOST: usize = 800;
 
 /// Every slip in an expression, none of them twice.
-pub fn changes(root: &Expression, scope: &mut Scope<'_>) -> Vec<Change> {
+pub fn changes(root: &Expression, scope: &mut NameScope<'_>) -> Vec<Change> {
     let mut found: Vec<Change> = Vec::new();
     for path in tree::paths(root) {
-        let place = tree::Place::of(root, &path);
+        let place = tree::ExpressionPlace::of(root, &path);
         let mut own = Vec::new();
         chains::changes(&place, scope, &mut own);
         calls::changes(&place, scope, &mut own);

@@ -14,7 +14,7 @@ pub type Slot = u32;
 
 /// How the result of an arithmetic instruction is rounded or wrapped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Class {
+pub enum ArithmeticClass {
     /// 32 bits of floating point, computed in 64.
     Float,
     /// 64 bits of floating point.
@@ -134,7 +134,7 @@ pub struct Instruction {
     /// What is done.
     pub operation: Operation,
     /// Of which numbers.
-    pub class: Class,
+    pub class: ArithmeticClass,
     /// Where the result goes: never one of the operands.
     pub to: Slot,
     /// The operands.
@@ -154,7 +154,7 @@ pub struct Indexed {
 
 /// Which neighbour of the 2 × 2 pixels a derivative is taken to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub enum DerivativeAxis {
     /// The one beside.
     X,
     /// The one above.
@@ -193,11 +193,11 @@ pub enum Node {
     /// `discard`
     Discard,
     /// The difference to the neighbour.
-    Derivative { to: Slot, of: Slot, direction: Direction, coarse: bool, line: u32 },
+    Derivative { to: Slot, of: Slot, direction: DerivativeAxis, coarse: bool, line: u32 },
     /// A texture lookup.
     Texture(Box<Query>),
     /// A value that is looked at.
-    Record(Box<Record>),
+    Record(Box<ObservedValue>),
     /// Slots that have been given the last value of a site.
     Wrote { site: usize, base: Slot, count: u32 },
     /// A slot that has been given what another one was.
@@ -206,7 +206,7 @@ pub enum Node {
 
 /// A value that is looked at, and may be changed before it is used.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Record {
+pub struct ObservedValue {
     /// The number of its site.
     pub site: usize,
     /// Where it is.
@@ -217,7 +217,7 @@ pub struct Record {
 
 /// A variable that the host sees.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Variable {
+pub struct ProgramVariable {
     /// Its name, or the path `block.member`, `lights[1].colour` of a uniform's leaf.
     pub name: String,
     /// Its type.
@@ -246,7 +246,7 @@ pub enum Interpolation {
 
 /// A number that the program knows before it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Constant {
+pub struct CodeConstant {
     /// The number.
     pub value: f64,
     /// Whether it is a `float`, which has 32 bits on a driver.
@@ -257,7 +257,7 @@ pub struct Constant {
 #[derive(Clone, Debug, Default)]
 pub struct Code {
     /// The value of each slot that holds a constant; none of the others.
-    pub constants: Vec<Option<Constant>>,
+    pub constants: Vec<Option<CodeConstant>>,
     /// First values of uniforms.
     pub defaults: Vec<(Slot, f64)>,
     /// What is done for each sample before `main`.
@@ -267,13 +267,13 @@ pub struct Code {
     /// Which of them is `main`.
     pub main: usize,
     /// Scalars and leaves that are the same for all samples.
-    pub uniforms: Vec<Variable>,
+    pub uniforms: Vec<ProgramVariable>,
     /// What each sample has for itself.
-    pub inputs: Vec<Variable>,
+    pub inputs: Vec<ProgramVariable>,
     /// What each sample computes.
-    pub outputs: Vec<Variable>,
+    pub outputs: Vec<ProgramVariable>,
     /// Variables of `main`, outside of inner blocks.
-    pub locals: Vec<Variable>,
+    pub locals: Vec<ProgramVariable>,
     /// Where values are looked at, in a program that is traced.
     pub sites: Vec<Site>,
 }

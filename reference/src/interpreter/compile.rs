@@ -14,11 +14,11 @@ mod scope;
 mod sheet;
 mod traced;
 
-pub use builder::{Builder, class};
-pub use conversion::{Direction, Signature};
-pub use sheet::{Draft, Slip};
+pub use builder::{CodeBuilder, class};
+pub use conversion::{ParameterDirection, Signature};
+pub use sheet::{DefinitionSlip, Draft};
 
-use super::code::{Code, Node, Slot, Variable};
+use super::code::{Code, Node, ProgramVariable, Slot};
 use super::syntax::{Expression, Function, Item, Name};
 use super::types::Type;
 use super::{Refusal, Stage};
@@ -31,7 +31,7 @@ const MAX_DEPTH: usize = 1_000;
 
 /// A value: its type and where its scalars are.
 #[derive(Clone, Debug)]
-pub struct Value {
+pub struct CompiledValue {
     /// Its type.
     pub kind: Type,
     /// Its scalars, in order.
@@ -39,7 +39,7 @@ pub struct Value {
 }
 
 /// A function that is declared.
-struct Declared {
+struct DeclaredFunction {
     name: Name,
     signature: Signature,
     parameters: Vec<Slot>,
@@ -54,18 +54,18 @@ struct Declared {
 struct Compiler {
     version: u32,
     stage: Stage,
-    builder: Builder,
+    builder: CodeBuilder,
     scopes: Scopes,
-    functions: Vec<Declared>,
+    functions: Vec<DeclaredFunction>,
     by_name: HashMap<Name, Vec<usize>>,
     /// The function whose body is compiled.
     current: Option<usize>,
     depth: usize,
     structures: usize,
-    uniforms: Vec<Variable>,
-    inputs: Vec<Variable>,
-    outputs: Vec<Variable>,
-    locals: Vec<Variable>,
+    uniforms: Vec<ProgramVariable>,
+    inputs: Vec<ProgramVariable>,
+    outputs: Vec<ProgramVariable>,
+    locals: Vec<ProgramVariable>,
     defaults: Vec<(Slot, f64)>,
     tracing: Tracing,
 }
@@ -107,7 +107,7 @@ impl Compiler {
         Self {
             version,
             stage,
-            builder: Builder::default(),
+            builder: CodeBuilder::default(),
             scopes: Scopes::default(),
             functions: Vec::new(),
             by_name: HashMap::new(),

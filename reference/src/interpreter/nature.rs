@@ -1,7 +1,7 @@
 //! What can be said of a program without running it.
 
 use super::code::{Code, Node, Operation, Slot};
-use super::texture::Mode;
+use super::texture::LookupMode;
 use std::collections::HashMap;
 
 /// What a fragment program needs and does beyond computing outputs from inputs.
@@ -27,7 +27,7 @@ impl Nature {
         for node in nodes {
             match node {
                 Node::Derivative { .. } => self.derivatives = true,
-                Node::Texture(query) => self.implicit_levels |= matches!(query.mode, Mode::Implicit(_)),
+                Node::Texture(query) => self.implicit_levels |= matches!(query.mode, LookupMode::Implicit(_)),
                 Node::Discard => self.discards = true,
                 Node::If { yes, no, .. } => [yes, no].into_iter().for_each(|nodes| self.add(nodes)),
                 Node::Loop { test, body, step, .. } => [test, body, step].into_iter().for_each(|nodes| self.add(nodes)),

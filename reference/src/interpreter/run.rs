@@ -13,13 +13,13 @@ mod undefined;
 
 pub use kernel::Precision;
 pub(super) use kernel::{defined, scalar};
-pub use memory::Cause;
+pub use memory::UndefinedCause;
 pub use prepared::Prepared;
-pub(super) use single::Single;
+pub(super) use single::SingleSample;
 pub use undefined::Undefined;
 pub(super) use undefined::lanes as undefined_lanes;
 
-use super::code::{Code, Slot, Variable};
+use super::code::{Code, ProgramVariable, Slot};
 use super::texture::Texture;
 use super::types::Type;
 use machine::Machine;
@@ -87,7 +87,7 @@ pub struct Column {
     /// Its scalars, each for all samples.
     pub values: Vec<Vec<f64>>,
     /// For each scalar of each sample, why it is undefined, if it is; nothing for a scalar that always is defined.
-    undefined: Vec<Vec<Option<Cause>>>,
+    undefined: Vec<Vec<Option<UndefinedCause>>>,
 }
 
 impl Column {
@@ -97,12 +97,12 @@ impl Column {
     }
 
     /// Why a scalar of a sample is undefined, if it is.
-    pub fn undefined(&self, scalar: usize, sample: usize) -> Option<Cause> {
+    pub fn undefined(&self, scalar: usize, sample: usize) -> Option<UndefinedCause> {
         self.undefined[scalar].get(sample).copied().flatten()
     }
 
     /// Appends a block's values.
-    fn collect(&mut self, machine: &Machine<'_>, variable: &Variable) {
+    fn collect(&mut self, machine: &Machine<'_>, variable: &ProgramVariable) {
         for ((slot, values), undefined) in slots(variable).zip(&mut self.values).zip(&mut self.undefined) {
             let column = machine.memory.column(slot);
             let before = values.len();
@@ -112,10 +112,9 @@ impl Column {
                     0 => machine.memory.cause(slot, lane),
                     strayed => strayed,
                 };
-                let cause = machine
-                    .memory
-                    .known(cause)
-                    .or_else(|| value.is_nan().then_some(Cause { what: Undefined::NotANumber, line: variable.line }));
+                let cause = machine.memory.known(cause).or_else(|| {
+                    value.is_nan().then_some(UndefinedCause { what: Undefined::NotANumber, line: variable.line })
+                });
                 if cause.is_some() {
                     undefined.resize(before + lane, None);
                     undefined.push(cause);
@@ -165,7 +164,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// There is no such uniform, or it has another number of scalars.
     pub fn uniform(mut self, path: &str, values: &[f64]) -> Result<Self, Mismatch> {
-        let leaves: Vec<&Variable> = leaves(&self.code.uniforms, path).collect();
+        let leaves: Vec<&ProgramVariable> = leaves(&self.code.uniforms, path).collect();
         let slots: Vec<Slot> = leaves.iter().flat_map(|leaf| slots(leaf)).collect();
         if slots.is_empty() {
             return Err(Mismatch(format!("there is no uniform {path}")));
@@ -249,14 +248,14 @@ impl<'a> Run<'a> {
         for &(slot, value) in code.defaults.iter().chain(&self.uniforms) {
             machine.memory.column_mut(slot).fill(value);
         }
-        let column = |variable: &Variable| Column {
+        let column = |variable: &ProgramVariable| Column {
             name: variable.name.clone(),
             kind: variable.kind.clone(),
             values: vec![Vec::with_capacity(self.samples); variable.kind.slots().unwrap_or(0)],
             undefined: vec![Vec::new(); variable.kind.slots().unwrap_or(0)],
         };
-        let outputs: Vec<&Variable> = code.outputs.iter().collect();
-        let locals: Vec<&Variable> =
+        let outputs: Vec<&ProgramVariable> = code.outputs.iter().collect();
+        let locals: Vec<&ProgramVariable> =
             locals.iter().filter_map(|name| code.locals.iter().rev().find(|local| local.name == **name)).collect();
         let mut result = Outputs {
             outputs: outputs.iter().map(|variable| column(variable)).collect(),
@@ -281,12 +280,12 @@ impl<'a> Run<'a> {
     }
 }
 
-fn slots(variable: &Variable) -> impl Iterator<Item = Slot> + use<> {
+fn slots(variable: &ProgramVariable) -> impl Iterator<Item = Slot> + use<> {
     (variable.slot..).take(variable.kind.slots().unwrap_or(0))
 }
 
 /// The uniform with this path, or all that lie in the structure or array with this path.
-fn leaves<'a>(uniforms: &'a [Variable], path: &'a str) -> impl Iterator<Item = &'a Variable> {
+fn leaves<'a>(uniforms: &'a [ProgramVariable], path: &'a str) -> impl Iterator<Item = &'a ProgramVariable> {
     let exact = uniforms.iter().any(|uniform| uniform.name == path);
     uniforms.iter().filter(move |uniform| match uniform.name.strip_prefix(path) {
         Some(rest) => rest.is_empty() || (!exact && rest.starts_with(['.', '['])),

@@ -27,12 +27,12 @@ mod access;
 mod straight;
 
 use super::code::{Node, Slot};
-use super::run::Single;
+use super::run::SingleSample;
 use super::texture::Texture;
 use super::types::Type;
 use std::ops::Range;
 use std::sync::Arc;
-use straight::Step;
+use straight::VectorInstruction;
 
 /// A name and the place of its value.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ impl Cell {
 
 /// An output and what it is given.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stored {
+pub struct StoredOutput {
     /// The output.
     pub output: String,
     /// The cell that it is given.
@@ -74,13 +74,13 @@ pub struct Stored {
 pub struct Formula {
     cell: usize,
     uses: Vec<usize>,
-    body: Arc<Body>,
+    body: Arc<FunctionBody>,
 }
 
 #[derive(Debug)]
-enum Body {
+enum FunctionBody {
     /// Without branches and calls.
-    Straight(Vec<Step>),
+    Straight(Vec<VectorInstruction>),
     Nodes(Vec<Node>),
 }
 
@@ -119,8 +119,8 @@ impl Formula {
         uses.sort_unstable();
         uses.dedup();
         let body = match straight::steps(&nodes, cells[cell].slots.clone(), temporaries) {
-            Some(steps) => Body::Straight(steps),
-            None => Body::Nodes(nodes),
+            Some(steps) => FunctionBody::Straight(steps),
+            None => FunctionBody::Nodes(nodes),
         };
         Ok(Self { cell, uses, body: Arc::new(body) })
     }
@@ -192,9 +192,9 @@ impl Sheet {
     /// Computes a cell from what it uses.
     pub fn compute(&self, formula: &Formula, registers: &mut Registers) {
         match &*formula.body {
-            Body::Straight(steps) => steps.iter().for_each(|step| step.run(&mut registers.0)),
-            Body::Nodes(nodes) => {
-                if Single::new(&self.functions, &self.textures, &mut registers.0).run(nodes).is_err() {
+            FunctionBody::Straight(steps) => steps.iter().for_each(|step| step.run(&mut registers.0)),
+            FunctionBody::Nodes(nodes) => {
+                if SingleSample::new(&self.functions, &self.textures, &mut registers.0).run(nodes).is_err() {
                     registers.0[self.cells[formula.cell].places()].fill(f64::NAN);
                 }
             }

@@ -38,7 +38,7 @@ pub struct Function {
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// `in`, `out`, `inout`, `const`.
-    pub storage: Storage,
+    pub storage: StorageQualifier,
     /// Its type.
     pub kind: TypeName,
     /// Its name, empty where it has none.
@@ -49,7 +49,7 @@ pub struct Parameter {
 
 /// Where a variable lives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Storage {
+pub enum StorageQualifier {
     /// In the program.
     #[default]
     Plain,
@@ -73,7 +73,7 @@ pub enum Storage {
 #[derive(Clone, Debug, Default)]
 pub struct Qualifiers {
     /// Where it lives.
-    pub storage: Storage,
+    pub storage: StorageQualifier,
     /// How it is interpolated between vertices.
     pub interpolation: Interpolation,
     /// `layout(location = …)`, where a number is written.
@@ -86,14 +86,14 @@ pub struct TypeName {
     /// Where it stands.
     pub line: u32,
     /// Which type.
-    pub base: Base,
+    pub base: BaseType,
     /// Lengths behind it.
     pub lengths: Vec<Option<Expression>>,
 }
 
 /// A type without lengths.
 #[derive(Clone, Debug)]
-pub enum Base {
+pub enum BaseType {
     /// By its name.
     Named(Name),
     /// A structure that is declared here: its name and members.
@@ -110,12 +110,12 @@ pub struct Declaration {
     /// The type.
     pub kind: TypeName,
     /// The variables.
-    pub variables: Vec<Variable>,
+    pub variables: Vec<DeclaredVariable>,
 }
 
 /// A variable as it is declared.
 #[derive(Clone, Debug)]
-pub struct Variable {
+pub struct DeclaredVariable {
     /// Where its name stands.
     pub line: u32,
     /// Its name.
@@ -132,7 +132,7 @@ pub struct InterfaceBlock {
     /// Where it starts.
     pub line: u32,
     /// Where its members live.
-    pub storage: Storage,
+    pub storage: StorageQualifier,
     /// The block's name, by which a host knows it.
     pub name: Name,
     /// Its members.
@@ -164,7 +164,7 @@ pub enum StatementKind {
     /// `if`
     If(Expression, Box<Statement>, Option<Box<Statement>>),
     /// `for` and `while`: what is done first, the condition, what is done after each turn, and the body.
-    Loop(Option<Box<Statement>>, Option<Condition>, Option<Expression>, Box<Statement>),
+    Loop(Option<Box<Statement>>, Option<LoopCondition>, Option<Expression>, Box<Statement>),
     /// `do … while`
     DoWhile(Box<Statement>, Expression),
     /// `switch`
@@ -183,7 +183,7 @@ pub enum StatementKind {
 
 /// What a loop asks.
 #[derive(Clone, Debug)]
-pub enum Condition {
+pub enum LoopCondition {
     /// A value.
     Expression(Expression),
     /// The value of a variable that is declared for each turn.

@@ -206,7 +206,7 @@ impl Compare {
 
 /// From where a lookup takes its level of detail, and what it gives.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Mode {
+pub enum LookupMode {
     /// From the neighbours' coordinates, plus a bias.
     Implicit(Option<Slot>),
     /// A level.
@@ -237,7 +237,7 @@ pub struct Query {
     /// Whole texels by which the place is moved.
     pub offset: Vec<Slot>,
     /// How it is read.
-    pub mode: Mode,
+    pub mode: LookupMode,
     /// Where the results go.
     pub to: Vec<Slot>,
     /// The line that asks.
@@ -248,12 +248,14 @@ impl Query {
     /// All that it is asked with.
     pub fn operands(&self) -> impl Iterator<Item = Slot> + '_ {
         let of_mode: &[Slot] = match &self.mode {
-            Mode::Implicit(bias) => bias.as_slice(),
-            Mode::Level(slot) | Mode::Fetch(slot) | Mode::Gather(slot) | Mode::Size(slot) => std::slice::from_ref(slot),
-            Mode::Gradient(..) | Mode::Levels => &[],
+            LookupMode::Implicit(bias) => bias.as_slice(),
+            LookupMode::Level(slot) | LookupMode::Fetch(slot) | LookupMode::Gather(slot) | LookupMode::Size(slot) => {
+                std::slice::from_ref(slot)
+            }
+            LookupMode::Gradient(..) | LookupMode::Levels => &[],
         };
         let along = match &self.mode {
-            Mode::Gradient(x, y) => [x.as_slice(), y.as_slice()],
+            LookupMode::Gradient(x, y) => [x.as_slice(), y.as_slice()],
             _ => [&[][..]; 2],
         };
         let given = self.coordinates.iter().chain([&self.texture]).chain(&self.reference).chain(&self.offset);

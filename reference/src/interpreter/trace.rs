@@ -65,7 +65,7 @@ pub struct Event {
 
 /// What is put in the place of a site's values: one for each time that it is reached, or one for all.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct ValueChange {
     /// The number of the site.
     pub site: usize,
     /// The scalars of each value, each for all samples.
@@ -87,7 +87,7 @@ pub struct Recorder {
     /// Beyond this a value becomes 0, and so does what is no number; none where values stay as they are.
     pub most: Option<f64>,
     /// What is changed, and how often it was.
-    changes: Vec<(Change, usize)>,
+    changes: Vec<(ValueChange, usize)>,
     numbers: usize,
     /// The last event of each site.
     pub last: HashMap<usize, usize>,
@@ -101,7 +101,7 @@ pub struct Recorder {
 
 impl Recorder {
     /// Makes ready for a run.
-    pub fn begin(&mut self, is_recording: bool, changes: &[Change]) {
+    pub fn begin(&mut self, is_recording: bool, changes: &[ValueChange]) {
         let changes = changes.iter().map(|change| (change.clone(), 0)).collect();
         *self = Self { is_recording, changes, most: self.most, ..Self::default() };
     }
@@ -194,7 +194,7 @@ impl Prepared<'_> {
     ///
     /// # Errors
     /// The steps are used up.
-    pub fn trace(&mut self, changes: &[Change]) -> Result<Option<(super::Outputs, Trace)>, Stopped> {
+    pub fn trace(&mut self, changes: &[ValueChange]) -> Result<Option<(super::Outputs, Trace)>, Stopped> {
         let outputs = self.again(true, changes)?;
         Ok(self.traced().map(|trace| (outputs, trace)))
     }
@@ -203,7 +203,7 @@ impl Prepared<'_> {
     ///
     /// # Errors
     /// The steps are used up.
-    pub fn outputs(&mut self, changes: &[Change]) -> Result<super::Outputs, Stopped> {
+    pub fn outputs(&mut self, changes: &[ValueChange]) -> Result<super::Outputs, Stopped> {
         self.again(false, changes)
     }
 

@@ -18,11 +18,11 @@ const LEAVE_OUT: &str = "leave_out";
 
 /// The manifests of a folder, the one that extends none first.
 pub struct Layers {
-    layers: Vec<Layer>,
+    layers: Vec<ManifestLayer>,
 }
 
 /// A manifest in the text of all of them.
-struct Layer {
+struct ManifestLayer {
     file: String,
     /// Its text behind as many spaces as the layers before it have bytes: a place in it is a place among all.
     text: String,
@@ -72,7 +72,7 @@ impl Layers {
         }
         let mut start = 0;
         let layers = texts.into_iter().rev().map(|(file, text)| {
-            let layer = Layer { file, text: " ".repeat(start) + text, start };
+            let layer = ManifestLayer { file, text: " ".repeat(start) + text, start };
             // One more: the end of a text is no place of the next one.
             start += text.len() + 1;
             layer
@@ -111,7 +111,7 @@ impl Layers {
 
     fn file_line_column(&self, at: usize) -> (&str, u32, u32) {
         let found = self.layers.iter().rev().find(|layer| layer.start <= at);
-        let Some(Layer { file, text, start }) = found else { return (MANIFEST, 1, 1) };
+        let Some(ManifestLayer { file, text, start }) = found else { return (MANIFEST, 1, 1) };
         let before = text.get(*start..at).unwrap_or_default();
         let line = before.bytes().filter(|byte| *byte == b'\n').count() as u32 + 1;
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() as u32 + 1;

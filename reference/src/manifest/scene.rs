@@ -12,8 +12,8 @@ pub struct Scenes(pub Vec<Scene>);
 
 impl<'de> Deserialize<'de> for Scenes {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OneOrMany;
-        impl<'de> serde::de::Visitor<'de> for OneOrMany {
+        struct ScenesVisitor;
+        impl<'de> serde::de::Visitor<'de> for ScenesVisitor {
             type Value = Scenes;
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.write_str("a table [scene], or several [[scene]]")
@@ -25,7 +25,7 @@ impl<'de> Deserialize<'de> for Scenes {
                 Vec::deserialize(serde::de::value::SeqAccessDeserializer::new(sequence)).map(Scenes)
             }
         }
-        deserializer.deserialize_any(OneOrMany)
+        deserializer.deserialize_any(ScenesVisitor)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where a probe lies and how its normal stands, by the angles that matter to the equation.
 
-use super::{Group, Random};
+use super::{ProbeGroup, Random};
 use crate::assignment::{Feed, Stream};
 use crate::interpreter::Registers;
 use crate::scene::{Matrices, Vertex};
@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 const TRIES: usize = 2000;
 
 /// Values of a number.
-type Range = RangeInclusive<f64>;
+type ValueRange = RangeInclusive<f64>;
 
 /// How the vertices of a group are placed. Directions are definitions of the solution, in eye space.
 #[derive(Clone, Debug)]
@@ -32,27 +32,27 @@ pub(crate) struct Aim {
 #[derive(Clone, Debug)]
 pub(crate) struct Design {
     /// Angle at the eye between the axis and the direction from the vertex, in degrees.
-    pub angle: Range,
+    pub angle: ValueRange,
     /// Distance from the eye.
-    pub distance: Range,
+    pub distance: ValueRange,
     /// How the normal is chosen.
     pub normal: Normal,
     /// Values that definitions may have.
-    pub within: Vec<(usize, Range)>,
+    pub within: Vec<(usize, ValueRange)>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum Normal {
     /// Where the cosine of its angle from the lobe, raised to the power, is in this range.
-    Raised(Range),
+    Raised(ValueRange),
     /// Where that cosine is in this range.
-    Cosine(Range),
+    Cosine(ValueRange),
 }
 
 /// Chooses vertices in eye space: what is drawn stands there, so that model-view and normal matrix are the identity.
 pub(super) struct EyeSpace<'a> {
     aim: &'a Aim,
-    point: Point<'a>,
+    point: SolutionAtPoint<'a>,
     /// The axis at the eye, and what it is computed from.
     axis: DVec3,
     to_axis: Vec<usize>,
@@ -64,7 +64,7 @@ pub(super) struct EyeSpace<'a> {
 }
 
 /// The solution at a point in eye space.
-struct Point<'a> {
+struct SolutionAtPoint<'a> {
     assignment: &'a Assignment,
     registers: Registers,
 }
@@ -87,7 +87,7 @@ impl<'a> EyeSpace<'a> {
         });
         Self {
             aim,
-            point: Point { assignment, registers: equation.registers() },
+            point: SolutionAtPoint { assignment, registers: equation.registers() },
             axis: DVec3::ZERO,
             to_axis: needed(&[aim.axis]),
             power,
@@ -97,7 +97,7 @@ impl<'a> EyeSpace<'a> {
     }
 
     /// Gives the solution what a group is given, but for its matrices.
-    pub(super) fn enter(&mut self, group: &Group) {
+    pub(super) fn enter(&mut self, group: &ProbeGroup) {
         let Assignment { equation, interface, scene, .. } = self.point.assignment;
         // What is drawn stands in eye space; what stands in world space is where the group's camera sees it.
         let view = group.matrices.view;
@@ -154,7 +154,7 @@ impl<'a> EyeSpace<'a> {
             last = (p, n);
             point.stand(p, n);
             point.compute(&self.conditions[place]);
-            let is_within = |(definition, range): &(usize, Range)| range.contains(&point.value(*definition)[0]);
+            let is_within = |(definition, range): &(usize, ValueRange)| range.contains(&point.value(*definition)[0]);
             if design.within.iter().all(is_within) {
                 break;
             }
@@ -163,7 +163,7 @@ impl<'a> EyeSpace<'a> {
     }
 }
 
-impl Point<'_> {
+impl SolutionAtPoint<'_> {
     /// Goes to a point with a normal.
     fn stand(&mut self, p: DVec3, n: DVec3) {
         let Assignment { equation, interface, .. } = self.assignment;

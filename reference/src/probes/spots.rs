@@ -9,16 +9,16 @@ mod pictured;
 mod seen;
 mod shown;
 
-use super::{Group, Probe, ProbeSet, Random};
+use super::{Probe, ProbeGroup, ProbeSet, Random};
 use crate::equation::{Evaluation, Reads};
 use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
-pub use across::{Course, Crossings};
+pub use across::{Crossings, EdgeDefect};
 use glam::{DQuat, DVec2, DVec3, DVec4};
 pub use pictured::Pictured;
 use rand_chacha::ChaCha8Rng;
-use shown::{Handed, HandedAround, WAYS, mixed};
-pub use shown::{Shown, linear};
+use shown::{FragmentInputs, HandedAround, WAYS, mixed};
+pub use shown::{ProbeOutput, linear};
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.
 const ASIDE: f64 = 0.05;
@@ -61,11 +61,11 @@ pub struct Spot {
 }
 
 /// A fragment before it is known whether it is seen: the corners of a triangle, a share for each, and which triangles are left out.
-type Candidate = ([Vertex; 3], [f64; 3], Cull);
+type FragmentCandidate = ([Vertex; 3], [f64; 3], Cull);
 
 /// Which fragments are taken.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Taken {
+enum FragmentChoice {
     /// In the middle of a pixel, on either side of a triangle.
     AnySide,
     /// The same on the fronts only, where both sides are drawn.
@@ -75,7 +75,7 @@ enum Taken {
 }
 
 /// Fragments that are seen, the position of the first corner of each, and what is handed over there.
-struct Located {
+struct LocatedSpots {
     spots: Vec<Spot>,
     positions: Vec<DVec4>,
     handed: HandedAround,
@@ -102,14 +102,14 @@ impl Assignment {
     }
 
     /// A camera and its probes.
-    fn spots_of_group(&self, random: &mut Random, group: usize) -> (Group, Vec<Probe>) {
+    fn spots_of_group(&self, random: &mut Random, group: usize) -> (ProbeGroup, Vec<Probe>) {
         let wanted = self.probing.per_group;
-        let mut best: (Group, Vec<Probe>) = (self.group(random), Vec::new());
+        let mut best: (ProbeGroup, Vec<Probe>) = (self.group(random), Vec::new());
         for camera in 0..2 * CAMERAS {
             // Of a closed surface nobody sees the inside, so an answer may do there what it likes. The outside of a mesh whose
             // triangles all run with the clock is never found.
-            let taken = if camera < CAMERAS { Taken::Front } else { Taken::AnySide };
-            if taken == Taken::AnySide && !best.1.is_empty() {
+            let taken = if camera < CAMERAS { FragmentChoice::Front } else { FragmentChoice::AnySide };
+            if taken == FragmentChoice::AnySide && !best.1.is_empty() {
                 break;
             }
             let drawn = self.group(random);
@@ -139,7 +139,7 @@ impl Assignment {
     }
 
     /// Puts probes at which a variant that is to be revealed shows something else in the place of the last ones.
-    fn reveal(&self, random: &mut Random, group: usize, drawn: &Group, probes: &mut Vec<Probe>) {
+    fn reveal(&self, random: &mut Random, group: usize, drawn: &ProbeGroup, probes: &mut Vec<Probe>) {
         if group >= REVEALING_GROUPS {
             return;
         }
@@ -148,10 +148,11 @@ impl Assignment {
             let mut found = Vec::new();
             for _ in 0..REVEALING_ROUNDS {
                 let some = (0..TRIANGLES_TO_REVEAL).map(|_| self.triangle(random)).collect();
-                let some = self.probed(group, drawn, some, Taken::Front).unwrap_or_default();
+                let some = self.probed(group, drawn, some, FragmentChoice::Front).unwrap_or_default();
                 let Some(shown) = self.shown_of_group(&other.pipeline, &drawn.uniforms, &some) else { continue };
-                let differs =
-                    |(probe, shown): &(Probe, Shown)| (probe.colour - shown.colour).abs().max_element() > REVEALED;
+                let differs = |(probe, shown): &(Probe, ProbeOutput)| {
+                    (probe.colour - shown.colour).abs().max_element() > REVEALED
+                };
                 found.extend(some.into_iter().zip(shown).filter(differs).map(|(probe, _)| probe));
                 if found.len() >= MOST_REVEALED {
                     break;
@@ -164,7 +165,7 @@ impl Assignment {
     }
 
     /// A triangle of what is drawn, moved and turned, a share for each corner, and which triangles are left out.
-    fn triangle(&self, random: &mut Random) -> Candidate {
+    fn triangle(&self, random: &mut Random) -> FragmentCandidate {
         let draws: Vec<_> = self.scene.views.iter().flat_map(|view| &view.draws).collect();
         let pick = |random: &mut Random, count: usize| random.between(0.0, count as f64) as usize;
         let draw = draws[pick(random, draws.len())];
@@ -196,7 +197,13 @@ impl Assignment {
     }
 
     /// The probes at those of these fragments that are seen, and have a colour that stays when they are moved a little.
-    fn probed(&self, group: usize, drawn: &Group, some: Vec<Candidate>, taken: Taken) -> Option<Vec<Probe>> {
+    fn probed(
+        &self,
+        group: usize,
+        drawn: &ProbeGroup,
+        some: Vec<FragmentCandidate>,
+        taken: FragmentChoice,
+    ) -> Option<Vec<Probe>> {
         let located = self.located(drawn, some, taken)?;
         let colours = self.colours(&self.pipeline, &drawn.uniforms, &located.spots, &located.handed, WAYS)?;
         let is_steady: Vec<bool> = colours.iter().map(|(_, is_steady)| *is_steady).collect();
@@ -212,11 +219,11 @@ impl Assignment {
     fn shown_in_place(
         &self,
         group: usize,
-        drawn: &Group,
-        located: Located,
+        drawn: &ProbeGroup,
+        located: LocatedSpots,
         colours: impl Iterator<Item = DVec3>,
     ) -> Vec<Probe> {
-        let Located { spots, positions, handed } = located;
+        let LocatedSpots { spots, positions, handed } = located;
         let right = self.equation.right();
         let probe = |(((at, spot), position), shown): (((usize, Spot), DVec4), DVec3)| {
             let attributes = self.read_at(at, &handed[0], shown, position);
@@ -235,7 +242,7 @@ impl Assignment {
     }
 
     /// Those of these fragments that lie before the eye, and are not left out.
-    fn located(&self, drawn: &Group, some: Vec<Candidate>, taken: Taken) -> Option<Located> {
+    fn located(&self, drawn: &ProbeGroup, some: Vec<FragmentCandidate>, taken: FragmentChoice) -> Option<LocatedSpots> {
         let pipeline = &self.pipeline;
         let vertices: Vec<Vertex> = some.iter().flat_map(|(corners, ..)| corners).copied().collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, &drawn.uniforms, &vertices)?;
@@ -250,7 +257,7 @@ impl Assignment {
             let [Some(_), Some(right), Some(above)] = beside else { continue };
             let weights_beside = [right, above];
             let is_left_out = matches!((cull, is_front), (Cull::Back, false) | (Cull::Front, true));
-            if is_left_out || (taken != Taken::AnySide && cull == Cull::None && !is_front) {
+            if is_left_out || (taken != FragmentChoice::AnySide && cull == Cull::None && !is_front) {
                 continue;
             }
             shares.push((number, [weights, weights_beside[0], weights_beside[1]]));
@@ -266,8 +273,8 @@ impl Assignment {
         numbers.for_each(|number| *number = f64::from(*number as f32));
         for (at, (spot, _)) in spots.iter_mut().enumerate() {
             let [here, right, above] = &handed;
-            let values = |handed: &Handed| -> Vec<(String, Value)> {
-                let value = |(output, columns): (&crate::interpreter::Variable, &Vec<Vec<f64>>)| {
+            let values = |handed: &FragmentInputs| -> Vec<(String, Value)> {
+                let value = |(output, columns): (&crate::interpreter::ProgramVariable, &Vec<Vec<f64>>)| {
                     let numbers = columns.iter().map(|column| column[at]).collect();
                     Some((output.name.clone(), Value::new(output.kind.clone(), numbers)?))
                 };
@@ -276,16 +283,16 @@ impl Assignment {
             (spot.varyings, spot.varyings_beside) = (values(here), [values(right), values(above)]);
         }
         let (spots, positions): (Vec<Spot>, Vec<DVec4>) = spots.into_iter().unzip();
-        Some(Located { spots, positions, handed })
+        Some(LocatedSpots { spots, positions, handed })
     }
 
     /// What the equation reads at a fragment.
-    fn read_at(&self, at: usize, handed: &Handed, colour: DVec3, position: DVec4) -> Vec<Value> {
+    fn read_at(&self, at: usize, handed: &FragmentInputs, colour: DVec3, position: DVec4) -> Vec<Value> {
         match self.equation.reads {
             Reads::Outputs => vec![Value::from(colour.extend(1.0)), Value::from(position)],
             Reads::Attributes | Reads::Varyings => {
                 let pipeline = &self.pipeline;
-                let value = |(place, input): (usize, &crate::interpreter::Variable)| {
+                let value = |(place, input): (usize, &crate::interpreter::ProgramVariable)| {
                     let varying = pipeline.varyings.iter().find(|varying| varying.input == place);
                     let numbers = varying.map_or_else(Vec::new, |varying| {
                         handed[varying.output].iter().map(|column| column[at]).collect()

@@ -21,9 +21,9 @@ const POSITIONS: [[f64; 3]; 5] =
 const DIRECTIONS: [[f64; 3]; 3] = [[0.5, 0.8, 0.6], [-0.6, 0.7, 0.4], [0.2, 0.9, -0.4]];
 
 /// Single numbers by name: the words, the value, the bounds, and what it is taken for.
-type Row = (&'static [&'static str], f64, (f64, f64), (&'static str, &'static str));
+type NumberGuess = (&'static [&'static str], f64, (f64, f64), (&'static str, &'static str));
 
-const NUMBERS: &[Row] = &[
+const NUMBERS: &[NumberGuess] = &[
     (
         &["shininess", "exponent", "power", "shine", "kshi", "specpower", "glossiness"],
         32.0,
@@ -109,7 +109,7 @@ pub(super) fn guess(name: &NameWords, kind: &Type, nth: usize, is_downward: bool
     }
 }
 
-fn row(name: &NameWords) -> Option<&'static Row> {
+fn row(name: &NameWords) -> Option<&'static NumberGuess> {
     NUMBERS.iter().find(|(words, ..)| name.has(words) || name.is(words))
 }
 

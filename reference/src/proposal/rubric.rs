@@ -2,7 +2,7 @@
 
 mod parts;
 
-use super::Plan;
+use super::FolderPlan;
 use super::names::NameWords;
 use super::writing::quoted;
 use crate::assignment::both;
@@ -23,17 +23,17 @@ pub(super) struct ProposedLine {
     pub judges: Option<String>,
     /// What the part is called in the solution.
     local: Option<String>,
-    pub without: Option<Change>,
+    pub without: Option<TextChange>,
 }
 
 /// One text of the solution, and what stands in its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Change {
+pub(super) struct TextChange {
     from: String,
     to: String,
 }
 
-impl Change {
+impl TextChange {
     /// As a variant.
     pub fn text(&self) -> String {
         format!("{{ replace = [[{}, {}]] }}", quoted(&self.from), quoted(&self.to))
@@ -41,7 +41,7 @@ impl Change {
 }
 
 /// Lines that every solution has: the colour, and where vertices are moved, the shape.
-pub(super) fn plain(plan: &mut Plan) {
+pub(super) fn plain(plan: &mut FolderPlan) {
     let mut lines = Vec::new();
     if plan.hands_in(Stage::Vertex) {
         lines.push(line("shape", Some("gl_Position")));
@@ -55,7 +55,7 @@ fn line(id: &str, judges: Option<&str>) -> ProposedLine {
 }
 
 /// Puts lines for parts in the place of the line of the colour, or beside it where there is only one.
-pub(super) fn refine(plan: &mut Plan) {
+pub(super) fn refine(plan: &mut FolderPlan) {
     let base = plan.rubric.clone();
     let shape: Vec<ProposedLine> = base.iter().filter(|line| line.id == "shape").cloned().collect();
     let mut terms = terms(plan);
@@ -71,7 +71,7 @@ pub(super) fn refine(plan: &mut Plan) {
 }
 
 /// Names the definition that a line judges, where the solution has one of its name: a hand-in's own value is looked up then.
-fn by_definitions(plan: &mut Plan) {
+fn by_definitions(plan: &mut FolderPlan) {
     let Ok(assignment) = Assignment::load(plan.folder()) else { return };
     let equation = &assignment.equation;
     let is_term = |name: &&String| equation.index(name).is_some_and(|definition| definition != equation.colour());
@@ -81,7 +81,7 @@ fn by_definitions(plan: &mut Plan) {
 }
 
 /// One of these that cannot be a line: what is without it is no program, or shows nothing, or shows what another shows.
-fn worst(plan: &mut Plan, before: &[ProposedLine], terms: &[ProposedLine]) -> Option<usize> {
+fn worst(plan: &mut FolderPlan, before: &[ProposedLine], terms: &[ProposedLine]) -> Option<usize> {
     let Ok(assignment) = Assignment::load(plan.folder()) else {
         // Each is tried alone.
         let mut loads = |term: &ProposedLine| {
@@ -113,7 +113,7 @@ fn worst(plan: &mut Plan, before: &[ProposedLine], terms: &[ProposedLine]) -> Op
 }
 
 /// What the lines are.
-pub(super) fn tell(plan: &mut Plan) {
+pub(super) fn tell(plan: &mut FolderPlan) {
     let ids: Vec<_> = plan.rubric.iter().map(|line| format!("`{}`", line.id)).collect();
     let ids = ids.join(", ");
     let is_split = plan.rubric.iter().any(|line| line.without.is_some());
@@ -130,9 +130,9 @@ pub(super) fn tell(plan: &mut Plan) {
 }
 
 /// Parts of the solution that may be lines, in its order.
-fn terms(plan: &Plan) -> Vec<ProposedLine> {
+fn terms(plan: &FolderPlan) -> Vec<ProposedLine> {
     let all: String = plan.sources.iter().map(|source| source.text.as_str()).collect();
-    let mut terms: Vec<(String, Change, HashSet<String>)> = Vec::new();
+    let mut terms: Vec<(String, TextChange, HashSet<String>)> = Vec::new();
     for source in &plan.sources {
         for (name, change, uses) in terms_of(source) {
             let is_once = all.matches(change.from.as_str()).count() == 1;
@@ -146,7 +146,7 @@ fn terms(plan: &Plan) -> Vec<ProposedLine> {
     let names: Vec<String> = terms.iter().map(|(name, ..)| name.clone()).collect();
     terms.retain(|(name, _, uses)| !names.iter().any(|other| other != name && uses.contains(other)));
     terms.truncate(MOST_TERMS);
-    let line = |(name, change, _): (String, Change, HashSet<String>)| {
+    let line = |(name, change, _): (String, TextChange, HashSet<String>)| {
         let id = super::id_of(&name.replace('_', "-"));
         ProposedLine { label: label(&name), id, judges: None, local: Some(name), without: Some(change) }
     };

@@ -1,6 +1,6 @@
 //! What is drawn, by what the solution needs to be seen.
 
-use super::Plan;
+use super::FolderPlan;
 use super::names::NameWords;
 use super::shader_test::ShaderTest;
 use crate::interpreter::{Dimension, Stage, Type};
@@ -70,7 +70,7 @@ const FLAT: SceneKind = SceneKind {
 };
 
 /// Chooses what is drawn.
-pub(super) fn propose(plan: &mut Plan, test: Option<&ShaderTest>) {
+pub(super) fn propose(plan: &mut FolderPlan, test: Option<&ShaderTest>) {
     if let Some(test) = test {
         plan.scene = Proposed { lines: test.scene(), seen: ("What the test draws", "テストが描くもの") };
         return;
@@ -95,12 +95,12 @@ pub(super) fn propose(plan: &mut Plan, test: Option<&ShaderTest>) {
 }
 
 /// Whether a uniform changes with time.
-fn moves(plan: &Plan) -> bool {
+fn moves(plan: &FolderPlan) -> bool {
     let mut lines = plan.uniforms.iter().flat_map(|uniform| &uniform.lines);
     lines.any(|line| line.starts_with("is =") && (line.contains("* t") || line.contains("turn")))
 }
 
-fn shape(plan: &Plan) -> &'static SceneKind {
+fn shape(plan: &FolderPlan) -> &'static SceneKind {
     let carries = |role: &str| plan.attributes.iter().any(|attribute| attribute.said == format!("carries = {role:?}"));
     let has_camera = plan.uniforms.iter().any(|uniform| {
         uniform

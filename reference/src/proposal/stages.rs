@@ -5,12 +5,12 @@ mod declarations;
 mod feeds;
 mod meaning;
 
-use super::Plan;
+use super::FolderPlan;
 use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
 use super::uniforms::{AttributeEntry, UniformEntry, usual_space};
 use crate::assignment::{AssignmentError, both};
-use crate::interpreter::{Scalar, Stage, Type, Variable};
+use crate::interpreter::{ProgramVariable, Scalar, Stage, Type};
 use declarations::{declared, fragment_of, path_of_output};
 use feeds::{Feeds, attribute_name};
 use meaning::{meaning, said};
@@ -32,7 +32,7 @@ impl FixedFile {
 }
 
 /// Writes the stage that is missing, and says what it is fed with.
-pub(super) fn fix(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
+pub(super) fn fix(plan: &mut FolderPlan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
     match &plan.sources[..] {
         [source] if source.stage == Stage::Fragment => vertex_of(plan, test),
         [source] => {
@@ -49,14 +49,14 @@ pub(super) fn fix(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Assi
 }
 
 /// Whether nothing of a fragment solution speaks of a scene: no inputs but texture coordinates, no camera, no sky.
-fn is_of_window(plan: &Plan, source: &SolutionFile) -> bool {
+fn is_of_window(plan: &FolderPlan, source: &SolutionFile) -> bool {
     let inputs = source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_"));
-    let is_flat = |input: &Variable| matches!(input.kind, Type::Vector(Scalar::Float, 2));
+    let is_flat = |input: &ProgramVariable| matches!(input.kind, Type::Vector(Scalar::Float, 2));
     let carries = plan.uniforms.iter().any(|uniform| uniform.lines.iter().any(|line| line.starts_with("carries")));
     inputs.clone().all(is_flat) && !carries
 }
 
-fn vertex_of(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
+fn vertex_of(plan: &mut FolderPlan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
     let source = &plan.sources[0];
     let usual = usual_space(&plan.sources);
     if let Some(test) = test.filter(|test| test.is_passthrough()) {
@@ -70,7 +70,7 @@ fn vertex_of(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Assignmen
     }
     let is_of_window = is_of_window(plan, source);
     let mut feeds = Feeds { source, known: &plan.uniforms, uniforms: Vec::new(), attributes: Vec::new() };
-    let inputs: Vec<&Variable> =
+    let inputs: Vec<&ProgramVariable> =
         source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_")).collect();
     let mut lines = Vec::new();
     let mut told = Vec::new();

@@ -5,7 +5,7 @@
 
 mod plain;
 
-use super::Plan;
+use super::FolderPlan;
 use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
 use crate::interpreter::outline;
@@ -19,21 +19,21 @@ const MARK: &str = "// ggrade:";
 /// What a starter says where something is missing.
 const HINT: &str = "// Write your code here.";
 
-enum Mark {
+enum StarterMark {
     Begin,
     End,
     Instead(String),
 }
 
 /// Cuts the starters of all solutions. Where one file has marks, a file without is handed out as it is.
-pub(super) fn cut(plan: &mut Plan) -> Result<(), AssignmentError> {
+pub(super) fn cut(plan: &mut FolderPlan) -> Result<(), AssignmentError> {
     let marked: Vec<bool> = plan.sources.iter().map(|source| source.text.contains(MARK)).collect();
     let any = marked.iter().any(|marked| *marked);
     for (at, is_marked) in marked.into_iter().enumerate() {
         let source = &plan.sources[at];
         let (starter, remarks) = match (is_marked, any) {
             (true, _) => between_marks(source)?,
-            (false, true) => (source.text.clone(), vec![Told::AsItIs]),
+            (false, true) => (source.text.clone(), vec![StarterRemark::AsItIs]),
             (false, false) => of_plain_values(source),
         };
         compiles(source, &starter)?;
@@ -45,7 +45,7 @@ pub(super) fn cut(plan: &mut Plan) -> Result<(), AssignmentError> {
     Ok(())
 }
 
-enum Told {
+enum StarterRemark {
     Marks(usize),
     AsItIs,
     Declared(String),
@@ -53,22 +53,22 @@ enum Told {
     Left(Vec<String>),
 }
 
-fn tell(plan: &mut Plan, at: usize, told: Told) {
+fn tell(plan: &mut FolderPlan, at: usize, told: StarterRemark) {
     let (starter, entry) = (plan.sources[at].starter_name(), plan.sources[at].entry);
     match told {
-        Told::Marks(count) => plan.read(
+        StarterRemark::Marks(count) => plan.read(
             format!("{starter}: the solution without the {count} part(s) between `// ggrade: begin` and `// ggrade: end`"),
             format!("{starter}: 解答から `// ggrade: begin` と `// ggrade: end` の間 ({count} か所) を除いたもの"),
         ),
-        Told::AsItIs => plan.attention(
+        StarterRemark::AsItIs => plan.attention(
             format!("{starter}: has no marks, so that it is handed out as it is; the other file has marks"),
             format!("{starter}: 印がないため、そのまま配布されます (もう一方のファイルには印があります)"),
         ),
-        Told::Declared(what) => plan.guessed(
+        StarterRemark::Declared(what) => plan.guessed(
             format!("{starter}: `{what}` stands for a variable that is used behind the part that was taken out"),
             format!("{starter}: 取り除いた部分より後で使われる変数の代わりに `{what}` を置きました"),
         ),
-        Told::NoMarks => plan.guessed(
+        StarterRemark::NoMarks => plan.guessed(
             format!(
                 "{starter}: there are no marks, so the body of `{entry}` is taken out, and the outputs get a plain value; to cut \
                  elsewhere, write `// ggrade: begin` and `// ggrade: end` around what students write"
@@ -78,7 +78,7 @@ fn tell(plan: &mut Plan, at: usize, told: Told) {
                  `// ggrade: begin` と `// ggrade: end` で囲んでください"
             ),
         ),
-        Told::Left(names) => {
+        StarterRemark::Left(names) => {
             let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
             plan.attention(
                 format!("{starter}: hands out the functions {names} of the solution; put marks around what students should write"),
@@ -89,17 +89,17 @@ fn tell(plan: &mut Plan, at: usize, told: Told) {
 }
 
 /// The mark in a line, with the text behind it.
-fn mark(line: &str) -> Option<Result<Mark, &str>> {
+fn mark(line: &str) -> Option<Result<StarterMark, &str>> {
     let rest = line.trim_start().strip_prefix(MARK)?.trim();
     Some(match rest.split_once(' ').unwrap_or((rest, "")) {
-        ("begin", _) => Ok(Mark::Begin),
-        ("end", _) => Ok(Mark::End),
-        ("instead", text) if !text.trim().is_empty() => Ok(Mark::Instead(text.trim().to_owned())),
+        ("begin", _) => Ok(StarterMark::Begin),
+        ("end", _) => Ok(StarterMark::End),
+        ("instead", text) if !text.trim().is_empty() => Ok(StarterMark::Instead(text.trim().to_owned())),
         _ => Err(rest),
     })
 }
 
-fn between_marks(source: &SolutionFile) -> Result<(String, Vec<Told>), AssignmentError> {
+fn between_marks(source: &SolutionFile) -> Result<(String, Vec<StarterRemark>), AssignmentError> {
     let refused = |line: u32, en: String, ja: String| Err(source.wrong(line, both(en, ja)));
     let mut starter = String::new();
     let mut removed: Vec<RangeInclusive<u32>> = Vec::new();
@@ -109,24 +109,24 @@ fn between_marks(source: &SolutionFile) -> Result<(String, Vec<Told>), Assignmen
         match (mark(line), open.take()) {
             (None, None) => starter += line,
             (None, inside) => open = inside,
-            (Some(Ok(Mark::Begin)), None) => {
+            (Some(Ok(StarterMark::Begin)), None) => {
                 let indent = line[..line.len() - line.trim_start().len()].to_owned();
                 open = Some((number, indent, Vec::new()));
             }
-            (Some(Ok(Mark::Instead(text))), Some((first, indent, mut instead))) => {
+            (Some(Ok(StarterMark::Instead(text))), Some((first, indent, mut instead))) => {
                 instead.push(text);
                 open = Some((first, indent, instead));
             }
-            (Some(Ok(Mark::End)), Some((first, indent, instead))) => {
+            (Some(Ok(StarterMark::End)), Some((first, indent, instead))) => {
                 let declared = if instead.is_empty() { declared_in(source, first..=number) } else { Vec::new() };
                 let hint = if instead.is_empty() { Some(HINT.to_owned()) } else { None };
                 for text in hint.iter().chain(&declared).chain(&instead) {
                     starter += &format!("{indent}{text}\n");
                 }
-                told.extend(declared.into_iter().map(Told::Declared));
+                told.extend(declared.into_iter().map(StarterRemark::Declared));
                 removed.push(first..=number);
             }
-            (Some(Ok(Mark::Begin)), Some((first, ..))) => {
+            (Some(Ok(StarterMark::Begin)), Some((first, ..))) => {
                 return refused(
                     number,
                     format!("`begin` stands within the part that begins in line {first}: write `{MARK} end` before it"),
@@ -163,7 +163,7 @@ fn between_marks(source: &SolutionFile) -> Result<(String, Vec<Told>), Assignmen
     if removed.is_empty() {
         return refused(0, format!("has no `{MARK} begin`"), format!("`{MARK} begin` がありません"));
     }
-    told.insert(0, Told::Marks(removed.len()));
+    told.insert(0, StarterRemark::Marks(removed.len()));
     Ok((starter, told))
 }
 
@@ -195,10 +195,10 @@ fn declared_in(source: &SolutionFile, lines: RangeInclusive<u32>) -> Vec<String>
 }
 
 /// The solution with a body of its entry that gives every output a plain value.
-fn of_plain_values(source: &SolutionFile) -> (String, Vec<Told>) {
+fn of_plain_values(source: &SolutionFile) -> (String, Vec<StarterRemark>) {
     let functions = outline::functions(&source.text);
     let Some(entry) = functions.iter().find(|function| function.name.text == source.entry) else {
-        return (source.text.clone(), vec![Told::AsItIs]);
+        return (source.text.clone(), vec![StarterRemark::AsItIs]);
     };
     let lines = match source.entry {
         "main" => {
@@ -218,8 +218,8 @@ fn of_plain_values(source: &SolutionFile) -> (String, Vec<Told>) {
         .filter(|name| !own.contains(&name.as_str()))
         .cloned()
         .collect();
-    let mut told = vec![Told::NoMarks];
-    told.extend((!left.is_empty()).then_some(Told::Left(left)));
+    let mut told = vec![StarterRemark::NoMarks];
+    told.extend((!left.is_empty()).then_some(StarterRemark::Left(left)));
     (starter, told)
 }
 

@@ -5,18 +5,18 @@ mod space;
 mod textures;
 mod tree;
 
-use super::Plan;
+use super::FolderPlan;
 use super::guess::{Guess, guess};
 use super::names::{self, NameWords, Space};
 use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
-use crate::interpreter::{Dimension, Scalar, Stage, Type, Variable};
+use crate::interpreter::{Dimension, ProgramVariable, Scalar, Stage, Type};
 use space::negated;
 pub(super) use space::usual_space;
 use std::collections::HashMap;
 pub(super) use textures::TextureEntry;
-use tree::{Said, Tree, empty, has, insert, split, write};
+use tree::{ProposedValue, Tree, empty, has, insert, split, write};
 
 /// A vertex attribute of a stage.
 #[derive(Clone, Debug)]
@@ -38,14 +38,14 @@ pub(super) struct UniformEntry {
 }
 
 /// Feeds all uniforms and attributes of the solutions.
-pub(super) fn feed(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
+pub(super) fn feed(plan: &mut FolderPlan, test: Option<&ShaderTest>) -> Result<(), AssignmentError> {
     let space = usual_space(&plan.sources);
     if let Some(at) = plan.sources.iter().position(|source| source.stage == Stage::Vertex) {
         plan.attributes = attributes::attributes(plan, at, test)?;
     }
     let mut seen: HashMap<&'static str, usize> = HashMap::new();
     let mut all: Vec<(String, Tree)> = Vec::new();
-    let mut textures = textures::Textures::default();
+    let mut textures = textures::ProposedTextures::default();
     for source in &plan.sources {
         for uniform in source.program.uniforms().iter().filter(|uniform| !uniform.name.starts_with("gl_")) {
             let (root, rest) = split(&uniform.name);
@@ -55,8 +55,10 @@ pub(super) fn feed(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Ass
             let changing = test.and_then(|test| test.expression_of(&uniform.name, &uniform.kind));
             let constant = test.and_then(|test| test.value_of(&uniform.name, &uniform.kind));
             let said = match (changing, constant) {
-                (Some(text), _) => Said::Line(format!("is = {text:?}")),
-                (_, Some(value)) => Said::Value { value, probe: None, what: ("value of the test", "テストの値") },
+                (Some(text), _) => ProposedValue::Line(format!("is = {text:?}")),
+                (_, Some(value)) => {
+                    ProposedValue::Value { value, probe: None, what: ("value of the test", "テストの値") }
+                }
                 _ => leaf(source, uniform, space, &mut seen, &mut textures)?,
             };
             match all.iter_mut().find(|(known, _)| known == root) {
@@ -76,7 +78,7 @@ pub(super) fn feed(plan: &mut Plan, test: Option<&ShaderTest>) -> Result<(), Ass
     Ok(())
 }
 
-fn tell(plan: &mut Plan) {
+fn tell(plan: &mut FolderPlan) {
     let lines: Vec<_> =
         plan.uniforms.iter().map(|entry| (entry.name.clone(), entry.lines[0].clone(), entry.note.clone())).collect();
     for (name, line, note) in lines {
@@ -100,11 +102,11 @@ fn tell(plan: &mut Plan) {
 
 fn leaf(
     source: &SolutionFile,
-    uniform: &Variable,
+    uniform: &ProgramVariable,
     space: Space,
     seen: &mut HashMap<&'static str, usize>,
-    textures: &mut textures::Textures,
-) -> Result<Said, AssignmentError> {
+    textures: &mut textures::ProposedTextures,
+) -> Result<ProposedValue, AssignmentError> {
     let (name, kind) = (NameWords::of(&uniform.name), &uniform.kind);
     if let Type::Sampler(sampler) = kind {
         let is_known = matches!(sampler.dimension, Dimension::Two | Dimension::Cube)
@@ -125,16 +127,18 @@ fn leaf(
             )
         };
         return match is_known {
-            true => Ok(Said::Texture(textures.of(&uniform.name, sampler.dimension == Dimension::Cube))),
+            true => Ok(ProposedValue::Texture(textures.of(&uniform.name, sampler.dimension == Dimension::Cube))),
             false => Err(refused()),
         };
     }
     if let Some(line) = by_role(&uniform.name, &name, kind, names::space_of(&name, space)) {
-        return Ok(Said::Line(line));
+        return Ok(ProposedValue::Line(line));
     }
     if let Some(count) = longest_array(source).filter(|_| *kind == Type::INT && name.has(&["num", "count", "number"])) {
         let probe = Some(format!("{{ within = [1, {count}] }}"));
-        return Ok(Said::Value { value: count.to_string(), probe, what: ("number of elements", "要素の数") });
+        return Ok(ProposedValue::Value {
+            value: count.to_string(), probe, what: ("number of elements", "要素の数")
+        });
     }
     let is_downward = negated(source, &uniform.name);
     let Guess { value, within, what } = {
@@ -156,7 +160,7 @@ fn leaf(
     };
     let probe = within
         .map(|(least, greatest)| format!("{{ within = [{}, {}] }}", numbers(&least, kind), numbers(&greatest, kind)));
-    Ok(Said::Value { value: numbers(&value, kind), probe, what })
+    Ok(ProposedValue::Value { value: numbers(&value, kind), probe, what })
 }
 
 /// How many elements the longest array of uniforms has.

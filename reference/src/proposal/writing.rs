@@ -1,6 +1,6 @@
 //! `assignment.toml` as it is written, with what there is to change.
 
-use super::{Plan, SCHEMA};
+use super::{FolderPlan, SCHEMA};
 use crate::interpreter::Stage;
 
 /// A text as TOML has it.
@@ -15,7 +15,7 @@ fn title(id: &str) -> String {
     characters.next().map_or_else(String::new, |first| first.to_uppercase().chain(characters).collect())
 }
 
-pub(super) fn manifest(plan: &Plan) -> String {
+pub(super) fn manifest(plan: &FolderPlan) -> String {
     let mut text = format!(
         "#:schema ./{SCHEMA}\n# A homework. Every key: docs/assignment-toml.md, or `ggrade assignment schema` for an editor.\n\
          # `ggrade assignment check .` says what is wrong in this folder.\n\nid = {}\n",
@@ -43,7 +43,7 @@ pub(super) fn manifest(plan: &Plan) -> String {
     text
 }
 
-fn task(plan: &Plan) -> String {
+fn task(plan: &FolderPlan) -> String {
     let files = plan.sources.iter().map(|source| format!("`{}`", source.name)).collect::<Vec<_>>();
     let (en, ja) = (files.join(" and "), files.join(" と "));
     let entries = plan.sources.iter().map(|source| format!("`{}`", source.entry)).collect::<Vec<_>>();
@@ -59,7 +59,7 @@ fn task(plan: &Plan) -> String {
     .concat()
 }
 
-fn files(plan: &Plan) -> String {
+fn files(plan: &FolderPlan) -> String {
     let mut text = "\n# ---- What is handed in ----\n".to_owned();
     for source in &plan.sources {
         let stage = if source.stage == Stage::Vertex { "vertex" } else { "fragment" };
@@ -80,7 +80,7 @@ fn files(plan: &Plan) -> String {
     text
 }
 
-fn rubric(plan: &Plan) -> String {
+fn rubric(plan: &FolderPlan) -> String {
     let mut text = "\n# ---- What it is worth: points, and what is said ----\n".to_owned();
     let points = shares(plan.rubric.len());
     if plan.rubric.iter().any(|line| line.without.is_some()) {

@@ -1,6 +1,6 @@
 //! Where a rasteriser's rounding may decide: near the contours of what is drawn, and where two things are equally deep.
 
-use super::outline::{Edge, extent, pixels};
+use super::outline::{OutlineEdge, extent, pixels};
 use super::{Coverage, SILHOUETTE_DISTANCE, Setup, Surface, Visible};
 use glam::DVec2;
 use std::collections::HashMap;
@@ -40,7 +40,7 @@ impl Visible {
         for (number, setup) in self.setups.iter().enumerate() {
             for (place, corner) in setup.outline.iter().enumerate() {
                 let goes_on = match corner.edge {
-                    Edge::Own(from) if is_joined(&setup) => {
+                    OutlineEdge::Own(from) if is_joined(&setup) => {
                         let sides = neighbours.get(&ends(setup, from)).copied().unwrap_or_default();
                         sides[usize::from(setup.is_front)] == 2 && sides[usize::from(!setup.is_front)] == 0
                     }

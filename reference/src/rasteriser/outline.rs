@@ -6,12 +6,12 @@ use glam::{DVec2, DVec4};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Corner {
     pub at: DVec2,
-    pub edge: Edge,
+    pub edge: OutlineEdge,
 }
 
 /// An edge of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Edge {
+pub(super) enum OutlineEdge {
     /// The triangle's own: from this vertex to the next.
     Own(usize),
     /// Where the view volume cuts it.
@@ -20,7 +20,7 @@ pub(super) enum Edge {
 
 /// The clipped triangle.
 pub(super) fn outline(positions: [DVec4; 3], [width, height]: [f64; 2]) -> Vec<Corner> {
-    let corner = |(p, edge): (DVec4, Edge)| Corner {
+    let corner = |(p, edge): (DVec4, OutlineEdge)| Corner {
         at: DVec2::new((p.x / p.w + 1.0) / 2.0 * width, (1.0 - p.y / p.w) / 2.0 * height),
         edge,
     };
@@ -35,10 +35,10 @@ pub(super) fn area(outline: &[Corner]) -> f64 {
 }
 
 /// Sutherland and Hodgman: one plane of the view volume after the other.
-fn clip(positions: [DVec4; 3]) -> Vec<(DVec4, Edge)> {
+fn clip(positions: [DVec4; 3]) -> Vec<(DVec4, OutlineEdge)> {
     let planes: [fn(&DVec4) -> f64; 6] =
         [|p| p.w + p.z, |p| p.w - p.z, |p| p.w + p.x, |p| p.w - p.x, |p| p.w + p.y, |p| p.w - p.y];
-    let mut polygon: Vec<_> = positions.into_iter().enumerate().map(|(at, p)| (p, Edge::Own(at))).collect();
+    let mut polygon: Vec<_> = positions.into_iter().enumerate().map(|(at, p)| (p, OutlineEdge::Own(at))).collect();
     if planes.iter().all(|distance| polygon.iter().all(|(p, _)| distance(p) >= 0.0)) {
         return polygon;
     }
@@ -50,7 +50,7 @@ fn clip(positions: [DVec4; 3]) -> Vec<(DVec4, Edge)> {
             let crossing = || *a + (*b - *a) * (da / (da - db));
             match (da >= 0.0, db >= 0.0) {
                 (true, true) => kept.push((*a, *edge)),
-                (true, false) => kept.extend([(*a, *edge), (crossing(), Edge::Cut)]),
+                (true, false) => kept.extend([(*a, *edge), (crossing(), OutlineEdge::Cut)]),
                 (false, true) => kept.push((crossing(), *edge)),
                 (false, false) => {}
             }

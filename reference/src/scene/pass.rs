@@ -2,7 +2,7 @@
 
 use super::{Cull, DepthTest, Draw, Matrices, Moment, Pose, Scene, matrix};
 use crate::assignment::Interface;
-use crate::feed::Expression;
+use crate::feed::FeedExpression;
 use crate::interpreter::Program;
 use crate::pipeline::positions;
 use crate::rasteriser::{Surface, depth_map};
@@ -13,9 +13,9 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Pass {
     /// From world space to the pass's eye space.
-    pub view: Expression,
+    pub view: FeedExpression,
     /// From there to its clip space.
-    pub projection: Expression,
+    pub projection: FeedExpression,
     /// Its vertex stage; depths need no fragment stage.
     pub program: Arc<Program>,
     /// The names of what is drawn; all where none are said.

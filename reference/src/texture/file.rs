@@ -1,6 +1,6 @@
 //! PNG files.
 
-use super::Picture;
+use super::TexturePicture;
 use std::fmt;
 use std::io::Cursor;
 
@@ -47,7 +47,7 @@ const OTHERS: &[(&[u8], &str)] = &[
 ///
 /// # Errors
 /// It is no PNG, or has more pixels than `most`.
-pub fn read(bytes: &[u8], most: usize) -> Result<Picture<u8>, BrokenPicture> {
+pub fn read(bytes: &[u8], most: usize) -> Result<TexturePicture<u8>, BrokenPicture> {
     if let Some((_, what)) = OTHERS.iter().find(|(head, _)| bytes.starts_with(head)) {
         return Err(BrokenPicture::Not(what));
     }
@@ -76,7 +76,7 @@ pub fn read(bytes: &[u8], most: usize) -> Result<Picture<u8>, BrokenPicture> {
         png::ColorType::Rgba => pixels.as_chunks().0.to_vec(),
         png::ColorType::Indexed => return Err(BrokenPicture::Damaged("its palette is missing".into())),
     };
-    let picture = Picture { width: info.width as usize, height: info.height as usize, texels };
+    let picture = TexturePicture { width: info.width as usize, height: info.height as usize, texels };
     let is_whole = picture.texels.len() == picture.width * picture.height && !picture.texels.is_empty();
     is_whole.then_some(picture).ok_or_else(|| BrokenPicture::Damaged("it has not all of its rows".into()))
 }

@@ -1,6 +1,6 @@
 //! Pictures that are computed.
 
-use super::Picture;
+use super::TexturePicture;
 use super::noise::Noise;
 use super::sky::Sky;
 use crate::Text;
@@ -132,14 +132,14 @@ impl Generator {
     ///
     /// # Errors
     /// The parameters make none.
-    pub fn pictures(&self, size: [usize; 2]) -> Result<Vec<Picture<f64>>, Text> {
+    pub fn pictures(&self, size: [usize; 2]) -> Result<Vec<TexturePicture<f64>>, Text> {
         match self {
             Self::Sky(sky) => sky.pictures(size),
             flat => Ok(vec![flat.picture(size)?]),
         }
     }
 
-    fn picture(&self, size: [usize; 2]) -> Result<Picture<f64>, Text> {
+    fn picture(&self, size: [usize; 2]) -> Result<TexturePicture<f64>, Text> {
         Ok(match self {
             Self::Checker(checker) => checker.picture(size)?,
             Self::Gradient(gradient) => gradient.picture(size)?,
@@ -157,15 +157,15 @@ impl Generator {
 }
 
 /// A picture of what a place has: its coordinates are those of the texel's middle.
-pub(super) fn painted(size: [usize; 2], colour: impl Fn([f64; 2]) -> Colour) -> Picture<f64> {
+pub(super) fn painted(size: [usize; 2], colour: impl Fn([f64; 2]) -> Colour) -> TexturePicture<f64> {
     let [width, height] = size;
     let middle = |at: usize, count: usize| (at as f64 + 0.5) / count as f64;
     let texel = |at: usize| colour([middle(at % width, width), middle(at / width, height)]).0;
-    Picture { width, height, texels: (0..width * height).map(texel).collect() }
+    TexturePicture { width, height, texels: (0..width * height).map(texel).collect() }
 }
 
 impl Checker {
-    fn picture(&self, size: [usize; 2]) -> Result<Picture<f64>, Text> {
+    fn picture(&self, size: [usize; 2]) -> Result<TexturePicture<f64>, Text> {
         self.squares.into_iter().try_for_each(|count| within("squares", count, 1, MOST_ALONG))?;
         let squares = self.squares.map(f64::from);
         Ok(painted(size, |at| {
@@ -176,7 +176,7 @@ impl Checker {
 }
 
 impl Gradient {
-    fn picture(&self, size: [usize; 2]) -> Result<Picture<f64>, Text> {
+    fn picture(&self, size: [usize; 2]) -> Result<TexturePicture<f64>, Text> {
         within("rows", self.rows.len(), 1, MOST_ALONG as usize)?;
         for row in &self.rows {
             within("rows", row.len(), 1, MOST_ALONG as usize)?;
@@ -202,7 +202,7 @@ impl Gradient {
 }
 
 impl Bumps {
-    fn picture(&self, size: [usize; 2]) -> Result<Picture<f64>, Text> {
+    fn picture(&self, size: [usize; 2]) -> Result<TexturePicture<f64>, Text> {
         self.count.into_iter().try_for_each(|count| within("count", count, 1, MOST_ALONG))?;
         within("radius", self.radius, 0.01, 1.0)?;
         let count = self.count.map(f64::from);
@@ -215,7 +215,7 @@ impl Bumps {
 }
 
 impl NormalMap {
-    fn picture(&self, size: [usize; 2]) -> Result<Picture<f64>, Text> {
+    fn picture(&self, size: [usize; 2]) -> Result<TexturePicture<f64>, Text> {
         within("height", self.height, -10.0, 10.0)?;
         let [width, height] = size;
         let surface = self.of.picture(size)?;
@@ -228,7 +228,7 @@ impl NormalMap {
             let normal = glam::DVec3::new(-self.height * along_x, -self.height * along_y, 1.0).normalize();
             (normal * 0.5 + 0.5).extend(1.0).to_array()
         };
-        Ok(Picture { width, height, texels: (0..width * height).map(texel).collect() })
+        Ok(TexturePicture { width, height, texels: (0..width * height).map(texel).collect() })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Value noise: numbers on a lattice, smoothly joined. It goes on at its other edge, and is the same on every machine.
 
-use super::Picture;
+use super::TexturePicture;
 use super::generator::{Colour, painted, within};
 use crate::Text;
 use schemars::JsonSchema;
@@ -29,7 +29,7 @@ impl Default for Noise {
 }
 
 impl Noise {
-    pub(super) fn picture(&self, size: [usize; 2]) -> Result<Picture<f64>, Text> {
+    pub(super) fn picture(&self, size: [usize; 2]) -> Result<TexturePicture<f64>, Text> {
         within("octaves", self.octaves, 1, 8)?;
         self.cells.into_iter().try_for_each(|cells| within("cells", cells, 1, FINEST >> (self.octaves - 1)))?;
         let whole: f64 = (0..self.octaves).map(|octave| 0.5_f64.powi(octave as i32)).sum();

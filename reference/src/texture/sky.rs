@@ -1,6 +1,6 @@
 //! A sky as a cube map: what is seen in a direction.
 
-use super::Picture;
+use super::TexturePicture;
 use super::generator::{Colour, painted, within};
 use crate::Text;
 use crate::assignment::both;
@@ -49,7 +49,7 @@ impl Default for Sun {
 
 impl Sky {
     /// The faces +x, -x, +y, -y, +z, -z, each with the rows in the order in which OpenGL takes them.
-    pub(super) fn pictures(&self, size: [usize; 2]) -> Result<Vec<Picture<f64>>, Text> {
+    pub(super) fn pictures(&self, size: [usize; 2]) -> Result<Vec<TexturePicture<f64>>, Text> {
         within("radius", self.sun.radius, 0.1, 180.0)?;
         let to_sun = DVec3::from_array(self.sun.direction).try_normalize().ok_or_else(|| {
             both("`direction` of the sun has no length", "太陽の `direction` の長さが 0 です。向きを書いてください")

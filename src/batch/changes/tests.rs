@@ -5,8 +5,8 @@ use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::samples;
 
-fn header(version: &str) -> Header {
-    Header {
+fn header(version: &str) -> JournalHeader {
+    JournalHeader {
         schema: crate::batch::journal::SCHEMA.into(),
         assignment: "ggsample06".into(),
         assignment_digest: String::new(),
@@ -30,13 +30,13 @@ fn graded(report: Report) -> Outcome {
 }
 
 fn changes(before: &[(&str, Outcome)], after: &[(&str, Outcome)]) -> Changes {
-    let records = before.iter().map(|(key, outcome)| Record {
+    let records = before.iter().map(|(key, outcome)| JournalRecord {
         student: student(key),
         path: None,
         sha256: sha256(outcome),
         outcome: outcome.clone(),
     });
-    let entries = after.iter().map(|(key, outcome)| Entry {
+    let entries = after.iter().map(|(key, outcome)| ClassEntry {
         student: student(key),
         places: Vec::new(),
         outcome: outcome.clone(),
@@ -78,8 +78,8 @@ fn gains_and_losses_are_told_line_by_line() {
     assert!(!changes.gains[0].is_new_file);
     let [line] = changes.losses[0].rubric.as_slice() else { panic!("one line differs") };
     let mistake = Some("specular-half-unnormalized".to_owned());
-    assert_eq!(line.before, Some(Earned { points: 20.0, mistake: mistake.clone() }));
-    assert_eq!(line.after, Some(Earned { points: 0.0, mistake }));
+    assert_eq!(line.before, Some(EarnedPoints { points: 20.0, mistake: mistake.clone() }));
+    assert_eq!(line.after, Some(EarnedPoints { points: 0.0, mistake }));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use super::untrusted::{one_line, visible};
 use super::wording;
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::RubricLine;
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 /// Base64 of a JSON object, in one line, for the reporter's `…_RESULTS`.
 ///
 /// It has no way to say "no score": after a failure of ours it is worth 0 of 0 points.
-pub fn render(entry: &Entry, class: &Class) -> String {
+pub fn render(entry: &ClassEntry, class: &Class) -> String {
     let language = class.language;
     let duration = entry.report().map_or(0.0, |report| report.elapsed_ms.round() / 1000.0);
     let mut tests: Vec<_> = rubric(entry).iter().map(|line| test(entry, line, duration, language)).collect();
@@ -39,12 +39,12 @@ pub fn render(entry: &Entry, class: &Class) -> String {
     format!("{}\n", STANDARD.encode(result.to_string()))
 }
 
-fn rubric(entry: &Entry) -> &[RubricLine] {
+fn rubric(entry: &ClassEntry) -> &[RubricLine] {
     entry.report().map_or(&[], |report| &report.rubric)
 }
 
 /// `pass`, `fail`, or `error` where it is no doing of the student's.
-fn status(entry: &Entry) -> &'static str {
+fn status(entry: &ClassEntry) -> &'static str {
     match Standing::of(&entry.outcome) {
         Standing::Correct => "pass",
         Standing::Wrong | Standing::Rejected | Standing::Stopped | Standing::NotGraded => "fail",
@@ -53,7 +53,7 @@ fn status(entry: &Entry) -> &'static str {
 }
 
 /// What is said of the submission as a whole: the outcome, then what the stages say about places in it.
-fn message(entry: &Entry, language: Language) -> String {
+fn message(entry: &ClassEntry, language: Language) -> String {
     let mut lines = vec![wording::explanation(entry, language)];
     lines.extend(wording::fault(entry, language));
     for (report, diagnostic) in entry.diagnostics() {
@@ -70,7 +70,7 @@ fn line_status(line: &RubricLine) -> &'static str {
     if wording::is_full(line) { "pass" } else { "fail" }
 }
 
-fn test(entry: &Entry, line: &RubricLine, duration: f64, language: Language) -> Value {
+fn test(entry: &ClassEntry, line: &RubricLine, duration: f64, language: Language) -> Value {
     // Where nothing ran, what the compiler says is what the student needs.
     let nothing_ran = matches!(Standing::of(&entry.outcome), Standing::Rejected | Standing::Stopped);
     let message = if nothing_ran { message(entry, language) } else { visible(line.message.get(language)) };
@@ -87,7 +87,7 @@ fn test(entry: &Entry, line: &RubricLine, duration: f64, language: Language) -> 
     })
 }
 
-fn file_name(entry: &Entry) -> String {
+fn file_name(entry: &ClassEntry) -> String {
     one_line(&entry.path().unwrap_or_default())
 }
 
@@ -98,7 +98,7 @@ mod tests {
     use crate::report::samples;
 
     /// As the reporter reads it: base64 of UTF-8 JSON.
-    fn decoded(entry: &Entry) -> Value {
+    fn decoded(entry: &ClassEntry) -> Value {
         let text = render(entry, &nasty::class());
         let line = text.strip_suffix('\n').unwrap();
         assert!(line.bytes().all(|b| b.is_ascii_alphanumeric() || b"+/=".contains(&b)), "{line}");

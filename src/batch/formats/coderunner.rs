@@ -2,7 +2,7 @@
 
 use super::untrusted::{html, one_line, rich_html};
 use super::wording;
-use crate::batch::class::{Entry, Outcome};
+use crate::batch::class::{ClassEntry, Outcome};
 use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::RubricLine;
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 ///
 /// After a failure of ours it has no `fraction`. CodeRunner cannot leave an answer unmarked: `deploy/coderunner/template.py`
 /// turns that into a 0 that says what it is.
-pub fn render(entry: &Entry, language: Language) -> String {
+pub fn render(entry: &ClassEntry, language: Language) -> String {
     let mut result = json!({ "prologuehtml": prologue(entry, language) });
     match &entry.outcome {
         Outcome::Graded(report) => {
@@ -28,7 +28,7 @@ pub fn render(entry: &Entry, language: Language) -> String {
     format!("{result}\n")
 }
 
-fn prologue(entry: &Entry, language: Language) -> String {
+fn prologue(entry: &ClassEntry, language: Language) -> String {
     let standing = Standing::of(&entry.outcome);
     let mut prologue = format!("<p><strong>{}</strong>", html(standing.word(language)));
     if let Some(report) = entry.report() {
@@ -58,7 +58,7 @@ fn table(rubric: &[RubricLine], language: Language) -> Value {
     std::iter::once(header).chain(rubric.iter().map(row)).collect()
 }
 
-fn epilogue(entry: &Entry, language: Language) -> String {
+fn epilogue(entry: &ClassEntry, language: Language) -> String {
     let item = |(report, diagnostic)| {
         let place = html(&wording::place(report, diagnostic, language));
         format!("<li><strong>{place}</strong><br>{}</li>", rich_html(&wording::message(diagnostic, language)))
@@ -77,7 +77,7 @@ mod tests {
     use scraper::Html;
 
     /// The object, held against the rules of CodeRunner's documentation.
-    fn result(entry: &Entry) -> Value {
+    fn result(entry: &ClassEntry) -> Value {
         let text = render(entry, Language::En);
         assert_eq!(text.lines().count(), 1);
         let result: Value = serde_json::from_str(&text).expect("JSON");

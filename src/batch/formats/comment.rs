@@ -8,7 +8,7 @@ mod exported;
 mod former;
 
 use super::plain::html;
-use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::standing::Standing;
 use crate::diagnostic::Severity;
 use crate::language::Language;
@@ -45,18 +45,18 @@ pub(super) struct WorksheetComment {
 }
 
 /// The comment on one student in place of the one that is in the cell, and behind a teacher's words where there is none.
-pub(super) fn merge(cell: &str, entry: &Entry, class: &Class) -> WorksheetComment {
+pub(super) fn merge(cell: &str, entry: &ClassEntry, class: &Class) -> WorksheetComment {
     existing::replaced(cell, &render(entry, class.language), &Former::of(entry, class))
 }
 
 /// The comment on one student.
-fn render(entry: &Entry, language: Language) -> String {
+fn render(entry: &ClassEntry, language: Language) -> String {
     let [begin, end] = marks(language);
     format!("{OPEN}<p>{begin}</p>{}<p>{end}</p>{CLOSE}", body(entry, language))
 }
 
 /// What a comment says.
-fn body(entry: &Entry, language: Language) -> String {
+fn body(entry: &ClassEntry, language: Language) -> String {
     let title = Standing::of(&entry.outcome).word(language);
     match &entry.outcome {
         Outcome::Graded(report) => graded(report, title, language),

@@ -1,19 +1,19 @@
 //! The formats of autograders and CI by their names: the documents of a class, and the one of a single file.
 
 use super::github::StopToken;
-use super::{Format, KEY, classroom, coderunner, github, gradescope, junit, sarif, vpl};
-use crate::batch::class::{Class, Entry};
+use super::{ClassFormat, KEY, classroom, coderunner, github, gradescope, junit, sarif, vpl};
+use crate::batch::class::{Class, ClassEntry};
 use crate::fault::Fault;
 
 /// The formats of this module.
-pub const FORMATS: [Format; 7] = [
-    Format::Gradescope,
-    Format::Github,
-    Format::ClassroomLegacy,
-    Format::Junit,
-    Format::Sarif,
-    Format::Vpl,
-    Format::Coderunner,
+pub const FORMATS: [ClassFormat; 7] = [
+    ClassFormat::Gradescope,
+    ClassFormat::Github,
+    ClassFormat::ClassroomLegacy,
+    ClassFormat::Junit,
+    ClassFormat::Sarif,
+    ClassFormat::Vpl,
+    ClassFormat::Coderunner,
 ];
 
 /// A file that a format writes.
@@ -26,18 +26,20 @@ pub struct Document {
 }
 
 /// The files of `format` for the class; none for a format of another module.
-pub fn documents(format: Format, class: &Class) -> Result<Vec<Document>, Fault> {
+pub fn documents(format: ClassFormat, class: &Class) -> Result<Vec<Document>, Fault> {
     let class = &*class.for_students();
     let names = format.files();
     let named = |texts: Vec<String>| -> Vec<Document> {
         names.iter().zip(texts).map(|(name, text)| Document { name: (*name).to_owned(), text }).collect()
     };
     Ok(match format {
-        Format::Github => named(vec![github::log(class, &StopToken::random()?), github::summary(class, github::LIMIT)]),
-        Format::Junit => named(vec![junit::render(class)?]),
-        Format::Sarif => named(vec![sarif::render(class)]),
+        ClassFormat::Github => {
+            named(vec![github::log(class, &StopToken::random()?), github::summary(class, github::LIMIT)])
+        }
+        ClassFormat::Junit => named(vec![junit::render(class)?]),
+        ClassFormat::Sarif => named(vec![sarif::render(class)]),
         _ => {
-            let of_entry = |entry: &Entry| {
+            let of_entry = |entry: &ClassEntry| {
                 let text = per_student(format, entry, class, vpl::Scale::default())?;
                 Some(Document { name: names.first()?.replace(KEY, &entry.student.key), text })
             };
@@ -47,23 +49,23 @@ pub fn documents(format: Format, class: &Class) -> Result<Vec<Document>, Fault> 
 }
 
 /// What `ggrade grade` prints for the only student of `class`; none for a format of another module.
-pub fn single(format: Format, class: &Class, scale: vpl::Scale) -> Result<Option<String>, Fault> {
+pub fn single(format: ClassFormat, class: &Class, scale: vpl::Scale) -> Result<Option<String>, Fault> {
     let class = &*class.for_students();
     Ok(match format {
-        Format::Github => Some(github::log(class, &StopToken::random()?)),
-        Format::Junit => Some(junit::render(class)?),
-        Format::Sarif => Some(sarif::render(class)),
+        ClassFormat::Github => Some(github::log(class, &StopToken::random()?)),
+        ClassFormat::Junit => Some(junit::render(class)?),
+        ClassFormat::Sarif => Some(sarif::render(class)),
         _ => class.entries.first().and_then(|entry| per_student(format, entry, class, scale)),
     })
 }
 
 /// The document of one student, in the formats that have one each.
-fn per_student(format: Format, entry: &Entry, class: &Class, scale: vpl::Scale) -> Option<String> {
+fn per_student(format: ClassFormat, entry: &ClassEntry, class: &Class, scale: vpl::Scale) -> Option<String> {
     Some(match format {
-        Format::Gradescope => gradescope::render(entry, &class.expected_portrait, class.language),
-        Format::ClassroomLegacy => classroom::render(entry, class),
-        Format::Vpl => vpl::render(entry, scale, class.language),
-        Format::Coderunner => coderunner::render(entry, class.language),
+        ClassFormat::Gradescope => gradescope::render(entry, &class.expected_portrait, class.language),
+        ClassFormat::ClassroomLegacy => classroom::render(entry, class),
+        ClassFormat::Vpl => vpl::render(entry, scale, class.language),
+        ClassFormat::Coderunner => coderunner::render(entry, class.language),
         _ => return None,
     })
 }
@@ -87,7 +89,7 @@ mod tests {
             assert_eq!(written, listed.collect::<Vec<_>>(), "{}", format.id());
             assert!(single(format, &class, vpl::Scale::default()).unwrap().is_some());
         }
-        for &format in Format::value_variants().iter().filter(|format| !FORMATS.contains(format)) {
+        for &format in ClassFormat::value_variants().iter().filter(|format| !FORMATS.contains(format)) {
             assert_eq!(documents(format, &class).unwrap(), []);
             assert_eq!(single(format, &class, vpl::Scale::default()).unwrap(), None);
         }

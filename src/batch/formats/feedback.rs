@@ -6,7 +6,7 @@
 
 use super::plain::{html, one_line};
 use super::status::summary;
-use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -29,7 +29,7 @@ pub struct Packed {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recipient<'a> {
     /// Whose report.
-    pub entry: &'a Entry,
+    pub entry: &'a ClassEntry,
     /// The participant's name, which Moodle does not go by.
     pub name: String,
     /// The participant's number, which it goes by.
@@ -38,8 +38,8 @@ pub struct Recipient<'a> {
 
 /// The recipients where there is no worksheet: the numbers of the download are taken for participants'.
 pub fn by_number<'a>(class: &'a Class) -> Vec<Recipient<'a>> {
-    let recipient = |entry: &'a Entry| {
-        let Entry { student, .. } = entry;
+    let recipient = |entry: &'a ClassEntry| {
+        let ClassEntry { student, .. } = entry;
         let participant = student.moodle.as_ref()?;
         Some(Recipient { entry, name: participant.name.clone(), number: participant.number? })
     };
@@ -62,7 +62,7 @@ pub fn write(class: &Class, recipients: &[Recipient], out: impl Write + Seek) ->
     let mut archive = ZipWriter::new(out);
     let mut packed = Packed::default();
     let separator = separator(class);
-    let (faults, graded): (Vec<&Entry>, Vec<&Entry>) =
+    let (faults, graded): (Vec<&ClassEntry>, Vec<&ClassEntry>) =
         class.entries.iter().partition(|entry| matches!(entry.outcome, Outcome::Fault(_)));
     for recipient in recipients.iter().filter(|recipient| !matches!(recipient.entry.outcome, Outcome::Fault(_))) {
         add(&mut archive, recipient, separator, class)?;
@@ -70,7 +70,7 @@ pub fn write(class: &Class, recipients: &[Recipient], out: impl Write + Seek) ->
     }
     archive.finish().map_err(|error| failed(&error))?;
     let known: HashSet<&str> = recipients.iter().map(|recipient| recipient.entry.student.key.as_str()).collect();
-    let unknown: Vec<&Entry> = graded.into_iter().filter(|e| !known.contains(e.student.key.as_str())).collect();
+    let unknown: Vec<&ClassEntry> = graded.into_iter().filter(|e| !known.contains(e.student.key.as_str())).collect();
     packed.notes.extend(super::names::note(
         &unknown,
         "Not in Moodle's feedback archive, because no participant of Moodle is known to whom it would go",
@@ -125,7 +125,7 @@ fn name_part(name: &str) -> String {
 }
 
 /// A page for a student of whom there is no report.
-fn notice(entry: &Entry, class: &Class) -> String {
+fn notice(entry: &ClassEntry, class: &Class) -> String {
     let language = class.language;
     let (tag, title) = (crate::report::labels::Labels::of(language).tag, Standing::of(&entry.outcome).word(language));
     let (name, text) = (html(&entry.student.name), html(&one_line(&summary(entry, language))));

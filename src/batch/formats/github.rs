@@ -12,7 +12,7 @@ pub use summary::{LIMIT, summary};
 
 use super::untrusted::{one_line, visible};
 use super::wording;
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -54,7 +54,7 @@ pub fn log(class: &Class, token: &StopToken) -> String {
     format!("{}{}", annotations(class), token.fence(&text))
 }
 
-fn line(entry: &Entry, class: &Class) -> String {
+fn line(entry: &ClassEntry, class: &Class) -> String {
     let standing = Standing::of(&entry.outcome);
     let score = entry.report().map(|report| format!(" {}", wording::result(report)));
     let titles = |report: &Report| {
@@ -75,10 +75,10 @@ fn line(entry: &Entry, class: &Class) -> String {
 /// Columns of a step's log that fit beside the line numbers.
 const LOG_WIDTH: usize = 100;
 
-fn full_report(entry: &Entry, class: &Class) -> String {
+fn full_report(entry: &ClassEntry, class: &Class) -> String {
     let Some(report) = entry.report() else { return String::new() };
     let excerpts = excerpt::excerpt(&entry.sources, &report.diagnostics, class.language, false);
-    let options = report::text::Options {
+    let options = report::text::TextOptions {
         assignment: &class.assignment,
         language: class.language,
         width: LOG_WIDTH,

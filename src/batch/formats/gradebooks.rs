@@ -5,7 +5,7 @@
 
 use super::grades::write;
 use super::plain::cell;
-use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::fault::Fault;
 use csv::{Terminator, WriterBuilder};
 
@@ -41,13 +41,13 @@ const GRADESCOPE: [&str; 9] = [
 
 /// What a student's hand-in comes to, in points.
 #[derive(Clone, Copy, Debug, Default)]
-struct Points {
+struct StudentPoints {
     score: Option<f64>,
     penalty: f64,
 }
 
-impl Points {
-    fn of(entry: &Entry) -> Self {
+impl StudentPoints {
+    fn of(entry: &ClassEntry) -> Self {
         let report = entry.report();
         let penalty = report.and_then(|report| report.lateness).map_or(0.0, |lateness| lateness.penalty);
         Self { score: report.map(|report| report.score), penalty }
@@ -63,10 +63,10 @@ impl Points {
 /// A student without a file has 0.0, as in nbgrader. Where a file is there and could not be graded, the scores are
 /// empty: a teacher decides. Which part of a name is the family name is not known, so the whole is in `last_name`.
 pub fn nbgrader(class: &Class) -> Result<Vec<u8>, Fault> {
-    let row = |entry: &Entry| {
+    let row = |entry: &ClassEntry| {
         let points = match is_missing(entry) {
-            true => Points { score: Some(0.0), penalty: 0.0 },
-            false => Points::of(entry),
+            true => StudentPoints { score: Some(0.0), penalty: 0.0 },
+            false => StudentPoints::of(entry),
         };
         let start = [class.assignment.id.as_str(), "", "", &entry.student.key, &entry.student.name, "", ""].map(cell);
         let numbers = [points.score, points.score.map(|_| points.penalty), points.total(), max_points(entry, class)];
@@ -85,10 +85,10 @@ pub fn canvas(class: &Class) -> Result<Vec<u8>, Fault> {
     let most = class.entries.iter().find_map(|entry| max_points(entry, class));
     // Four blanks stand before these words in Canvas's own export.
     let points = ["    Points Possible", "", "", "", ""].map(str::to_owned).into_iter().chain([float(most)]).collect();
-    let row = |entry: &Entry| {
+    let row = |entry: &ClassEntry| {
         let student = &entry.student;
         let who = [student.name.as_str(), "", &student.key, &student.key, ""].map(cell);
-        who.into_iter().chain([float(Points::of(entry).total())]).collect()
+        who.into_iter().chain([float(StudentPoints::of(entry).total())]).collect()
     };
     table(header, std::iter::once(points).chain(class.entries.iter().map(row)))
 }
@@ -96,7 +96,7 @@ pub fn canvas(class: &Class) -> Result<Vec<u8>, Fault> {
 /// What Gradescope's *Download grades* gives, for tools that read it. Mail addresses and ids of Gradescope's are not
 /// known and empty.
 pub fn gradescope(class: &Class) -> Result<Vec<u8>, Fault> {
-    let row = |entry: &Entry| {
+    let row = |entry: &ClassEntry| {
         let status = match &entry.outcome {
             Outcome::Graded(_) => "Graded",
             _ if is_missing(entry) => "Missing",
@@ -108,7 +108,7 @@ pub fn gradescope(class: &Class) -> Result<Vec<u8>, Fault> {
             cell(&entry.student.name),
             cell(&entry.student.key),
             String::new(),
-            float(Points::of(entry).total()),
+            float(StudentPoints::of(entry).total()),
             float(most),
             status.to_owned(),
             String::new(),
@@ -128,13 +128,13 @@ fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> Result
 }
 
 /// Whether nothing was handed in.
-fn is_missing(entry: &Entry) -> bool {
+fn is_missing(entry: &ClassEntry) -> bool {
     matches!(entry.outcome, Outcome::NotGraded(_)) && entry.places.is_empty()
 }
 
 /// The most that the homework gives; none where nobody's was graded.
-fn max_points(entry: &Entry, class: &Class) -> Option<f64> {
-    let of_class = || class.entries.iter().find_map(Entry::report);
+fn max_points(entry: &ClassEntry, class: &Class) -> Option<f64> {
+    let of_class = || class.entries.iter().find_map(ClassEntry::report);
     entry.report().or_else(of_class).map(|report| report.max_score)
 }
 

@@ -4,7 +4,7 @@
 
 use super::plain::cell;
 use super::status::summary;
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -43,7 +43,7 @@ pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
 /// Ids of the rubric's lines, in the order in which the reports have them.
 fn rubric_ids(class: &Class) -> Vec<&str> {
     let mut ids: Vec<&str> = Vec::new();
-    for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
+    for line in class.entries.iter().filter_map(ClassEntry::report).flat_map(|report| &report.rubric) {
         if !ids.contains(&line.id.as_str()) {
             ids.push(&line.id);
         }
@@ -51,7 +51,7 @@ fn rubric_ids(class: &Class) -> Vec<&str> {
     ids
 }
 
-fn row(entry: &Entry, lines: &[&str], class: &Class) -> Vec<String> {
+fn row(entry: &ClassEntry, lines: &[&str], class: &Class) -> Vec<String> {
     let report = entry.report();
     let lateness = report.and_then(|report| report.lateness);
     let student = &entry.student;

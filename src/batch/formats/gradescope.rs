@@ -2,7 +2,7 @@
 
 use super::untrusted::{html, one_line, rich_html};
 use super::wording;
-use crate::batch::class::{Entry, Outcome};
+use crate::batch::class::{ClassEntry, Outcome};
 use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::labels::Labels;
@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 ///
 /// After a failure of ours there is no score at all, neither for the submission nor for a test: Gradescope then shows
 /// that the autograder failed, keeps the submission without a grade, and offers to run it again.
-pub fn render(entry: &Entry, expected: &[u8], language: Language) -> String {
+pub fn render(entry: &ClassEntry, expected: &[u8], language: Language) -> String {
     let mut results = json!({
         "output": output(entry, expected, language),
         "output_format": "html",
@@ -54,7 +54,7 @@ fn test(line: &RubricLine, number: usize, language: Language) -> Value {
 }
 
 /// What only the course's staff sees of a failure.
-fn staff_only(entry: &Entry, language: Language) -> Value {
+fn staff_only(entry: &ClassEntry, language: Language) -> Value {
     json!({
         "name": Standing::Fault.word(language),
         "status": "failed",
@@ -64,7 +64,7 @@ fn staff_only(entry: &Entry, language: Language) -> Value {
 }
 
 /// What is said of the submission as a whole, as HTML.
-fn output(entry: &Entry, expected: &[u8], language: Language) -> String {
+fn output(entry: &ClassEntry, expected: &[u8], language: Language) -> String {
     let mut output = format!(
         "<p><strong>{}</strong></p>\n<p>{}</p>\n",
         html(Standing::of(&entry.outcome).word(language)),
@@ -96,7 +96,7 @@ fn picture(name: &str, png: &[u8]) -> String {
 }
 
 /// For scripts on the exported submissions; students do not see it.
-fn extra_data(entry: &Entry) -> Value {
+fn extra_data(entry: &ClassEntry) -> Value {
     let mut data = json!({ "schema": "ggrade/gradescope/v1", "verdict": Standing::of(&entry.outcome).id() });
     if let Some(report) = entry.report() {
         data["assignment"] = json!(report.assignment);
@@ -120,7 +120,7 @@ mod tests {
     use crate::report::samples;
     use scraper::Html;
 
-    fn results(entry: &Entry, language: Language) -> Value {
+    fn results(entry: &ClassEntry, language: Language) -> Value {
         let results = serde_json::from_str(&render(entry, nasty::PNG, language)).expect("JSON");
         let schema = include_str!("../../../tests/schemas/gradescope-results.schema.json");
         let schema = serde_json::from_str(schema).expect("a schema");

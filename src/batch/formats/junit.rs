@@ -2,7 +2,7 @@
 
 use super::untrusted::{one_line, visible};
 use super::wording;
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
@@ -25,7 +25,7 @@ pub fn render(class: &Class) -> Result<String, Fault> {
     })
 }
 
-fn suite(entry: &Entry, class: &Class) -> TestSuite {
+fn suite(entry: &ClassEntry, class: &Class) -> TestSuite {
     let student = &entry.student;
     let mut suite = TestSuite::new(one_line(&if student.name == student.key {
         student.name.clone()
@@ -64,7 +64,7 @@ fn properties(report: &Report) -> Vec<Property> {
     properties
 }
 
-fn case(entry: &Entry, report: &Report, line: &RubricLine, language: Language) -> TestCase {
+fn case(entry: &ClassEntry, report: &Report, line: &RubricLine, language: Language) -> TestCase {
     let name = one_line(line.label.get(language));
     if wording::is_full(line) {
         return TestCase::new(name, TestCaseStatus::success());
@@ -81,7 +81,7 @@ fn case(entry: &Entry, report: &Report, line: &RubricLine, language: Language) -
     TestCase::new(name, status)
 }
 
-fn ungraded(entry: &Entry, language: Language) -> TestCase {
+fn ungraded(entry: &ClassEntry, language: Language) -> TestCase {
     let standing = Standing::of(&entry.outcome);
     let explanation = wording::explanation(entry, language);
     let status = match standing {

@@ -1,14 +1,14 @@
 //! Lists of students in messages.
 
 use super::plain::one_line;
-use crate::batch::class::Entry;
+use crate::batch::class::ClassEntry;
 use crate::language::Text;
 
 /// As many are named; the rest is counted.
 const NAMED: usize = 10;
 
 /// What is said of some students; none when there are none.
-pub(super) fn note(entries: &[&Entry], en: &str, ja: &str) -> Option<Text> {
+pub(super) fn note(entries: &[&ClassEntry], en: &str, ja: &str) -> Option<Text> {
     list(entries.iter().map(|entry| one_line(&entry.student.name)).collect(), en, ja)
 }
 

@@ -1,7 +1,7 @@
 //! A class made by hand for the tests of the formats: every outcome, and students who attack whoever reads it.
 
-use crate::batch::class::{Class, Entry, FileLocation, Outcome, Student};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::batch::class::{Class, ClassEntry, FileLocation, Outcome, Student};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::{Report, samples};
@@ -35,9 +35,9 @@ pub(super) fn class() -> Class {
 /// The eight bytes that every PNG begins with: enough where nobody decodes it.
 pub(super) const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-pub(super) fn entry(index: usize, outcome: Outcome) -> Entry {
+pub(super) fn entry(index: usize, outcome: Outcome) -> ClassEntry {
     let key = format!("student-{index}");
-    Entry {
+    ClassEntry {
         places: vec![place(format!("{key}/ggsample06.vert"))],
         student: Student { name: format!("Student {index}"), key, moodle: None },
         outcome,
@@ -49,11 +49,11 @@ pub(super) fn entry(index: usize, outcome: Outcome) -> Entry {
 }
 
 /// The entry of a homework of two files.
-pub(super) fn two_files() -> Entry {
+pub(super) fn two_files() -> ClassEntry {
     let report = samples::two_files();
     let names: Vec<String> = report.sources.iter().map(|source| source.name.clone()).collect();
     let entry = entry(7, Outcome::Graded(Box::new(report)));
-    Entry {
+    ClassEntry {
         places: names.iter().map(|name| place(format!("student-7/{name}"))).collect(),
         sources: names.iter().map(|name| samples::source(name)).collect(),
         ..entry
@@ -61,15 +61,16 @@ pub(super) fn two_files() -> Entry {
 }
 
 /// An entry with `report`, in which everything that a student can choose is [`NASTY`].
-pub(super) fn attack(mut report: Report) -> Entry {
+pub(super) fn attack(mut report: Report) -> ClassEntry {
     let nasty = || Text::new(NASTY, NASTY);
     report.sources[0].name = NASTY.into();
     for line in &mut report.rubric {
         line.message = nasty();
     }
-    report
-        .diagnostics
-        .insert(0, Diagnostic::error(Stage::Compile, nasty()).at(2, Some(4)).spanning(8).hint(Text::new(NASTY, NASTY)));
+    report.diagnostics.insert(
+        0,
+        Diagnostic::error(DiagnosticStage::Compile, nasty()).at(2, Some(4)).spanning(8).hint(Text::new(NASTY, NASTY)),
+    );
     let mut entry = entry(0, Outcome::Graded(Box::new(report)));
     entry.student.name = NASTY.into();
     entry.sources = vec![samples::source(NASTY)];

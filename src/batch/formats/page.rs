@@ -12,12 +12,12 @@ mod portraits;
 mod tests;
 mod words;
 
-use self::charts::{Bin, Mistake, Tally};
-use self::portraits::Portraits;
-use self::words::Words;
+use self::charts::{Bin, MistakeCount, VerdictCount};
+use self::portraits::PortraitStyles;
+use self::words::PageWords;
 use super::plain::one_line;
 use super::status::summary;
-use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::standing::Standing;
 use crate::batch::statistics;
 use crate::fault::Fault;
@@ -36,7 +36,7 @@ const SCRIPT: &str = include_str!("page/templates/class.js");
 
 /// The page, in the class's language. A student with a page of their own is linked as `students/KEY.html`.
 pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
-    let page = Page::of(class).render().map_err(|error| {
+    let page = ResultsPage::of(class).render().map_err(|error| {
         Fault::new(Text::new(
             format!("The class page could not be written: {error}."),
             format!("クラスのページを生成できませんでした（{error}）。"),
@@ -52,7 +52,7 @@ struct RubricColumn {
 }
 
 /// Points in one line of the rubric.
-struct Points {
+struct LinePoints {
     text: String,
     is_less: bool,
 }
@@ -69,7 +69,7 @@ struct StudentRow {
     bin: String,
     exact: String,
     score: String,
-    lines: Vec<Points>,
+    lines: Vec<LinePoints>,
     mistakes: String,
     /// Title and id.
     mistake_titles: Vec<(String, String)>,
@@ -80,7 +80,7 @@ struct StudentRow {
 }
 
 /// Students with the same answer.
-struct Group {
+struct AnswerGroup {
     id: usize,
     size: usize,
     members: Vec<GroupMember>,
@@ -101,12 +101,12 @@ struct FaultView {
 /// Everything that the template shows.
 #[derive(Template)]
 #[template(path = "batch/formats/page/templates/class.html")]
-struct Page {
+struct ResultsPage {
     tag: &'static str,
     policy: String,
     style: String,
     script: &'static str,
-    words: &'static Words,
+    words: &'static PageWords,
     title: String,
     assignment: String,
     assignment_id: String,
@@ -114,25 +114,25 @@ struct Page {
     mean: Option<String>,
     max_score: String,
     spread: String,
-    tallies: Vec<Tally>,
+    tallies: Vec<VerdictCount>,
     bins: Vec<Bin>,
-    mistakes: Vec<Mistake>,
+    mistakes: Vec<MistakeCount>,
     lines: Vec<RubricColumn>,
     rows: Vec<StudentRow>,
-    groups: Vec<Group>,
+    groups: Vec<AnswerGroup>,
     sharing: usize,
     faults: Vec<FaultView>,
     refused: Vec<(String, String)>,
     environment: Option<Environment>,
 }
 
-impl Page {
+impl ResultsPage {
     fn of(class: &Class) -> Self {
         let language = class.language;
-        let words = Words::of(language);
-        let portraits = Portraits::of(class);
+        let words = PageWords::of(language);
+        let portraits = PortraitStyles::of(class);
         let style = format!("{BASE_STYLE}{STYLE}{}", portraits.style);
-        let reports = || class.entries.iter().filter_map(Entry::report);
+        let reports = || class.entries.iter().filter_map(ClassEntry::report);
         let full = reports().filter(|report| report.verdict == Verdict::Correct).count();
         let max_score = reports().next().map_or(100.0, |report| report.max_score);
         let averages = statistics::averages(class);
@@ -175,8 +175,8 @@ impl Page {
 }
 
 /// Everyone with their place in the class: what could not be graded first, then the order of the input.
-fn trouble_first(class: &Class) -> impl Iterator<Item = (usize, &Entry)> {
-    let is_trouble = |entry: &Entry| entry.report().is_none();
+fn trouble_first(class: &Class) -> impl Iterator<Item = (usize, &ClassEntry)> {
+    let is_trouble = |entry: &ClassEntry| entry.report().is_none();
     let all = || class.entries.iter().enumerate();
     all().filter(move |(_, entry)| is_trouble(entry)).chain(all().filter(move |(_, entry)| !is_trouble(entry)))
 }
@@ -203,7 +203,7 @@ fn title(class: &Class) -> String {
 /// The lines of the rubric, in the order in which the reports have them.
 fn lines(class: &Class) -> Vec<RubricColumn> {
     let mut lines: Vec<RubricColumn> = Vec::new();
-    for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
+    for line in class.entries.iter().filter_map(ClassEntry::report).flat_map(|report| &report.rubric) {
         if !lines.iter().any(|known| known.id == line.id) {
             lines.push(RubricColumn { id: line.id.clone(), label: line.label.get(class.language).to_owned() });
         }
@@ -212,10 +212,10 @@ fn lines(class: &Class) -> Vec<RubricColumn> {
 }
 
 fn row(
-    entry: &Entry,
+    entry: &ClassEntry,
     class: &Class,
     lines: &[RubricColumn],
-    portraits: &Portraits<'_>,
+    portraits: &PortraitStyles<'_>,
     shares: Option<(usize, usize)>,
 ) -> StudentRow {
     let (report, status) = (entry.report(), Standing::of(&entry.outcome));
@@ -225,7 +225,7 @@ fn row(
         entry.student.moodle.as_ref().and_then(|moodle| moodle.number).map(|number| number.to_string());
     let points = |line: &RubricColumn| {
         let found = report.and_then(|report| report.rubric.iter().find(|found| found.id == line.id));
-        found.map_or(Points { text: "–".into(), is_less: false }, |found| Points {
+        found.map_or(LinePoints { text: "–".into(), is_less: false }, |found| LinePoints {
             text: number(found.points),
             is_less: found.points < found.max_points,
         })
@@ -250,7 +250,7 @@ fn row(
         mistake_titles: mistake_ids.into_iter().map(titled).collect(),
         message: if is_said_already { String::new() } else { excerpt(&summary(entry, class.language)) },
         group: shares.map(|(id, _)| id.to_string()).unwrap_or_default(),
-        shared: shares.map(|(_, others)| Words::of(class.language).shared_with(others)).unwrap_or_default(),
+        shared: shares.map(|(_, others)| PageWords::of(class.language).shared_with(others)).unwrap_or_default(),
         picture: portraits.class(entry.portrait.as_deref()),
     }
 }
@@ -274,15 +274,15 @@ fn excerpt(message: &str) -> String {
     }
 }
 
-fn group_view(id: usize, group: &[usize], class: &Class) -> Group {
+fn group_view(id: usize, group: &[usize], class: &Class) -> AnswerGroup {
     let member = |index: &usize| {
         let student = &class.entries[*index].student;
         GroupMember { key: student.key.clone(), name: one_line(&student.name) }
     };
-    Group { id, size: group.len(), members: group.iter().map(member).collect() }
+    AnswerGroup { id, size: group.len(), members: group.iter().map(member).collect() }
 }
 
-fn fault_view(entry: &Entry, class: &Class) -> Option<FaultView> {
+fn fault_view(entry: &ClassEntry, class: &Class) -> Option<FaultView> {
     let Outcome::Fault(fault) = &entry.outcome else { return None };
     Some(FaultView {
         name: one_line(&entry.student.name),

@@ -1,6 +1,6 @@
 //! Classes made by hand, for the tests of the formats.
 
-use crate::batch::class::{Class, Entry, FileLocation, Outcome, Participant, Refused, Student};
+use crate::batch::class::{Class, ClassEntry, FileLocation, Outcome, Participant, Refused, Student};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::samples;
@@ -34,7 +34,7 @@ pub(super) fn class(language: Language) -> Class {
     let entries = NASTY.iter().enumerate().map(|(index, name)| {
         let number = 1001 + index as u64;
         let outcome = outcomes[index % outcomes.len()].clone();
-        Entry {
+        ClassEntry {
             student: Student {
                 key: format!("s{number}"),
                 name: (*name).to_owned(),

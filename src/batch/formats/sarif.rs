@@ -3,14 +3,14 @@
 mod region;
 mod rules;
 
-use self::region::Lines;
+use self::region::FileLines;
 use self::rules::RuleTable;
 use super::untrusted::visible;
 use super::wording;
-use crate::batch::class::{Class, Entry, FileLocation, Outcome};
+use crate::batch::class::{Class, ClassEntry, FileLocation, Outcome};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
-use crate::report::{Advice, RubricLine, SourceInfo, Verdict};
+use crate::report::{AdviceLine, RubricLine, SourceInfo, Verdict};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -26,7 +26,7 @@ const PATH: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'.').remove(b'_')
 ///
 /// Results are diagnostics and lost points; a failure of ours and a missing file are notifications of the run.
 pub fn render(class: &Class) -> String {
-    let mut run = Run { rules: RuleTable::of(class), results: vec![], artifacts: vec![], seen: HashMap::new() };
+    let mut run = SarifRun { rules: RuleTable::of(class), results: vec![], artifacts: vec![], seen: HashMap::new() };
     for entry in &class.entries {
         run.add(entry, class.language);
     }
@@ -57,7 +57,7 @@ pub fn render(class: &Class) -> String {
 }
 
 /// One run while it is written.
-struct Run {
+struct SarifRun {
     rules: RuleTable,
     results: Vec<Value>,
     artifacts: Vec<Value>,
@@ -67,11 +67,11 @@ struct Run {
 
 /// One file among the artifacts.
 struct Artifact<'a> {
-    entry: &'a Entry,
+    entry: &'a ClassEntry,
     source: &'a SourceInfo,
     uri: String,
     index: usize,
-    lines: Lines<'a>,
+    lines: FileLines<'a>,
 }
 
 /// What is said about a place in a file.
@@ -83,13 +83,13 @@ struct SarifResult<'a> {
     line: Option<u32>,
 }
 
-impl Run {
-    fn add(&mut self, entry: &Entry, language: Language) {
+impl SarifRun {
+    fn add(&mut self, entry: &ClassEntry, language: Language) {
         let Some(report) = entry.report() else { return };
         let mut files = Vec::new();
         for (source, place) in report.sources.iter().zip(&entry.places) {
             let text = entry.sources.iter().find(|read| read.facts.name == source.name);
-            let lines = Lines::of(text.map_or("", |read| &read.text));
+            let lines = FileLines::of(text.map_or("", |read| &read.text));
             let file = Artifact { entry, source, index: self.artifacts.len(), lines, uri: uri(place) };
             self.artifacts.push(artifact(&file));
             files.push(file);
@@ -175,7 +175,7 @@ fn lost<'a>(file: &Artifact, line: &'a RubricLine, language: Language) -> SarifR
     }
 }
 
-fn advised<'a>(file: &Artifact, advice: &'a Advice, language: Language) -> SarifResult<'a> {
+fn advised<'a>(file: &Artifact, advice: &'a AdviceLine, language: Language) -> SarifResult<'a> {
     SarifResult {
         rule: &advice.id,
         level: "note",
@@ -203,7 +203,7 @@ fn said<'a>(file: &Artifact, diagnostic: &'a Diagnostic, language: Language) -> 
 }
 
 /// What the run has to say of a student without a report.
-fn notification(entry: &Entry, language: Language) -> Option<Value> {
+fn notification(entry: &ClassEntry, language: Language) -> Option<Value> {
     let (level, text) = match &entry.outcome {
         Outcome::Graded(_) => return None,
         Outcome::NotGraded(_) => ("warning", wording::explanation(entry, language)),

@@ -1,6 +1,6 @@
 //! What became of a student, in one line.
 
-use crate::batch::class::{Entry, Outcome};
+use crate::batch::class::{ClassEntry, Outcome};
 use crate::diagnostic::Severity;
 use crate::language::Language;
 use crate::report::labels::Labels;
@@ -8,7 +8,7 @@ use crate::report::text::number;
 use crate::report::{Report, Verdict};
 
 /// The one thing that a student or a teacher should know, in a line of text.
-pub(super) fn summary(entry: &Entry, language: Language) -> String {
+pub(super) fn summary(entry: &ClassEntry, language: Language) -> String {
     match &entry.outcome {
         Outcome::Graded(report) => summary_of(report, language),
         Outcome::NotGraded(reason) => reason.get(language).to_owned(),

@@ -182,7 +182,7 @@ fn a_page_that_is_gone_is_our_fault() {
 fn every_format_stands_at_its_own_row() {
     for (index, row) in TABLE.iter().enumerate() {
         assert_eq!(row.format as usize, index, "{}", row.id);
-        assert_eq!(Format::from_str(row.id, false), Ok(row.format));
+        assert_eq!(ClassFormat::from_str(row.id, false), Ok(row.format));
     }
 }
 

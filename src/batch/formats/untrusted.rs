@@ -32,7 +32,7 @@ pub fn html(text: &str) -> String {
 
 /// A message as HTML: its `code` marked as such, its line ends kept.
 pub fn rich_html(message: &str) -> String {
-    let piece = |piece: rich::Piece| {
+    let piece = |piece: rich::MessagePiece| {
         let text = html(&piece.text).replace('\n', "<br>");
         if piece.code { format!("<code>{text}</code>") } else { text }
     };

@@ -5,7 +5,7 @@
 
 use super::untrusted::visible;
 use super::wording;
-use crate::batch::class::{Entry, Outcome};
+use crate::batch::class::{ClassEntry, Outcome};
 use crate::batch::standing::Standing;
 use crate::language::{Language, Text};
 use crate::report::text::number;
@@ -42,7 +42,7 @@ impl Scale {
 }
 
 /// The output for one submission. After a failure of ours it proposes no grade, and VPL leaves the grading to a teacher.
-pub fn render(entry: &Entry, scale: Scale, language: Language) -> String {
+pub fn render(entry: &ClassEntry, scale: Scale, language: Language) -> String {
     let mut comment = VplComment(String::from("<|--\n"));
     comment.heading(Standing::of(&entry.outcome).word(language));
     comment.text(&wording::explanation(entry, language));

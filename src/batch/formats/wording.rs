@@ -1,7 +1,7 @@
 //! What the formats of autograders say in common: one explanation for each outcome, places, points.
 
 use super::untrusted;
-use crate::batch::class::{Entry, Outcome};
+use crate::batch::class::{ClassEntry, Outcome};
 use crate::diagnostic::Diagnostic;
 use crate::language::{Language, Text};
 use crate::report::labels::Labels;
@@ -9,7 +9,7 @@ use crate::report::text::number;
 use crate::report::{Report, RubricLine};
 
 /// What a student is told about the outcome as a whole.
-pub fn explanation(entry: &Entry, language: Language) -> String {
+pub fn explanation(entry: &ClassEntry, language: Language) -> String {
     match &entry.outcome {
         Outcome::Graded(report) => {
             let advice = report.advice.iter().map(|advice| untrusted::visible(advice.message.get(language)));
@@ -32,14 +32,14 @@ pub fn autograder_failed() -> Text {
 }
 
 /// What the staff is told about a failure of ours; none for every other outcome.
-pub fn fault(entry: &Entry, language: Language) -> Option<String> {
+pub fn fault(entry: &ClassEntry, language: Language) -> Option<String> {
     let Outcome::Fault(fault) = &entry.outcome else { return None };
     let remedy = fault.remedy.as_ref().map(|remedy| format!("\n{}", remedy.get(language))).unwrap_or_default();
     Some(untrusted::visible(&format!("{}{remedy}", fault.message.get(language))))
 }
 
 /// What to do first, where there is something to do.
-pub fn next_step(entry: &Entry, language: Language) -> Option<String> {
+pub fn next_step(entry: &ClassEntry, language: Language) -> Option<String> {
     Labels::of(language).next_step(entry.report()?, language)
 }
 

@@ -11,16 +11,16 @@ mod sheet;
 #[cfg(test)]
 mod tests;
 
-use self::columns::{Columns, says_no};
+use self::columns::{WorksheetColumns, says_no};
 use self::matching::{Match, Matching};
 use self::points::Style;
-use self::raw::{Cell, written};
-use self::sheet::{Person, Sheet};
+use self::raw::{CsvCell, written};
+use self::sheet::{Worksheet, WorksheetPerson};
 use super::comment;
 use super::feedback::{self, Recipient};
 use super::names::{list, note};
 use super::plain::one_line;
-use crate::batch::class::{Class, Entry, Outcome};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::fault::Fault;
 use crate::language::Text;
 use std::collections::{BTreeSet, HashSet};
@@ -39,15 +39,15 @@ pub struct Filled {
 
 /// Whether this is a worksheet that can be filled in; a fault that says why not.
 pub fn check(worksheet: &[u8]) -> Result<(), Fault> {
-    Sheet::read(worksheet).map(drop)
+    Worksheet::read(worksheet).map(drop)
 }
 
 /// The worksheet with the grades of the class; a fault when it is not such a worksheet.
 pub fn fill(class: &Class, worksheet: &[u8]) -> Result<Filled, Fault> {
-    let sheet = Sheet::read(worksheet)?;
+    let sheet = Worksheet::read(worksheet)?;
     let matching = Matching::new(class, &sheet);
     let mut work =
-        Work { class, sheet: &sheet, matching, edits: Vec::new(), seen: HashSet::new(), left: Left::default() };
+        Work { class, sheet: &sheet, matching, edits: Vec::new(), seen: HashSet::new(), left: UnfilledRows::default() };
     let filled = sheet.rows.iter().filter(|row| work.row(row)).count();
     let notes = work.notes();
     Ok(Filled { bytes: apply(worksheet, &work.edits), filled, notes })
@@ -55,12 +55,12 @@ pub fn fill(class: &Class, worksheet: &[u8]) -> Result<Filled, Fault> {
 
 /// Whom each student's report goes to: the student, or every member of the group.
 pub fn recipients<'a>(class: &'a Class, worksheet: &[u8]) -> Result<Vec<Recipient<'a>>, Fault> {
-    let sheet = Sheet::read(worksheet)?;
+    let sheet = Worksheet::read(worksheet)?;
     let matching = Matching::new(class, &sheet);
     if sheet.columns.group.is_none() {
         return Ok(feedback::by_number(class).into_iter().filter(|one| matching.is_only(one)).collect());
     }
-    let recipient = |row: &Vec<Cell>| {
+    let recipient = |row: &Vec<CsvCell>| {
         let person = sheet.person(row)?.ok()?;
         let Match::Of(entry) = matching.of(&person) else { return None };
         Some(Recipient { entry, name: person.name.unwrap_or(person.identifier), number: person.number })
@@ -76,31 +76,31 @@ struct Edit {
 
 /// What could not be filled in.
 #[derive(Default)]
-struct Left<'a> {
-    locked: Vec<&'a Entry>,
-    faults: Vec<&'a Entry>,
-    no_maximum: Vec<&'a Entry>,
-    not_graded: Vec<&'a Entry>,
+struct UnfilledRows<'a> {
+    locked: Vec<&'a ClassEntry>,
+    faults: Vec<&'a ClassEntry>,
+    no_maximum: Vec<&'a ClassEntry>,
+    not_graded: Vec<&'a ClassEntry>,
     ambiguous: BTreeSet<String>,
     unknown_rows: Vec<String>,
     bad_rows: Vec<String>,
-    guessed_ends: Vec<&'a Entry>,
+    guessed_ends: Vec<&'a ClassEntry>,
 }
 
 /// The filling in.
 struct Work<'a> {
     class: &'a Class,
-    sheet: &'a Sheet<'a>,
+    sheet: &'a Worksheet<'a>,
     matching: Matching<'a>,
     edits: Vec<Edit>,
     /// Keys of the students whose row was found.
     seen: HashSet<&'a str>,
-    left: Left<'a>,
+    left: UnfilledRows<'a>,
 }
 
 impl<'a> Work<'a> {
     /// Fills in a row; whether a grade is in it now.
-    fn row(&mut self, row: &[Cell]) -> bool {
+    fn row(&mut self, row: &[CsvCell]) -> bool {
         let person = match self.sheet.person(row) {
             None => return false,
             Some(Ok(person)) => person,
@@ -122,7 +122,7 @@ impl<'a> Work<'a> {
             }
         };
         self.seen.insert(&entry.student.key);
-        let Columns { can_change, feedback, .. } = self.sheet.columns;
+        let WorksheetColumns { can_change, feedback, .. } = self.sheet.columns;
         if can_change.and_then(|column| self.sheet.text(row, column)).is_some_and(|cell| says_no(&cell)) {
             self.left.locked.push(entry);
             return false;
@@ -138,12 +138,12 @@ impl<'a> Work<'a> {
         graded
     }
 
-    fn grade(&mut self, row: &[Cell], entry: &'a Entry) -> bool {
+    fn grade(&mut self, row: &[CsvCell], entry: &'a ClassEntry) -> bool {
         let Some(report) = entry.report() else {
             self.left.not_graded.push(entry);
             return false;
         };
-        let Columns { grade, maximum, .. } = self.sheet.columns;
+        let WorksheetColumns { grade, maximum, .. } = self.sheet.columns;
         let limit = self.sheet.text(row, maximum).unwrap_or_default();
         let (Some(cell), Some(most)) = (row.get(grade), points::read(&limit).filter(|most| *most > 0.0)) else {
             self.left.no_maximum.push(entry);
@@ -158,7 +158,7 @@ impl<'a> Work<'a> {
         true
     }
 
-    fn comment(&mut self, cell: &Cell, entry: &'a Entry) {
+    fn comment(&mut self, cell: &CsvCell, entry: &'a ClassEntry) {
         let old = self.sheet.decode(cell);
         let merged = comment::merge(&old, entry, self.class);
         if merged.is_end_guessed {
@@ -170,15 +170,15 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn edit(&mut self, cell: &Cell, content: &[u8]) {
+    fn edit(&mut self, cell: &CsvCell, content: &[u8]) {
         let cell_bytes = written(content, self.sheet.separator, cell.is_quoted);
         self.edits.push(Edit { span: cell.span.clone(), cell: cell_bytes });
     }
 
     fn notes(&self) -> Vec<Text> {
-        let is_moodles = |entry: &&Entry| entry.student.moodle.is_some();
-        let (moodles, others): (Vec<&Entry>, Vec<&Entry>) = self.class.entries.iter().partition(is_moodles);
-        let without_row: Vec<&Entry> =
+        let is_moodles = |entry: &&ClassEntry| entry.student.moodle.is_some();
+        let (moodles, others): (Vec<&ClassEntry>, Vec<&ClassEntry>) = self.class.entries.iter().partition(is_moodles);
+        let without_row: Vec<&ClassEntry> =
             moodles.into_iter().filter(|entry| !self.seen.contains(entry.student.key.as_str())).collect();
         let left = &self.left;
         let feedback = self.sheet.columns.feedback.is_none().then(no_feedback_column);
@@ -248,7 +248,7 @@ fn apply(bytes: &[u8], edits: &[Edit]) -> Vec<u8> {
 }
 
 /// A row as a teacher finds it again.
-fn label(person: &Person) -> String {
+fn label(person: &WorksheetPerson) -> String {
     let group = person.group.as_ref().filter(|group| !group.is_empty());
     let group = group.map(|group| format!(" ({group})")).unwrap_or_default();
     one_line(&format!("{}{group}", person.identifier))

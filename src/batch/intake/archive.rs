@@ -8,16 +8,16 @@ mod name;
 mod record;
 mod storage;
 
-use super::limits::{Limits, spent, too_deep, too_many};
-use super::tree::{self, Folder, Held, Node};
+use super::limits::{IntakeLimits, spent, too_deep, too_many};
+use super::tree::{self, Held, TreeFolder, TreeNode};
 use super::{IntakeReader, moodle};
 use crate::language::Text;
-use crate::slots::Fit;
-use record::Record;
+use crate::slots::NameFit;
+use record::ArchiveRecord;
 use std::collections::HashSet;
 use std::fs::File;
 use std::io;
-use storage::Storage;
+use storage::ArchiveStorage;
 
 /// Whether a file of this name is opened as an archive.
 pub(super) fn is_archive(name: &str) -> bool {
@@ -30,17 +30,17 @@ pub(super) fn is_archive_start(bytes: &[u8]) -> bool {
 }
 
 /// Everything in the archive `file`, which is shown as `shown`; or why it cannot be opened.
-pub(super) fn read(file: File, shown: &str, reading: &mut IntakeReader) -> Result<Folder, Text> {
+pub(super) fn read(file: File, shown: &str, reading: &mut IntakeReader) -> Result<TreeFolder, Text> {
     let unreadable = |error: io::Error| super::limits::unreadable(&error);
-    unpacked(Storage::file(file).map_err(unreadable)?, shown, 1, reading)
+    unpacked(ArchiveStorage::file(file).map_err(unreadable)?, shown, 1, reading)
 }
 
 /// The same of an archive that was read already.
-pub(super) fn read_bytes(bytes: Vec<u8>, shown: &str, reading: &mut IntakeReader) -> Result<Folder, Text> {
-    unpacked(Storage::Memory(bytes), shown, 1, reading)
+pub(super) fn read_bytes(bytes: Vec<u8>, shown: &str, reading: &mut IntakeReader) -> Result<TreeFolder, Text> {
+    unpacked(ArchiveStorage::Memory(bytes), shown, 1, reading)
 }
 
-fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut IntakeReader) -> Result<Folder, Text> {
+fn unpacked(storage: ArchiveStorage, shown: &str, depth: u32, reading: &mut IntakeReader) -> Result<TreeFolder, Text> {
     let directory = directory::read(&storage, reading.budget.entries.saturating_add(1)).ok_or_else(no_archive)?;
     if directory.is_recovered {
         reading.refuse(shown.into(), cut_off(directory.records.len()));
@@ -50,7 +50,7 @@ fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut IntakeReade
     }
     let flaws = flaws::find(&directory.records);
     let names = directory.records.iter().filter_map(|record| name::path(&record.name).ok()).collect();
-    let (folder, nested, astray) = (Folder::default(), Vec::new(), Vec::new());
+    let (folder, nested, astray) = (TreeFolder::default(), Vec::new(), Vec::new());
     let mut unpacking = Unpacking { storage, shown, depth, folder, names, nested, astray, reading };
     for (record, flaw) in directory.records.iter().zip(flaws) {
         if !unpacking.reading.budget.take_entry() {
@@ -64,21 +64,21 @@ fn unpacked(storage: Storage, shown: &str, depth: u32, reading: &mut IntakeReade
 
 /// One archive on its way into a tree.
 struct Unpacking<'a, 'b> {
-    storage: Storage,
+    storage: ArchiveStorage,
     shown: &'a str,
     depth: u32,
-    folder: Folder,
+    folder: TreeFolder,
     /// Where its members stand.
     names: HashSet<Vec<String>>,
     /// The archives in it, each with its path. They come last, so that none uses up what the files beside it need.
-    nested: Vec<(Vec<String>, Record)>,
+    nested: Vec<(Vec<String>, ArchiveRecord)>,
     /// Members with names that lead elsewhere, and why they are refused.
     astray: Vec<(String, Text)>,
     reading: &'a mut IntakeReader<'b>,
 }
 
 impl Unpacking<'_, '_> {
-    fn limits(&self) -> Limits {
+    fn limits(&self) -> IntakeLimits {
         self.reading.options.limits
     }
 
@@ -86,7 +86,7 @@ impl Unpacking<'_, '_> {
         self.reading.refuse(format!("{}/{name}", self.shown), reason.clone());
     }
 
-    fn add(&mut self, record: &Record, flaw: Option<Text>) {
+    fn add(&mut self, record: &ArchiveRecord, flaw: Option<Text>) {
         let mut path = match name::path(&record.name) {
             Ok(path) => path,
             Err(reason) => return self.goes_astray(&record.name, reason),
@@ -108,7 +108,7 @@ impl Unpacking<'_, '_> {
         let held = match flaw {
             Some(reason) => Err(reason),
             None if is_archive => Ok(Held::Refused(too_many())),
-            None if Fit::best(&last, &self.reading.options.slots) == Fit::Other => Ok(Held::Unread),
+            None if NameFit::best(&last, &self.reading.options.slots) == NameFit::Other => Ok(Held::Unread),
             None => self.unpack(record, self.limits().file_bytes, true).map(Held::Bytes),
         };
         let is_refused = held.is_err();
@@ -116,7 +116,7 @@ impl Unpacking<'_, '_> {
             self.refuse(&record.name, &reason);
             Held::Refused(reason)
         });
-        let node = Node::File(tree::File { local: None, held });
+        let node = TreeNode::File(tree::TreeFile { local: None, held });
         let inserted = self.folder.folder(&path).and_then(|folder| folder.insert(last, node));
         match inserted {
             Ok(()) if is_archive => self.nested.push((whole, record.clone())),
@@ -126,7 +126,7 @@ impl Unpacking<'_, '_> {
     }
 
     /// Whether this is what macOS keeps of another file: that stands beside it, or the content says so.
-    fn is_beside_another(&mut self, record: &Record, path: &[String]) -> bool {
+    fn is_beside_another(&mut self, record: &ArchiveRecord, path: &[String]) -> bool {
         let Some((last, folders)) = path.split_last().filter(|_| !record.is_folder()) else { return false };
         let Some(other) = tree::beside(last) else { return false };
         let other: Vec<String> = folders.iter().cloned().chain([other.to_owned()]).collect();
@@ -138,9 +138,9 @@ impl Unpacking<'_, '_> {
             let node = self.open(&record).map_or_else(
                 |reason| {
                     self.refuse(&record.name, &reason);
-                    Node::File(tree::File { local: None, held: Held::Refused(reason) })
+                    TreeNode::File(tree::TreeFile { local: None, held: Held::Refused(reason) })
                 },
-                Node::Folder,
+                TreeNode::Folder,
             );
             if let (Some(last), Ok(folder)) = (path.pop(), self.folder.folder(&path)) {
                 folder.replace(&last, node);
@@ -148,12 +148,12 @@ impl Unpacking<'_, '_> {
         }
     }
 
-    fn open(&mut self, record: &Record) -> Result<Folder, Text> {
+    fn open(&mut self, record: &ArchiveRecord) -> Result<TreeFolder, Text> {
         let limits = self.limits();
         if self.depth >= limits.archive_depth {
             return Err(nested_too_deep(&limits));
         }
-        let storage = Storage::Memory(self.unpack(record, limits.archive_bytes, false)?);
+        let storage = ArchiveStorage::Memory(self.unpack(record, limits.archive_bytes, false)?);
         let shown = format!("{}/{}", self.shown, record.name);
         let depth = self.depth + 1;
         if self.depth > 1 {
@@ -162,7 +162,7 @@ impl Unpacking<'_, '_> {
         self.reading.part(&shown, |reading| unpacked(storage, &shown, depth, reading))
     }
 
-    fn unpack(&mut self, record: &Record, limit: u64, is_cut_at_limit: bool) -> Result<Vec<u8>, Text> {
+    fn unpack(&mut self, record: &ArchiveRecord, limit: u64, is_cut_at_limit: bool) -> Result<Vec<u8>, Text> {
         // What turns out to be damaged has cost its time all the same.
         let cost = record.size.min(limit);
         let Some(left) = self.reading.budget.bytes.checked_sub(cost) else { return Err(spent()) };
@@ -184,15 +184,15 @@ impl Unpacking<'_, '_> {
     /// Puts a refused file into the folder with which its name begins.
     fn answer(&mut self, name: &str, reason: Text) {
         let Some((first, rest)) = name.split_once(['/', '\\']) else { return };
-        let node = Node::File(tree::File { local: None, held: Held::Refused(reason) });
+        let node = TreeNode::File(tree::TreeFile { local: None, held: Held::Refused(reason) });
         let _ = self.folder.folder(&[first.into()]).and_then(|folder| folder.insert(rest.into(), node));
     }
 
-    fn finish(mut self) -> Folder {
+    fn finish(mut self) -> TreeFolder {
         self.open_nested();
         for (name, reason) in std::mem::take(&mut self.astray) {
             let first = name.split(['/', '\\']).next().unwrap_or_default();
-            if self.folder.children().any(|(name, node)| name == first && matches!(node, Node::Folder(_))) {
+            if self.folder.children().any(|(name, node)| name == first && matches!(node, TreeNode::Folder(_))) {
                 self.answer(&name, reason);
             }
         }
@@ -225,7 +225,7 @@ fn damaged(count: usize) -> Text {
     )
 }
 
-fn nested_too_deep(limits: &Limits) -> Text {
+fn nested_too_deep(limits: &IntakeLimits) -> Text {
     let most = limits.archive_depth;
     Text::new(
         format!("It is an archive in an archive, more than {most} deep."),

@@ -1,27 +1,31 @@
 //! Which of a student's files are the ones to grade, see [`crate::slots`].
 
 use super::folder;
-use super::students::{Group, Owned};
+use super::students::{Owned, StudentFiles};
 use super::tree::Held;
-use super::{Content, Options, in_working_folder};
+use super::{HandInContent, IntakeOptions, in_working_folder};
 use crate::batch::class::FileLocation;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
-use crate::slots::{self, Offered, Problem, Trust, wording};
+use crate::slots::{self, Offered, SlotProblem, Trust, wording};
 
 /// Chooses among the files of one student.
-pub(super) fn choose(group: &Group, options: &Options) -> Content {
-    let offers: Vec<Offer> = group.files.iter().map(|file| Offer { file, options }).collect();
+pub(super) fn choose(group: &StudentFiles, options: &IntakeOptions) -> HandInContent {
+    let offers: Vec<SlotOffer> = group.files.iter().map(|file| SlotOffer { file, options }).collect();
     let trust = if group.is_named { Trust::Named } else { Trust::Found };
     match slots::fill(&options.slots, &offers, trust) {
         Ok(chosen) => taken(chosen.into_iter().map(|index| &offers[index]), options),
-        Err(problems) => Content::Nothing(why_not(group, options, &offers, &problems)),
+        Err(problems) => HandInContent::Nothing(why_not(group, options, &offers, &problems)),
     }
 }
 
 /// What there is for each slot among the files of one person, see [`super::some`].
-pub(super) fn place(group: &Group, asked: usize, options: &Options) -> Result<Vec<Option<HandedInFile>>, Text> {
-    let offers: Vec<Offer> = group.files.iter().map(|file| Offer { file, options }).collect();
+pub(super) fn place(
+    group: &StudentFiles,
+    asked: usize,
+    options: &IntakeOptions,
+) -> Result<Vec<Option<HandedInFile>>, Text> {
+    let offers: Vec<SlotOffer> = group.files.iter().map(|file| SlotOffer { file, options }).collect();
     let slots = &options.slots;
     let nothing = vec![None; slots.len()];
     let mut placed = slots::place(slots, &offers);
@@ -31,23 +35,23 @@ pub(super) fn place(group: &Group, asked: usize, options: &Options) -> Result<Ve
         alone[asked] = Some(0);
         placed = Ok(alone);
     }
-    let missing = || (0..slots.len()).map(|slot| Problem::Missing { slot }).collect();
+    let missing = || (0..slots.len()).map(|slot| SlotProblem::Missing { slot }).collect();
     let placed = match placed {
         Ok(placed) if placed == nothing => Err(missing()),
         placed => placed,
     };
     let placed = placed.map_err(|problems| why_not(group, options, &offers, &problems))?;
-    let file = |offer: &Offer| Ok(HandedInFile::new(&offer.file.name, offer.content()?));
+    let file = |offer: &SlotOffer| Ok(HandedInFile::new(&offer.file.name, offer.content()?));
     placed.into_iter().map(|index| index.map(|index| file(&offers[index])).transpose()).collect()
 }
 
 /// A file that may be chosen. It is read when its content matters.
-struct Offer<'a> {
+struct SlotOffer<'a> {
     file: &'a Owned,
-    options: &'a Options,
+    options: &'a IntakeOptions,
 }
 
-impl Offered for Offer<'_> {
+impl Offered for SlotOffer<'_> {
     fn name(&self) -> &str {
         &self.file.name
     }
@@ -57,7 +61,7 @@ impl Offered for Offer<'_> {
     }
 }
 
-impl Offer<'_> {
+impl SlotOffer<'_> {
     /// The bytes, or why the file could not be taken.
     fn content(&self) -> Result<Vec<u8>, Text> {
         let bytes = match (&self.file.file.held, &self.file.file.local) {
@@ -79,22 +83,22 @@ impl Offer<'_> {
 }
 
 /// The files that are graded, or why one of them cannot be taken.
-fn taken<'a>(offers: impl Iterator<Item = &'a Offer<'a>>, options: &Options) -> Content {
+fn taken<'a>(offers: impl Iterator<Item = &'a SlotOffer<'a>>, options: &IntakeOptions) -> HandInContent {
     let mut hand_in = HandIn::default();
     let mut places = Vec::new();
     for offer in offers {
         match offer.content() {
             Ok(bytes) => hand_in.files.push(HandedInFile::new(&offer.file.name, bytes)),
-            Err(reason) => return Content::Nothing(reason),
+            Err(reason) => return HandInContent::Nothing(reason),
         }
         let local = offer.file.file.local.as_deref().and_then(in_working_folder);
         places.push(FileLocation { path: offer.file.path.clone(), local });
     }
-    Content::Files { hand_in: slots::tell_apart(&options.slots, hand_in), places }
+    HandInContent::Files { hand_in: slots::tell_apart(&options.slots, hand_in), places }
 }
 
-fn why_not(group: &Group, options: &Options, offers: &[Offer], problems: &[Problem]) -> Text {
-    let is_missing = problems.iter().any(|problem| matches!(problem, Problem::Missing { .. }));
+fn why_not(group: &StudentFiles, options: &IntakeOptions, offers: &[SlotOffer], problems: &[SlotProblem]) -> Text {
+    let is_missing = problems.iter().any(|problem| matches!(problem, SlotProblem::Missing { .. }));
     // What could not be opened may be what is missing.
     let refused = offers.iter().filter(|offer| matches!(offer.file.file.held, Held::Refused(_)));
     if let Some(reason) = refused.filter(|_| is_missing).find_map(|offer| offer.content().err()) {

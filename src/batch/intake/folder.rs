@@ -1,6 +1,6 @@
 //! A folder of this machine → a tree. No link is followed, and only ordinary files are opened.
 
-use super::tree::{self, Folder, Held, Node};
+use super::tree::{self, Held, TreeFolder, TreeNode};
 use super::{IntakeReader, archive, limits};
 use crate::language::Text;
 use nix::fcntl::OFlag;
@@ -13,8 +13,8 @@ use std::path::Path;
 use walkdir::{DirEntry, WalkDir};
 
 /// Everything below `root`, which is shown as `shown`.
-pub(super) fn read(root: &Path, shown: &str, reading: &mut IntakeReader) -> Folder {
-    let mut folder = Folder::default();
+pub(super) fn read(root: &Path, shown: &str, reading: &mut IntakeReader) -> TreeFolder {
+    let mut folder = TreeFolder::default();
     let walk = WalkDir::new(root).min_depth(1).follow_links(false).sort_by_file_name();
     let mut entries = walk.into_iter();
     // How many entries each folder directly below the root has had.
@@ -69,7 +69,7 @@ enum Descent {
     Out,
 }
 
-fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading: &mut IntakeReader) -> Descent {
+fn add(folder: &mut TreeFolder, root: &Path, shown: &str, entry: &DirEntry, reading: &mut IntakeReader) -> Descent {
     let name = tree::decoded(entry.file_name());
     if tree::is_litter(&name) || is_beside_another(entry, &name) {
         return Descent::Over;
@@ -87,24 +87,24 @@ fn add(folder: &mut Folder, root: &Path, shown: &str, entry: &DirEntry, reading:
     }
     let kind = entry.file_type();
     let node = if kind.is_dir() {
-        Node::Folder(Folder::default())
+        TreeNode::Folder(TreeFolder::default())
     } else if kind.is_file() && archive::is_archive(&name) {
         match open(entry.path())
             .map_err(|error| limits::unreadable(&error))
             .and_then(|file| archive::read(file, &full(), reading))
         {
-            Ok(folder) => Node::Folder(folder),
+            Ok(folder) => TreeNode::Folder(folder),
             Err(reason) => {
                 reading.refuse(full(), reason.clone());
-                Node::File(tree::File { local: Some(entry.path().into()), held: Held::Refused(reason) })
+                TreeNode::File(tree::TreeFile { local: Some(entry.path().into()), held: Held::Refused(reason) })
             }
         }
     } else if kind.is_file() {
-        Node::File(tree::File { local: Some(entry.path().into()), held: Held::OnDisk })
+        TreeNode::File(tree::TreeFile { local: Some(entry.path().into()), held: Held::OnDisk })
     } else {
         let reason = not_a_file(kind);
         reading.refuse(full(), reason.clone());
-        Node::File(tree::File { local: Some(entry.path().into()), held: Held::Refused(reason) })
+        TreeNode::File(tree::TreeFile { local: Some(entry.path().into()), held: Held::Refused(reason) })
     };
     let full = full();
     let last = path.pop().unwrap_or_default();

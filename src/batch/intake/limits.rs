@@ -4,7 +4,7 @@ use crate::language::Text;
 
 /// Limits of an intake. They hold over all inputs together, but for those of one file or archive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct IntakeLimits {
     /// Most bytes kept of one file. It lies above [`crate::source::MAX_BYTES`], so that the source stage refuses what is too large by
     /// its own message.
     pub file_bytes: u64,
@@ -25,7 +25,7 @@ pub struct Limits {
     pub bomb_bytes: u64,
 }
 
-impl Default for Limits {
+impl Default for IntakeLimits {
     fn default() -> Self {
         Self {
             file_bytes: 1 << 20,
@@ -108,7 +108,7 @@ pub(super) fn more_refused(count: u64) -> Text {
 }
 
 /// A path with too many folders in each other.
-pub(super) fn too_deep(limits: &Limits) -> Text {
+pub(super) fn too_deep(limits: &IntakeLimits) -> Text {
     let most = limits.folder_depth;
     Text::new(
         format!("More than {most} folders stand in each other."),

@@ -7,11 +7,11 @@
 
 use super::layout::{holds_classes, is_moodle, is_one_student, of_folder, without_zip};
 use super::moodle::{self, Loose, Marked};
-use super::tree::{File, Folder, Held, Node};
-use super::{Options, Refused};
+use super::tree::{Held, TreeFile, TreeFolder, TreeNode};
+use super::{IntakeOptions, Refused};
 use crate::batch::class::Participant;
 use crate::language::Text;
-use crate::slots::{Fit, fit};
+use crate::slots::{NameFit, fit};
 use std::collections::HashMap;
 use std::path::PathBuf;
 
@@ -28,7 +28,7 @@ pub(super) struct Who {
 
 /// What one student handed in.
 #[derive(Debug)]
-pub(super) struct Group {
+pub(super) struct StudentFiles {
     pub who: Who,
     pub files: Vec<Owned>,
     /// Whether the person at the command line named the file, so that there is nothing to choose.
@@ -46,17 +46,17 @@ pub(super) struct Owned {
     pub below: String,
     /// Its path from the input on.
     pub path: String,
-    pub file: File,
+    pub file: TreeFile,
 }
 
 /// The students in a folder or archive that is shown as `shown`. `is_one_of_several` says that other inputs stand
 /// beside it, so that it may be one student's.
 pub(super) fn in_folder(
     shown: &str,
-    folder: Folder,
-    options: &Options,
+    folder: TreeFolder,
+    options: &IntakeOptions,
     is_one_of_several: bool,
-) -> (Vec<Group>, Vec<Refused>) {
+) -> (Vec<StudentFiles>, Vec<Refused>) {
     let mut finding = StudentSearch::new(options);
     if is_moodle(&folder) {
         finding.moodle(shown, folder);
@@ -70,7 +70,10 @@ pub(super) fn in_folder(
 }
 
 /// The students whose files were named one by one.
-pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -> (Vec<Group>, Vec<Refused>) {
+pub(super) fn of_files(
+    files: Vec<(String, PathBuf, TreeFile)>,
+    options: &IntakeOptions,
+) -> (Vec<StudentFiles>, Vec<Refused>) {
     let mut finding = StudentSearch::new(options);
     for (shown, path, file) in files {
         let mut names = shown.rsplit('/');
@@ -82,7 +85,7 @@ pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -
             finding.loose(&loose, &name, shown, file);
             continue;
         }
-        let is_wanted = Fit::best(&name, &options.slots) <= Fit::Copy;
+        let is_wanted = NameFit::best(&name, &options.slots) <= NameFit::Copy;
         let who = parent.filter(|_| is_wanted).unwrap_or_else(|| stem(&name).into());
         finding.named(who, Owned { name: name.clone(), below: name, path: shown, file });
     }
@@ -90,19 +93,19 @@ pub(super) fn of_files(files: Vec<(String, PathBuf, File)>, options: &Options) -
 }
 
 struct StudentSearch<'a> {
-    options: &'a Options,
-    groups: Vec<Group>,
+    options: &'a IntakeOptions,
+    groups: Vec<StudentFiles>,
     refused: Vec<Refused>,
     /// The group of each participant.
     by_number: HashMap<Option<u64>, usize>,
 }
 
 impl<'o> StudentSearch<'o> {
-    fn new(options: &'o Options) -> Self {
+    fn new(options: &'o IntakeOptions) -> Self {
         Self { options, groups: Vec::new(), refused: Vec::new(), by_number: HashMap::new() }
     }
 
-    fn class(&mut self, place: &str, folder: Folder) {
+    fn class(&mut self, place: &str, folder: TreeFolder) {
         if is_moodle(&folder) {
             return self.moodle(place, folder);
         }
@@ -110,22 +113,22 @@ impl<'o> StudentSearch<'o> {
         for (name, node) in folder.into_children() {
             let place = format!("{place}/{name}");
             match node {
-                Node::Folder(folder) if are_classes && !folder.is_empty() => self.class(&place, folder),
-                Node::Folder(folder) => self.student(without_zip(&name), &place, folder),
-                Node::File(file) if self.is_hand_in(&name, &file) => {
+                TreeNode::Folder(folder) if are_classes && !folder.is_empty() => self.class(&place, folder),
+                TreeNode::Folder(folder) => self.student(without_zip(&name), &place, folder),
+                TreeNode::File(file) if self.is_hand_in(&name, &file) => {
                     let who = stem(&name).to_owned();
                     self.named(who, Owned { name: name.clone(), below: name, path: place, file });
                 }
-                Node::File(file) => self.nobodys(place, &file),
+                TreeNode::File(file) => self.nobodys(place, &file),
             }
         }
     }
 
-    fn moodle(&mut self, place: &str, folder: Folder) {
+    fn moodle(&mut self, place: &str, folder: TreeFolder) {
         for (name, node) in folder.into_children() {
             let place = format!("{place}/{name}");
             match node {
-                Node::Folder(folder) => match of_folder(&name) {
+                TreeNode::Folder(folder) => match of_folder(&name) {
                     Some(Loose::Of(marked)) => {
                         let files = owned(&place, folder);
                         let group = self.participant(&place, &marked);
@@ -136,7 +139,7 @@ impl<'o> StudentSearch<'o> {
                     None if folder.is_empty() => self.refused.push(Refused { path: place, reason: nobodys() }),
                     None => owned(&place, folder).into_iter().for_each(|owned| self.nobodys(owned.path, &owned.file)),
                 },
-                Node::File(file) => match moodle::file(&name) {
+                TreeNode::File(file) => match moodle::file(&name) {
                     Some(loose) => self.loose(&loose, &name, place, file),
                     None => self.nobodys(place, &file),
                 },
@@ -145,7 +148,7 @@ impl<'o> StudentSearch<'o> {
     }
 
     /// A file of the name `name` among those of all students.
-    fn loose(&mut self, loose: &Loose, name: &str, path: String, file: File) {
+    fn loose(&mut self, loose: &Loose, name: &str, path: String, file: TreeFile) {
         match loose {
             Loose::Of(marked) => {
                 let own = marked.file_name.unwrap_or(name).to_owned();
@@ -162,18 +165,18 @@ impl<'o> StudentSearch<'o> {
     }
 
     /// Whether a file beside the students' folders is a student's: a shader, or an archive that cannot be opened.
-    fn is_hand_in(&self, name: &str, file: &File) -> bool {
+    fn is_hand_in(&self, name: &str, file: &TreeFile) -> bool {
         let is_broken = matches!(file.held, Held::Refused(_)) && without_zip(name) != name;
-        is_broken || Fit::best(name, &self.options.slots) <= Fit::Renamed
+        is_broken || NameFit::best(name, &self.options.slots) <= NameFit::Renamed
     }
 
     /// The group of this participant, made where there is none yet.
-    fn participant(&mut self, place: &str, marked: &Marked) -> &mut Group {
+    fn participant(&mut self, place: &str, marked: &Marked) -> &mut StudentFiles {
         let groups = &mut self.groups;
         let at = *self.by_number.entry(marked.participant.number).or_insert_with(|| {
             let name = moodle::shown(&marked.participant);
             let who = Who { name, moodle: Some(marked.participant.clone()), place: place.into() };
-            groups.push(Group { who, files: Vec::new(), is_named: false, has_online_text: false });
+            groups.push(StudentFiles { who, files: Vec::new(), is_named: false, has_online_text: false });
             groups.len() - 1
         });
         &mut groups[at]
@@ -184,7 +187,7 @@ impl<'o> StudentSearch<'o> {
         let slots = &self.options.slots;
         let slot = |name: &str| (0..slots.len()).min_by_key(|&slot| fit(name, &slots[slot]));
         let folder = |path: &str| path.rsplit_once('/').map(|(folder, _)| folder.to_owned());
-        let is_theirs = |group: &&mut Group| {
+        let is_theirs = |group: &&mut StudentFiles| {
             group.is_named
                 && group.who.name == name
                 && group
@@ -196,25 +199,25 @@ impl<'o> StudentSearch<'o> {
             Some(group) => group.files.push(file),
             None => {
                 let who = Who { name, moodle: None, place: file.path.clone() };
-                self.groups.push(Group { who, files: vec![file], is_named: true, has_online_text: false });
+                self.groups.push(StudentFiles { who, files: vec![file], is_named: true, has_online_text: false });
             }
         }
     }
 
-    fn student(&mut self, name: &str, place: &str, folder: Folder) {
+    fn student(&mut self, name: &str, place: &str, folder: TreeFolder) {
         let who = Who { name: name.into(), moodle: None, place: place.into() };
-        self.groups.push(Group { who, files: owned(place, folder), is_named: false, has_online_text: false });
+        self.groups.push(StudentFiles { who, files: owned(place, folder), is_named: false, has_online_text: false });
     }
 
     /// A file that belongs to no student. What was refused has been named already.
-    fn nobodys(&mut self, path: String, file: &File) {
+    fn nobodys(&mut self, path: String, file: &TreeFile) {
         if !matches!(file.held, Held::Refused(_)) {
             self.refused.push(Refused { path, reason: nobodys() });
         }
     }
 }
 
-impl Group {
+impl StudentFiles {
     fn take(&mut self, marked: &Marked, file: Owned) {
         if marked.plugin == "file" {
             self.files.push(file);
@@ -232,8 +235,8 @@ fn nobodys() -> Text {
 }
 
 /// The files below a student's folder.
-pub(super) fn owned(place: &str, folder: Folder) -> Vec<Owned> {
-    let own = |(path, file): (Vec<String>, File)| {
+pub(super) fn owned(place: &str, folder: TreeFolder) -> Vec<Owned> {
+    let own = |(path, file): (Vec<String>, TreeFile)| {
         let below = path.join("/");
         Owned { name: path.last().cloned().unwrap_or_default(), path: format!("{place}/{below}"), below, file }
     };

@@ -10,8 +10,8 @@ use super::*;
 use std::fs;
 use tempfile::TempDir;
 
-fn options() -> Options {
-    Options::new(reference::assignment("ggsample06").unwrap())
+fn options() -> IntakeOptions {
+    IntakeOptions::new(reference::assignment("ggsample06").unwrap())
 }
 
 fn take(inputs: &[PathBuf]) -> Intake {
@@ -40,19 +40,19 @@ fn take_folder(files: &[(&str, &str)]) -> Intake {
 
 /// The archive `class.zip` with these bytes.
 fn take_archive(bytes: &[u8]) -> Intake {
-    take_archive_within(bytes, Limits::default())
+    take_archive_within(bytes, IntakeLimits::default())
 }
 
-fn take_archive_within(bytes: &[u8], limits: Limits) -> Intake {
+fn take_archive_within(bytes: &[u8], limits: IntakeLimits) -> Intake {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("class.zip");
     fs::write(&path, bytes).unwrap();
-    read(&[path], &Options { limits, ..options() }).unwrap()
+    read(&[path], &IntakeOptions { limits, ..options() }).unwrap()
 }
 
 /// Limits of bytes and entries in all.
-fn within(bytes: u64, entries: u64) -> Limits {
-    Limits { total: Budget { bytes, entries, refusals: 1000 }, ..Limits::default() }
+fn within(bytes: u64, entries: u64) -> IntakeLimits {
+    IntakeLimits { total: Budget { bytes, entries, refusals: 1000 }, ..IntakeLimits::default() }
 }
 
 /// Everyone: name, and the file's content or the English reason why there is none.
@@ -62,8 +62,8 @@ fn everyone(intake: &Intake) -> Vec<(&str, Result<&str, &str>)> {
         .iter()
         .map(|hand_in| {
             let content = match &hand_in.content {
-                Content::Files { hand_in, .. } => Ok(std::str::from_utf8(&hand_in.files[0].bytes).unwrap()),
-                Content::Nothing(reason) => Err(reason.en.as_str()),
+                HandInContent::Files { hand_in, .. } => Ok(std::str::from_utf8(&hand_in.files[0].bytes).unwrap()),
+                HandInContent::Nothing(reason) => Err(reason.en.as_str()),
             };
             (hand_in.student.name.as_str(), content)
         })
@@ -89,7 +89,7 @@ fn reason<'a>(intake: &'a Intake, name: &str) -> Option<&'a str> {
 /// Where the first file is on this machine.
 fn local(work: &StudentWork) -> Option<&Path> {
     match &work.content {
-        Content::Files { places, .. } => places[0].local.as_deref(),
-        Content::Nothing(_) => None,
+        HandInContent::Files { places, .. } => places[0].local.as_deref(),
+        HandInContent::Nothing(_) => None,
     }
 }

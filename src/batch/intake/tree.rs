@@ -9,21 +9,21 @@ use unicode_normalization::UnicodeNormalization;
 
 /// A folder, or an archive, which is a folder as well.
 #[derive(Debug, Default)]
-pub(super) struct Folder {
-    children: Vec<(String, Node)>,
+pub(super) struct TreeFolder {
+    children: Vec<(String, TreeNode)>,
     by_name: HashMap<String, usize>,
 }
 
 /// What stands in a folder.
 #[derive(Debug)]
-pub(super) enum Node {
-    Folder(Folder),
-    File(File),
+pub(super) enum TreeNode {
+    Folder(TreeFolder),
+    File(TreeFile),
 }
 
 /// A file.
 #[derive(Debug)]
-pub(super) struct File {
+pub(super) struct TreeFile {
     /// Where it is on this machine, where it is there.
     pub local: Option<PathBuf>,
     pub held: Held,
@@ -44,56 +44,56 @@ pub(super) enum Held {
 
 /// Something else has the name already.
 #[derive(Debug)]
-pub(super) struct Taken;
+pub(super) struct NameTaken;
 
-impl Folder {
-    pub fn children(&self) -> impl Iterator<Item = (&str, &Node)> {
+impl TreeFolder {
+    pub fn children(&self) -> impl Iterator<Item = (&str, &TreeNode)> {
         self.children.iter().map(|(name, node)| (name.as_str(), node))
     }
 
     /// The names of the files that lie in the folder itself.
     pub fn file_names(&self) -> impl Iterator<Item = &str> {
-        self.children().filter(|(_, node)| matches!(node, Node::File(_))).map(|(name, _)| name)
+        self.children().filter(|(_, node)| matches!(node, TreeNode::File(_))).map(|(name, _)| name)
     }
 
     pub fn is_empty(&self) -> bool {
         self.children.is_empty()
     }
 
-    pub fn into_children(self) -> Vec<(String, Node)> {
+    pub fn into_children(self) -> Vec<(String, TreeNode)> {
         self.children
     }
 
     /// The folder `path` below this one, made where it is not there.
-    pub fn folder(&mut self, path: &[String]) -> Result<&mut Self, Taken> {
+    pub fn folder(&mut self, path: &[String]) -> Result<&mut Self, NameTaken> {
         let Some((first, rest)) = path.split_first() else { return Ok(self) };
         let at = match self.by_name.get(first) {
             Some(&at) => at,
-            None => self.push(first.clone(), Node::Folder(Self::default())),
+            None => self.push(first.clone(), TreeNode::Folder(Self::default())),
         };
         match &mut self.children[at].1 {
-            Node::Folder(folder) => folder.folder(rest),
-            Node::File(_) => Err(Taken),
+            TreeNode::Folder(folder) => folder.folder(rest),
+            TreeNode::File(_) => Err(NameTaken),
         }
     }
 
     /// Puts a node where there is none of that name.
-    pub fn insert(&mut self, name: String, node: Node) -> Result<(), Taken> {
+    pub fn insert(&mut self, name: String, node: TreeNode) -> Result<(), NameTaken> {
         if self.by_name.contains_key(&name) {
-            return Err(Taken);
+            return Err(NameTaken);
         }
         self.push(name, node);
         Ok(())
     }
 
     /// Puts a node in the place of the one of this name.
-    pub fn replace(&mut self, name: &str, node: Node) {
+    pub fn replace(&mut self, name: &str, node: TreeNode) {
         if let Some(&at) = self.by_name.get(name) {
             self.children[at].1 = node;
         }
     }
 
-    fn push(&mut self, name: String, node: Node) -> usize {
+    fn push(&mut self, name: String, node: TreeNode) -> usize {
         let at = self.children.len();
         self.by_name.insert(name.clone(), at);
         self.children.push((name, node));
@@ -101,18 +101,18 @@ impl Folder {
     }
 
     /// All files below, each with its path from this folder, in order.
-    pub fn into_files(self) -> Vec<(Vec<String>, File)> {
+    pub fn into_files(self) -> Vec<(Vec<String>, TreeFile)> {
         let mut files = Vec::new();
         self.collect(&mut Vec::new(), &mut files);
         files
     }
 
-    fn collect(self, path: &mut Vec<String>, files: &mut Vec<(Vec<String>, File)>) {
+    fn collect(self, path: &mut Vec<String>, files: &mut Vec<(Vec<String>, TreeFile)>) {
         for (name, node) in self.children {
             path.push(name);
             match node {
-                Node::Folder(folder) => folder.collect(path, files),
-                Node::File(file) => files.push((path.clone(), file)),
+                TreeNode::Folder(folder) => folder.collect(path, files),
+                TreeNode::File(file) => files.push((path.clone(), file)),
             }
             path.pop();
         }
@@ -121,8 +121,8 @@ impl Folder {
     /// Whether any file below has a name for which this holds.
     pub fn has_file(&self, is_wanted: &dyn Fn(&str) -> bool) -> bool {
         self.children.iter().any(|(name, node)| match node {
-            Node::Folder(folder) => folder.has_file(is_wanted),
-            Node::File(_) => is_wanted(name),
+            TreeNode::Folder(folder) => folder.has_file(is_wanted),
+            TreeNode::File(_) => is_wanted(name),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! What changed since an earlier grading.
 
-use super::{BAD, DIM, GOOD, LISTED, ODD, PARTIAL, Writer, number, paint};
-use crate::batch::changes::{Changes, Earned, Grade, LineChange, StudentChange};
+use super::{BAD, DIM, GOOD, LISTED, ODD, PARTIAL, SummaryWriter, number, paint};
+use crate::batch::changes::{Changes, EarnedPoints, GradeSummary, LineChange, StudentChange};
 use crate::batch::class::Student;
 use crate::language::Language;
 use crate::report::labels::{mistake_title, rubric_label};
@@ -9,7 +9,7 @@ use crate::report::wrap::{columns, pad, plain};
 use anstyle::Style;
 use reference::Assignment;
 
-impl Writer {
+impl SummaryWriter {
     pub(super) fn changes(&mut self, assignment: &Assignment, changes: &Changes) {
         let since = &changes.before;
         let heading = match self.language {
@@ -45,10 +45,10 @@ impl Writer {
     fn change(&mut self, assignment: &Assignment, change: &StudentChange, sign: &str) {
         let (before, after) = (&change.before, &change.after);
         let name = plain(&change.student.name).replace('\n', " ");
-        let points = |grade: &Grade| grade.score.map_or("–".into(), number);
+        let points = |grade: &GradeSummary| grade.score.map_or("–".into(), number);
         let mut line = format!("  {sign} {name}  {} → {}", points(before), points(after));
         if before.standing != after.standing {
-            let word = |grade: &Grade| grade.standing.word(self.language);
+            let word = |grade: &GradeSummary| grade.standing.word(self.language);
             line += &format!("  {} → {}", word(before), word(after));
         }
         if change.is_new_file {
@@ -73,8 +73,9 @@ impl Writer {
 
     /// `Specular` and `20 → 40  Phong's reflection vector → –`: a line of the rubric, and what changed in it.
     fn rubric_line(&self, assignment: &Assignment, line: &LineChange) -> (String, String) {
-        let points = |earned: &Option<Earned>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
-        let mistake = |earned: &Option<Earned>| {
+        let points =
+            |earned: &Option<EarnedPoints>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
+        let mistake = |earned: &Option<EarnedPoints>| {
             let id = earned.as_ref().and_then(|earned| earned.mistake.as_deref());
             id.map_or("–".into(), |id| plain(mistake_title(assignment, id, self.language)))
         };

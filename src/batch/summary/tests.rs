@@ -1,12 +1,12 @@
 //! Tests of the summary.
 
 use super::*;
-use crate::batch::class::{Entry, Refused, Student};
+use crate::batch::class::{ClassEntry, Refused, Student};
 use crate::fault::Fault;
 use crate::report::samples;
 
-fn entry(name: &str, outcome: Outcome) -> Entry {
-    Entry {
+fn entry(name: &str, outcome: Outcome) -> ClassEntry {
+    ClassEntry {
         student: Student { key: name.into(), name: name.into(), moodle: None },
         places: Vec::new(),
         outcome,
@@ -33,7 +33,7 @@ fn class(language: Language) -> Class {
 }
 
 fn render(language: Language, width: usize) -> String {
-    let written = Written {
+    let written = WrittenFiles {
         folder: "out".into(),
         files: vec![("grades.csv".into(), Text::new("A table", "表"))],
         notes: vec![Text::verbatim("a note")],

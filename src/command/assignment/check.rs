@@ -6,7 +6,7 @@ mod shows;
 mod texts;
 
 use super::list;
-use crate::cli::Check;
+use crate::cli::CheckArguments;
 use crate::command::{ExitStatus, assignment, file_fault, warn, writing};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
@@ -14,7 +14,7 @@ use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::pictures::expected_pictures;
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
-use crate::sandbox::{GradedSubmission, Pool, Settings, Submission};
+use crate::sandbox::{GradedSubmission, GradingTask, Pool, Settings};
 use reference::Assignment;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Grades the folder's own files, and says what its rubric and its mistakes show.
-pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, Fault> {
+pub(super) fn run(arguments: &CheckArguments, language: Language) -> Result<ExitStatus, Fault> {
     let Some(assignment) = assignment(Some(&arguments.assignment), &[], language) else {
         return Ok(ExitStatus::Usage);
     };
@@ -40,12 +40,12 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
     let pool = Pool::start(settings, 1)?;
     warn(&pool, language);
     let album = Album::new(arguments.pictures.clone(), &assignment)?;
-    let said = Said { language };
+    let said = CheckWording { language };
     let grade = |hand_in: &HandIn, name: &str| -> Result<Report, Fault> {
         let assignment = pool.assignment();
         let wants_frames = album.is_wanted();
         let GradedSubmission { report, frames } =
-            pool.grade(Submission { assignment, hand_in, order: Order::default(), wants_frames })?;
+            pool.grade(GradingTask { assignment, hand_in, order: Order::default(), wants_frames })?;
         album.put(name, frames)?;
         Ok(report)
     };
@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &Check, language: Language) -> Result<ExitStatus, F
 }
 
 /// Whether driver and interpreter agree on the solution.
-fn say_solution(said: Said, report: &Report) -> bool {
+fn say_solution(said: CheckWording, report: &Report) -> bool {
     let is_right = report.verdict == Verdict::Correct;
     let scored = scored("the solution", "解答", report);
     let Some(apart) = report.probes.max_difference.filter(|_| is_right) else {
@@ -90,7 +90,7 @@ fn say_solution(said: Said, report: &Report) -> bool {
 
 /// Says that this build has no OpenGL, which is no error of the homework.
 #[cfg(not(feature = "opengl"))]
-fn say_no_opengl(said: Said) -> bool {
+fn say_no_opengl(said: CheckWording) -> bool {
     said.note(&Text::new(
         "the solution was not held against real OpenGL: this ggrade is built without the feature `opengl`",
         "本物の OpenGL とは比べていません: この ggrade は機能 `opengl` なしでビルドされています",
@@ -99,7 +99,7 @@ fn say_no_opengl(said: Said) -> bool {
 }
 
 /// Says that the solution takes most of the time that a hand-in has.
-fn say_time(said: Said, took: Duration, deadline: Duration) {
+fn say_time(said: CheckWording, took: Duration, deadline: Duration) {
     if took <= deadline.mul_f64(0.8) {
         return;
     }
@@ -117,7 +117,7 @@ fn say_time(said: Said, took: Duration, deadline: Duration) {
 }
 
 /// Whether what is handed out leaves something to do.
-fn say_starter(said: Said, report: &Report) -> bool {
+fn say_starter(said: CheckWording, report: &Report) -> bool {
     let is_unfinished = report.verdict == Verdict::Wrong;
     let scored = scored("what is handed out", "配布ファイル", report);
     if is_unfinished && report.score > 0.0 {
@@ -142,11 +142,11 @@ pub(super) fn scored(en: &str, ja: &str, report: &Report) -> Text {
 
 /// How lines are said.
 #[derive(Clone, Copy)]
-struct Said {
+struct CheckWording {
     language: Language,
 }
 
-impl Said {
+impl CheckWording {
     fn ok(self, text: &Text) {
         self.line(true, text);
     }

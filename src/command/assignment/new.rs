@@ -1,16 +1,16 @@
 //! `ggrade assignment new`: the folder of a homework, written from a solution.
 
 use super::super::{ExitStatus, file_fault, writing};
-use crate::cli::New;
+use crate::cli::NewArguments;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
-use reference::proposal::{self, Given, Proposal, Remark, RemarkKind, SCHEMA};
+use reference::proposal::{self, Given, Proposal, ProposalRemark, RemarkKind, SCHEMA};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Writes the folder, and says what was read and guessed.
-pub fn run(arguments: &New, language: Language) -> Result<ExitStatus, Fault> {
+pub fn run(arguments: &NewArguments, language: Language) -> Result<ExitStatus, Fault> {
     let refused = |text: &Text| {
         anstream::eprintln!("ggrade: {}", text.get(language));
         Ok(ExitStatus::Usage)
@@ -104,7 +104,7 @@ fn write(folder: &Path, proposal: &Proposal) -> Result<(), (PathBuf, io::Error)>
     Ok(())
 }
 
-fn tell(remark: &Remark, language: Language) {
+fn tell(remark: &ProposalRemark, language: Language) {
     let word = match remark.kind {
         RemarkKind::Read => Text::new("read ", "読取"),
         RemarkKind::Guessed => Text::new("guess", "推測"),

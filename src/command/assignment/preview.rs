@@ -2,7 +2,7 @@
 
 use super::check::scored;
 use crate::choice;
-use crate::cli::{LogFormat, Preview as Arguments};
+use crate::cli::{LogFormat, PreviewArguments as Arguments};
 use crate::command::end_signals::EndSignals;
 use crate::command::saves::{Save, Saves};
 use crate::command::{ExitStatus, deadline, report_fault, serve};

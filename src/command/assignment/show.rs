@@ -1,7 +1,7 @@
 //! `ggrade assignment show`: what a folder says, as a person reads it.
 
 use super::super::{ExitStatus, assignment};
-use crate::cli::Show;
+use crate::cli::ShowArguments;
 use crate::language::{Language, Text};
 use reference::Assignment;
 use reference::assignment::{Feed, Stage, Stream, Uniform};
@@ -9,20 +9,20 @@ use reference::scene::{Draw, View};
 use std::fmt::Write;
 
 /// Prints it.
-pub fn run(arguments: &Show, language: Language) -> ExitStatus {
+pub fn run(arguments: &ShowArguments, language: Language) -> ExitStatus {
     let Some(assignment) = assignment(Some(&arguments.assignment), &[], language) else { return ExitStatus::Usage };
-    let shown = Shown { assignment: &assignment, language, text: String::new() };
+    let shown = AssignmentView { assignment: &assignment, language, text: String::new() };
     anstream::print!("{}", shown.text());
     ExitStatus::FullMarks
 }
 
-struct Shown<'a> {
+struct AssignmentView<'a> {
     assignment: &'a Assignment,
     language: Language,
     text: String,
 }
 
-impl Shown<'_> {
+impl AssignmentView<'_> {
     fn text(mut self) -> String {
         let Assignment { id, title, task, .. } = self.assignment;
         self.line(&format!("{id}: {}", self.language.of(title)));

@@ -1,12 +1,12 @@
 //! What is looked at before anything is graded.
 
 use crate::batch::anonymous::{self, Pseudonyms};
-use crate::batch::folder::{Folder, NotOpened};
+use crate::batch::folder::{NotOpened, OutputFolder};
 use crate::batch::formats::worksheet;
 use crate::batch::intake::Intake;
-use crate::batch::journal::{self, FoundJournal, Header, Unreadable};
+use crate::batch::journal::{self, FoundJournal, JournalHeader, UnreadableJournal};
 use crate::batch::resume::NotBegun;
-use crate::cli::Batch;
+use crate::cli::BatchArguments;
 use crate::command::{file_fault, language, writing};
 use crate::language::{Language, Text};
 use crate::report::wrap::plain;
@@ -15,7 +15,7 @@ use reference::Assignment;
 use std::path::Path;
 
 /// Refuses an output folder that a later run would read as part of the input.
-pub(super) fn outside(arguments: &Batch) -> Result<(), NotBegun> {
+pub(super) fn outside(arguments: &BatchArguments) -> Result<(), NotBegun> {
     let real = |path: &Path| std::fs::canonicalize(path).ok();
     let absolute = std::path::absolute(arguments.out()).unwrap_or_else(|_| arguments.out().to_owned());
     // The nearest folder that is there already tells where the others will be.
@@ -32,8 +32,8 @@ pub(super) fn outside(arguments: &Batch) -> Result<(), NotBegun> {
     )))
 }
 
-pub(super) fn open(arguments: &Batch) -> Result<Folder, NotBegun> {
-    Folder::open(arguments.out()).map_err(|error| match error {
+pub(super) fn open(arguments: &BatchArguments) -> Result<OutputFolder, NotBegun> {
+    OutputFolder::open(arguments.out()).map_err(|error| match error {
         NotOpened::Fault(fault) => NotBegun::Fault(fault),
         NotOpened::InUse => {
             let path = arguments.out().display();
@@ -64,9 +64,9 @@ pub(super) fn read_sheet(path: &Path) -> Result<Vec<u8>, NotBegun> {
 pub(super) fn read_earlier(path: &Path) -> Result<FoundJournal, NotBegun> {
     let path = if path.is_dir() { &path.join(journal::NAME) } else { path };
     journal::read(path).map_err(|error| match error {
-        Unreadable::Missing => usage_unreadable(path, "no such file"),
-        Unreadable::Foreign(text) => NotBegun::Usage(text),
-        Unreadable::Fault(fault) => NotBegun::Usage(fault.message),
+        UnreadableJournal::Missing => usage_unreadable(path, "no such file"),
+        UnreadableJournal::Foreign(text) => NotBegun::Usage(text),
+        UnreadableJournal::Fault(fault) => NotBegun::Usage(fault.message),
     })
 }
 
@@ -81,16 +81,16 @@ pub(super) fn tell_empty(intake: &Intake, language: Language) {
 /// What this run grades with. A run that goes on keeps what was not asked for otherwise, and one that compares takes the
 /// seed: then the fresh probes are the same ones.
 pub(super) fn header(
-    arguments: &Batch,
+    arguments: &BatchArguments,
     assignment: &Assignment,
     found: Option<&FoundJournal>,
     before: Option<&FoundJournal>,
-) -> Header {
+) -> JournalHeader {
     let earlier = found.map(|found| &found.header);
     let seed = earlier.or(before.map(|before| &before.header)).map(|header| header.seed);
     let seed = arguments.seed.or(seed).unwrap_or_else(crate::grade::random_seed);
     let asked = arguments.lang.or(earlier.map(|header| header.language));
-    Header {
+    JournalHeader {
         schema: journal::SCHEMA.into(),
         assignment: assignment.id.clone(),
         assignment_digest: assignment.digest.clone(),
@@ -106,7 +106,12 @@ pub(super) fn header(
 }
 
 /// Takes the names away, and writes down whose they were where that is asked for.
-pub(super) fn hide(arguments: &Batch, intake: Intake, folder: &Folder, slots: &[Slot]) -> Result<Intake, NotBegun> {
+pub(super) fn hide(
+    arguments: &BatchArguments,
+    intake: Intake,
+    folder: &OutputFolder,
+    slots: &[Slot],
+) -> Result<Intake, NotBegun> {
     let (intake, named) = Pseudonyms::of(folder)?.hide(intake, slots);
     if let Some(path) = &arguments.names {
         let table = anonymous::table(&named)?;

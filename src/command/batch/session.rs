@@ -1,18 +1,18 @@
 //! A run on its way: what is kept, what is graded, what is written at the end.
 
 use crate::batch::changes::Changes;
-use crate::batch::class::{Class, Entry, Outcome};
-use crate::batch::folder::Folder;
-use crate::batch::formats::Format;
-use crate::batch::journal::{self, FoundJournal, Header, Journal, Record, RecordOf};
+use crate::batch::class::{Class, ClassEntry, Outcome};
+use crate::batch::folder::OutputFolder;
+use crate::batch::formats::ClassFormat;
+use crate::batch::journal::{self, FoundJournal, Journal, JournalHeader, JournalRecord, RecordOf};
 use crate::batch::page::Pages;
 use crate::batch::portrait::Portraits;
-use crate::batch::progress::Progress;
+use crate::batch::progress::ClassProgress;
 use crate::batch::resume::{self, NotBegun};
-use crate::batch::run::{Candidate, Run, Wants};
+use crate::batch::run::{ClassRun, GradingCandidate, Wants};
 use crate::batch::shard::Shard;
 use crate::batch::{anonymous, json_lines, likeness, output, summary};
-use crate::cli::Batch;
+use crate::cli::BatchArguments;
 use crate::command::interrupt::Interrupt;
 use crate::command::{ExitStatus, report_fault, warn, width};
 use crate::fault::Fault;
@@ -28,18 +28,18 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// A run on its way.
-pub(super) struct Session<'a> {
-    pub arguments: &'a Batch,
+pub(super) struct BatchSession<'a> {
+    pub arguments: &'a BatchArguments,
     pub assignment: &'a Arc<Assignment>,
     pub interrupt: &'a Interrupt,
     pub deadline: Duration,
-    pub folder: &'a Folder,
-    pub header: &'a Header,
+    pub folder: &'a OutputFolder,
+    pub header: &'a JournalHeader,
 }
 
 /// What is written of a graded class.
 pub(super) struct ClassOutputs<'a> {
-    pub formats: &'a [Format],
+    pub formats: &'a [ClassFormat],
     /// Moodle's worksheet.
     pub sheet: Option<&'a [u8]>,
     /// What a teacher may miss.
@@ -48,7 +48,7 @@ pub(super) struct ClassOutputs<'a> {
     pub comparisons: &'a [Comparison],
 }
 
-impl Session<'_> {
+impl BatchSession<'_> {
     fn say(&self, text: &Text) {
         anstream::eprintln!("ggrade: {}", text.get(self.header.language));
     }
@@ -56,25 +56,26 @@ impl Session<'_> {
     /// The entries that an earlier run has already; none for those that are to be graded.
     pub fn reuse(
         &self,
-        candidates: &[Candidate],
+        candidates: &[GradingCandidate],
         found: Option<FoundJournal>,
         wants: Wants,
-    ) -> Result<Vec<Option<Entry>>, NotBegun> {
+    ) -> Result<Vec<Option<ClassEntry>>, NotBegun> {
         let nothing = || candidates.iter().map(|_| None).collect();
         let Some(found) = found else { return Ok(nothing()) };
-        let records: HashMap<&str, &Record> = found.records.iter().map(|r| (r.student.key.as_str(), r)).collect();
-        let of = |candidate: &Candidate| records.get(candidate.hand_in.student.key.as_str());
+        let records: HashMap<&str, &JournalRecord> =
+            found.records.iter().map(|r| (r.student.key.as_str(), r)).collect();
+        let of = |candidate: &GradingCandidate| records.get(candidate.hand_in.student.key.as_str());
         if !records.is_empty() && candidates.iter().all(|candidate| of(candidate).is_none()) {
             return Err(NotBegun::Usage(resume::other_class(self.arguments.out())));
         }
         let keys: HashSet<&str> = candidates.iter().map(|candidate| candidate.hand_in.student.key.as_str()).collect();
         resume::forget(self.folder, &found.records, &keys)?;
-        let entries: Vec<Option<Entry>> =
+        let entries: Vec<Option<ClassEntry>> =
             candidates.iter().map(|candidate| candidate.reuse(of(candidate)?, self.folder, wants)).collect();
         let (kept, torn) = (entries.iter().flatten().count(), found.torn);
         let rest = candidates.len() - kept;
         let is_new_file =
-            |candidate: &&Candidate| of(candidate).is_some_and(|record| record.sha256 != candidate.sha256);
+            |candidate: &&GradingCandidate| of(candidate).is_some_and(|record| record.sha256 != candidate.sha256);
         let changed = candidates.iter().filter(is_new_file).count();
         self.say(&Text::new(
             format!("going on: {kept} results are kept, {rest} are to come ({changed} changed files, {torn} torn lines)"),
@@ -86,13 +87,14 @@ impl Session<'_> {
     /// Grades whoever has no entry yet. False where a signal came before everyone had one.
     pub fn fill(
         &self,
-        candidates: &[Candidate],
-        entries: &mut [Option<Entry>],
+        candidates: &[GradingCandidate],
+        entries: &mut [Option<ClassEntry>],
         wants: Wants,
         portraits: &Portraits,
     ) -> Result<bool, Fault> {
         let threads = self.arguments.jobs.map_or_else(parallel::processors, usize::from);
-        let is_gradable = |(candidate, entry): (&Candidate, &Option<Entry>)| entry.is_none() && candidate.is_gradable();
+        let is_gradable =
+            |(candidate, entry): (&GradingCandidate, &Option<ClassEntry>)| entry.is_none() && candidate.is_gradable();
         let pool = match candidates.iter().zip(entries.iter()).any(is_gradable) {
             true => Some(self.pool(threads)?),
             false => None,
@@ -101,13 +103,13 @@ impl Session<'_> {
         let journal = Journal::start(self.folder, self.header, &kept(candidates, entries))?;
         entries.iter().flatten().for_each(|entry| self.tell(entry));
         let pages = Pages::new(Arc::clone(self.assignment), self.header.language);
-        let progress = Progress::new(candidates.len(), entries.iter().flatten(), self.header.language);
+        let progress = ClassProgress::new(candidates.len(), entries.iter().flatten(), self.header.language);
         self.defer_interrupt(&progress);
-        let finished = |entry: &Entry| {
+        let finished = |entry: &ClassEntry| {
             progress.finished(entry);
             self.tell(entry);
         };
-        let run = Run {
+        let run = ClassRun {
             assignment: self.assignment,
             pool: pool.as_ref(),
             order: Order { seed: self.header.seed, hints: self.header.hints, ..Order::default() },
@@ -128,7 +130,7 @@ impl Session<'_> {
     }
 
     /// Has the first signal stop the run in order.
-    fn defer_interrupt(&self, progress: &Progress) {
+    fn defer_interrupt(&self, progress: &ClassProgress) {
         let (bar, language) = (progress.bar(), self.header.language);
         self.interrupt.defer(move || {
             let text = Text::new(
@@ -140,7 +142,7 @@ impl Session<'_> {
     }
 
     /// Whether everyone has an entry; where a signal is why not, says how to go on.
-    fn is_complete(&self, entries: &[Option<Entry>]) -> Result<bool, Fault> {
+    fn is_complete(&self, entries: &[Option<ClassEntry>]) -> Result<bool, Fault> {
         let (count, total) = (entries.iter().flatten().count(), entries.len());
         if count == total {
             return Ok(true);
@@ -179,7 +181,7 @@ impl Session<'_> {
     }
 
     /// Tells programs of an entry.
-    fn tell(&self, entry: &Entry) {
+    fn tell(&self, entry: &ClassEntry) {
         if self.arguments.json_lines {
             // A reader that closes the pipe early has what it wanted.
             let _ = std::io::stdout().lock().write_all(json_lines::line(entry, self.header.language).as_bytes());
@@ -187,7 +189,12 @@ impl Session<'_> {
     }
 
     /// Writes the results of a shard in order. Its formats are those of the whole class, which it does not know.
-    pub fn finish_shard(&self, shard: Shard, candidates: &[Candidate], entries: &[Entry]) -> Result<ExitStatus, Fault> {
+    pub fn finish_shard(
+        &self,
+        shard: Shard,
+        candidates: &[GradingCandidate],
+        entries: &[ClassEntry],
+    ) -> Result<ExitStatus, Fault> {
         self.write_journal(candidates, entries)?;
         let (count, out) = (entries.len(), self.arguments.out().display());
         self.say(&Text::new(
@@ -200,7 +207,7 @@ impl Session<'_> {
         Ok(if has_fault { ExitStatus::Fault } else { ExitStatus::FullMarks })
     }
 
-    fn write_journal(&self, candidates: &[Candidate], entries: &[Entry]) -> Result<(), Fault> {
+    fn write_journal(&self, candidates: &[GradingCandidate], entries: &[ClassEntry]) -> Result<(), Fault> {
         let records: Vec<_> =
             candidates.iter().zip(entries).map(|(candidate, entry)| candidate.record(&entry.outcome)).collect();
         journal::write(self.folder, self.header, &records)
@@ -209,7 +216,7 @@ impl Session<'_> {
     /// Writes the class in all formats, and says how it came out.
     pub fn finish(
         &self,
-        candidates: &[Candidate],
+        candidates: &[GradingCandidate],
         class: &Class,
         wanted: &ClassOutputs,
         before: Option<FoundJournal>,
@@ -219,7 +226,7 @@ impl Session<'_> {
         let (mut written, fault) = output::write(class, wanted.formats, wanted.sheet, changes.as_ref(), self.folder);
         let likeness = wanted
             .formats
-            .contains(&Format::Html)
+            .contains(&ClassFormat::Html)
             .then(|| likeness::write(&class.title, wanted.comparisons, self.header.language, self.folder));
         let (likeness, fault) = match likeness {
             Some(Ok(file)) => (file, fault),
@@ -252,7 +259,7 @@ impl Session<'_> {
 }
 
 /// What there is already, as it is written down.
-fn kept<'a>(candidates: &'a [Candidate], entries: &'a [Option<Entry>]) -> Vec<RecordOf<'a>> {
+fn kept<'a>(candidates: &'a [GradingCandidate], entries: &'a [Option<ClassEntry>]) -> Vec<RecordOf<'a>> {
     let pairs = candidates.iter().zip(entries);
     pairs.filter_map(|(candidate, entry)| Some(candidate.record(&entry.as_ref()?.outcome))).collect()
 }

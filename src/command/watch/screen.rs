@@ -7,7 +7,7 @@ use std::io::{IsTerminal, Write};
 const CLEAR: &str = "\x1b[2J\x1b[H";
 
 /// Standard output.
-pub(super) struct Screen {
+pub(super) struct WatchScreen {
     language: Language,
     name: String,
     is_terminal: bool,
@@ -15,7 +15,7 @@ pub(super) struct Screen {
     is_closed: bool,
 }
 
-impl Screen {
+impl WatchScreen {
     pub fn new(name: &str, language: Language) -> Self {
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let name = name.chars().filter(|c| !c.is_control()).collect();

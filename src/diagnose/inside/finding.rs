@@ -3,7 +3,7 @@
 use super::quantities::{Quantity, made_of};
 use super::search::{Mend, Search, is_in_place};
 use super::{Finding, Flaw, Stage, What, variable};
-use crate::diagnose::columns::{Columns, is_same};
+use crate::diagnose::columns::{ScalarColumns, is_same};
 use reference::interpreter::Scalar;
 use reference::interpreter::trace::Event;
 
@@ -32,7 +32,7 @@ impl Search<'_, '_> {
         };
         let name = variable(sites, mend.suspect.site);
         let lane = worst(event, &mend.values[0]);
-        let at = |columns: &Columns| columns.iter().map(|column| column[lane]).collect();
+        let at = |columns: &ScalarColumns| columns.iter().map(|column| column[lane]).collect();
         Some(Finding {
             stage: mend.stage,
             line,
@@ -66,7 +66,7 @@ impl Search<'_, '_> {
         if addends.len() < 2 || addends.len() > 8 {
             return None;
         }
-        let sum = |chosen: usize| -> Columns {
+        let sum = |chosen: usize| -> ScalarColumns {
             let width = event.values.len();
             let lanes = event.lanes.len();
             let mut total = vec![vec![0.0; lanes]; width];
@@ -112,7 +112,7 @@ impl Search<'_, '_> {
     }
 
     /// The line of a statement that computes what is needed, and does nothing with it.
-    pub(super) fn thrown_away(&self, stage: Stage, wanted: &Columns) -> Option<u32> {
+    pub(super) fn thrown_away(&self, stage: Stage, wanted: &ScalarColumns) -> Option<u32> {
         let trace = self.trace(stage)?;
         let sites = self.theirs.stage(stage).sites();
         let event = trace.events.iter().find(|event| !sites[event.site].is_used && is_same(event, wanted))?;
@@ -121,7 +121,7 @@ impl Search<'_, '_> {
 }
 
 /// The lane where a value is furthest from what it should be.
-fn worst(event: &Event, wanted: &Columns) -> usize {
+fn worst(event: &Event, wanted: &ScalarColumns) -> usize {
     let apart = |lane: usize| {
         let columns = event.values.iter().zip(wanted);
         let apart = columns.map(|(own, wanted)| (own[lane] - wanted[lane]).abs()).fold(0.0, f64::max);

@@ -12,13 +12,13 @@ use super::search::Search;
 use super::{Evidence, Stage, What, within};
 use crate::report::{Hints, OwnValues, ValueLine, ValuePlace};
 use glam::DVec3;
-use places::{Shown, shown_in, shown_of_probes};
+use places::{ShownPlace, shown_in, shown_of_probes};
 use reference::equation::DISCARDED;
 use reference::interpreter::Scalar;
 use reference::interpreter::trace::{Event, Site};
 use reference::probes::Pictured;
 use reference::traced::Place;
-use standing::{Standing, Trial};
+use standing::{StatementStanding, Trial};
 use written::numbers;
 
 /// So many statements are shown at most, so that a report stays small.
@@ -38,7 +38,7 @@ pub(in crate::diagnose) fn own_values(
     pictured: &[Pictured],
     lines: &[(Stage, u32)],
 ) -> Option<OwnValues> {
-    let all: Vec<Shown<'_>> = match shown_in(evidence, pictured) {
+    let all: Vec<ShownPlace<'_>> = match shown_in(evidence, pictured) {
         found if found.iter().any(|shown| !shown.is_right) => found,
         _ => shown_of_probes(evidence)?,
     };
@@ -51,7 +51,7 @@ pub(in crate::diagnose) fn own_values(
             DISCARDED => Vec::new(),
             colour => numbers(&colour.to_array()),
         };
-        let place = |(at, shown): (usize, &Shown<'_>)| ValuePlace {
+        let place = |(at, shown): (usize, &ShownPlace<'_>)| ValuePlace {
             frame: shown.at.map(|_| frame),
             at: shown.at.map(|at| at.map(|side| (side * 1e4).round() / 1e4)),
             pixel: shown.pixel,
@@ -78,10 +78,10 @@ impl Search<'_, '_> {
                 let (is_constant, is_said) = (own.function.is_none(), said.contains(&(stage, own.line)));
                 let standing = match self.evidence.hints {
                     Hints::Full => self.standing(stage, site, &events, is_said, &mut trial),
-                    Hints::None | Hints::Gentle => Standing::Unknown,
+                    Hints::None | Hints::Gentle => StatementStanding::Unknown,
                 };
                 // Constants of the file are given before anything runs: they count where they are wrong.
-                if !is_constant || matches!(standing, Standing::Wrong(_)) {
+                if !is_constant || matches!(standing, StatementStanding::Wrong(_)) {
                     found.extend(self.line(stage, site, &events, &standing, first));
                 }
             }

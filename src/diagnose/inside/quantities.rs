@@ -1,10 +1,10 @@
 //! What a right answer computes on its way.
 
 use super::Place;
-use crate::diagnose::columns::{Columns, is_constant, is_equal, is_same, of_places};
+use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal, is_same, of_places};
 use glam::DVec3;
 use reference::Assignment;
-use reference::equation::Variant;
+use reference::equation::EquationVariant;
 use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{Binary, Program, Scalar, Stage};
 use reference::traced::TracedProgram;
@@ -17,14 +17,14 @@ pub(super) struct Quantity {
     /// The variables that are given it.
     pub names: Vec<String>,
     /// Each time that it is computed.
-    pub turns: Vec<Columns>,
+    pub turns: Vec<ScalarColumns>,
     /// Where it is computed: the events of the right answer's trace.
     events: Vec<usize>,
     pub is_bool: bool,
     /// Whether it is written as it is, or read: what may stand in the place of a number.
     pub is_leaf: bool,
     /// What is added up to it.
-    pub addends: Vec<(Option<String>, Columns)>,
+    pub addends: Vec<(Option<String>, ScalarColumns)>,
     /// Whether it is some addends of a sum, which the right answer does not add by themselves.
     pub is_partial: bool,
     /// Whether it is the same at all places: such values are equal by chance.
@@ -68,7 +68,7 @@ impl Quantities {
     pub fn replace(
         &mut self,
         assignment: &Assignment,
-        variant: &Variant<'_>,
+        variant: &EquationVariant<'_>,
         places: &[Place<'_>],
         each: usize,
     ) -> Option<Vec<DVec3>> {
@@ -183,8 +183,8 @@ fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
             What::Assign { name, is_part: false } => Some(name.clone()),
             _ => None,
         };
-        let turns: Vec<Columns> = events.iter().map(|event| trace.events[*event].values.clone()).collect();
-        let quantity = |turns: Vec<Columns>, events: Vec<usize>| Quantity {
+        let turns: Vec<ScalarColumns> = events.iter().map(|event| trace.events[*event].values.clone()).collect();
+        let quantity = |turns: Vec<ScalarColumns>, events: Vec<usize>| Quantity {
             stage,
             names: name.iter().cloned().collect(),
             is_constant: turns.iter().all(is_constant),
@@ -219,7 +219,7 @@ fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
     let sum = |chosen: usize| {
         let addends: Vec<_> =
             (0..count).filter(|at| chosen >> at & 1 == 1).map(|at| whole.addends[at].clone()).collect();
-        let mut total: Columns = vec![vec![0.0; addends[0].1[0].len()]; width];
+        let mut total: ScalarColumns = vec![vec![0.0; addends[0].1[0].len()]; width];
         for (_, addend) in &addends {
             for (to, from) in total.iter_mut().zip(addend.iter().cycle()) {
                 to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
@@ -263,7 +263,7 @@ fn add(found: &mut Vec<Quantity>, quantity: Quantity) {
 }
 
 /// What is added up to an event, with the names of variables.
-fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, Columns)> {
+fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, ScalarColumns)> {
     let own = &trace.events[event];
     let site = &program.sites()[own.site];
     let is_sum = matches!(site.what, What::Binary(Binary::Add));
@@ -280,7 +280,7 @@ fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String
     }
 }
 
-fn addend(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, Columns)> {
+fn addend(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, ScalarColumns)> {
     let inner = addends(program, trace, event);
     if !inner.is_empty() {
         return inner;

@@ -9,12 +9,12 @@ use super::search::{Search, is_in_place, is_right};
 use super::{Evidence, Finding, Place, Seen, Stage, TracedProgram, variable};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
 use crate::diagnose::columns::{is_colour, is_same};
-use crate::diagnose::locate::{Located, Role};
-use crate::diagnose::trials::{Changes, FUEL_OF_TRACE};
+use crate::diagnose::locate::{Located, MistakeOrigin};
+use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
 use crate::{report, translate};
 use glam::DVec3;
 use reference::interpreter::trace::{Event, Trace, What};
-use reference::interpreter::{Ingredients, Operator, Program, Repair, Repairable};
+use reference::interpreter::{Ingredients, Operator, Program, ProgramRepair, Repairable};
 use reference::mistake::Mistake;
 use reference::traced::Bench;
 
@@ -54,20 +54,20 @@ impl Repaired {
 
 /// The student's program with some changes.
 #[derive(Clone)]
-struct Attempt {
+struct RepairAttempt {
     program: TracedProgram,
     texts: Vec<(Stage, Repairable)>,
     seen: Seen,
 }
 
 /// A change of the text of a stage.
-type Step = (Stage, Repair);
+type RepairStep = (Stage, ProgramRepair);
 
 /// What became of trying.
-enum Outcome {
-    Right(Step),
+enum RepairOutcome {
+    Right(RepairStep),
     /// These make more right, and nothing wrong; those that make most right first.
-    Better(Vec<(Step, Seen)>),
+    Better(Vec<(RepairStep, Seen)>),
 }
 
 impl Search<'_, '_> {
@@ -81,7 +81,7 @@ impl Search<'_, '_> {
             let text = translate::plain_lines(&source.text);
             Some((*stage, Repairable::read(&text, *stage).ok()?))
         });
-        let first = Attempt { program: self.theirs.clone(), texts: texts.collect(), seen: self.own.clone() };
+        let first = RepairAttempt { program: self.theirs.clone(), texts: texts.collect(), seen: self.own.clone() };
         let solution: Vec<&str> = self.assignment.files.iter().map(|file| file.solution.text.as_str()).collect();
         let right = Ingredients::of(&solution);
         let lines = self.lines(findings);
@@ -98,12 +98,18 @@ impl Search<'_, '_> {
     }
 
     /// At most so many changes that make all right together.
-    fn steps(&self, attempt: &Attempt, lines: &[(Stage, u32)], right: &Ingredients, most: usize) -> Option<Vec<Step>> {
+    fn steps(
+        &self,
+        attempt: &RepairAttempt,
+        lines: &[(Stage, u32)],
+        right: &Ingredients,
+        most: usize,
+    ) -> Option<Vec<RepairStep>> {
         match self.step(attempt, lines, right) {
-            Outcome::Right(step) => Some(vec![step]),
-            Outcome::Better(_) if most < 2 => None,
-            Outcome::Better(all) => all.into_iter().take(MOST_BEGINNINGS).find_map(|(step, seen)| {
-                let next = Attempt { seen, ..self.after(attempt, &step)? };
+            RepairOutcome::Right(step) => Some(vec![step]),
+            RepairOutcome::Better(_) if most < 2 => None,
+            RepairOutcome::Better(all) => all.into_iter().take(MOST_BEGINNINGS).find_map(|(step, seen)| {
+                let next = RepairAttempt { seen, ..self.after(attempt, &step)? };
                 let mut steps = self.steps(&next, lines, right, most - 1)?;
                 steps.insert(0, step);
                 Some(steps)
@@ -112,8 +118,8 @@ impl Search<'_, '_> {
     }
 
     /// Tries every change once.
-    fn step(&self, attempt: &Attempt, lines: &[(Stage, u32)], right: &Ingredients) -> Outcome {
-        let mut better: Vec<(usize, Step, Seen)> = Vec::new();
+    fn step(&self, attempt: &RepairAttempt, lines: &[(Stage, u32)], right: &Ingredients) -> RepairOutcome {
+        let mut better: Vec<(usize, RepairStep, Seen)> = Vec::new();
         let before = self.right_channels(&attempt.seen);
         let (mut tried, mut verified) = (0, 0);
         let mut stages: Vec<Stage> = lines.iter().map(|(stage, _)| *stage).collect();
@@ -133,7 +139,7 @@ impl Search<'_, '_> {
                 if is_right(self.wanted, &seen, self.count) {
                     verified += 1;
                     if verified <= MOST_VERIFIED && self.holds_everywhere(&program) {
-                        return Outcome::Right((stage, repair));
+                        return RepairOutcome::Right((stage, repair));
                     }
                     continue;
                 }
@@ -146,10 +152,10 @@ impl Search<'_, '_> {
             }
         }
         better.sort_by_key(|(gained, ..)| std::cmp::Reverse(*gained));
-        Outcome::Better(better.into_iter().map(|(_, step, seen)| (step, seen)).collect())
+        RepairOutcome::Better(better.into_iter().map(|(_, step, seen)| (step, seen)).collect())
     }
 
-    fn after(&self, attempt: &Attempt, (stage, repair): &Step) -> Option<Attempt> {
+    fn after(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<RepairAttempt> {
         let mut next = attempt.clone();
         let (_, text) = next.texts.iter_mut().find(|(own, _)| own == stage)?;
         let program = text.program(repair)?;
@@ -176,7 +182,7 @@ impl Search<'_, '_> {
     }
 
     fn shown(&self, program: &TracedProgram, places: &[Place<'_>]) -> Option<Seen> {
-        Bench::new(self.assignment, program, places, self.in_quads, FUEL_OF_TRACE)?.with(&Changes::default())
+        Bench::new(self.assignment, program, places, self.in_quads, FUEL_OF_TRACE)?.with(&StageChanges::default())
     }
 
     /// For each place and channel whether it is right.
@@ -207,11 +213,11 @@ impl Search<'_, '_> {
     }
 
     /// What is known of a change.
-    fn repaired(&self, attempt: &Attempt, (stage, repair): &Step) -> Option<Repaired> {
+    fn repaired(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<Repaired> {
         let (_, text) = attempt.texts.iter().find(|(own, _)| own == stage)?;
         let marked = attempt.program.with(*stage, text.traced(repair)?)?;
         let (_, mut traces) = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?
-            .trace(&Changes::default())?;
+            .trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].take()?;
         let program = marked.stage(*stage);
         let added = repair.added.as_deref().and_then(|name| self.meant_by(*stage, program, &trace, name));
@@ -221,11 +227,11 @@ impl Search<'_, '_> {
             _ => (repair.mistake, self.definition_at(*stage, program, &trace, repair.mistake)),
         };
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
-        let marks = program.sites().iter().position(|site| site.line == Repair::MARK);
+        let marks = program.sites().iter().position(|site| site.line == ProgramRepair::MARK);
         let name = marks.and_then(|site| variable(program.sites(), site));
         Some(Repaired {
             mistake,
-            located: Located { line: repair.line, name, role: Role::Wrong, stage: Some(*stage) },
+            located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
             texts: repair.texts.clone(),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
         })
@@ -241,7 +247,7 @@ impl Search<'_, '_> {
         );
         let mut is_reached = vec![false; trace.events.len()];
         for (number, event) in trace.events.iter().enumerate() {
-            let is_marked = sites[event.site].line == Repair::MARK;
+            let is_marked = sites[event.site].line == ProgramRepair::MARK;
             is_reached[number] = is_marked || event.from.iter().any(|from| is_reached[*from]);
             if !is_reached[number] || is_marked && is_of_use {
                 continue;

@@ -2,9 +2,9 @@
 
 use super::walk::{Suspect, suspects};
 use super::*;
-use crate::diagnose::columns::{Columns, fits, is_constant, is_number, is_same, shaped};
-use crate::diagnose::trials::{Changes, Trials};
-use reference::interpreter::trace::{Change, Event};
+use crate::diagnose::columns::{ScalarColumns, fits, is_constant, is_number, is_same, shaped};
+use crate::diagnose::trials::{StageChanges, Trials};
+use reference::interpreter::trace::{Event, ValueChange};
 use reference::interpreter::{Program, Scalar};
 use std::collections::BTreeSet;
 
@@ -27,7 +27,7 @@ pub(super) struct Search<'s, 'a> {
     pub trials: Trials<'s>,
     pub count: usize,
     /// What is changed already.
-    pub base: Changes,
+    pub base: StageChanges,
 }
 
 /// A place that mends what is seen, and what has to stand there.
@@ -37,7 +37,7 @@ pub(super) struct Mend {
     pub suspect: Suspect,
     /// The quantity by its place; none of a plain number or a truth value.
     pub quantity: Option<usize>,
-    pub values: Vec<Columns>,
+    pub values: Vec<ScalarColumns>,
 }
 
 impl Mend {
@@ -49,8 +49,8 @@ impl Mend {
     }
 
     /// What is changed by it.
-    pub fn change(&self) -> Change {
-        Change { site: self.suspect.site, values: self.values.clone() }
+    pub fn change(&self) -> ValueChange {
+        ValueChange { site: self.suspect.site, values: self.values.clone() }
     }
 }
 
@@ -315,7 +315,7 @@ impl Search<'_, '_> {
         Some(self.trials.at_all(&changes)?.colours)
     }
 
-    fn changes(&self, mend: &Mend) -> Changes {
+    fn changes(&self, mend: &Mend) -> StageChanges {
         let mut changes = self.base.clone();
         changes[mend.stage as usize].push(mend.change());
         changes

@@ -1,7 +1,7 @@
 //! From the outputs back to what they are made of, as far as it is not right yet.
 
 use super::{Quantities, Stage, Trace, What};
-use crate::diagnose::columns::{Columns, is_equal};
+use crate::diagnose::columns::{ScalarColumns, is_equal};
 use reference::interpreter::Program;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -70,7 +70,7 @@ pub(super) fn suspects(
 /// What an event is only a copy of, also by way of a structure or an array that holds it among others.
 fn copies(trace: &Trace, event: usize) -> Vec<usize> {
     let own = &trace.events[event].values;
-    let holds = |values: &Columns| !own.is_empty() && values.windows(own.len()).any(|part| part == own);
+    let holds = |values: &ScalarColumns| !own.is_empty() && values.windows(own.len()).any(|part| part == own);
     let mut seen = BTreeSet::new();
     let mut open = vec![event];
     while let Some(event) = open.pop() {

@@ -1,11 +1,11 @@
 //! The search for the statement that computes a definition, or for the sum that lacks it.
 
-use super::{Located, Points, Role};
-use crate::diagnose::columns::{Columns, fits, is_colour, is_same, is_zero, shaped};
-use crate::diagnose::trials::{Changes, change};
+use super::{Located, MistakeOrigin, TracedProbes};
+use crate::diagnose::columns::{ScalarColumns, fits, is_colour, is_same, is_zero, shaped};
+use crate::diagnose::trials::{StageChanges, change};
 use glam::DVec3;
 use reference::interpreter::Binary;
-use reference::interpreter::trace::{Change, What};
+use reference::interpreter::trace::{ValueChange, What};
 use reference::mistake::{FoundMistake, Mistake};
 
 /// A mistake that makes something 0 everywhere that should not be.
@@ -13,14 +13,14 @@ struct Missing {
     /// The definition that it replaces.
     definition: usize,
     /// That definition without the mistake, and with it.
-    right: Columns,
-    wrong: Columns,
+    right: ScalarColumns,
+    wrong: ScalarColumns,
     /// The colour at each point without the mistake.
     wanted: Vec<DVec3>,
     handed_out: bool,
 }
 
-impl Points<'_> {
+impl TracedProbes<'_> {
     /// The place of the first of these definitions that is all there is to mend.
     pub fn place_of(&mut self, definitions: &[String]) -> Option<Located> {
         let equation = &self.assignment.equation;
@@ -28,7 +28,7 @@ impl Points<'_> {
         let wanted = self.colours(&equation.right());
         let chosen: Vec<usize> = definitions.iter().filter_map(|name| equation.index(name)).collect();
         let found = chosen.into_iter().find_map(|d| self.mending(&right[d], &wanted, false).first().copied())?;
-        Some(self.located(found, Role::Wrong))
+        Some(self.located(found, MistakeOrigin::Wrong))
     }
 
     /// Where a term is that mistake `index` makes 0 everywhere, or else the sum in which it does not appear. `None` for any
@@ -40,10 +40,10 @@ impl Points<'_> {
         if self.has_constants_of(d) {
             let zero = self.mending(&missing.right, &missing.wanted, missing.handed_out);
             if let Some(zero) = zero.into_iter().find(|event| !self.is_start_of_sum(*event)) {
-                return Some(self.located(zero, Role::Zero));
+                return Some(self.located(zero, MistakeOrigin::Zero));
             }
         }
-        let role = if self.has_influence(d) { Role::Lost } else { Role::Absent };
+        let role = if self.has_influence(d) { MistakeOrigin::Lost } else { MistakeOrigin::Absent };
         if let Some(sum) = self.last_sum(&missing) {
             return Some(self.located(sum, role));
         }
@@ -95,7 +95,7 @@ impl Points<'_> {
     }
 
     /// The values that mend the colour when they are `right`, in the order in which they are computed.
-    fn mending(&mut self, right: &Columns, wanted: &[DVec3], handed_out: bool) -> Vec<usize> {
+    fn mending(&mut self, right: &ScalarColumns, wanted: &[DVec3], handed_out: bool) -> Vec<usize> {
         let candidates = self.trace.events.iter().enumerate().filter(|(_, event)| {
             fits(event.values.len(), right.len())
                 && event.lanes[0]
@@ -104,7 +104,7 @@ impl Points<'_> {
                 && self.sites[event.site].function.is_some()
                 && !is_same(event, right)
         });
-        let candidates: Vec<(usize, Change)> =
+        let candidates: Vec<(usize, ValueChange)> =
             candidates.map(|(at, event)| (at, change(&self.trace, at, &shaped(event, right)))).collect();
         let mends = candidates.into_iter().filter(|(_, change)| self.becomes(wanted, Some(change.clone())));
         mends.map(|(at, _)| at).collect()
@@ -121,7 +121,7 @@ impl Points<'_> {
         let sums = self.trace.events.iter().enumerate().filter(|(_, event)| {
             is_sum(event.site) && fits(event.values.len(), right.len()) && event.values[0].len() == right[0].len()
         });
-        let sums: Vec<(usize, Change)> = sums
+        let sums: Vec<(usize, ValueChange)> = sums
             .map(|(at, event)| {
                 let mut values = event.values.clone();
                 for ((own, right), wrong) in values.iter_mut().zip(right).zip(wrong).take(3) {
@@ -173,8 +173,8 @@ impl Points<'_> {
         // Neither 0 nor what a clamp hides.
         const BRIGHTER: f64 = 1.7;
         let used = self.assignment.equation.constants_in(d);
-        let Some(seen) = self.trials.at_first(&Changes::default()) else { return false };
-        let constants: Vec<Change> = used
+        let Some(seen) = self.trials.at_first(&StageChanges::default()) else { return false };
+        let constants: Vec<ValueChange> = used
             .into_iter()
             .filter_map(|name| self.constant(name))
             .map(|mut change| {
@@ -184,19 +184,19 @@ impl Points<'_> {
             })
             .collect();
         constants.into_iter().any(|change| {
-            let mut changes = Changes::default();
+            let mut changes = StageChanges::default();
             changes[self.stage as usize].push(change);
             self.trials.at_first(&changes).is_some_and(|other| other != seen)
         })
     }
 
     /// The values that a constant of this name is given.
-    fn constant(&self, constant: &str) -> Option<Change> {
+    fn constant(&self, constant: &str) -> Option<ValueChange> {
         let is_it = |site: usize| {
             let site = &self.sites[site];
             site.function.is_none() && matches!(&site.what, What::Assign { name, .. } if name == constant)
         };
         let event = self.trace.events.iter().find(|event| is_it(event.site))?;
-        Some(Change { site: event.site, values: vec![event.values.clone()] })
+        Some(ValueChange { site: event.site, values: vec![event.values.clone()] })
     }
 }

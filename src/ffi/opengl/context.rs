@@ -22,7 +22,7 @@ pub enum Version {
 }
 
 /// A context that is current in the thread that made it, and cannot leave it.
-pub struct Context {
+pub struct OpenglContext {
     egl: &'static Egl,
     display: egl::Display,
     context: egl::Context,
@@ -30,7 +30,7 @@ pub struct Context {
     thread: PhantomData<*const ()>,
 }
 
-impl Drop for Context {
+impl Drop for OpenglContext {
     fn drop(&mut self) {
         // A context that cannot be released is lost with the process; there is nobody to tell.
         let _ = self.egl.make_current(self.display, None, None, None);
@@ -38,7 +38,7 @@ impl Drop for Context {
     }
 }
 
-impl Context {
+impl OpenglContext {
     /// The functions of OpenGL.
     pub fn gl(&self) -> &glow::Context {
         &self.gl

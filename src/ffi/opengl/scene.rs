@@ -7,7 +7,7 @@ use reference::scene::{Cull, DepthTest};
 
 /// A scalar, vector or matrix: what its components are, and how many there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ValueKind {
     /// Floats.
     Float(u8),
     /// Signed integers.
@@ -21,15 +21,15 @@ pub enum Kind {
 }
 
 /// A uniform by path, column after column.
-pub type UniformValue = (String, Kind, Vec<f64>);
+pub type UniformValue = (String, ValueKind, Vec<f64>);
 
 /// One draw.
 #[derive(Clone, Debug, Default)]
-pub struct Draw {
+pub struct OpenglDraw {
     /// What its uniforms are.
     pub uniforms: Vec<UniformValue>,
     /// By name: the type, and number after number.
-    pub attributes: Vec<(String, Kind, Vec<f64>)>,
+    pub attributes: Vec<(String, ValueKind, Vec<f64>)>,
     /// The vertices of each triangle; without any, three consecutive vertices are one.
     pub triangles: Vec<[u32; 3]>,
     /// Which pixels are drawn over others; all without it.
@@ -63,7 +63,7 @@ impl Driver {
     pub fn scene(
         &self,
         [vertex, fragment]: [&str; 2],
-        draws: &[Draw],
+        draws: &[OpenglDraw],
         textures: &[(&str, &Texture)],
         window: Window,
         outputs: u32,
@@ -122,7 +122,7 @@ impl Driver {
         Ok(pictures)
     }
 
-    fn draw_scene(&self, program: LinkedProgram, draw: &Draw) {
+    fn draw_scene(&self, program: LinkedProgram, draw: &OpenglDraw) {
         let gl = self.gl();
         let count = draw.attributes.first().map_or(0, |(_, kind, numbers)| numbers.len() / components(*kind));
         let given = !draw.triangles.is_empty();
@@ -143,8 +143,8 @@ impl Driver {
                 gl.enable_vertex_attrib_array(location);
                 let size = i32::try_from(components(*kind)).expect("a size");
                 match kind {
-                    Kind::Int(_) => gl.vertex_attrib_pointer_i32(location, size, glow::INT, 0, 0),
-                    Kind::Uint(_) => gl.vertex_attrib_pointer_i32(location, size, glow::UNSIGNED_INT, 0, 0),
+                    ValueKind::Int(_) => gl.vertex_attrib_pointer_i32(location, size, glow::INT, 0, 0),
+                    ValueKind::Uint(_) => gl.vertex_attrib_pointer_i32(location, size, glow::UNSIGNED_INT, 0, 0),
                     _ => gl.vertex_attrib_pointer_f32(location, size, glow::FLOAT, false, 0, 0),
                 }
             }
@@ -191,7 +191,7 @@ impl Driver {
                 blocks.resize_with(blocks.len().max(block + 1), Vec::new);
                 blocks[block].resize(usize::try_from(size).expect("a size"), 0);
                 let (rows, stride) = match kind {
-                    Kind::Matrix(_, rows) => (usize::from(*rows), usize::try_from(stride).expect("a stride")),
+                    ValueKind::Matrix(_, rows) => (usize::from(*rows), usize::try_from(stride).expect("a stride")),
                     _ => (numbers.len(), 0),
                 };
                 for (column, numbers) in numbers.chunks(rows).enumerate() {
@@ -215,7 +215,7 @@ impl Driver {
         }
     }
 
-    fn set_value(&self, location: &glow::UniformLocation, kind: Kind, numbers: &[f64]) {
+    fn set_value(&self, location: &glow::UniformLocation, kind: ValueKind, numbers: &[f64]) {
         let gl = self.gl();
         let at = Some(location);
         let floats: Vec<f32> = numbers.iter().map(|number| *number as f32).collect();
@@ -224,43 +224,43 @@ impl Driver {
         // SAFETY: see `scene`. Each slice has the numbers of one value.
         unsafe {
             match kind {
-                Kind::Float(1) => gl.uniform_1_f32_slice(at, &floats),
-                Kind::Float(2) => gl.uniform_2_f32_slice(at, &floats),
-                Kind::Float(3) => gl.uniform_3_f32_slice(at, &floats),
-                Kind::Float(_) => gl.uniform_4_f32_slice(at, &floats),
-                Kind::Int(1) | Kind::Bool(1) => gl.uniform_1_i32_slice(at, &ints),
-                Kind::Int(2) | Kind::Bool(2) => gl.uniform_2_i32_slice(at, &ints),
-                Kind::Int(3) | Kind::Bool(3) => gl.uniform_3_i32_slice(at, &ints),
-                Kind::Int(_) | Kind::Bool(_) => gl.uniform_4_i32_slice(at, &ints),
-                Kind::Uint(1) => gl.uniform_1_u32_slice(at, &uints),
-                Kind::Uint(2) => gl.uniform_2_u32_slice(at, &uints),
-                Kind::Uint(3) => gl.uniform_3_u32_slice(at, &uints),
-                Kind::Uint(_) => gl.uniform_4_u32_slice(at, &uints),
-                Kind::Matrix(2, 2) => gl.uniform_matrix_2_f32_slice(at, false, &floats),
-                Kind::Matrix(3, 3) => gl.uniform_matrix_3_f32_slice(at, false, &floats),
-                Kind::Matrix(4, 4) => gl.uniform_matrix_4_f32_slice(at, false, &floats),
-                Kind::Matrix(2, 3) => gl.uniform_matrix_2x3_f32_slice(at, false, &floats),
-                Kind::Matrix(2, _) => gl.uniform_matrix_2x4_f32_slice(at, false, &floats),
-                Kind::Matrix(3, 2) => gl.uniform_matrix_3x2_f32_slice(at, false, &floats),
-                Kind::Matrix(3, _) => gl.uniform_matrix_3x4_f32_slice(at, false, &floats),
-                Kind::Matrix(_, 2) => gl.uniform_matrix_4x2_f32_slice(at, false, &floats),
-                Kind::Matrix(..) => gl.uniform_matrix_4x3_f32_slice(at, false, &floats),
+                ValueKind::Float(1) => gl.uniform_1_f32_slice(at, &floats),
+                ValueKind::Float(2) => gl.uniform_2_f32_slice(at, &floats),
+                ValueKind::Float(3) => gl.uniform_3_f32_slice(at, &floats),
+                ValueKind::Float(_) => gl.uniform_4_f32_slice(at, &floats),
+                ValueKind::Int(1) | ValueKind::Bool(1) => gl.uniform_1_i32_slice(at, &ints),
+                ValueKind::Int(2) | ValueKind::Bool(2) => gl.uniform_2_i32_slice(at, &ints),
+                ValueKind::Int(3) | ValueKind::Bool(3) => gl.uniform_3_i32_slice(at, &ints),
+                ValueKind::Int(_) | ValueKind::Bool(_) => gl.uniform_4_i32_slice(at, &ints),
+                ValueKind::Uint(1) => gl.uniform_1_u32_slice(at, &uints),
+                ValueKind::Uint(2) => gl.uniform_2_u32_slice(at, &uints),
+                ValueKind::Uint(3) => gl.uniform_3_u32_slice(at, &uints),
+                ValueKind::Uint(_) => gl.uniform_4_u32_slice(at, &uints),
+                ValueKind::Matrix(2, 2) => gl.uniform_matrix_2_f32_slice(at, false, &floats),
+                ValueKind::Matrix(3, 3) => gl.uniform_matrix_3_f32_slice(at, false, &floats),
+                ValueKind::Matrix(4, 4) => gl.uniform_matrix_4_f32_slice(at, false, &floats),
+                ValueKind::Matrix(2, 3) => gl.uniform_matrix_2x3_f32_slice(at, false, &floats),
+                ValueKind::Matrix(2, _) => gl.uniform_matrix_2x4_f32_slice(at, false, &floats),
+                ValueKind::Matrix(3, 2) => gl.uniform_matrix_3x2_f32_slice(at, false, &floats),
+                ValueKind::Matrix(3, _) => gl.uniform_matrix_3x4_f32_slice(at, false, &floats),
+                ValueKind::Matrix(_, 2) => gl.uniform_matrix_4x2_f32_slice(at, false, &floats),
+                ValueKind::Matrix(..) => gl.uniform_matrix_4x3_f32_slice(at, false, &floats),
             }
         }
     }
 }
 
-fn components(kind: Kind) -> usize {
+fn components(kind: ValueKind) -> usize {
     match kind {
-        Kind::Float(size) | Kind::Int(size) | Kind::Uint(size) | Kind::Bool(size) => size.into(),
-        Kind::Matrix(columns, rows) => usize::from(columns) * usize::from(rows),
+        ValueKind::Float(size) | ValueKind::Int(size) | ValueKind::Uint(size) | ValueKind::Bool(size) => size.into(),
+        ValueKind::Matrix(columns, rows) => usize::from(columns) * usize::from(rows),
     }
 }
 
-fn bytes(kind: Kind, numbers: &[f64]) -> Vec<u8> {
+fn bytes(kind: ValueKind, numbers: &[f64]) -> Vec<u8> {
     let word = |number: &f64| match kind {
-        Kind::Int(_) => (*number as i32).to_ne_bytes(),
-        Kind::Uint(_) | Kind::Bool(_) => (*number as u32).to_ne_bytes(),
+        ValueKind::Int(_) => (*number as i32).to_ne_bytes(),
+        ValueKind::Uint(_) | ValueKind::Bool(_) => (*number as u32).to_ne_bytes(),
         _ => (*number as f32).to_ne_bytes(),
     };
     numbers.iter().flat_map(word).collect()

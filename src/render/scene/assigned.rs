@@ -1,6 +1,6 @@
 //! The scene of an assignment: its frames, and what is run for its probes.
 
-use super::{Batch, DrawState, Scene};
+use super::{DrawCall, DrawState, RenderScene};
 use reference::assignment::{Input, Stage};
 use reference::interpreter::Type;
 use reference::probes::{ProbeSet, Spot};
@@ -8,14 +8,14 @@ use reference::scene::{Draw, Instance, Pose, Vertex};
 use reference::{Assignment, Value, Values};
 use std::sync::Arc;
 
-impl Scene {
+impl RenderScene {
     /// What is drawn for a submission: the course's animation and the probes, set after set.
     pub fn of(assignment: &Assignment, probes: &[&ProbeSet]) -> Self {
         let scene = &assignment.scene;
         let draw = |instance: Instance<'_>| {
             let Draw { mesh, depth_test, cull, .. } = instance.draw;
-            let batch = Batch::of(assignment, &assignment.uniform_values(&instance.moment), &mesh.vertices);
-            Batch {
+            let batch = DrawCall::of(assignment, &assignment.uniform_values(&instance.moment), &mesh.vertices);
+            DrawCall {
                 triangles: mesh.triangles.clone(),
                 state: DrawState { depth_test: *depth_test, cull: *cull },
                 ..batch
@@ -31,8 +31,8 @@ impl Scene {
 }
 
 /// What is run for probes, and no frames.
-fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> Scene {
-    let mut scene = Scene::default();
+fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> RenderScene {
+    let mut scene = RenderScene::default();
     let feeds_fragments = assignment.hands_in(Stage::Vertex);
     for (set, place) in sets.iter().flat_map(|set| (0..set.groups.len()).map(move |place| (set, place))) {
         let own = set.of_group(place);
@@ -40,13 +40,13 @@ fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> Scene {
         let spots: Vec<&Spot> = own.iter().filter_map(|probe| probe.spot.as_deref()).collect();
         if spots.is_empty() {
             let vertices: Vec<Vertex> = own.iter().map(|probe| probe.vertex).collect();
-            scene.probes.push(Batch::of(assignment, uniforms, &vertices));
+            scene.probes.push(DrawCall::of(assignment, uniforms, &vertices));
             continue;
         }
-        let mut pixels = Batch { attributes: places(&spots), ..Batch::of(assignment, uniforms, &[]) };
+        let mut pixels = DrawCall { attributes: places(&spots), ..DrawCall::of(assignment, uniforms, &[]) };
         if feeds_fragments {
             let corners: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
-            scene.probes.push(Batch::of(assignment, uniforms, &corners));
+            scene.probes.push(DrawCall::of(assignment, uniforms, &corners));
             scene.shares.push(spots.iter().map(|spot| weights_around(spot)).collect());
         } else {
             pixels.attributes.extend(varyings(&spots, &|spot| &spot.varyings));
@@ -90,7 +90,7 @@ fn varyings(spots: &[&Spot], of: &dyn Fn(&Spot) -> &[(String, Value)]) -> Vec<(S
     columns
 }
 
-impl Batch {
+impl DrawCall {
     /// One draw with the program's own names; `uniforms` stand in the interface's order.
     pub fn of(assignment: &Assignment, uniforms: &[Value], vertices: &[Vertex]) -> Self {
         let interface = &assignment.interface;
@@ -105,6 +105,6 @@ impl Batch {
             let numbers = values.flat_map(|value| value.numbers().to_vec()).collect();
             (input.name.clone(), Values { kind: input.kind.clone(), numbers })
         };
-        Self { uniforms, attributes: interface.inputs.iter().map(attribute).collect(), ..Batch::default() }
+        Self { uniforms, attributes: interface.inputs.iter().map(attribute).collect(), ..DrawCall::default() }
     }
 }

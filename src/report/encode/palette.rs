@@ -56,13 +56,13 @@ impl Palette {
 
 /// Colours that are told apart from others, and how many pixels have them.
 #[derive(Clone, Copy, Debug, Default)]
-struct Cell {
+struct ColourBucket {
     bucket: usize,
     sums: [u64; 3],
     pixels: u64,
 }
 
-impl Cell {
+impl ColourBucket {
     fn mean(&self) -> Rgb {
         self.sums.map(|sum| u8::try_from((sum + self.pixels / 2) / self.pixels.max(1)).unwrap_or(u8::MAX))
     }
@@ -78,7 +78,7 @@ struct Group {
 }
 
 impl Group {
-    fn of(all: &[Cell], cells: Range<usize>) -> Self {
+    fn of(all: &[ColourBucket], cells: Range<usize>) -> Self {
         let extent = |channel: usize| {
             let values = all[cells.clone()].iter().map(|cell| cell.mean()[channel]);
             values.clone().max().unwrap_or(0) - values.min().unwrap_or(0)
@@ -94,7 +94,7 @@ impl Group {
 /// At most 256 colours that stand for those of the pixels, and the place among them for each pixel: of a group of colours that is
 /// divided at the middle again and again, the mean.
 pub(super) fn reduced(pixels: &[Rgb]) -> (Vec<Rgb>, Vec<u8>) {
-    let mut table = vec![Cell::default(); 1 << (3 * BITS)];
+    let mut table = vec![ColourBucket::default(); 1 << (3 * BITS)];
     // Most pixels are what their neighbour is.
     for run in pixels.chunk_by(|a, b| a == b) {
         let cell = &mut table[bucket(run[0])];
@@ -102,7 +102,7 @@ pub(super) fn reduced(pixels: &[Rgb]) -> (Vec<Rgb>, Vec<u8>) {
         cell.sums.iter_mut().zip(run[0]).for_each(|(sum, level)| *sum += run.len() as u64 * u64::from(level));
     }
     let found = table.iter().enumerate().filter(|(_, cell)| cell.pixels > 0);
-    let mut cells: Vec<Cell> = found.map(|(bucket, cell)| Cell { bucket, ..*cell }).collect();
+    let mut cells: Vec<ColourBucket> = found.map(|(bucket, cell)| ColourBucket { bucket, ..*cell }).collect();
     let mut groups = vec![Group::of(&cells, 0..cells.len())];
     while groups.len() < MOST {
         let widest = groups.iter().enumerate().max_by(|(_, a), (_, b)| a.gain.total_cmp(&b.gain));
@@ -110,7 +110,7 @@ pub(super) fn reduced(pixels: &[Rgb]) -> (Vec<Rgb>, Vec<u8>) {
             break;
         };
         let (range, channel) = (range.clone(), *channel);
-        let level = |cell: &Cell| cell.mean()[channel];
+        let level = |cell: &ColourBucket| cell.mean()[channel];
         let group = &mut cells[range.clone()];
         group.sort_unstable_by_key(level);
         let middle = u16::from(level(&group[0])).midpoint(u16::from(level(&group[group.len() - 1])));
@@ -121,7 +121,7 @@ pub(super) fn reduced(pixels: &[Rgb]) -> (Vec<Rgb>, Vec<u8>) {
     let mut places = vec![0; table.len()];
     let mut colours = Vec::with_capacity(groups.len());
     for (place, group) in (0..=u8::MAX).zip(&groups) {
-        let mut all = Cell::default();
+        let mut all = ColourBucket::default();
         for cell in &cells[group.cells.clone()] {
             places[cell.bucket] = place;
             all.pixels += cell.pixels;

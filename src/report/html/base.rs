@@ -2,10 +2,10 @@
 //! answer draws nearly every pixel as it is expected.
 
 use super::cache::PictureCache;
-use super::sheet::Grid;
+use super::sheet::SheetGrid;
 use super::shots::Shots;
 use crate::fault::Fault;
-use crate::report::difference::Ramp;
+use crate::report::difference::ColourRamp;
 use crate::report::encode::{Canvas, mismatched};
 use crate::report::{Area, Picture};
 use std::sync::Arc;
@@ -14,16 +14,16 @@ use std::sync::Arc;
 const STRIDE: usize = 16;
 
 /// What is expected, as the two sheets of a submission that draws just that.
-pub(super) struct Base {
-    grid: Grid,
+pub(super) struct ExpectedSheets {
+    grid: SheetGrid,
     yours: Canvas,
     difference: Canvas,
 }
 
-impl Base {
+impl ExpectedSheets {
     /// The base for these pictures.
-    pub fn of(expected: &Arc<[Picture]>, grid: Grid) -> Result<Arc<Self>, Fault> {
-        static MADE: PictureCache<[Picture], Arc<Base>> = PictureCache::new();
+    pub fn of(expected: &Arc<[Picture]>, grid: SheetGrid) -> Result<Arc<Self>, Fault> {
+        static MADE: PictureCache<[Picture], Arc<ExpectedSheets>> = PictureCache::new();
         MADE.get(expected, 0, || {
             let shots = Shots::of(expected).ok_or_else(mismatched)?;
             let (yours, difference) = (shots.sheet(grid, 1), shots.difference(&shots, grid, 1));
@@ -34,7 +34,7 @@ impl Base {
     /// The sheet of `yours`, and that of where it differs from `expected`, which the base is made of; none where what is drawn has
     /// more colours than a palette. All pictures have one size.
     pub fn sheets(&self, yours: &[Picture], expected: &[Picture]) -> Option<[Canvas; 2]> {
-        let ramp = Ramp::new();
+        let ramp = ColourRamp::new();
         let (mut drawn, mut difference) = (self.yours.clone(), self.difference.clone());
         let mut buffers = [Vec::new(), Vec::new()];
         for (pose, (yours, expected)) in yours.iter().zip(expected).enumerate() {
@@ -88,8 +88,8 @@ mod tests {
         yours[3].rgba[..4].copy_from_slice(&[1, 2, 3, 255]);
         yours[4].rgba[4 * (20 * width + 40)..][..4].copy_from_slice(&[255, 255, 255, 0]);
         yours[5].rgba[7] = 9;
-        let grid = Grid::of(pictures.expected.len());
-        let base = Base::of(&pictures.expected, grid).expect("a base");
+        let grid = SheetGrid::of(pictures.expected.len());
+        let base = ExpectedSheets::of(&pictures.expected, grid).expect("a base");
         let [drawn, difference] = base.sheets(&pictures.yours, &pictures.expected).expect("few colours");
         let (yours, right) = (Shots::of(&pictures.yours).unwrap(), Shots::of(&pictures.expected).unwrap());
         assert_eq!(pixels(&drawn), pixels(&yours.sheet(grid, 1)));
@@ -101,7 +101,9 @@ mod tests {
         let mut pictures = samples::pictures();
         let noise = Arc::make_mut(&mut pictures.yours)[0].rgba.chunks_exact_mut(4).enumerate();
         noise.for_each(|(i, pixel)| pixel.copy_from_slice(&(i as u32 | 0xff00_0000).to_le_bytes()));
-        let grid = Grid::of(pictures.expected.len());
-        assert!(Base::of(&pictures.expected, grid).unwrap().sheets(&pictures.yours, &pictures.expected).is_none());
+        let grid = SheetGrid::of(pictures.expected.len());
+        assert!(
+            ExpectedSheets::of(&pictures.expected, grid).unwrap().sheets(&pictures.yours, &pictures.expected).is_none()
+        );
     }
 }

@@ -1,17 +1,17 @@
 //! What a report shows, part by part, as the templates need it.
 
-use super::listing::{self, Listing};
+use super::listing::{self, FileListing};
 use super::map::MapView;
 use super::player::{self, FrameView, Player, Swatch, TermView};
-use super::rich::{Piece, pieces};
+use super::rich::{MessagePiece, pieces};
 use super::values::ValuesView;
-use super::{Lines, Part};
+use super::{LineLinks, ReportFragment};
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::language::Language;
 use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
-use crate::report::{Advice, Hints, Report, RubricLine, Verdict};
+use crate::report::{AdviceLine, Hints, Report, RubricLine, Verdict};
 use askama::Template;
 use reference::Assignment;
 use reference::typeset::{SumPart, SymbolMeaning, Typeset};
@@ -72,7 +72,7 @@ impl Mark {
 }
 
 /// One line of the rubric.
-struct Rubric {
+struct HtmlRubricLine {
     id: String,
     mark: Mark,
     label: String,
@@ -80,12 +80,12 @@ struct Rubric {
     max_points: String,
     /// Title and id.
     mistake: Option<(String, String)>,
-    message: Vec<Piece>,
+    message: Vec<MessagePiece>,
     anchor: Option<String>,
     place: String,
 }
 
-impl Rubric {
+impl HtmlRubricLine {
     fn of(assignment: &Assignment, report: &Report, line: &RubricLine, language: Language) -> Self {
         let labels = Labels::of(language);
         let shown = line.mistake.as_ref().filter(|_| report.hints > Hints::None);
@@ -104,7 +104,7 @@ impl Rubric {
     }
 }
 
-/// The id of a line in the listings below, see [`super::Lines`].
+/// The id of a line in the listings below, see [`super::LineLinks`].
 fn anchor(report: &Report, file: Option<&str>, line: Option<u32>) -> Option<String> {
     let index = file.and_then(|file| report.sources.iter().position(|source| source.name == file));
     Some(listing::anchor(index.unwrap_or(0), line?))
@@ -116,14 +116,14 @@ fn place(report: &Report, labels: &Labels, file: Option<&str>, line: Option<u32>
 }
 
 /// What would break elsewhere.
-struct Remark {
-    text: Vec<Piece>,
+struct HtmlAdvice {
+    text: Vec<MessagePiece>,
     anchor: Option<String>,
     place: String,
 }
 
-impl Remark {
-    fn of(report: &Report, advice: &Advice, labels: &Labels, language: Language) -> Self {
+impl HtmlAdvice {
+    fn of(report: &Report, advice: &AdviceLine, labels: &Labels, language: Language) -> Self {
         Self {
             text: pieces(advice.message.get(language)),
             anchor: anchor(report, Some(&advice.file), advice.line),
@@ -133,7 +133,7 @@ impl Remark {
 }
 
 /// One diagnostic.
-pub(super) struct Message {
+pub(super) struct HtmlMessage {
     pub kind: &'static str,
     pub severity: &'static str,
     stage: &'static str,
@@ -141,11 +141,11 @@ pub(super) struct Message {
     pub line: Option<u32>,
     anchor: Option<String>,
     place: String,
-    pub text: Vec<Piece>,
-    hint: Option<Vec<Piece>>,
+    pub text: Vec<MessagePiece>,
+    hint: Option<Vec<MessagePiece>>,
 }
 
-impl Message {
+impl HtmlMessage {
     fn of(report: &Report, diagnostic: &Diagnostic, labels: &Labels, language: Language) -> Self {
         let file = report.file_to_name(diagnostic.file.as_deref());
         let place = diagnostic.line.map(|line| labels.place(file, line, diagnostic.column));
@@ -206,7 +206,7 @@ struct EquationTerm<'a> {
 }
 
 impl<'a> EquationView<'a> {
-    fn of(equation: &'a Typeset, rubric: &[Rubric], language: Language) -> Self {
+    fn of(equation: &'a Typeset, rubric: &[HtmlRubricLine], language: Language) -> Self {
         let terms = equation.terms.iter().filter_map(|term| {
             let line = rubric.iter().find(|line| line.id == term.line)?;
             Some(EquationTerm {
@@ -229,14 +229,14 @@ impl<'a> EquationView<'a> {
 }
 
 /// A stretch of the bar of points: one line of the rubric, in thousandths of the bar.
-struct Stretch {
+struct BarStretch {
     x: f64,
     width: f64,
     earned: f64,
 }
 
 /// The lines of the rubric side by side, each as long as its points, with gaps between.
-fn bar(report: &Report) -> Vec<Stretch> {
+fn bar(report: &Report) -> Vec<BarStretch> {
     const GAP: f64 = 3.0;
     let total: f64 = report.rubric.iter().map(|line| line.max_points).sum();
     let room = 1000.0 - GAP * (report.rubric.len().saturating_sub(1)) as f64;
@@ -244,7 +244,7 @@ fn bar(report: &Report) -> Vec<Stretch> {
     let stretch = |line: &RubricLine| {
         let width = if total > 0.0 { room * line.max_points / total } else { 0.0 };
         let share = if line.max_points > 0.0 { (line.points / line.max_points).clamp(0.0, 1.0) } else { 1.0 };
-        let stretch = Stretch { x, width, earned: width * share };
+        let stretch = BarStretch { x, width, earned: width * share };
         x += width + GAP;
         stretch
     };
@@ -254,7 +254,7 @@ fn bar(report: &Report) -> Vec<Stretch> {
 /// The report as its template shows it.
 #[derive(Template)]
 #[template(path = "report/html/templates/body.html")]
-pub(super) struct Body<'a> {
+pub(super) struct ReportBody<'a> {
     pub labels: &'static Labels,
     pub report: &'a Report,
     pub score: String,
@@ -269,10 +269,10 @@ pub(super) struct Body<'a> {
     /// Whether the rubric is shown: what could not be drawn has one where somebody gave points.
     has_rubric: bool,
     next: Option<String>,
-    bar: Vec<Stretch>,
-    rubric: Vec<Rubric>,
-    advice: Vec<Remark>,
-    messages: Vec<Message>,
+    bar: Vec<BarStretch>,
+    rubric: Vec<HtmlRubricLine>,
+    advice: Vec<HtmlAdvice>,
+    messages: Vec<HtmlMessage>,
     player: Option<Player<'a>>,
     frames: Vec<FrameView>,
     frames_agree: String,
@@ -284,29 +284,29 @@ pub(super) struct Body<'a> {
     terms: Vec<TermView<'a>>,
     map: Option<MapView>,
     values: Option<ValuesView>,
-    listings: Vec<Listing>,
+    listings: Vec<FileListing>,
     has_lines: bool,
     has_footer: bool,
     elapsed: String,
 }
 
-impl<'a> Body<'a> {
-    pub fn of(part: &Part<'a>) -> Self {
-        let Part { report, language, .. } = *part;
+impl<'a> ReportBody<'a> {
+    pub fn of(part: &ReportFragment<'a>) -> Self {
+        let ReportFragment { report, language, .. } = *part;
         let typeset = part.assignment.typeset.as_ref();
         let labels = Labels::of(language);
         let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
         let gallery = part.gallery.filter(|_| is_drawn);
-        let rubric: Vec<Rubric> =
-            report.rubric.iter().map(|line| Rubric::of(part.assignment, report, line, language)).collect();
-        let messages = report.diagnostics.iter().map(|d| Message::of(report, d, labels, language));
-        let messages: Vec<Message> = messages.collect();
+        let rubric: Vec<HtmlRubricLine> =
+            report.rubric.iter().map(|line| HtmlRubricLine::of(part.assignment, report, line, language)).collect();
+        let messages = report.diagnostics.iter().map(|d| HtmlMessage::of(report, d, labels, language));
+        let messages: Vec<HtmlMessage> = messages.collect();
         let agree = report.frames.iter().filter(|frame| frame.agrees()).count();
         let probes = &report.probes;
         let (agreeing, legend) = player::legend();
         let listings = match part.source {
-            Lines::Here(sources) => listing::listings(sources, report, &messages, language),
-            Lines::Elsewhere | Lines::Nowhere => Vec::new(),
+            LineLinks::Here(sources) => listing::listings(sources, report, &messages, language),
+            LineLinks::Elsewhere | LineLinks::Nowhere => Vec::new(),
         };
         Self {
             labels,
@@ -338,11 +338,11 @@ impl<'a> Body<'a> {
                 .cross_check
                 .as_ref()
                 .map(|checked| SecondOpinion::of(report, checked, labels, language)),
-            has_lines: !listings.is_empty() || part.source == Lines::Elsewhere,
+            has_lines: !listings.is_empty() || part.source == LineLinks::Elsewhere,
             has_footer: part.has_footer,
             listings,
             rubric,
-            advice: report.advice.iter().map(|advice| Remark::of(report, advice, labels, language)).collect(),
+            advice: report.advice.iter().map(|advice| HtmlAdvice::of(report, advice, labels, language)).collect(),
             messages,
             elapsed: format!("{:.0} ms", report.elapsed_ms),
         }

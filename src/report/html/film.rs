@@ -1,8 +1,8 @@
 //! The moving pictures as files: each a sheet of all poses, and the style that moves it.
 
-use super::base::Base;
+use super::base::ExpectedSheets;
 use super::cache::PictureCache;
-use super::sheet::{FilmStep, Grid};
+use super::sheet::{FilmStep, SheetGrid};
 use super::shots::Shots;
 use crate::fault::Fault;
 use crate::report::encode::{Raster, encode_small, mismatched};
@@ -70,7 +70,7 @@ impl Film {
             FilmUse::Served => 1,
         };
         if finest == 1
-            && let Some([yours, difference]) = Base::of(expected, motion.grid)?.sheets(yours, expected)
+            && let Some([yours, difference]) = ExpectedSheets::of(expected, motion.grid)?.sheets(yours, expected)
         {
             let film = made(yours.encode()?, difference.encode()?, 1);
             if film.fits(expected, shown)? {
@@ -102,16 +102,16 @@ impl Film {
     }
 
     /// Where a page that holds all pictures itself finds them. `still`: the PNG of a single frame.
-    pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<Gallery, Fault> {
-        static TERMS: PictureCache<[TermPictures], Arc<[Term]>> = PictureCache::new();
+    pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<PictureAddresses, Fault> {
+        static TERMS: PictureCache<[TermPictures], Arc<[TermFilm]>> = PictureCache::new();
         let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode_small(&Raster::opaque(picture)?)?));
         let term = |term: &TermPictures| {
             let expected = address(&term.expected)?;
             let own = |yours: &Picture| if *yours == term.expected { Ok(expected.clone()) } else { address(yours) };
             let yours = term.yours.as_ref().map(own).transpose()?;
-            Ok(Term { id: term.id.clone(), t: term.t, yours, expected })
+            Ok(TermFilm { id: term.id.clone(), t: term.t, yours, expected })
         };
-        Ok(Gallery {
+        Ok(PictureAddresses {
             yours: inline(&self.yours),
             expected: expected_address(&pictures.expected, self.factor)?,
             difference: inline(&self.difference),
@@ -130,7 +130,7 @@ pub fn expected_sheet(expected: &[Picture]) -> Result<Vec<u8>, Fault> {
 fn reduced_sheet(expected: &[Picture], factor: usize) -> Result<Vec<u8>, Fault> {
     fit(expected, expected)?;
     let shots = Shots::of(expected).ok_or_else(mismatched)?;
-    shots.sheet(Grid::of(expected.len()), factor).encode()
+    shots.sheet(SheetGrid::of(expected.len()), factor).encode()
 }
 
 /// It inside a page.
@@ -155,7 +155,7 @@ fn inline(png: &[u8]) -> String {
 
 /// Addresses of the pictures that a report shows.
 #[derive(Clone, Debug, Default)]
-pub struct Gallery {
+pub struct PictureAddresses {
     /// The sheet of what the student's shader draws.
     pub yours: String,
     /// The sheet of what a right answer draws.
@@ -167,12 +167,12 @@ pub struct Gallery {
     /// The frame of a single moment, where it is a picture of its own; else it is cut out of the sheet.
     pub still: Option<String>,
     /// Single terms of the equation.
-    pub terms: Arc<[Term]>,
+    pub terms: Arc<[TermFilm]>,
 }
 
 /// Addresses of the pictures of one term of the equation.
 #[derive(Clone, Debug)]
-pub struct Term {
+pub struct TermFilm {
     /// Id of the rubric line that judges it.
     pub id: String,
     /// Fraction of the animation cycle, in [0, 1).
@@ -189,7 +189,7 @@ const HELD: f64 = 3.0;
 /// How a sheet moves so that one pose after the other is seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
-    grid: Grid,
+    grid: SheetGrid,
     width: usize,
     height: usize,
     opening: Option<usize>,
@@ -198,7 +198,7 @@ pub struct Motion {
 impl Motion {
     /// The motion of `poses` pictures, at least one, of a size.
     pub fn of(poses: usize, width: usize, height: usize) -> Self {
-        Self { grid: Grid::of(poses), width, height, opening: None }
+        Self { grid: SheetGrid::of(poses), width, height, opening: None }
     }
 
     /// The same for a page with a goal picture, which opens with this pose.

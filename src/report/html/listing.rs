@@ -1,14 +1,14 @@
 //! The student's files with what there is to say about its lines.
 
-use super::body::Message;
-use super::rich::{Piece, pieces};
+use super::body::HtmlMessage;
+use super::rich::{MessagePiece, pieces};
 use crate::language::Language;
 use crate::report::Report;
 use crate::report::labels::Labels;
 use crate::source::Source;
 
 /// One file.
-pub(super) struct Listing {
+pub(super) struct FileListing {
     pub name: String,
     pub lines: Vec<ListedLine>,
 }
@@ -33,13 +33,18 @@ pub(super) struct Span {
 pub(super) struct Note {
     pub kind: &'static str,
     pub heading: String,
-    pub text: Vec<Piece>,
+    pub text: Vec<MessagePiece>,
     /// Id of the rubric line that says it, where it is not said here.
     pub target: Option<String>,
 }
 
 /// The files in lines, each line with the rubric lines and the messages that point at it.
-pub(super) fn listings(sources: &[Source], report: &Report, messages: &[Message], language: Language) -> Vec<Listing> {
+pub(super) fn listings(
+    sources: &[Source],
+    report: &Report,
+    messages: &[HtmlMessage],
+    language: Language,
+) -> Vec<FileListing> {
     let listing = |source: &Source| {
         let name = source.facts.name.as_str();
         let file = ListedFile { name, is_only: report.sources.len() <= 1 };
@@ -51,7 +56,7 @@ pub(super) fn listings(sources: &[Source], report: &Report, messages: &[Message]
             spans: spans(text, &marks(&file, report, number), &mut in_comment),
             notes: notes(&file, number, report, messages, language),
         };
-        Listing { name: name.to_owned(), lines: (1..).zip(source.text.lines()).map(line).collect() }
+        FileListing { name: name.to_owned(), lines: (1..).zip(source.text.lines()).map(line).collect() }
     };
     sources.iter().map(listing).collect()
 }
@@ -74,7 +79,7 @@ impl ListedFile<'_> {
     }
 }
 
-fn notes(file: &ListedFile, number: u32, report: &Report, messages: &[Message], language: Language) -> Vec<Note> {
+fn notes(file: &ListedFile, number: u32, report: &Report, messages: &[HtmlMessage], language: Language) -> Vec<Note> {
     let messages = messages.iter().filter(|message| message.line == Some(number) && file.has(message.file.as_deref()));
     let mut notes: Vec<Note> = messages
         .map(|message| Note {

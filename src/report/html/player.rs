@@ -1,6 +1,6 @@
 //! The moving pictures, their strip and their numbers.
 
-use super::film::{Gallery, Term};
+use super::film::{PictureAddresses, TermFilm};
 use crate::language::Language;
 use crate::report::difference::{BANDS, agreeing, band_of};
 use crate::report::labels::Labels;
@@ -25,7 +25,7 @@ pub(super) struct Panel<'a> {
 
 impl<'a> Player<'a> {
     /// None when nothing was drawn.
-    pub fn of(gallery: &'a Gallery, frames: &[FrameResult], labels: &'static Labels) -> Option<Self> {
+    pub fn of(gallery: &'a PictureAddresses, frames: &[FrameResult], labels: &'static Labels) -> Option<Self> {
         let panel = |id, label, address| Panel { id, label, address };
         Some(Self {
             last: frames.len().checked_sub(1)?,
@@ -107,8 +107,8 @@ pub(super) struct TermView<'a> {
 }
 
 /// The terms that have pictures, under the names of their rubric lines.
-pub(super) fn terms<'a>(gallery: &'a Gallery, report: &'a Report, language: Language) -> Vec<TermView<'a>> {
-    let view = |term: &'a Term| {
+pub(super) fn terms<'a>(gallery: &'a PictureAddresses, report: &'a Report, language: Language) -> Vec<TermView<'a>> {
+    let view = |term: &'a TermFilm| {
         let line = report.rubric.iter().find(|line| line.id == term.id);
         TermView {
             label: line.map_or(term.id.as_str(), |line| line.label.get(language)),

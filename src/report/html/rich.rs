@@ -2,21 +2,21 @@
 
 /// A stretch of a message: words, or code between back-quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Piece {
+pub(crate) struct MessagePiece {
     pub text: String,
     pub code: bool,
 }
 
 /// A message in its pieces; a back-quote without a partner is a back-quote.
-pub(crate) fn pieces(text: &str) -> Vec<Piece> {
+pub(crate) fn pieces(text: &str) -> Vec<MessagePiece> {
     let parts: Vec<&str> = text.split('`').collect();
     let lonely = parts.len().is_multiple_of(2);
-    let mut pieces: Vec<Piece> = Vec::new();
+    let mut pieces: Vec<MessagePiece> = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         let text = if lonely && index == parts.len() - 1 { format!("`{part}") } else { (*part).to_owned() };
         let code = index % 2 == 1 && !text.starts_with('`');
         if !text.is_empty() {
-            pieces.push(Piece { text, code });
+            pieces.push(MessagePiece { text, code });
         }
     }
     pieces

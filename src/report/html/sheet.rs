@@ -6,13 +6,13 @@ use std::ops::Range;
 /// How the poses lie in a sheet: row by row, in a grid that is about as wide as it is high, since
 /// browsers limit the side of an image more tightly than its area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Grid {
+pub(super) struct SheetGrid {
     pub count: usize,
     pub columns: usize,
     pub rows: usize,
 }
 
-impl Grid {
+impl SheetGrid {
     /// The grid for `count` poses, at least one.
     pub fn of(count: usize) -> Self {
         let columns = (1..).find(|side| side * side >= count).unwrap_or(1);
@@ -80,13 +80,13 @@ mod tests {
 
     #[test]
     fn the_grid_has_room_for_every_pose() {
-        let grid = |count| (Grid::of(count).columns, Grid::of(count).rows);
+        let grid = |count| (SheetGrid::of(count).columns, SheetGrid::of(count).rows);
         assert_eq!([1, 2, 7, 12, 25, 26].map(grid), [(1, 1), (2, 1), (3, 3), (4, 3), (5, 5), (6, 5)]);
     }
 
     #[test]
     fn every_step_shows_the_cell_that_holds_its_pose() {
-        let grid = Grid::of(7);
+        let grid = SheetGrid::of(7);
         let sheet = grid.sheet((1, 1), 1, [0; 3], |pose, _, row| {
             row[0] = [pose as u8 + 1; 3];
             0..1
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_reduced_picture_keeps_its_corner_and_its_odd_edge() {
-        let half = Grid::of(1).sheet((3, 3), 2, [99; 3], |_, y, row| {
+        let half = SheetGrid::of(1).sheet((3, 3), 2, [99; 3], |_, y, row| {
             (0..3).for_each(|x| row[x] = [(y * 3 + x) as u8; 3]);
             0..3
         });
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn what_is_not_painted_stays_blank_at_every_reduction() {
         for (factor, seen) in [(1, vec![9, 9, 9, 7, 7, 9]), (2, vec![9, 9, 7]), (4, vec![9, 7])] {
-            let row = Grid::of(1).sheet((6, 1), factor, [9; 3], |_, _, row| {
+            let row = SheetGrid::of(1).sheet((6, 1), factor, [9; 3], |_, _, row| {
                 row.fill([7; 3]);
                 3..5
             });
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn a_sheet_of_more_colours_than_a_palette_has_shows_nearly_the_same_ones() {
         let colour = |i: usize| [(i % 256) as u8, (i / 256) as u8, 9];
-        let sheet = Grid::of(2).sheet((200, 1), 1, [0; 3], |pose, _, row| {
+        let sheet = SheetGrid::of(2).sheet((200, 1), 1, [0; 3], |pose, _, row| {
             row.iter_mut().enumerate().for_each(|(x, cell)| *cell = colour(pose * 200 + x));
             0..200
         });

@@ -1,8 +1,8 @@
 //! The pictures of all poses, and where in them anything is painted: the rest of a sheet need not be looked at again.
 
-use super::sheet::Grid;
+use super::sheet::SheetGrid;
 use crate::report::Picture;
-use crate::report::difference::Ramp;
+use crate::report::difference::ColourRamp;
 use crate::report::encode::Canvas;
 use std::ops::Range;
 
@@ -41,7 +41,7 @@ impl<'a> Shots<'a> {
     }
 
     /// They as a sheet.
-    pub fn sheet(&self, grid: Grid, factor: usize) -> Canvas {
+    pub fn sheet(&self, grid: SheetGrid, factor: usize) -> Canvas {
         let [r, g, b, _] = self.blank;
         let mut buffer = Vec::new();
         grid.sheet(self.size, factor, [r, g, b], |pose, y, to| {
@@ -53,8 +53,8 @@ impl<'a> Shots<'a> {
     }
 
     /// A sheet of where they differ from what is expected, which are as many pictures of the same size.
-    pub fn difference(&self, expected: &Self, grid: Grid, factor: usize) -> Canvas {
-        let ramp = Ramp::new();
+    pub fn difference(&self, expected: &Self, grid: SheetGrid, factor: usize) -> Canvas {
+        let ramp = ColourRamp::new();
         let mut buffers = [Vec::new(), Vec::new()];
         grid.sheet(self.size, factor, ramp.pixel(&self.blank, &expected.blank), |pose, y, to| {
             let range = match (self.painted(pose, y), expected.painted(pose, y)) {

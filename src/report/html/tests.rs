@@ -8,7 +8,7 @@ fn page(report: &Report, language: Language) -> String {
     let pictures = samples::pictures();
     let assignment = samples::assignment();
     let sources: Vec<Source> = report.sources.iter().map(|source| samples::source(&source.name)).collect();
-    let page = Page { assignment, report, sources: &sources, pictures: Some(&pictures), language };
+    let page = ReportPage { assignment, report, sources: &sources, pictures: Some(&pictures), language };
     page.render().expect("a page")
 }
 
@@ -145,7 +145,7 @@ fn terms_are_shown_when_there_are_pictures_of_them() {
     let mut pictures = samples::pictures();
     pictures.terms = Arc::new([TermPictures { yours: None, ..pictures.terms[0].clone() }]);
     let report = samples::wrong();
-    let page = Page {
+    let page = ReportPage {
         assignment: samples::assignment(),
         report: &report,
         sources: &[],
@@ -171,7 +171,7 @@ fn noise_is_shown_at_a_lower_resolution_within_the_budget() {
     let pictures =
         Pictures { yours: [noise(), noise()].into(), expected: vec![noise(), noise()].into(), ..Pictures::default() };
     let report = samples::wrong();
-    let page = Page {
+    let page = ReportPage {
         assignment: samples::assignment(),
         report: &report,
         sources: &[],
@@ -232,7 +232,7 @@ fn the_map_is_shown_with_the_places_where_it_is_looked_up() {
             ],
         ),
     ] {
-        let page = Page { assignment, report: &report, sources: &[], pictures: None, language };
+        let page = ReportPage { assignment, report: &report, sources: &[], pictures: None, language };
         let html = page.render().expect("a page");
         let text = visible(&html);
         assert!(said.iter().all(|said| text.contains(said)), "{text}");

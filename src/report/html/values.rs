@@ -1,8 +1,8 @@
 //! What a wrong answer computes line by line, for the place that a reader picks.
 
-use super::Part;
-use super::film::Gallery;
-use super::sheet::Grid;
+use super::ReportFragment;
+use super::film::PictureAddresses;
+use super::sheet::SheetGrid;
 use crate::fault::Fault;
 use crate::language::Language;
 use crate::report::encode::{Raster, encode};
@@ -65,11 +65,11 @@ pub(super) struct LineView {
     pub aside: Option<String>,
     pub is_called: bool,
     pub means: Option<String>,
-    pub cells: Vec<Cell>,
+    pub cells: Vec<ValueCell>,
 }
 
 /// A value at a place, and what it should be.
-pub(super) struct Cell {
+pub(super) struct ValueCell {
     pub value: String,
     pub right: String,
     /// Whether it is not right, and the first one that is not.
@@ -78,8 +78,8 @@ pub(super) struct Cell {
 }
 
 impl ValuesView {
-    pub fn of(part: &Part<'_>, values: &OwnValues, anchor: impl Fn(&ValueLine) -> Option<String>) -> Self {
-        let Part { assignment, report, language, .. } = *part;
+    pub fn of(part: &ReportFragment<'_>, values: &OwnValues, anchor: impl Fn(&ValueLine) -> Option<String>) -> Self {
+        let ReportFragment { assignment, report, language, .. } = *part;
         let labels = Labels::of(language);
         let say = |en: &'static str, ja: &'static str| if language == Language::En { en } else { ja };
         let is_said = |line: &ValueLine| {
@@ -151,13 +151,13 @@ impl Still {
     fn of(
         assignment: &Assignment,
         report: &Report,
-        gallery: &Gallery,
+        gallery: &PictureAddresses,
         values: &OwnValues,
         language: Language,
     ) -> Option<Self> {
         let frame = values.places.iter().find_map(|place| place.frame)? as usize;
         let [width, height] = [assignment.scene.width, assignment.scene.height];
-        let grid = Grid::of(report.frames.len().max(1));
+        let grid = SheetGrid::of(report.frames.len().max(1));
         let [across, down] = [i64::from(width), i64::from(height)];
         let (address, image) = match &gallery.still {
             Some(still) => (still.clone(), [0, 0, across, down]),
@@ -216,8 +216,8 @@ impl LineView {
         let function = line.function.as_ref().map(|function| format!("{function}()"));
         let aside: Vec<String> = function.into_iter().chain(times).collect();
         let cell = |(place, value): (usize, &Option<ValueAt>)| match value {
-            None => Cell { value: "–".into(), right: String::new(), is_wrong: false, is_first: false },
-            Some(value) => Cell {
+            None => ValueCell { value: "–".into(), right: String::new(), is_wrong: false, is_first: false },
+            Some(value) => ValueCell {
                 value: written(&value.value),
                 right: match value.agrees {
                     None => String::new(),

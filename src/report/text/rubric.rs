@@ -1,6 +1,6 @@
 //! The lines of the rubric, with their bars.
 
-use super::{BAD, BOLD, DIM, GOOD, PARTIAL, Writer, number};
+use super::{BAD, BOLD, DIM, GOOD, PARTIAL, ReportWriter, number};
 use crate::report::labels::mistake_title;
 use crate::report::wrap::{columns, pad, plain};
 use crate::report::{Report, RubricLine, Verdict};
@@ -10,7 +10,7 @@ use reference::Assignment;
 /// Columns of a bar.
 const BAR: usize = 10;
 
-impl Writer {
+impl ReportWriter {
     pub(super) fn rubric(&mut self, assignment: &Assignment, report: &Report) {
         let labels = report.rubric.iter().map(|line| columns(line.label.get(self.language)));
         let column = labels.max().unwrap_or(0);

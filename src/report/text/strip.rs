@@ -1,11 +1,11 @@
 //! The strip of frames: one cell each, above the axis of t.
 
-use super::{BAD, BOLD, DIM, GOOD, Writer, number};
+use super::{BAD, BOLD, DIM, GOOD, ReportWriter, number};
 use crate::report::FrameResult;
 use crate::report::difference::{BANDS, agreeing, band_of, shades};
 use crate::report::wrap::{columns, pad, wrap};
 
-impl Writer {
+impl ReportWriter {
     /// One cell a frame, shaded by its largest difference, above the axis of t.
     pub(super) fn strip(&mut self, frames: &[FrameResult], column: usize) {
         let labels = self.labels;

@@ -3,7 +3,7 @@ use super::*;
 use crate::report::samples;
 
 fn text(report: &Report, language: Language, width: usize) -> String {
-    render(report, &Options { assignment: samples::assignment(), language, width, colour: false, excerpts: None })
+    render(report, &TextOptions { assignment: samples::assignment(), language, width, colour: false, excerpts: None })
 }
 
 /// Without the line breaks and indents that the width decides.
@@ -90,7 +90,7 @@ fn rejected_and_stopped_show_their_diagnostics_and_no_empty_tables() {
 
 #[test]
 fn excerpts_take_the_place_of_the_bare_diagnostics() {
-    let options = Options {
+    let options = TextOptions {
         assignment: samples::assignment(),
         language: Language::En,
         width: 80,
@@ -104,7 +104,7 @@ fn excerpts_take_the_place_of_the_bare_diagnostics() {
 #[test]
 fn colour_adds_nothing_but_colour() {
     for report in samples::all() {
-        let options = Options {
+        let options = TextOptions {
             assignment: samples::assignment(),
             language: Language::Ja,
             width: 80,
@@ -146,8 +146,13 @@ fn numbers_are_short() {
 #[test]
 fn with_several_files_a_place_names_its_own() {
     let report = samples::two_files();
-    let options =
-        Options { assignment: samples::assignment(), language: Language::En, width: 80, colour: false, excerpts: None };
+    let options = TextOptions {
+        assignment: samples::assignment(),
+        language: Language::En,
+        width: 80,
+        colour: false,
+        excerpts: None,
+    };
     let text = render(&report, &options);
     assert!(text.contains("ggsample11.vert, ggsample11.frag"), "{text}");
     assert!(text.contains("warning · ggsample11.vert, line 12, column 9"), "{text}");

@@ -1,13 +1,13 @@
 //! The thread that starts workers, and those that wait until a worker is ready.
 
-use super::{PAUSE, Shared, TRIES};
+use super::{PAUSE, SharedRoster, TRIES};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::child::{NotStarted, Worker};
 use std::sync::Arc;
 
 /// Starts what is ordered, until the pool closes.
-pub(super) fn keep(shared: &Arc<Shared>) {
+pub(super) fn keep(shared: &Arc<SharedRoster>) {
     let mut state = shared.lock();
     loop {
         while state.ordered == 0 && !state.closing {
@@ -40,7 +40,7 @@ pub(super) fn keep(shared: &Arc<Shared>) {
 }
 
 /// Waits until the worker is ready, and has it join the others.
-fn receive(shared: &Shared, mut worker: Worker) {
+fn receive(shared: &SharedRoster, mut worker: Worker) {
     let greeted = worker.greet(&shared.settings).and_then(|()| {
         let greeting = (worker.environment.clone(), worker.protection.clone());
         shared.lock().greeting.get_or_insert(greeting);
@@ -75,7 +75,7 @@ fn receive(shared: &Shared, mut worker: Worker) {
 }
 
 /// Orders another try after a pause, or gives the fault to whoever waits.
-fn fail(shared: &Shared, failure: NotStarted) {
+fn fail(shared: &SharedRoster, failure: NotStarted) {
     let failures = shared.lock().failures;
     if failure.transient && failures + 1 < TRIES {
         std::thread::sleep(PAUSE * 2_u32.pow(failures));

@@ -6,7 +6,7 @@ use crate::service::errors::Problem;
 use crate::service::idempotency::{self, RequestKey};
 use crate::service::identity::hex;
 use crate::service::limits::Client;
-use crate::service::store::Key;
+use crate::service::store::StoredKey;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Multipart, Request};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -25,7 +25,7 @@ const MOST_DROPPED: u64 = 512 << 20;
 
 /// An archive that somebody uploaded; it is removed from the disk with this.
 #[derive(Debug)]
-pub(in crate::service) struct Archive {
+pub(in crate::service) struct UploadedArchive {
     /// Where it is.
     pub path: TempPath,
     /// Name that it came with.
@@ -36,7 +36,7 @@ pub(in crate::service) struct Archive {
     pub fields: HashMap<String, String>,
 }
 
-impl Archive {
+impl UploadedArchive {
     /// Reads a form with a part `file`, or a body that is the archive. The route must have no limit of its own
     /// ([`axum::extract::DefaultBodyLimit::disable`]).
     pub async fn read(request: Request, service: &Service) -> Result<Self, Problem> {
@@ -89,7 +89,7 @@ impl Archive {
 
     /// The key with which it may come again.
     /// `assignment` is whose class it is.
-    pub fn key(&self, assignment: &str, headers: &HeaderMap, client: &Client) -> Result<Option<Key>, Problem> {
+    pub fn key(&self, assignment: &str, headers: &HeaderMap, client: &Client) -> Result<Option<StoredKey>, Problem> {
         let field = self.fields.get(idempotency::FIELD).map(String::as_str);
         let given = RequestKey::read(headers, field, client)?;
         Ok(given.map(|given| given.of_teacher(&[assignment, &self.title(), &self.sha256])))

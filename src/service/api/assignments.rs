@@ -7,7 +7,7 @@ use crate::service::counting::Counting;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::language::Lang;
-use crate::service::store::{Assignment, LateSpan};
+use crate::service::store::{AssignmentSettings, LateSpan};
 use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::State as Shared;
@@ -52,7 +52,7 @@ pub(super) struct AssignmentJson {
 }
 
 impl AssignmentJson {
-    fn of(state: &State, rules: &Assignment, language: Language) -> Self {
+    fn of(state: &State, rules: &AssignmentSettings, language: Language) -> Self {
         Self {
             id: state.assignment.id.clone(),
             digest: state.assignment.digest.clone(),

@@ -1,19 +1,19 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
-use super::archive::Archive;
+use super::archive::UploadedArchive;
 use super::caller::check_page;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
-use crate::batch::formats::Format;
+use crate::batch::formats::ClassFormat;
 use crate::language::Language;
 use crate::service::acts::Detail;
-use crate::service::classes::{self, Download, Pick, Wanted, Whose};
+use crate::service::classes::{self, Download, DownloadOptions, DownloadSelection, Pick};
 use crate::service::download::attachment;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::language::{Lang, asked};
 use crate::service::limits::Client;
-use crate::service::store::{Batch, Role};
+use crate::service::store::{Batch, StaffRole};
 use crate::service::{Service, State};
 use axum::Json;
 use axum::body::Bytes;
@@ -69,9 +69,9 @@ pub(super) async fn create(
     request: Request,
 ) -> Result<Response, Problem> {
     check_page(&teacher, &headers, &service)?;
-    teacher.check_role(Role::Lecturer)?;
+    teacher.check_role(StaffRole::Lecturer)?;
     let Query(of) = of.map_err(super::body::other)?;
-    let archive = Archive::read(request, &service).await?;
+    let archive = UploadedArchive::read(request, &service).await?;
     let of = archive.fields.get("assignment").cloned().or(of.assignment);
     let state = service.named(of.as_deref())?;
     teacher.check(&state.assignment.id)?;
@@ -132,24 +132,24 @@ pub(super) async fn events(
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
     find(&service, &teacher, &id).await?;
-    let stream = progress(&service, Job::Batch(id));
+    let stream = progress(&service, WatchedJob::Batch(id));
     Ok(Sse::new(stream).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// What can be watched.
-pub(in crate::service) enum Job {
+pub(in crate::service) enum WatchedJob {
     /// A batch, by its id.
     Batch(String),
     /// A regrading, by its id.
     Regrading(String),
     /// A download that is being made.
-    Download(Arc<classes::Job>),
+    Download(Arc<classes::DownloadJob>),
 }
 
 /// The events of a job until it is done, or the service ends.
 pub(in crate::service) fn progress(
     service: &Service,
-    job: Job,
+    job: WatchedJob,
 ) -> impl Stream<Item = Result<Event, Infallible>> + use<> {
     futures_util::stream::unfold((service.clone(), job, None, false), async |(service, job, mut last, is_over)| {
         if is_over {
@@ -160,9 +160,9 @@ pub(in crate::service) fn progress(
                 return None;
             }
             let progress = match &job {
-                Job::Batch(id) => service.store.progress(id).await,
-                Job::Regrading(id) => service.store.regrading_progress(id).await,
-                Job::Download(job) => Ok(job.progress()),
+                WatchedJob::Batch(id) => service.store.progress(id).await,
+                WatchedJob::Regrading(id) => service.store.regrading_progress(id).await,
+                WatchedJob::Download(job) => Ok(job.progress()),
             };
             // Who watches may come again; the log has what happened.
             let progress = progress.inspect_err(|error| tracing::error!(%error, "progress")).ok()?;
@@ -194,20 +194,20 @@ pub(super) async fn file(
     uri: Uri,
 ) -> Result<Response, Problem> {
     let (state, batch) = find(&service, &teacher, &id).await?;
-    made(&state, Whose::Batch(batch), &format, None, (&uri, language)).await
+    made(&state, DownloadSelection::Batch(batch), &format, None, (&uri, language)).await
 }
 
 /// A class in the format of this name, in the language that the address asks for, or else that of its readers.
 async fn made(
     state: &State,
-    whose: Whose,
+    whose: DownloadSelection,
     format: &str,
     sheet: Option<Vec<u8>>,
     (uri, reader): (&Uri, Language),
 ) -> Result<Response, Problem> {
     let format = named(format)?;
     let language = classes::language(state, format, asked(uri), reader).await?;
-    let wanted = Wanted { format, sheet, language, with_pages: false };
+    let wanted = DownloadOptions { format, sheet, language, with_pages: false };
     saved(classes::download(state, whose, wanted, &Arc::default()).await?)
 }
 
@@ -229,10 +229,10 @@ pub(super) async fn filled(
     sheet: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     check_page(&teacher, &headers, &service)?;
-    teacher.check_role(Role::Lecturer)?;
+    teacher.check_role(StaffRole::Lecturer)?;
     let sheet = sheet.map_err(super::body::other)?;
     let (state, batch) = find(&service, &teacher, &id).await?;
-    made(&state, Whose::Batch(batch), &format, Some(sheet.into()), (&uri, language)).await
+    made(&state, DownloadSelection::Batch(batch), &format, Some(sheet.into()), (&uri, language)).await
 }
 
 /// Which homework.
@@ -275,12 +275,12 @@ pub(super) async fn class_file(
     let Query(OfQuery { assignment }) = of.map_err(super::body::other)?;
     let state = service.named(assignment.as_deref())?;
     teacher.check(&state.assignment.id)?;
-    made(&state, Whose::Students(pick), &format, None, (&uri, language)).await
+    made(&state, DownloadSelection::Students(pick), &format, None, (&uri, language)).await
 }
 
 /// The format of this name.
-pub(in crate::service) fn named(name: &str) -> Result<Format, Problem> {
-    Format::from_str(name, false).map_err(|_| Problem::not_found())
+pub(in crate::service) fn named(name: &str) -> Result<ClassFormat, Problem> {
+    ClassFormat::from_str(name, false).map_err(|_| Problem::not_found())
 }
 
 /// A file to be saved, never to be shown: what students wrote is in it.

@@ -14,14 +14,14 @@ const LONGEST_TEXT: usize = 4096;
 
 /// What a request brought.
 #[derive(Debug, Default)]
-pub(in crate::service) struct Form {
+pub(in crate::service) struct RequestForm {
     /// The files, each with its name where it has one.
     pub files: Vec<(Option<String>, Bytes)>,
     /// The other parts.
     pub fields: HashMap<String, String>,
 }
 
-impl Form {
+impl RequestForm {
     /// Reads a form with parts `file`, or a body that is the file.
     pub async fn read<S: Send + Sync>(request: Request, state: &S) -> Result<Self, Problem> {
         let kind =

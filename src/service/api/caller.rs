@@ -3,7 +3,7 @@
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
-use crate::service::store::Role;
+use crate::service::store::StaffRole;
 use axum::http::HeaderMap;
 
 /// Header of a page's own script, with the token of its forms: no other page can set it.
@@ -18,19 +18,19 @@ pub(super) fn check_page(teacher: &Teacher, headers: &HeaderMap, service: &Servi
 }
 
 /// Lets who may do that much pass, where no other site's page makes their browser ask.
-pub(super) fn check((teacher, headers): &Caller, service: &Service, least: Role) -> Result<(), Problem> {
+pub(super) fn check((teacher, headers): &Caller, service: &Service, least: StaffRole) -> Result<(), Problem> {
     check_page(teacher, headers, service)?;
     teacher.check_role(least)
 }
 
 /// The same for what belongs to the whole course.
-pub(super) fn check_course(caller: &Caller, service: &Service, least: Role) -> Result<(), Problem> {
+pub(super) fn check_course(caller: &Caller, service: &Service, least: StaffRole) -> Result<(), Problem> {
     check(caller, service, least)?;
     caller.0.check_course()
 }
 
 /// Lets who may read what belongs to the whole course pass.
-pub(super) fn check_reader(teacher: &Teacher, least: Role) -> Result<(), Problem> {
+pub(super) fn check_reader(teacher: &Teacher, least: StaffRole) -> Result<(), Problem> {
     teacher.check_role(least)?;
     teacher.check_course()
 }

@@ -11,7 +11,7 @@ use crate::service::course::Course;
 use crate::service::courses::{self, public_address};
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, course_secret, renew_course_secret};
-use crate::service::store::Role;
+use crate::service::store::StaffRole;
 use axum::Json;
 use axum::extract::State as Shared;
 use axum::extract::rejection::JsonRejection;
@@ -109,7 +109,7 @@ pub(super) async fn create(
     wish: Result<Json<CourseWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
     only_first(&service)?;
-    check_course(&caller, &service, Role::Administrator)?;
+    check_course(&caller, &service, StaffRole::Administrator)?;
     let Json(wish) = wish.map_err(other)?;
     let made = match &wish.copy_of {
         None => courses::make(&service, &wish.id, &wish.title).await?,
@@ -169,7 +169,7 @@ pub(super) async fn read(
     headers: HeaderMap,
     Shared(service): Shared<Service>,
 ) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let json = course_json(&service, &headers).await?;
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
 }
@@ -187,13 +187,13 @@ pub(super) async fn change(
     Shared(service): Shared<Service>,
     patch: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(patch) = patch.map_err(other)?;
     let before = course_json(&service, &caller.1).await?;
     let (was_archived, link) = (before.is_archived, before.link.clone());
     let after: CourseJson = patched(before, &patch)?;
     if after.is_archived != was_archived {
-        caller.0.check_role(Role::Administrator)?;
+        caller.0.check_role(StaffRole::Administrator)?;
     }
     if was_archived && after.is_archived {
         return Err(courses::archived());
@@ -219,7 +219,7 @@ pub(super) async fn change(
     responses((status = 200, description = "The course with its new link", body = CourseJson), Refusals, Errors)
 )]
 pub(super) async fn renew_link(caller: Caller, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     renew_course_secret(&service).await?;
     let json = course_json(&service, &caller.1).await?;
     Ok(Detail::default().on(Json(json).into_response()))

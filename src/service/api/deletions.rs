@@ -13,7 +13,7 @@ use axum::extract::{Path, State as Shared};
 use axum::response::{IntoResponse, Response};
 
 /// What an address names.
-enum Named {
+enum NamedRecord {
     /// A file, by its id.
     Submission(String),
     /// A class that was handed in, by its id.
@@ -35,7 +35,7 @@ pub(super) async fn delete_submission(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    deleted(&service, &caller, Named::Submission(id)).await
+    deleted(&service, &caller, NamedRecord::Submission(id)).await
 }
 
 /// Delete a class that was handed in
@@ -51,7 +51,7 @@ pub(super) async fn delete_batch(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    deleted(&service, &caller, Named::Batch(id)).await
+    deleted(&service, &caller, NamedRecord::Batch(id)).await
 }
 
 /// Delete a student
@@ -68,24 +68,24 @@ pub(super) async fn delete_student(
     Shared(service): Shared<Service>,
     Path(number): Path<String>,
 ) -> Result<Response, Problem> {
-    deleted(&service, &caller, Named::Student(number)).await
+    deleted(&service, &caller, NamedRecord::Student(number)).await
 }
 
 /// Deletes what is there under that name. A page's own script brings the token of its forms; a program brings the
 /// teacher's.
-async fn deleted(service: &Service, (teacher, headers): &Caller, named: Named) -> Result<Response, Problem> {
+async fn deleted(service: &Service, (teacher, headers): &Caller, named: NamedRecord) -> Result<Response, Problem> {
     check_page(teacher, headers, service)?;
     let store = &service.store;
     let found = match named {
-        Named::Submission(id) => {
+        NamedRecord::Submission(id) => {
             let found = store.submission(&id).await?;
             found.map(|found| (DeletionTarget::Submission(found.id), Some(found.assignment)))
         }
-        Named::Batch(id) => {
+        NamedRecord::Batch(id) => {
             let found = store.batch(&id).await?;
             found.map(|found| (DeletionTarget::Batch(found.id), Some(found.assignment)))
         }
-        Named::Student(number) => match normal_number(&number) {
+        NamedRecord::Student(number) => match normal_number(&number) {
             Some(number) => {
                 let found = store.student_by_number(&number).await?;
                 found.map(|found| (DeletionTarget::Student(found.id), None))

@@ -7,7 +7,7 @@ use crate::service::download::saved;
 use crate::service::errors::Problem;
 use crate::service::export;
 use crate::service::identity::{Teacher, normal_number};
-use crate::service::store::Role;
+use crate::service::store::StaffRole;
 use axum::extract::{Path, State as Shared};
 use axum::response::Response;
 
@@ -27,7 +27,7 @@ pub(super) async fn export_student(
     Shared(service): Shared<Service>,
     Path(number): Path<String>,
 ) -> Result<Response, Problem> {
-    teacher.check_role(Role::Lecturer)?;
+    teacher.check_role(StaffRole::Lecturer)?;
     teacher.check_course()?;
     let number = normal_number(&number).ok_or_else(Problem::not_found)?;
     let student = service.store.student_by_number(&number).await?.ok_or_else(Problem::not_found)?;

@@ -10,7 +10,7 @@ use crate::service::counting;
 use crate::service::errors::Problem;
 use crate::service::extensions::{beneficiary, grant};
 use crate::service::identity::Teacher;
-use crate::service::store::{Beneficiary, NamedExtension, Role};
+use crate::service::store::{Beneficiary, NamedExtension, StaffRole};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
 use axum::extract::{Path, Query, State as Shared};
@@ -70,7 +70,7 @@ pub(super) async fn list(
     let Query(of) = of.map_err(super::body::other)?;
     let state = service.named(of.assignment.as_deref())?;
     teacher.check(&state.assignment.id)?;
-    teacher.check_role(Role::Lecturer)?;
+    teacher.check_role(StaffRole::Lecturer)?;
     let json = |extension: NamedExtension| ExtensionJson {
         group: extension.number.is_none().then_some(extension.key),
         student: extension.number,
@@ -95,7 +95,7 @@ pub(super) async fn set(
     of: Result<Query<OfQuery>, QueryRejection>,
     wish: Result<Json<ExtensionWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service, Role::Lecturer)?;
+    check(&caller, &service, StaffRole::Lecturer)?;
     let Query(of) = of.map_err(super::body::other)?;
     let Json(wish) = wish.map_err(super::body::other)?;
     let state = service.named(of.assignment.as_deref())?;
@@ -124,7 +124,7 @@ pub(super) async fn choose(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service, Role::Lecturer)?;
+    check(&caller, &service, StaffRole::Lecturer)?;
     let (state, submission) = service.submission(&id).await?;
     caller.0.check(&submission.assignment)?;
     counting::choose(&state, &submission).await?;

@@ -1,6 +1,6 @@
 //! `/api/v1/folders`: homeworks that come by the network.
 
-use super::archive::Archive;
+use super::archive::UploadedArchive;
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -9,7 +9,7 @@ use crate::service::acts::Detail;
 use crate::service::errors::{Problem, ProblemJson};
 use crate::service::folders::{self, Publication};
 use crate::service::identity::Teacher;
-use crate::service::store::{Role, UploadedFolder};
+use crate::service::store::{StaffRole, UploadedFolder};
 use axum::Json;
 use axum::extract::{Path, Request, State as Shared};
 use axum::http::{StatusCode, header};
@@ -90,7 +90,7 @@ fn done(folder: &UploadedFolder, act: &str, answer: Response) -> Response {
     responses((status = 200, description = "Each with what its own files got", body = FoldersJson), Refusals, Errors)
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let folders = service.store.folders().await?;
     let folders = folders.iter().map(|folder| FolderJson::of(&service, folder)).collect();
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(FoldersJson { folders })).into_response())
@@ -110,8 +110,8 @@ pub(super) async fn create(
     Shared(service): Shared<Service>,
     request: Request,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
-    let archive = Archive::read(request, &service).await?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
+    let archive = UploadedArchive::read(request, &service).await?;
     let staff = caller.0.staff().map(|member| member.id.as_str());
     let folder = folders::upload(&service, &archive.path, staff).await?;
     let answer = (StatusCode::CREATED, Json(FolderJson::of(&service, &folder))).into_response();
@@ -135,7 +135,7 @@ pub(super) async fn publish(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let folder = folders::found(&service, &id).await?;
     let (status, regrading) = match folders::publish(&service, &id).await? {
         Publication::Served => (StatusCode::OK, None),
@@ -162,7 +162,7 @@ pub(super) async fn withdraw(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let folder = folders::found(&service, &id).await?;
     folders::withdraw(&service, &id).await?;
     Ok(done(&folder, "withdraw", StatusCode::NO_CONTENT.into_response()))

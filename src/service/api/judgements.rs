@@ -10,7 +10,7 @@ use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::judgement::{self, Handling, handle};
-use crate::service::store::{Appeal, Stored, StoredComment};
+use crate::service::store::{Appeal, StoredComment, StoredSubmission};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
 use axum::extract::{Path, Query, State as Shared};
@@ -19,7 +19,7 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
 /// The submission with its report, for a teacher who may see it.
-async fn judged(service: &Service, (teacher, headers): &Caller, id: &str) -> Result<Stored, Problem> {
+async fn judged(service: &Service, (teacher, headers): &Caller, id: &str) -> Result<StoredSubmission, Problem> {
     check_page(teacher, headers, service)?;
     let (_, stored) = service.stored(id).await?;
     teacher.check(&stored.submission.assignment)?;
@@ -27,7 +27,7 @@ async fn judged(service: &Service, (teacher, headers): &Caller, id: &str) -> Res
 }
 
 /// An answer with a line for the log.
-fn noted(stored: Stored, text: String, response: impl IntoResponse) -> Response {
+fn noted(stored: StoredSubmission, text: String, response: impl IntoResponse) -> Response {
     let assignment = Some(stored.submission.assignment);
     Detail { student_id: stored.submission.student_id, assignment, text }.on(response.into_response())
 }

@@ -7,7 +7,7 @@ use crate::service::Service;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
-use crate::service::likeness::{self, Member};
+use crate::service::likeness::{self, AlikePerson};
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State as Shared};
@@ -90,12 +90,12 @@ pub(super) async fn list(
     let state = service.named(of.assignment.as_deref())?;
     teacher.check(&state.assignment.id)?;
     let found = likeness::find(&state).await?;
-    let member = |member: &Member| MemberJson {
+    let member = |member: &AlikePerson| MemberJson {
         submission: at(&format!("/api/v1/submissions/{}", member.submission)),
         student: member.number.clone(),
         is_of_class: member.is_of_class,
     };
-    let alike = |(pair, [one, other]): (Pair, [Member; 2])| AlikeJson {
+    let alike = |(pair, [one, other]): (Pair, [AlikePerson; 2])| AlikeJson {
         pair: PairJson::of(&pair),
         comparison: at(&format!("/api/v1/submissions/{}/likeness/{}", one.submission, other.submission)),
         members: vec![member(&one), member(&other)],

@@ -8,7 +8,7 @@ use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, new_id};
 use crate::service::lti::{self, contexts, memberships, registration};
-use crate::service::store::{Platform, Role};
+use crate::service::store::{Platform, StaffRole};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
@@ -163,7 +163,7 @@ async fn own(service: &Service, id: &str) -> Result<Platform, Problem> {
     responses((status = 200, description = "The oldest first", body = PlatformsJson), Refusals, Errors)
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let mut platforms = Vec::new();
     for platform in service.store.platforms().await? {
         platforms.push(json(&service, platform).await?);
@@ -184,7 +184,7 @@ pub(super) async fn add(
     Shared(service): Shared<Service>,
     wish: Result<Json<PlatformWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Administrator)?;
+    check_course(&caller, &service, StaffRole::Administrator)?;
     let Json(wish) = wish.map_err(other)?;
     let platform = Platform {
         id: new_id(),
@@ -210,7 +210,7 @@ pub(super) async fn add(
     responses((status = 201, description = "The link", body = RegistrationJson), Refusals, Errors)
 )]
 pub(super) async fn register(caller: Caller, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Administrator)?;
+    check_course(&caller, &service, StaffRole::Administrator)?;
     let link = format!("{}/lti/register/{}", lti::address(&service), registration::new_link(&service).await?);
     Ok(Detail::of("link").on((StatusCode::CREATED, Json(RegistrationJson { link })).into_response()))
 }
@@ -228,7 +228,7 @@ pub(super) async fn change(
     Path(id): Path<String>,
     wish: Result<Json<PlatformChange>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Administrator)?;
+    check_course(&caller, &service, StaffRole::Administrator)?;
     let Json(wish) = wish.map_err(other)?;
     let platform = own(&service, &id).await?;
     let mut said = platform.issuer.clone();
@@ -259,7 +259,7 @@ pub(super) async fn connect(
     Path(id): Path<String>,
     wish: Result<Json<ConnectionWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Administrator)?;
+    check_course(&caller, &service, StaffRole::Administrator)?;
     let Json(wish) = wish.map_err(other)?;
     let platform = own(&service, &id).await?;
     contexts::connect(&service, &platform, &wish.context, wish.course.as_deref()).await?;
@@ -283,7 +283,7 @@ pub(super) async fn fetch(
     Path(id): Path<String>,
     wish: Result<Json<FetchWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(wish) = wish.map_err(other)?;
     let platform = service.store.platform(&id).await?.ok_or_else(Problem::not_found)?;
     let links = service.store.links().await?;

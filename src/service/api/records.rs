@@ -6,10 +6,10 @@ use super::refusals::{Errors, Refusals};
 use super::schema::time;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::gradebook::{Column, Gradebook, Line};
+use crate::service::gradebook::{Gradebook, GradebookPerson, HomeworkColumn};
 use crate::service::identity::Teacher;
 use crate::service::language::Lang;
-use crate::service::store::{NamedAct, Role};
+use crate::service::store::{NamedAct, StaffRole};
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Query, State as Shared};
@@ -63,10 +63,10 @@ pub(super) async fn gradebook(
     Shared(service): Shared<Service>,
     Lang(language): Lang,
 ) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Assistant)?;
+    check_reader(&teacher, StaffRole::Assistant)?;
     let book = Gradebook::of(&service, language).await?;
-    let column = |Column { id, title, points }| GradebookColumnJson { id, title, points };
-    let line = |line: Line| GradebookLineJson {
+    let column = |HomeworkColumn { id, title, points }| GradebookColumnJson { id, title, points };
+    let line = |line: GradebookPerson| GradebookLineJson {
         total: line.total(),
         number: line.number,
         name: line.name,
@@ -139,7 +139,7 @@ pub(super) async fn log(
     Shared(service): Shared<Service>,
     part: Result<Query<LogQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
-    teacher.check_role(Role::Lecturer)?;
+    teacher.check_role(StaffRole::Lecturer)?;
     let Query(part) = part.map_err(other)?;
     let total = service.store.count_acts(teacher.homework()).await?;
     let acts = service.store.acts(teacher.homework(), part.skip, part.limit.min(MOST_ACTS)).await?;

@@ -11,7 +11,7 @@ use crate::service::courses::at;
 use crate::service::errors::{Problem, ProblemJson};
 use crate::service::identity::Teacher;
 use crate::service::regrade::{self, differs};
-use crate::service::store::{Compared, OverriddenAgain, Progress, Regrading, Role};
+use crate::service::store::{Compared, OverriddenAgain, Progress, Regrading, StaffRole};
 use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
@@ -146,7 +146,7 @@ pub(super) async fn start(
     of: Result<Query<OfQuery>, QueryRejection>,
     seed: Result<Query<SeedQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service, Role::Lecturer)?;
+    check(&caller, &service, StaffRole::Lecturer)?;
     let (Query(of), Query(seed)) = (of.map_err(other)?, seed.map_err(other)?);
     let state = service.named(of.assignment.as_deref())?;
     caller.0.check(&state.assignment.id)?;
@@ -185,7 +185,7 @@ pub(super) async fn adopt(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service, Role::Lecturer)?;
+    check(&caller, &service, StaffRole::Lecturer)?;
     let (state, _) = found(&service, &caller.0, &id).await?;
     regrade::adopt(&state, &id).await?;
     let (state, regrading) = found(&service, &caller.0, &id).await?;

@@ -7,7 +7,7 @@ use crate::service::acts::Detail;
 use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, course_secret, normal_number, personal_code};
-use crate::service::store::{Role, Student};
+use crate::service::store::{StaffRole, StudentRecord};
 use crate::service::{Service, roster};
 use axum::Json;
 use axum::body::Bytes;
@@ -58,7 +58,7 @@ pub(super) struct CodesJson {
 }
 
 async fn json(service: &Service) -> Result<RosterJson, Problem> {
-    let student = |student: Student| RosterStudentJson {
+    let student = |student: StudentRecord| RosterStudentJson {
         number: student.number,
         name: student.name,
         group: student.group_name,
@@ -73,7 +73,7 @@ async fn json(service: &Service) -> Result<RosterJson, Problem> {
     responses((status = 200, description = "By number", body = RosterJson), Refusals, Errors)
 )]
 pub(super) async fn read(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Assistant)?;
+    check_reader(&teacher, StaffRole::Assistant)?;
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(json(&service).await?)).into_response())
 }
 
@@ -90,7 +90,7 @@ pub(super) async fn set(
     Shared(service): Shared<Service>,
     file: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let lines = roster::read(&file.map_err(other)?)?;
     roster::import(&service, &lines).await?;
     Ok(Detail::of(lines.len().to_string()).on(Json(json(&service).await?).into_response()))
@@ -101,7 +101,7 @@ async fn join(service: &Service, headers: &HeaderMap) -> Result<String, Problem>
     Ok(format!("{}/join/{}", public_address(service, headers), course_secret(service).await?))
 }
 
-fn code(service: &Service, join: &str, student: Student) -> CodeJson {
+fn code(service: &Service, join: &str, student: StudentRecord) -> CodeJson {
     let code = personal_code(service, &student);
     let link = format!("{join}?number={}&code={code}", student.number);
     CodeJson { number: student.number, name: student.name, code, link }
@@ -117,7 +117,7 @@ pub(super) async fn codes(
     headers: HeaderMap,
     Shared(service): Shared<Service>,
 ) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let join = join(&service, &headers).await?;
     let students = service.store.with_codes().await?;
     let codes = students.into_iter().map(|student| code(&service, &join, student)).collect();
@@ -137,7 +137,7 @@ pub(super) async fn renew(
     Shared(service): Shared<Service>,
     Path(number): Path<String>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let number = normal_number(&number).ok_or_else(Problem::not_found)?;
     let student = service.store.student_by_number(&number).await?.ok_or_else(Problem::not_found)?;
     service.store.renew_code(&student.id).await?;

@@ -1,12 +1,12 @@
 //! The shapes of requests and answers.
 
 use crate::batch::class::Refused;
-use crate::batch::formats::Format;
+use crate::batch::formats::ClassFormat;
 use crate::language::Language;
 use crate::report::Report;
 use crate::report::json::{self, JsonReport};
 use crate::service::courses::at;
-use crate::service::store::{Batch, BatchEntry, Progress, State, Submission, Via};
+use crate::service::store::{Batch, BatchEntry, Progress, Submission, SubmissionState, Via};
 use clap::ValueEnum;
 use serde::Serialize;
 use utoipa::openapi::RefOr;
@@ -21,7 +21,7 @@ pub(super) struct SubmissionJson<'a> {
     /// Id of the assignment.
     pub assignment: &'a str,
     /// `queued` (come back), `graded` (there is a report) or `failed` (our fault; it is tried again, and costs nothing).
-    pub state: State,
+    pub state: SubmissionState,
     /// The way by which it came.
     pub via: Via,
     /// File name as handed in; the names of several files are joined by commas, and `report.sources` has each.
@@ -87,9 +87,9 @@ impl<'a> SubmissionJson<'a> {
         language: Language,
     ) -> Self {
         let state = match (report, fault) {
-            (Some(_), _) => State::Graded,
-            (None, Some(_)) => State::Failed,
-            (None, None) => State::Queued,
+            (Some(_), _) => SubmissionState::Graded,
+            (None, Some(_)) => SubmissionState::Failed,
+            (None, None) => SubmissionState::Queued,
         };
         Self {
             id: &submission.id,
@@ -183,7 +183,7 @@ impl BatchJson {
         };
         let refused =
             |refused: Refused| RefusedJson { path: refused.path, reason: refused.reason.get(language).to_owned() };
-        let files = Format::value_variants().iter().map(|format| format!("{itself}/files/{}", format.id()));
+        let files = ClassFormat::value_variants().iter().map(|format| format!("{itself}/files/{}", format.id()));
         Self {
             title: batch.title,
             received_at: time(batch.created_at),
@@ -202,14 +202,14 @@ pub(super) struct FormatName;
 /// The name of a format that is made by the worksheet that Moodle gives.
 pub(super) struct FilledFormatName;
 
-fn format_names(is_wanted: fn(&Format) -> bool) -> RefOr<Schema> {
-    let all = Format::value_variants().iter().filter(|format| is_wanted(format));
+fn format_names(is_wanted: fn(&ClassFormat) -> bool) -> RefOr<Schema> {
+    let all = ClassFormat::value_variants().iter().filter(|format| is_wanted(format));
     ObjectBuilder::new().schema_type(Type::String).enum_values(Some(all.map(|format| format.id()))).into()
 }
 
 impl utoipa::PartialSchema for FormatName {
     fn schema() -> RefOr<Schema> {
-        format_names(|format| *format != Format::MoodleWorksheet)
+        format_names(|format| *format != ClassFormat::MoodleWorksheet)
     }
 }
 
@@ -217,7 +217,7 @@ impl utoipa::ToSchema for FormatName {}
 
 impl utoipa::PartialSchema for FilledFormatName {
     fn schema() -> RefOr<Schema> {
-        format_names(|format| matches!(format, Format::MoodleWorksheet | Format::MoodleFeedback))
+        format_names(|format| matches!(format, ClassFormat::MoodleWorksheet | ClassFormat::MoodleFeedback))
     }
 }
 

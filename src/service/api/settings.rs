@@ -11,7 +11,7 @@ use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::rules::{self, MINUTE};
-use crate::service::store::{Assignment, Audience, LateRules, LateSpan, Place, Role};
+use crate::service::store::{AssignmentSettings, Audience, CoursePlace, LateRules, LateSpan, StaffRole};
 use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
@@ -85,7 +85,7 @@ fn timestamp(at: Option<Millis>) -> Option<Timestamp> {
 }
 
 impl SettingsJson {
-    fn of(rules: &Assignment, place: &Place) -> Self {
+    fn of(rules: &AssignmentSettings, place: &CoursePlace) -> Self {
         Self {
             opens_at: timestamp(rules.opens_at),
             due_at: timestamp(rules.closes_at),
@@ -106,9 +106,9 @@ impl SettingsJson {
     }
 
     /// The same in the place of what is set.
-    fn read(self, rules: Assignment, place: Place) -> Result<(Assignment, Place), Problem> {
+    fn read(self, rules: AssignmentSettings, place: CoursePlace) -> Result<(AssignmentSettings, CoursePlace), Problem> {
         let millis = |at: Option<Timestamp>| at.map(Timestamp::as_millisecond);
-        let rules = Assignment {
+        let rules = AssignmentSettings {
             opens_at: millis(self.opens_at),
             closes_at: millis(self.due_at),
             attempts: self.attempts,
@@ -133,12 +133,12 @@ impl SettingsJson {
             ));
         }
         let shown_from = millis(self.shown_from).filter(|_| !self.is_hidden);
-        let place = Place { points: self.points, is_hidden: i64::from(self.is_hidden), shown_from, ..place };
+        let place = CoursePlace { points: self.points, is_hidden: i64::from(self.is_hidden), shown_from, ..place };
         Ok((rules, place))
     }
 }
 
-async fn standing(state: &State) -> Result<(Assignment, Place), Problem> {
+async fn standing(state: &State) -> Result<(AssignmentSettings, CoursePlace), Problem> {
     let id = &state.assignment.id;
     let place = state.store.places().await?.into_iter().find(|place| place.id == *id);
     Ok((state.store.assignment(id).await?, place.ok_or_else(Problem::not_found)?))
@@ -177,7 +177,7 @@ pub(super) async fn change(
     Path(id): Path<String>,
     patch: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check(&caller, &service, Role::Lecturer)?;
+    check(&caller, &service, StaffRole::Lecturer)?;
     let state = service.homework_of(&id)?;
     caller.0.check(&id)?;
     let Json(patch) = patch.map_err(other)?;
@@ -220,7 +220,7 @@ pub(super) async fn set_plan(
     Shared(service): Shared<Service>,
     wish: Result<Json<PlanJson>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(wish) = wish.map_err(other)?;
     courses::arrange(&service, &wish.assignments).await?;
     let plan = plan_json(&service);

@@ -8,7 +8,7 @@ use crate::service::acts::Detail;
 use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Teacher, check_may_manage};
-use crate::service::store::{Role, StaffMember, word};
+use crate::service::store::{StaffMember, StaffRole, word};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
@@ -28,7 +28,7 @@ pub(super) struct StaffMemberJson {
     name: String,
     /// What they may do.
     #[schema(inline)]
-    role: Role,
+    role: StaffRole,
     /// Whether they have chosen a password.
     has_password: bool,
     /// Whether they may log in.
@@ -55,7 +55,7 @@ pub(super) struct StaffWish {
     name: String,
     /// `assistant` or `lecturer`.
     #[schema(inline)]
-    role: Role,
+    role: StaffRole,
 }
 
 /// What of an account can be changed.
@@ -64,7 +64,7 @@ pub(super) struct StaffWish {
 pub(super) struct StaffChange {
     /// `assistant` or `lecturer`.
     #[schema(inline)]
-    role: Role,
+    role: StaffRole,
     /// Whether they may log in.
     is_active: bool,
 }
@@ -75,8 +75,8 @@ fn json(member: StaffMember, link: Option<String>) -> StaffMemberJson {
 }
 
 /// A program that leaks must not leave an administrator behind.
-fn no_administrator(role: Role) -> Result<(), Problem> {
-    if role < Role::Administrator {
+fn no_administrator(role: StaffRole) -> Result<(), Problem> {
+    if role < StaffRole::Administrator {
         return Ok(());
     }
     Err(Problem::new(
@@ -97,7 +97,7 @@ fn link(service: &Service, headers: &HeaderMap, secret: &str) -> String {
     responses((status = 200, description = "By login", body = StaffJson), Refusals, Errors)
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let staff = identity::people(&service).await?.into_iter().map(|member| json(member, None)).collect();
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(StaffJson { staff })).into_response())
 }
@@ -115,7 +115,7 @@ pub(super) async fn add(
     Shared(service): Shared<Service>,
     wish: Result<Json<StaffWish>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(wish) = wish.map_err(other)?;
     no_administrator(wish.role)?;
     check_may_manage(&caller.0, wish.role)?;
@@ -140,7 +140,7 @@ pub(super) async fn change(
     Path(id): Path<String>,
     patch: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(patch) = patch.map_err(other)?;
     let member = service.store.course_member(&id).await?.ok_or_else(Problem::not_found)?;
     let StaffChange { role, is_active } =
@@ -167,11 +167,11 @@ pub(super) async fn invite(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, Role::Lecturer)?;
+    check_course(&caller, &service, StaffRole::Lecturer)?;
     let people = identity::people(&service).await?;
     let member = people.into_iter().find(|member| member.id == id).ok_or_else(Problem::not_found)?;
     check_may_manage(&caller.0, member.role)?;
-    no_administrator(if member.has_password { Role::Administrator } else { member.role })?;
+    no_administrator(if member.has_password { StaffRole::Administrator } else { member.role })?;
     identity::check_may_invite(&service, &caller.0).await?;
     let secret = identity::invite(&service, &member).await?;
     let link = link(&service, &caller.1, &secret);

@@ -1,6 +1,6 @@
 //! `/api/v1/submissions`.
 
-use super::body::Form;
+use super::body::RequestForm;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{IdempotencyKey, SubmissionJson};
 use crate::diagnose::Hints;
@@ -13,7 +13,7 @@ use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal
 use crate::service::language::Lang;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
-use crate::service::store::{Stored, Via};
+use crate::service::store::{StoredSubmission, Via};
 use crate::service::submit::{Receipt, Upload, submit};
 use crate::service::{Service, State};
 use axum::Json;
@@ -117,7 +117,7 @@ pub(super) async fn create(
 ) -> Result<Response, Problem> {
     let Query(about) = about.map_err(super::body::other)?;
     let headers = request.headers().clone();
-    let form = Form::read(request, &service).await?;
+    let form = RequestForm::read(request, &service).await?;
     let key = RequestKey::read(&headers, form.fields.get(idempotency::FIELD).map(String::as_str), &client)?;
     let about = about.with(&form)?;
     let state = service.named(about.assignment.as_deref())?;
@@ -147,7 +147,7 @@ pub(super) async fn create(
 
 impl About {
     /// The same with what a form says.
-    fn with(mut self, form: &Form) -> Result<Self, Problem> {
+    fn with(mut self, form: &RequestForm) -> Result<Self, Problem> {
         let field = |name: &str| form.fields.get(name).cloned();
         self.assignment = field("assignment").or(self.assignment);
         self.student = field("student").or(self.student);
@@ -252,7 +252,7 @@ pub(super) async fn read(
     asked: Result<Query<LangQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     asked.map_err(super::body::other)?;
-    let Stored { submission, mut report, cross_check } = find(&service, &id).await?;
+    let StoredSubmission { submission, mut report, cross_check } = find(&service, &id).await?;
     let is_teachers = teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment));
     if let Some(report) = report.as_mut().filter(|_| is_teachers) {
         report.cross_check = cross_check;
@@ -266,7 +266,7 @@ pub(super) async fn read(
 }
 
 /// The submission with this id.
-pub(super) async fn find(service: &Service, id: &str) -> Result<Stored, Problem> {
+pub(super) async fn find(service: &Service, id: &str) -> Result<StoredSubmission, Problem> {
     service.store.stored(id).await?.ok_or_else(Problem::not_found)
 }
 

@@ -8,7 +8,7 @@ use crate::service::courses::at;
 use crate::service::download::saved;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
-use crate::service::store::Role;
+use crate::service::store::StaffRole;
 use axum::Json;
 use axum::extract::{Path, State as Shared};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
@@ -51,7 +51,7 @@ pub(super) async fn make(
     Shared(service): Shared<Service>,
 ) -> Result<Response, Problem> {
     check_page(&teacher, &headers, &service)?;
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let state = service.homeworks().next().ok_or_else(Problem::not_found)?;
     let language = service.store.course().await?.language;
     let job = service.downloads.archive(&state, language, at("/teacher/data"));
@@ -72,7 +72,7 @@ pub(super) async fn read(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check_reader(&teacher, Role::Lecturer)?;
+    check_reader(&teacher, StaffRole::Lecturer)?;
     let job = service.downloads.get(&id).filter(|job| job.is_archive).ok_or_else(Problem::not_found)?;
     match job.made() {
         None => {

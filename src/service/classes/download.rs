@@ -7,7 +7,7 @@ mod written;
 pub use archive::archive;
 
 use crate::batch::class::Outcome;
-use crate::batch::formats::{Format, worksheet};
+use crate::batch::formats::{ClassFormat, worksheet};
 use crate::batch::output;
 use crate::language::{Language, Text};
 use crate::service::State;
@@ -21,7 +21,7 @@ use written::{disk, page, written};
 
 /// What a download is made of.
 #[derive(Clone, Debug)]
-pub enum Whose {
+pub enum DownloadSelection {
     /// A batch.
     Batch(Batch),
     /// Everyone of the class, with one submission of each.
@@ -83,7 +83,7 @@ impl Steps {
 /// The language of a format: students are spoken to in that of the course, unless the request asks for one.
 pub async fn language(
     state: &State,
-    format: Format,
+    format: ClassFormat,
     asked: Option<Language>,
     reader: Language,
 ) -> Result<Language, Problem> {
@@ -95,16 +95,16 @@ pub async fn language(
 }
 
 /// Whether a format takes seconds for a class, because something is drawn for everyone.
-pub fn is_slow(format: Format) -> bool {
+pub fn is_slow(format: ClassFormat) -> bool {
     let wants = output::wants(&[format]);
     wants.pages || wants.portraits
 }
 
 /// What a download shall be.
 #[derive(Debug)]
-pub struct Wanted {
+pub struct DownloadOptions {
     /// The format.
-    pub format: Format,
+    pub format: ClassFormat,
     /// Moodle's worksheet, which one format fills in and another takes the members of groups from.
     pub sheet: Option<Vec<u8>>,
     /// The language of its words.
@@ -113,14 +113,14 @@ pub struct Wanted {
     pub with_pages: bool,
 }
 
-impl Wanted {
+impl DownloadOptions {
     /// Whether it can be made: a worksheet is there where one is needed, and can be read.
     pub fn check(&self) -> Result<(), Problem> {
         match &self.sheet {
             Some(sheet) => {
                 worksheet::check(sheet).map_err(|fault| Problem::unprocessable(fault.message.en, fault.message.ja))
             }
-            None if self.format == Format::MoodleWorksheet => Err(Problem::unprocessable(
+            None if self.format == ClassFormat::MoodleWorksheet => Err(Problem::unprocessable(
                 "This format fills in the worksheet that Moodle gives: send that CSV file along.",
                 "この形式は Moodle のワークシートに記入するものです。Moodle からダウンロードした CSV を送ってください。",
             )),
@@ -130,14 +130,19 @@ impl Wanted {
 }
 
 /// A class in one of the formats. Formats of several files come as a ZIP.
-pub async fn download(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<Steps>) -> Result<Download, Problem> {
+pub async fn download(
+    state: &State,
+    whose: DownloadSelection,
+    wanted: DownloadOptions,
+    steps: &Arc<Steps>,
+) -> Result<Download, Problem> {
     wanted.check()?;
-    let Wanted { format, sheet, language, with_pages } = wanted;
+    let DownloadOptions { format, sheet, language, with_pages } = wanted;
     let (title, refused, members) = members(state, whose).await?;
     let submissions: Vec<_> =
         members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
     let wants = output::wants(&[format]);
-    let has_pages = wants.pages && (with_pages || format != Format::Html);
+    let has_pages = wants.pages && (with_pages || format != ClassFormat::Html);
     let stored = members.iter().filter(|member| member.stored.is_some()).count();
     steps.expect(stored * (usize::from(wants.portraits) + usize::from(has_pages)));
     let mut portraits = Vec::new();

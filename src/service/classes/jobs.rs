@@ -1,6 +1,6 @@
 //! Downloads that take seconds: made in the background, kept on the disk for a while.
 
-use super::download::{Download, Steps, Wanted, Whose, archive, download};
+use super::download::{Download, DownloadOptions, DownloadSelection, Steps, archive, download};
 use crate::language::{Language, Text};
 use crate::service::State;
 use crate::service::errors::Problem;
@@ -15,7 +15,7 @@ const MOST: usize = 8;
 
 /// A download that is being made, or is there.
 #[derive(Debug)]
-pub struct Job {
+pub struct DownloadJob {
     /// Its id.
     pub id: String,
     /// Id of the homework whose class it is of.
@@ -43,7 +43,7 @@ pub struct Made {
     pub notes: Vec<Text>,
 }
 
-impl Job {
+impl DownloadJob {
     /// How far it is.
     pub fn progress(&self) -> Progress {
         let (done, files) = self.steps.get();
@@ -61,36 +61,43 @@ impl Job {
 
 /// The downloads made lately.
 #[derive(Debug, Default)]
-pub struct Jobs(Mutex<VecDeque<Arc<Job>>>);
+pub struct Jobs(Mutex<VecDeque<Arc<DownloadJob>>>);
 
 impl Jobs {
     /// The download with this id.
-    pub fn get(&self, id: &str) -> Option<Arc<Job>> {
+    pub fn get(&self, id: &str) -> Option<Arc<DownloadJob>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().find(|job| job.id == id).cloned()
     }
 
     /// Begins to make one of a homework's class.
-    pub fn start(&self, state: &State, whose: Whose, wanted: Wanted, back: String) -> Arc<Job> {
+    pub fn start(
+        &self,
+        state: &State,
+        whose: DownloadSelection,
+        wanted: DownloadOptions,
+        back: String,
+    ) -> Arc<DownloadJob> {
         let of = state.clone();
         let what = wanted.format.description();
         self.begin(state, (what, false), back, |steps| async move { make(&of, whose, wanted, &steps).await })
     }
 
     /// Begins to make the archive of the term; it is looked for at the pages of this homework.
-    pub fn archive(&self, state: &State, language: Language, back: String) -> Arc<Job> {
+    pub fn archive(&self, state: &State, language: Language, back: String) -> Arc<DownloadJob> {
         let service = state.service().clone();
         let what = Text::new("The term as one file", "学期全体のアーカイブ");
         self.begin(state, (what, true), back, |steps| async move { archive(&service, language, &steps).await })
     }
 
-    fn begin<F, M>(&self, state: &State, (what, is_archive): (Text, bool), back: String, making: M) -> Arc<Job>
+    fn begin<F, M>(&self, state: &State, (what, is_archive): (Text, bool), back: String, making: M) -> Arc<DownloadJob>
     where
         M: FnOnce(Arc<Steps>) -> F,
         F: Future<Output = Result<Made, Problem>> + Send + 'static,
     {
         let (id, steps, made) = (new_id(), Arc::<Steps>::default(), OnceLock::new());
         let making = making(Arc::clone(&steps));
-        let job = Arc::new(Job { id, assignment: state.assignment.id.clone(), what, is_archive, back, steps, made });
+        let job =
+            Arc::new(DownloadJob { id, assignment: state.assignment.id.clone(), what, is_archive, back, steps, made });
         let mut jobs = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         jobs.truncate(MOST - 1);
         jobs.push_front(Arc::clone(&job));
@@ -104,7 +111,12 @@ impl Jobs {
     }
 }
 
-async fn make(state: &State, whose: Whose, wanted: Wanted, steps: &Arc<Steps>) -> Result<Made, Problem> {
+async fn make(
+    state: &State,
+    whose: DownloadSelection,
+    wanted: DownloadOptions,
+    steps: &Arc<Steps>,
+) -> Result<Made, Problem> {
     let Download { name, bytes: content, notes } = download(state, whose, wanted, steps).await?;
     let bytes = content.len();
     let path = tokio::task::spawn_blocking(move || {

@@ -7,7 +7,7 @@ use crate::service::State;
 use crate::service::clock::Millis;
 use crate::service::counting::{Counting, counted};
 use crate::service::errors::Problem;
-use crate::service::store::{BatchEntry, ClassRow, State as Progress, Student};
+use crate::service::store::{BatchEntry, ClassRow, StudentRecord, SubmissionState as Progress};
 use std::collections::{HashMap, HashSet};
 
 /// One person of the class.
@@ -144,7 +144,7 @@ pub async fn people(state: &State) -> Result<People, Problem> {
     let has_roster = !roster.is_empty();
     let mut gathered = Gathered::of(state).await?;
     for student in &roster {
-        let Student { id, number, name, .. } = student.clone();
+        let StudentRecord { id, number, name, .. } = student.clone();
         gathered.add(Person { number, name, ..Person::new(id) });
     }
     let class: HashSet<String> = roster.into_iter().map(|student| student.id).collect();
@@ -165,7 +165,7 @@ pub async fn of_batch(state: &State, id: &str) -> Result<Vec<Person>, Problem> {
     gathered.batch(id, state.store.batch_entries(id).await?);
     gathered.files(state.store.class(&state.assignment.id, Some(id)).await?);
     // Who is on the roster stands there by number and name.
-    let roster: HashMap<String, Student> =
+    let roster: HashMap<String, StudentRecord> =
         state.store.roster().await?.into_iter().map(|student| (student.id.clone(), student)).collect();
     for person in &mut gathered.people {
         if let Some(student) = roster.get(&person.key) {

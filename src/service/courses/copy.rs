@@ -3,7 +3,7 @@
 use super::super::Service;
 use super::super::clock::{Millis, millis};
 use super::super::errors::Problem;
-use super::super::store::{Assignment, LateRules, Place};
+use super::super::store::{AssignmentSettings, CoursePlace, LateRules};
 use super::{changed, make};
 use std::time::Duration;
 
@@ -45,7 +45,7 @@ pub async fn copy(
         let late = rules.late.clone();
         let until = shifted(late.until);
         copy.store
-            .set_assignment(&Assignment {
+            .set_assignment(&AssignmentSettings {
                 seed: own.seed,
                 opens_at: shifted(rules.opens_at),
                 closes_at: shifted(rules.closes_at),
@@ -62,9 +62,15 @@ pub async fn copy(
 
 /// The place of a homework in the copy: there it stands where it stood, and what came with the command line is chosen. What was to
 /// be shown at a date that is taken away is hidden.
-fn in_copy(from: &Service, place: &Place, shown_from: Option<Millis>) -> Place {
+fn in_copy(from: &Service, place: &CoursePlace, shown_from: Option<Millis>) -> CoursePlace {
     let position = from.ids().iter().position(|id| *id == place.id).and_then(|index| i64::try_from(index).ok());
     let is_hidden = place.is_hidden != 0 || (place.shown_from.is_some() && shown_from.is_none());
     let is_named = from.named_as(&place.id).is_some();
-    Place { is_chosen: i64::from(is_named), position, is_hidden: i64::from(is_hidden), shown_from, ..place.clone() }
+    CoursePlace {
+        is_chosen: i64::from(is_named),
+        position,
+        is_hidden: i64::from(is_hidden),
+        shown_from,
+        ..place.clone()
+    }
 }

@@ -1,7 +1,7 @@
 //! Which homeworks a course has, and in which order.
 
 use super::super::errors::Problem;
-use super::super::store::{Place, Result as StoreResult, Store};
+use super::super::store::{CoursePlace, Result as StoreResult, Store};
 use super::super::{Service, folders, grading};
 use crate::sandbox::MOST_ASSIGNMENTS;
 use reference::Assignment;
@@ -10,16 +10,16 @@ use std::sync::{Arc, PoisonError};
 
 /// The order of a course, and what it chose, as this process knows it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Plan {
+pub struct CoursePlan {
     /// Of each homework the place in the order, and whether it was chosen.
     places: HashMap<String, (usize, bool)>,
 }
 
-impl Plan {
+impl CoursePlan {
     /// As the course has it.
     pub(in crate::service) async fn read(store: &Store) -> StoreResult<Self> {
         let places = store.places().await?.into_iter().enumerate();
-        let place = |(index, place): (usize, Place)| {
+        let place = |(index, place): (usize, CoursePlace)| {
             let index = if place.position.is_some() { index } else { usize::MAX };
             (place.id, (index, place.is_chosen != 0))
         };
@@ -49,7 +49,7 @@ pub async fn changed(service: &Service) -> StoreResult<()> {
 
 /// Serves what the course has now, in its order.
 pub async fn reread(service: &Service) -> StoreResult<()> {
-    let plan = Plan::read(&service.store).await?;
+    let plan = CoursePlan::read(&service.store).await?;
     *service.plan.write().unwrap_or_else(PoisonError::into_inner) = plan;
     folders::follow(service).await
 }

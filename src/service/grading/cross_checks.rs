@@ -149,7 +149,7 @@ async fn cross_check(state: &State, submission: &Submission, hand_in: HandIn) ->
     let order = Order { seed: submission.seed, hints: submission.hints, cross_check: true };
     let graded = state.gallery.in_turn(state, move |state| {
         let assignment = &state.assignment;
-        let submission = sandbox::Submission { assignment, hand_in: &hand_in, order, wants_frames: false };
+        let submission = sandbox::GradingTask { assignment, hand_in: &hand_in, order, wants_frames: false };
         Ok(state.pool.grade(submission).map(|answer| answer.report))
     });
     match graded.await {

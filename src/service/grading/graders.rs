@@ -235,7 +235,7 @@ async fn judge_by(
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { seed, hints, .. } = submission;
         let order = Order { seed, hints, ..Order::default() };
-        pool.grade(sandbox::Submission { assignment: &assignment, hand_in: &hand_in, order, wants_frames: false })
+        pool.grade(sandbox::GradingTask { assignment: &assignment, hand_in: &hand_in, order, wants_frames: false })
     });
     match graded.await {
         Ok(answer) => answer.map(|answer| answer.report),

@@ -2,7 +2,7 @@
 //! served.
 
 use super::GradingResult;
-use crate::service::store::{Listener, News, StoreError, Stored};
+use crate::service::store::{Listener, News, StoreError, StoredSubmission};
 use crate::service::{Service, courses};
 use std::sync::Arc;
 use std::time::Duration;
@@ -70,7 +70,9 @@ async fn published(service: &Service) -> Result<(), StoreError> {
 }
 
 async fn finished(service: &Service, id: &str) -> Result<(), StoreError> {
-    let Some((_, Stored { submission, report, .. })) = courses::holding(service, id).await? else { return Ok(()) };
+    let Some((_, StoredSubmission { submission, report, .. })) = courses::holding(service, id).await? else {
+        return Ok(());
+    };
     match (report, submission.fault) {
         (Some(report), _) => service.queue.tell(id, GradingResult::Graded(Arc::new(report))),
         (None, Some(fault)) => service.queue.tell(id, GradingResult::Failed(Arc::new(fault))),

@@ -5,12 +5,12 @@
 use super::Teacher;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::store::{Role, StaffMember};
+use crate::service::store::{StaffMember, StaffRole};
 
 /// Somebody with an account as a course knows them; none where they do not teach there.
 pub(super) async fn in_course(service: &Service, account: StaffMember) -> Result<Option<StaffMember>, Problem> {
     let own = service.store.course_member(&account.id).await?;
-    if account.role == Role::Administrator {
+    if account.role == StaffRole::Administrator {
         if own.is_none() {
             // What they do here is logged under their name.
             service.store.keep_account(&account, service.clock.now()).await?;
@@ -35,7 +35,10 @@ pub(super) async fn added(service: &Service, new: &StaffMember) -> Result<Option
         }
         None => return Ok(store.add_staff(new, now).await?.then(|| new.clone())),
     };
-    if store.course_member(&account.id).await?.is_some() || account.role == Role::Administrator || !account.is_active {
+    if store.course_member(&account.id).await?.is_some()
+        || account.role == StaffRole::Administrator
+        || !account.is_active
+    {
         return Ok(None);
     }
     store.keep_account(&account, now).await?;
@@ -75,7 +78,7 @@ pub async fn people(service: &Service) -> Result<Vec<StaffMember>, Problem> {
 /// another one, so that it takes an administrator.
 pub async fn check_may_invite(service: &Service, teacher: &Teacher) -> Result<(), Problem> {
     if service.is_beside() || !service.store.courses().await?.is_empty() {
-        teacher.check_role(Role::Administrator)?;
+        teacher.check_role(StaffRole::Administrator)?;
     }
     Ok(())
 }

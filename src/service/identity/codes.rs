@@ -6,7 +6,7 @@
 use super::secrets::same;
 use crate::service::Service;
 use crate::service::errors::Problem;
-use crate::service::store::Student;
+use crate::service::store::StudentRecord;
 use axum::http::StatusCode;
 use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
@@ -19,7 +19,7 @@ const LETTERS: usize = 10;
 const HALF: usize = 5;
 
 /// The personal code of a student, as it is handed out: `7KQ4M-2XR9T`.
-pub fn personal_code(service: &Service, student: &Student) -> String {
+pub fn personal_code(service: &Service, student: &StudentRecord) -> String {
     // A key of any length is taken: there is nothing that could fail.
     let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(&service.key) else { return String::new() };
     mac.update(format!("personal code {} {}", student.id, student.code_generation).as_bytes());
@@ -29,7 +29,7 @@ pub fn personal_code(service: &Service, student: &Student) -> String {
 }
 
 /// Whether somebody typed this student's code, however they wrote it.
-pub(super) fn is_code_of(service: &Service, student: &Student, typed: &str) -> bool {
+pub(super) fn is_code_of(service: &Service, student: &StudentRecord, typed: &str) -> bool {
     let code = personal_code(service, student);
     !code.is_empty() && same(&normal(&code), &normal(typed))
 }
@@ -51,7 +51,7 @@ fn normal(typed: &str) -> String {
 }
 
 /// The answer to a number without its personal code.
-pub fn code_needed(student: &Student) -> Problem {
+pub fn code_needed(student: &StudentRecord) -> Problem {
     let number = &student.number;
     let (en, ja) = if student.is_on_roster() {
         (
@@ -73,7 +73,7 @@ pub fn code_needed(student: &Student) -> Problem {
 }
 
 /// The answer to a code that is not this student's.
-pub(super) fn wrong_code(student: &Student) -> Problem {
+pub(super) fn wrong_code(student: &StudentRecord) -> Problem {
     Problem::new(
         StatusCode::FORBIDDEN,
         "wrong-code",

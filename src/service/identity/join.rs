@@ -6,7 +6,7 @@ use super::{Identity, Visitor, new_token};
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::roster::not_on_roster;
-use crate::service::store::{Proof, Student};
+use crate::service::store::{Proof, StudentRecord};
 
 /// Name of the setting that holds the secret of the course link.
 const SETTING: &str = "course_secret";
@@ -32,7 +32,7 @@ pub async fn check_course_link(service: &Service, secret: &str) -> Result<(), Pr
 }
 
 /// The student with a number that somebody typed.
-pub async fn student_of(service: &Service, number: &str) -> Result<Student, Problem> {
+pub async fn student_of(service: &Service, number: &str) -> Result<StudentRecord, Problem> {
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable(
             format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`."),
@@ -44,7 +44,7 @@ pub async fn student_of(service: &Service, number: &str) -> Result<Student, Prob
 }
 
 /// Lets a program pass that brings a student's personal code.
-pub async fn with_code(service: &Service, number: &str, code: &str) -> Result<Student, Problem> {
+pub async fn with_code(service: &Service, number: &str, code: &str) -> Result<StudentRecord, Problem> {
     let student = student_of(service, number).await?;
     match code.trim() {
         "" => Err(code_needed(&student)),
@@ -79,7 +79,7 @@ pub async fn join(
 pub(in crate::service) async fn become_student(
     service: &Service,
     visitor: Visitor,
-    student: Student,
+    student: StudentRecord,
     proof: Proof,
 ) -> Result<Visitor, Problem> {
     // What another student handed in at this machine is nobody else's to see.

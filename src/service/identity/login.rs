@@ -10,7 +10,7 @@ use crate::service::Service;
 use crate::service::clock::millis;
 use crate::service::errors::Problem;
 use crate::service::limits::Client;
-use crate::service::store::{Act, Session, StaffMember};
+use crate::service::store::{Act, StaffMember, TeacherSession};
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
@@ -69,10 +69,10 @@ pub async fn open_for(service: &Service, member: StaffMember, page: &str, jar: J
     if service.is_beside() {
         service.accounts().keep_account(&member, service.clock.now()).await?;
     }
-    open(service, Session { assignment: None, staff: Some(member) }, page, jar).await
+    open(service, TeacherSession { assignment: None, staff: Some(member) }, page, jar).await
 }
 
-async fn open(service: &Service, session: Session, page: &str, jar: Jar) -> Result<Response, Problem> {
+async fn open(service: &Service, session: TeacherSession, page: &str, jar: Jar) -> Result<Response, Problem> {
     let token = new_token();
     let now = service.clock.now();
     service.accounts().open_session(&token_hash(&token), &session, now, now + millis(SESSION)).await?;
@@ -118,7 +118,7 @@ fn to_page_with_cookie(service: &Service, page: &str, (value, seconds): (&str, u
 }
 
 /// What a login and a password open, or a secret of the whole service without a login.
-async fn opened(service: &Service, login: &str, password: &str) -> Result<Option<Session>, Problem> {
+async fn opened(service: &Service, login: &str, password: &str) -> Result<Option<TeacherSession>, Problem> {
     if login.trim().is_empty() {
         return shared(service, password).await;
     }
@@ -132,7 +132,7 @@ async fn opened(service: &Service, login: &str, password: &str) -> Result<Option
         None => (None, NOBODYS.clone()),
     };
     let is_right = matches(service, password, hash).await?;
-    Ok(member.filter(|_| is_right).map(|member| Session { assignment: None, staff: Some(member) }))
+    Ok(member.filter(|_| is_right).map(|member| TeacherSession { assignment: None, staff: Some(member) }))
 }
 
 /// The hash of a password that nobody knows.
@@ -140,17 +140,17 @@ static NOBODYS: LazyLock<String> = LazyLock::new(|| hash_password(&new_token()).
 
 /// What a secret of the whole service opens. The password that is set on the machine always does; what the configuration
 /// has, until there is an administrator.
-async fn shared(service: &Service, secret: &str) -> Result<Option<Session>, Problem> {
+async fn shared(service: &Service, secret: &str) -> Result<Option<TeacherSession>, Problem> {
     let is_first = !service.accounts().has_administrator().await?;
     if is_first && let Some(assignment) = of_token(service, secret) {
-        return Ok(Some(Session { assignment, staff: None }));
+        return Ok(Some(TeacherSession { assignment, staff: None }));
     }
     let hash = match &service.config.teacher_password_hash {
         Some(hash) if is_first => Some(hash.clone()),
         _ => service.accounts().setting(PASSWORD_SETTING).await?,
     };
     let Some(hash) = hash else { return Ok(None) };
-    Ok(matches(service, secret, hash).await?.then_some(Session { assignment: None, staff: None }))
+    Ok(matches(service, secret, hash).await?.then_some(TeacherSession { assignment: None, staff: None }))
 }
 
 async fn matches(service: &Service, password: &str, hash: String) -> Result<bool, Problem> {

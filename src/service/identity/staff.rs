@@ -9,7 +9,7 @@ use super::{Teacher, new_id, new_token, token_hash};
 use crate::service::Service;
 use crate::service::clock::{Millis, millis};
 use crate::service::errors::Problem;
-use crate::service::store::{Role, StaffMember};
+use crate::service::store::{StaffMember, StaffRole};
 use std::time::Duration;
 
 /// Name of the setting that holds the hash of the service's password.
@@ -27,9 +27,9 @@ const LONGEST_LOGIN: usize = 64;
 const LONGEST_NAME: usize = 100;
 
 /// Lets a teacher pass who may let somebody of this role in, or keep them out.
-pub fn check_may_manage(teacher: &Teacher, role: Role) -> Result<(), Problem> {
+pub fn check_may_manage(teacher: &Teacher, role: StaffRole) -> Result<(), Problem> {
     teacher.check_course()?;
-    teacher.check_role(if role == Role::Assistant { Role::Lecturer } else { Role::Administrator })
+    teacher.check_role(if role == StaffRole::Assistant { StaffRole::Lecturer } else { StaffRole::Administrator })
 }
 
 /// The name by which somebody logs in, as it is kept; none where that is none.
@@ -47,7 +47,7 @@ pub async fn member_of(service: &Service, login: &str) -> Result<Option<StaffMem
 }
 
 /// Adds somebody who has still to choose a password.
-pub async fn add_staff(service: &Service, login: &str, name: &str, role: Role) -> Result<StaffMember, Problem> {
+pub async fn add_staff(service: &Service, login: &str, name: &str, role: StaffRole) -> Result<StaffMember, Problem> {
     let login = normal_login(login).ok_or_else(|| {
         Problem::unprocessable(
             format!("A login has 1 to {LONGEST_LOGIN} letters, digits, `-`, `_`, `.`, `@` or `+`; a mail address is one."),
@@ -55,10 +55,10 @@ pub async fn add_staff(service: &Service, login: &str, name: &str, role: Role) -
         )
     })?;
     let name: String = name.trim().chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
-    if role == Role::Administrator && service.is_beside() {
+    if role == StaffRole::Administrator && service.is_beside() {
         return Err(only_in_the_first());
     }
-    if role != Role::Administrator && !service.accounts().has_administrator().await? {
+    if role != StaffRole::Administrator && !service.accounts().has_administrator().await? {
         return Err(Problem::unprocessable(
             "The first account is an administrator's: make your own, and then those of the others.",
             "最初のアカウントは管理者のものです。先に自分のアカウントを作成し、その後でほかの人を追加してください。",
@@ -83,11 +83,11 @@ pub async fn let_in(
     service: &Service,
     teacher: &Teacher,
     (login, name): (&str, &str),
-    role: Role,
+    role: StaffRole,
 ) -> Result<(StaffMember, Option<String>), Problem> {
     let is_new = service.accounts().account(&login.trim().to_lowercase()).await?.is_none();
     let member = add_staff(service, login, name, role).await?;
-    let may_invite = is_new || (!member.has_password && teacher.check_role(Role::Administrator).is_ok());
+    let may_invite = is_new || (!member.has_password && teacher.check_role(StaffRole::Administrator).is_ok());
     let secret = if may_invite { Some(invite(service, &member).await?) } else { None };
     Ok((member, secret))
 }
@@ -139,22 +139,27 @@ pub async fn choose_password(service: &Service, secret: &str, password: &str) ->
     let hash = tokio::task::spawn_blocking(move || hash_password(&password)).await;
     let hash = hash.map_err(|error| Problem::internal(&error))?.map_err(|fault| Problem::of_fault(&fault))?;
     service.accounts().set_staff_password(&member.id, &hash).await?;
-    if member.role == Role::Administrator {
+    if member.role == StaffRole::Administrator {
         service.accounts().close_shared_way(PASSWORD_SETTING).await?;
     }
     Ok(member)
 }
 
 /// Sets what somebody may do, and whether they may log in. The last administrator stays one.
-pub async fn set_staff(service: &Service, member: &StaffMember, role: Role, is_active: bool) -> Result<(), Problem> {
-    if role == Role::Administrator && service.is_beside() {
+pub async fn set_staff(
+    service: &Service,
+    member: &StaffMember,
+    role: StaffRole,
+    is_active: bool,
+) -> Result<(), Problem> {
+    if role == StaffRole::Administrator && service.is_beside() {
         return Err(only_in_the_first());
     }
-    let stays = role == Role::Administrator && is_active;
-    if member.role == Role::Administrator && !stays {
+    let stays = role == StaffRole::Administrator && is_active;
+    if member.role == StaffRole::Administrator && !stays {
         let staff = service.store.staff().await?;
         let is_other = |other: &&StaffMember| {
-            other.role == Role::Administrator && other.is_active && other.has_password && other.id != member.id
+            other.role == StaffRole::Administrator && other.is_active && other.has_password && other.id != member.id
         };
         if !staff.iter().any(|other| is_other(&other)) {
             return Err(Problem::unprocessable(

@@ -5,7 +5,7 @@ use super::cookies::{TEACHER_COOKIE, read};
 use super::secrets::same;
 use super::{csrf, token_hash};
 use crate::service::errors::Problem;
-use crate::service::store::{DeletionTarget, Role, Session, StaffMember, TokenScope};
+use crate::service::store::{DeletionTarget, StaffMember, StaffRole, TeacherSession, TokenScope};
 use crate::service::{Scope, Service};
 use axum::extract::{FromRequestParts, Request};
 use axum::http::request::Parts;
@@ -40,7 +40,7 @@ impl Teacher {
         }
         let Some(session) = read(service, headers, TEACHER_COOKIE) else { return Ok(None) };
         let open = service.accounts().session(&token_hash(&session), service.clock.now()).await?;
-        let Some(Session { assignment, staff }) = open else { return Ok(None) };
+        let Some(TeacherSession { assignment, staff }) = open else { return Ok(None) };
         // A secret of a homework is for one of the first course.
         if assignment.is_some() && service.is_beside() {
             return Ok(None);
@@ -113,16 +113,16 @@ impl Teacher {
     }
 
     /// What they may do.
-    pub fn role(&self) -> Role {
+    pub fn role(&self) -> StaffRole {
         match (&self.staff, &self.homework) {
             (Some(member), _) => member.role,
-            (None, Some(_)) => Role::Lecturer,
-            (None, None) => Role::Administrator,
+            (None, Some(_)) => StaffRole::Lecturer,
+            (None, None) => StaffRole::Administrator,
         }
     }
 
     /// Lets who may do that much pass.
-    pub fn check_role(&self, least: Role) -> Result<(), Problem> {
+    pub fn check_role(&self, least: StaffRole) -> Result<(), Problem> {
         if self.role() >= least { Ok(()) } else { Err(not_of_this_role(least)) }
     }
 
@@ -168,7 +168,7 @@ impl Teacher {
     /// Lets who may delete this pass, where they may see the homework that it was found in. With somebody goes what they
     /// handed in for every homework.
     pub fn may_delete(&self, target: &DeletionTarget) -> Result<(), Problem> {
-        self.check_role(Role::Lecturer)?;
+        self.check_role(StaffRole::Lecturer)?;
         match target {
             DeletionTarget::Submission(_) | DeletionTarget::Batch(_) | DeletionTarget::Entry(..) => Ok(()),
             DeletionTarget::Student(_) | DeletionTarget::Browser(_) => self.check_course(),
@@ -209,7 +209,7 @@ pub(in crate::service) async fn is_teachers_program(service: &Service, request: 
 
 /// Whether somebody reads names and numbers of students.
 async fn sees_names(service: &Service, member: Option<&StaffMember>) -> Result<bool, Problem> {
-    let is_assistant = member.is_some_and(|member| member.role == Role::Assistant);
+    let is_assistant = member.is_some_and(|member| member.role == StaffRole::Assistant);
     Ok(!(is_assistant && service.store.has_pseudonyms().await?))
 }
 
@@ -230,13 +230,13 @@ fn beyond_its_scope() -> Problem {
 }
 
 /// The answer to a teacher who may do less.
-fn not_of_this_role(least: Role) -> Problem {
+fn not_of_this_role(least: StaffRole) -> Problem {
     let (en, ja) = match least {
-        Role::Administrator => (
+        StaffRole::Administrator => (
             "Only an administrator may do this. Ask one; the page of the people says who they are.",
             "この操作は管理者だけができます。管理者に依頼してください。",
         ),
-        Role::Lecturer | Role::Assistant => (
+        StaffRole::Lecturer | StaffRole::Assistant => (
             "Assistants see the class and its reports; this is for lecturers. Ask one to do it.",
             "アシスタントはクラスと採点結果を閲覧できますが、この操作は担当教員だけができます。担当教員に依頼してください。",
         ),
@@ -305,7 +305,7 @@ impl<S: Scope> FromRequestParts<S> for LecturerPage {
 
     async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Response> {
         let TeacherPage(teacher) = TeacherPage::from_request_parts(parts, scope).await?;
-        teacher.check_role(Role::Lecturer).map_err(IntoResponse::into_response)?;
+        teacher.check_role(StaffRole::Lecturer).map_err(IntoResponse::into_response)?;
         Ok(Self(teacher))
     }
 }

@@ -4,7 +4,7 @@ use super::{Teacher, new_id, new_token, token_hash};
 use crate::service::Service;
 use crate::service::clock::{Millis, millis};
 use crate::service::errors::Problem;
-use crate::service::store::{AccessToken, OwnedToken, Role, StaffMember, TokenScope};
+use crate::service::store::{AccessToken, OwnedToken, StaffMember, StaffRole, TokenScope};
 use axum::http::StatusCode;
 use std::time::Duration;
 
@@ -81,7 +81,7 @@ pub async fn make_token(
 /// The tokens that somebody sees: their own, an administrator everybody's.
 pub async fn tokens_for(service: &Service, teacher: &Teacher) -> Result<Vec<OwnedToken>, Problem> {
     teacher.check_course()?;
-    let everybodys = teacher.role() == Role::Administrator;
+    let everybodys = teacher.role() == StaffRole::Administrator;
     let owner = match (everybodys, teacher.staff()) {
         (true, _) => None,
         (false, Some(member)) => Some(member.id.as_str()),

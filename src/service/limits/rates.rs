@@ -29,7 +29,7 @@ const STANDING: HeaderName = HeaderName::from_static("ratelimit");
 
 /// The rates.
 #[derive(Debug)]
-pub struct Limits {
+pub struct RateLimits {
     visitors: Rate<String>,
     addresses: Rate<IpAddr>,
     logins: Rate<IpAddr>,
@@ -55,10 +55,10 @@ impl governor::clock::Clock for Clock {
 
 /// What a request left of the quotas that it was counted by.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Counted(Vec<Left>);
+pub struct Counted(Vec<RemainingQuota>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Left {
+struct RemainingQuota {
     name: &'static str,
     quota: u32,
     left: u32,
@@ -66,7 +66,7 @@ struct Left {
     seconds: u64,
 }
 
-impl Limits {
+impl RateLimits {
     /// The rates of a configuration.
     pub fn new(config: &Config, clock: &Clock) -> Self {
         Self {
@@ -116,13 +116,13 @@ impl<K: Hash + Eq + Clone> Rate<K> {
                 let left = standing.remaining_burst_capacity();
                 let used = u64::from(quota.saturating_sub(left));
                 let seconds = (used * u64::from(WINDOW)).div_ceil(u64::from(quota));
-                counted.0.push(Left { name, quota, left, seconds });
+                counted.0.push(RemainingQuota { name, quota, left, seconds });
                 Ok(())
             }
             Err(until) => {
                 let wait = until.wait_time_from(self.limiter.clock().elapsed());
                 let seconds = (wait.as_secs_f64().ceil() as u64).max(1);
-                counted.0.push(Left { name, quota, left: 0, seconds });
+                counted.0.push(RemainingQuota { name, quota, left: 0, seconds });
                 Err(too_many(self.kind).retry_after(seconds))
             }
         }
@@ -141,8 +141,8 @@ fn too_many(kind: &'static str) -> Problem {
 impl Counted {
     /// Tells what is left in the head of an answer.
     pub fn tell(&self, headers: &mut HeaderMap) {
-        let policy = |left: &Left| format!("\"{}\";q={};w={WINDOW}", left.name, left.quota);
-        let standing = |left: &Left| format!("\"{}\";r={};t={}", left.name, left.left, left.seconds);
+        let policy = |left: &RemainingQuota| format!("\"{}\";q={};w={WINDOW}", left.name, left.quota);
+        let standing = |left: &RemainingQuota| format!("\"{}\";r={};t={}", left.name, left.left, left.seconds);
         let lists: [(_, Vec<String>); 2] =
             [(POLICY, self.0.iter().map(policy).collect()), (STANDING, self.0.iter().map(standing).collect())];
         for (name, items) in lists {

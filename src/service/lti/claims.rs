@@ -33,7 +33,7 @@ pub(super) struct Claims {
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/roles", default)]
     pub roles: Vec<String>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/context")]
-    pub context: Option<Context>,
+    pub context: Option<ContextClaim>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/lis")]
     pub lis: Option<Lis>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/ext")]
@@ -43,7 +43,7 @@ pub(super) struct Claims {
     #[serde(rename = "https://purl.imsglobal.org/spec/lti-ags/claim/endpoint")]
     pub grades: Option<Grades>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti-nrps/claim/namesroleservice")]
-    pub names: Option<Names>,
+    pub names: Option<MembershipsClaim>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti-dl/claim/deep_linking_settings")]
     pub deep_linking: Option<DeepLinking>,
 }
@@ -55,7 +55,7 @@ pub(super) struct ResourceLink {
 }
 
 #[derive(Debug, Deserialize)]
-pub(super) struct Context {
+pub(super) struct ContextClaim {
     #[serde(deserialize_with = "id")]
     pub id: String,
     label: Option<String>,
@@ -84,7 +84,7 @@ pub(super) struct Grades {
 
 /// Where the people of the course are.
 #[derive(Debug, Deserialize)]
-pub(super) struct Names {
+pub(super) struct MembershipsClaim {
     pub context_memberships_url: Option<String>,
 }
 
@@ -96,7 +96,7 @@ pub(super) struct DeepLinking {
     accept_multiple: Option<Value>,
 }
 
-impl Context {
+impl ContextClaim {
     /// What people call it.
     pub fn name(&self) -> &str {
         let names = [&self.title, &self.label].into_iter().flatten();

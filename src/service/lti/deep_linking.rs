@@ -2,7 +2,7 @@
 
 use super::super::Service;
 use super::super::identity::new_id;
-use super::super::pages::Frame;
+use super::super::pages::PageFrame;
 use super::super::store::Platform;
 use super::claims::{Claims, DeepLinking};
 use super::keys::sign;
@@ -17,7 +17,7 @@ const HOUR: i64 = 3600;
 
 /// The homeworks to choose from.
 #[derive(Debug)]
-pub struct Choice {
+pub struct HomeworkChoice {
     /// Where the choice goes.
     pub action: String,
     /// The site of that, for the policy of the page.
@@ -33,8 +33,8 @@ pub(super) async fn offer(
     service: &Service,
     platform: &Platform,
     claims: &Claims,
-    frame: &Frame,
-) -> Result<Choice, Problem> {
+    frame: &PageFrame,
+) -> Result<HomeworkChoice, Problem> {
     if !claims.is_staff() || claims.is_assistant() {
         return Err(refused("Only lecturers choose a homework.", "課題を選択できるのは担当教員だけです。"));
     }
@@ -61,7 +61,7 @@ pub(super) async fn offer(
     for (title, item) in titles.into_iter().zip(&items) {
         homeworks.push((title, answer(std::slice::from_ref(item)).await?));
     }
-    Ok(Choice { origin: action.origin().ascii_serialization(), action: action.to_string(), homeworks, all })
+    Ok(HomeworkChoice { origin: action.origin().ascii_serialization(), action: action.to_string(), homeworks, all })
 }
 
 /// The message that makes links of these items.

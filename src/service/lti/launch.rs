@@ -1,8 +1,8 @@
 //! A launch: the platform sends the browser back with its word on who that is.
 
 use super::super::identity::{Jar, Visitor, become_student, has_launch, open_for, token_hash};
-use super::super::pages::{Frame, launch_lost, shown_choice};
-use super::super::store::{Link, Platform, Proof, Role};
+use super::super::pages::{PageFrame, launch_lost, shown_choice};
+use super::super::store::{Link, Platform, Proof, StaffRole};
 use super::super::{Service, State};
 use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
 use super::people::{Described, staff, student};
@@ -18,7 +18,7 @@ use serde_json::Value;
 /// The form that a platform lets the browser send.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Answer {
+pub struct LaunchForm {
     id_token: String,
     state: String,
     error: String,
@@ -32,8 +32,8 @@ pub(super) const HOMEWORK: &str = "assignment";
 pub async fn launch(
     Shared(service): Shared<Service>,
     headers: HeaderMap,
-    frame: Frame,
-    Form(answer): Form<Answer>,
+    frame: PageFrame,
+    Form(answer): Form<LaunchForm>,
 ) -> Result<Response, Problem> {
     if !answer.error.is_empty() {
         let said: String = format!("{} {}", answer.error, answer.error_description).chars().take(300).collect();
@@ -134,7 +134,7 @@ async fn open(
         note_link(service, platform, claims, (&link, state)).await?;
     }
     if claims.is_staff() {
-        let role = if claims.is_assistant() { Role::Assistant } else { Role::Lecturer };
+        let role = if claims.is_assistant() { StaffRole::Assistant } else { StaffRole::Lecturer };
         let member = staff(service, platform, &who, role).await?;
         let page =
             state.map_or_else(|| format!("{}/teacher", service.root()), |state| format!("{}/teacher", state.base()));

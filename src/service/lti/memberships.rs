@@ -4,7 +4,7 @@ use super::super::Service;
 use super::super::errors::Problem;
 use super::super::identity::normal_number;
 use super::super::roster;
-use super::super::store::{Link, Platform, RosterLine, Student};
+use super::super::store::{Link, Platform, RosterLine, StudentRecord};
 use super::claims::id;
 use super::people::{Described, student};
 use super::platform::{Connections, Failure, parsed};
@@ -24,11 +24,11 @@ const MOST_PAGES: usize = 100;
 #[derive(Deserialize)]
 struct Container {
     #[serde(default)]
-    members: Vec<Member>,
+    members: Vec<PlatformMember>,
 }
 
 #[derive(Deserialize)]
-struct Member {
+struct PlatformMember {
     #[serde(deserialize_with = "id")]
     user_id: String,
     #[serde(default)]
@@ -41,7 +41,7 @@ struct Member {
     ext_user_username: Option<String>,
 }
 
-impl Member {
+impl PlatformMember {
     fn is_student(&self) -> bool {
         let is_learner = |role: &String| role.rsplit(['#', '/']).next() == Some("Learner");
         self.roles.iter().any(is_learner) && self.status.as_deref().is_none_or(|status| status == "Active")
@@ -70,7 +70,8 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
     };
     let address = link.memberships.clone().ok_or_else(|| failed("the link has none".to_owned()))?;
     let members = fetched(service, platform, address).await.map_err(failed)?;
-    let students: Vec<Described> = members.into_iter().filter(Member::is_student).map(Member::described).collect();
+    let students: Vec<Described> =
+        members.into_iter().filter(PlatformMember::is_student).map(PlatformMember::described).collect();
     if students.is_empty() {
         return Err(failed("it has no students".to_owned()));
     }
@@ -89,7 +90,7 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
     Ok(students.len())
 }
 
-fn line(student: Student) -> RosterLine {
+fn line(student: StudentRecord) -> RosterLine {
     RosterLine {
         number: student.number,
         name: student.name,
@@ -99,7 +100,7 @@ fn line(student: Student) -> RosterLine {
 }
 
 /// Every page of the list.
-async fn fetched(service: &Service, platform: &Platform, first: String) -> Result<Vec<Member>, Failure> {
+async fn fetched(service: &Service, platform: &Platform, first: String) -> Result<Vec<PlatformMember>, Failure> {
     let mut members = Vec::new();
     let mut next = Some(first);
     for _ in 0..MOST_PAGES {

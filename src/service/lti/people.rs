@@ -3,7 +3,7 @@
 use super::super::Service;
 use super::super::errors::Problem;
 use super::super::identity::{new_id, normal_number, token_hash, vouched_for};
-use super::super::store::{Platform, PlatformPerson, Role, RosterLine, StaffMember, Student};
+use super::super::store::{Platform, PlatformPerson, RosterLine, StaffMember, StaffRole, StudentRecord};
 
 /// What a platform says of one person.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +18,7 @@ pub(super) struct Described {
 
 /// The student that somebody is: the one they were before, else the one with their number. Of a number that is somebody else's of
 /// the same platform they get none, but one that is made of the platform's id.
-pub(super) async fn student(service: &Service, platform: &Platform, who: &Described) -> Result<Student, Problem> {
+pub(super) async fn student(service: &Service, platform: &Platform, who: &Described) -> Result<StudentRecord, Problem> {
     let store = &service.store;
     let known = store.platform_person(&platform.id, &who.subject).await?;
     if let Some(id) = known.and_then(|person| person.student_id)
@@ -32,7 +32,7 @@ pub(super) async fn student(service: &Service, platform: &Platform, who: &Descri
     // Whoever stands on the roster goes before who has only a likely number.
     let mut chosen = None;
     for number in &numbers {
-        if let Some(student) = store.student_by_number(number).await?.filter(Student::is_on_roster) {
+        if let Some(student) = store.student_by_number(number).await?.filter(StudentRecord::is_on_roster) {
             chosen = Some(student);
             break;
         }
@@ -59,7 +59,7 @@ async fn enrolled(
     platform: &Platform,
     who: &Described,
     numbers: &[String],
-) -> Result<Student, Problem> {
+) -> Result<StudentRecord, Problem> {
     let store = &service.store;
     for number in numbers {
         let line = RosterLine { number: number.clone(), name: who.name.clone(), ..RosterLine::default() };
@@ -79,7 +79,7 @@ pub(super) async fn staff(
     service: &Service,
     platform: &Platform,
     who: &Described,
-    role: Role,
+    role: StaffRole,
 ) -> Result<StaffMember, Problem> {
     let login = format!("lti-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..12]);
     let name: String = who.name.chars().filter(|c| !c.is_control()).take(100).collect();

@@ -172,7 +172,7 @@ impl Connections {
             ("scope", scope),
         ];
         let response = answered(address, self.request(Method::POST, address)?.form(&form)).await?;
-        let Token { access_token, expires_in } = parsed(address, response).await?;
+        let PlatformToken { access_token, expires_in } = parsed(address, response).await?;
         let life = Duration::from_secs(expires_in.unwrap_or(ASSERTION as u64).saturating_sub(MARGIN));
         lock(&self.tokens).insert(key, (Instant::now() + life, access_token.clone()));
         Ok(access_token)
@@ -180,7 +180,7 @@ impl Connections {
 }
 
 #[derive(Deserialize)]
-struct Token {
+struct PlatformToken {
     access_token: String,
     expires_in: Option<u64>,
 }

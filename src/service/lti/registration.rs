@@ -29,7 +29,7 @@ struct Kept {
 /// What a platform opens the link with.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Asked {
+pub struct RegistrationQuery {
     /// Where the platform says what it is.
     pub openid_configuration: String,
     registration_token: Option<String>,
@@ -52,7 +52,7 @@ pub async fn new_link(service: &Service) -> Result<String, Problem> {
 }
 
 /// Registers this service with the platform that opened the link, and the platform here.
-pub async fn register(service: &Service, secret: &str, asked: &Asked) -> Result<Platform, Problem> {
+pub async fn register(service: &Service, secret: &str, asked: &RegistrationQuery) -> Result<Platform, Problem> {
     let kept = service.store.setting(SETTING).await?.and_then(|json| serde_json::from_str::<Kept>(&json).ok());
     let holds = kept.is_some_and(|kept| kept.hash == token_hash(secret) && kept.until > service.clock.now());
     if !holds {

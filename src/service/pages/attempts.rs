@@ -1,14 +1,14 @@
 //! What somebody has handed in, one card for each, on their own page and on the teacher's.
 
-use super::datetime::Moment;
-use super::frame::Frame;
+use super::datetime::TimeElement;
+use super::frame::PageFrame;
 use super::report_fragment;
 use crate::language::{Language, span};
 use crate::report::html::Mark;
 use crate::report::text::number;
 use crate::report::{Lateness, Verdict};
 use crate::service::counting::Counting;
-use crate::service::store::{HistoryRow, State as Progress};
+use crate::service::store::{HistoryRow, SubmissionState as Progress};
 
 /// One attempt.
 pub(super) struct Attempt {
@@ -24,7 +24,7 @@ pub(super) struct Attempt {
     /// Whether it may be chosen to count.
     pub can_choose: bool,
     pub portrait: Option<String>,
-    pub at: Moment,
+    pub at: TimeElement,
     /// Title and id of each mistake, for those who teach.
     pub mistakes: Vec<(String, String)>,
     /// Whether driver and interpreter disagree, for those who teach.
@@ -35,7 +35,7 @@ pub(super) struct Attempt {
 
 /// Which attempts count, and whether that may be changed.
 #[derive(Clone, Copy)]
-pub(super) struct Choice<'a> {
+pub(super) struct CountingChoice<'a> {
     pub counting: Counting,
     /// Id of the attempt that counts.
     pub counted: Option<&'a str>,
@@ -44,7 +44,7 @@ pub(super) struct Choice<'a> {
 }
 
 impl Attempt {
-    pub fn of(frame: &Frame, row: &HistoryRow, choice: Choice<'_>) -> Self {
+    pub fn of(frame: &PageFrame, row: &HistoryRow, choice: CountingChoice<'_>) -> Self {
         let submission = &row.submission;
         let is_counted = choice.counted == Some(submission.id.as_str());
         let can_choose = choice.may_choose && choice.counting == Counting::Chosen && !is_counted;
@@ -76,7 +76,7 @@ impl Attempt {
 }
 
 /// What lateness takes off, and what is left: `1 day late: −20 → 60`.
-fn late(frame: &Frame, lateness: Lateness, total: Option<f64>) -> String {
+fn late(frame: &PageFrame, lateness: Lateness, total: Option<f64>) -> String {
     let late = span(lateness.milliseconds, frame.language);
     let late = match frame.language {
         Language::En => format!("{late} late"),

@@ -8,15 +8,15 @@ use jiff::{Timestamp, Zoned};
 
 /// A moment for a `time` element.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Moment {
+pub(super) struct TimeElement {
     /// As machines read it.
     pub iso: String,
     /// As people do.
     pub text: String,
 }
 
-impl Moment {
-    /// The moment in a time zone. Pages ask [`Frame::moment`](super::Frame::moment), which knows the course's.
+impl TimeElement {
+    /// The moment in a time zone. Pages ask [`PageFrame::moment`](super::PageFrame::moment), which knows the course's.
     pub fn of(at: Millis, language: Language, zone: &TimeZone) -> Self {
         let format = match language {
             Language::En => "%-d %b %Y, %H:%M",
@@ -79,15 +79,15 @@ mod tests {
 
     #[test]
     fn a_moment_is_said_in_both_languages_and_in_any_zone() {
-        assert_eq!(Moment::of(AT, Language::En, &zone("Asia/Tokyo")).text, "21 Nov 2026, 22:05");
-        assert_eq!(Moment::of(AT, Language::En, &zone("America/New_York")).text, "21 Nov 2026, 08:05");
-        let ja = Moment::of(AT, Language::Ja, &zone("Asia/Tokyo"));
+        assert_eq!(TimeElement::of(AT, Language::En, &zone("Asia/Tokyo")).text, "21 Nov 2026, 22:05");
+        assert_eq!(TimeElement::of(AT, Language::En, &zone("America/New_York")).text, "21 Nov 2026, 08:05");
+        let ja = TimeElement::of(AT, Language::Ja, &zone("Asia/Tokyo"));
         assert_eq!((ja.text.as_str(), ja.iso.as_str()), ("2026年11月21日 22:05", "2026-11-21T13:05:00Z"));
     }
 
     #[test]
     fn a_deadline_names_its_zone() {
-        let named = |zone: TimeZone| Moment::zoned(0, Language::En, &zone).text;
+        let named = |zone: TimeZone| TimeElement::zoned(0, Language::En, &zone).text;
         assert_eq!(named(TimeZone::get("Asia/Tokyo").expect("a zone")), "1 Jan 1970, 09:00 JST");
         assert_eq!(named(TimeZone::get("Asia/Dubai").expect("a zone")), "1 Jan 1970, 04:00 UTC+04");
         assert_eq!(named(TimeZone::UTC), "1 Jan 1970, 00:00 UTC");

@@ -10,7 +10,7 @@ use axum::http::StatusCode;
 
 /// The form as it came.
 #[derive(Default)]
-pub(super) struct Form {
+pub(super) struct UploadForm {
     pub csrf: String,
     /// The key by which the service knows a form that comes twice.
     pub key: Option<String>,
@@ -30,7 +30,7 @@ enum Sent {
     Texts,
 }
 
-impl Form {
+impl UploadForm {
     pub async fn read(mut parts: Multipart) -> Result<Self, Problem> {
         let mut form = Self::default();
         while let Some(field) = parts.next_field().await.map_err(|error| unreadable(&error))? {

@@ -1,7 +1,7 @@
 //! What every page has around its content: language, time zone, address, assets.
 
 use super::assets;
-use super::datetime::Moment;
+use super::datetime::TimeElement;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
 use crate::report::labels::mistake_title;
@@ -11,7 +11,7 @@ use crate::service::courses::{self, at};
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::sign_in::Provider;
-use crate::service::store::Role;
+use crate::service::store::StaffRole;
 use crate::service::{Scope, Service, State};
 use axum::extract::{FromRequestParts, OriginalUri};
 use axum::http::Uri;
@@ -23,7 +23,7 @@ use crate::service::language::of_request;
 
 /// The frame of one page.
 #[derive(Clone, Debug)]
-pub struct Frame {
+pub struct PageFrame {
     /// Language of every word.
     pub language: Language,
     /// The course, with the time zone of every date.
@@ -65,7 +65,7 @@ impl SignInLink {
     }
 }
 
-impl Frame {
+impl PageFrame {
     /// The frame of a page at an address.
     pub fn new(language: Language, course: Course, uri: Uri, assignment: Option<Arc<Assignment>>) -> Self {
         Self { language, course, teacher: None, uri, assignment, base: String::new(), root: courses::root() }
@@ -88,7 +88,7 @@ impl Frame {
 
     /// Whether a lecturer looks, who may do more than an assistant.
     pub fn is_lecturers(&self) -> bool {
-        self.teacher.as_ref().is_some_and(|teacher| teacher.role() >= Role::Lecturer)
+        self.teacher.as_ref().is_some_and(|teacher| teacher.role() >= StaffRole::Lecturer)
     }
 
     /// Whether it is somebody who may do what belongs to the whole course.
@@ -152,18 +152,18 @@ impl Frame {
     }
 
     /// A moment as this page's reader takes it, in the course's time zone. Every date of a page comes from here.
-    pub(super) fn moment(&self, at: Millis) -> Moment {
-        Moment::of(at, self.language, self.course.zone())
+    pub(super) fn moment(&self, at: Millis) -> TimeElement {
+        TimeElement::of(at, self.language, self.course.zone())
     }
 
     /// The same with the name of the time zone, for what people must not be late for.
-    pub(super) fn deadline(&self, at: Millis) -> Moment {
-        Moment::zoned(at, self.language, self.course.zone())
+    pub(super) fn deadline(&self, at: Millis) -> TimeElement {
+        TimeElement::zoned(at, self.language, self.course.zone())
     }
 
     /// The same to the second, for a receipt.
-    pub(super) fn exact_moment(&self, at: Millis) -> Moment {
-        Moment::exact(at, self.language, self.course.zone())
+    pub(super) fn exact_moment(&self, at: Millis) -> TimeElement {
+        TimeElement::exact(at, self.language, self.course.zone())
     }
 
     /// The language as a BCP 47 tag.
@@ -222,7 +222,7 @@ impl Frame {
     }
 }
 
-/// See [`Frame::picture`].
+/// See [`PageFrame::picture`].
 pub(super) fn picture(assignment: Option<&Assignment>, id: &str, name: &str) -> String {
     let version = assignment.and_then(|assignment| assignment.digest.get(..DIGITS)).unwrap_or_default();
     at(&format!("/r/{id}/{name}.png?of={version}"))
@@ -238,7 +238,7 @@ fn tag(language: Language) -> &'static str {
     }
 }
 
-impl<S: Scope> FromRequestParts<S> for Frame {
+impl<S: Scope> FromRequestParts<S> for PageFrame {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Problem> {
@@ -261,7 +261,7 @@ mod tests {
 
     #[test]
     fn a_switch_of_language_stays_on_the_page() {
-        let frame = Frame::new(
+        let frame = PageFrame::new(
             Language::En,
             Course::default(),
             Uri::from_static("/teacher/x?verdict=wrong&lang=en&q=a%22b"),
@@ -270,7 +270,7 @@ mod tests {
         let [ja, en] = frame.tongues();
         assert_eq!(ja.href, "/teacher/x?verdict=wrong&q=a%22b&lang=ja");
         assert!(!ja.is_current && en.is_current);
-        let [ja, _] = Frame::new(Language::Ja, Course::default(), Uri::from_static("/"), None).tongues();
+        let [ja, _] = PageFrame::new(Language::Ja, Course::default(), Uri::from_static("/"), None).tongues();
         assert_eq!(ja.href, "/?lang=ja");
     }
 }

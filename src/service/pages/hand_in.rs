@@ -1,9 +1,9 @@
 //! The student's page and its forms: looking, trying, handing in.
 
-use super::form::Form;
-use super::frame::{Frame, SignInLink};
+use super::form::UploadForm;
+use super::frame::{PageFrame, SignInLink};
 use super::standing::StudentStanding;
-use super::student::{Desk, LISTED};
+use super::student::{LISTED, StudentPageParts};
 use super::{preview, result, shown};
 use crate::grade::handed_out;
 use crate::service::State;
@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 
 /// What the page may be asked to show.
 #[derive(Debug, Default, Deserialize)]
-pub(super) struct Wish {
+pub(super) struct HandInQuery {
     /// Id of a submission whose texts to go on with.
     from: Option<String>,
 }
@@ -60,8 +60,8 @@ pub(super) async fn seen(Shared(state): Shared<State>, request: Request, next: N
 /// `GET /a/{assignment}`.
 pub(super) async fn desk(
     Shared(state): Shared<State>,
-    Query(wish): Query<Wish>,
-    frame: Frame,
+    Query(wish): Query<HandInQuery>,
+    frame: PageFrame,
     visitor: Visitor,
 ) -> Result<Response, Problem> {
     let id = &state.assignment.id;
@@ -102,7 +102,7 @@ pub(super) async fn desk(
             "開こうとした提出の内容は残っていません。配布ファイルまたは最新の下書きを表示しています。",
         )
     });
-    let desk = Desk {
+    let desk = StudentPageParts {
         preview: preview::panel(&state, &frame),
         frame,
         homework: std::sync::Arc::clone(&state.assignment),
@@ -136,13 +136,16 @@ async fn texts_of(state: &State, id: &str) -> Result<Option<Vec<String>>, Proble
 
 /// Which of the files that are handed out is asked for.
 #[derive(Debug, Default, Deserialize)]
-pub(super) struct Wanted {
+pub(super) struct StarterQuery {
     /// Its name.
     file: Option<String>,
 }
 
 /// `GET /a/{assignment}/starter`: the handed-out file, or the one that is named; several as a ZIP.
-pub(super) async fn starter(Shared(state): Shared<State>, Query(wanted): Query<Wanted>) -> Result<Response, Problem> {
+pub(super) async fn starter(
+    Shared(state): Shared<State>,
+    Query(wanted): Query<StarterQuery>,
+) -> Result<Response, Problem> {
     let file = match (state.assignment.files.as_slice(), wanted.file) {
         (slots, Some(name)) => slots.iter().find(|slot| slot.name == name).ok_or_else(Problem::not_found)?,
         ([only], None) => only,
@@ -160,7 +163,7 @@ async fn goal(Shared(state): Shared<State>) -> Result<Response, Problem> {
 
 /// A file as the editor of its slot takes it.
 #[derive(Debug, Serialize)]
-struct Read {
+struct EditorFile {
     /// Which slot, counted from 0.
     slot: usize,
     name: String,
@@ -173,14 +176,14 @@ struct Read {
 /// `POST /a/{assignment}/read`: which of the files that somebody chose is for which slot, and their texts, for the editors.
 /// Nothing is stored.
 pub(super) async fn read(Shared(state): Shared<State>, visitor: Visitor, form: Multipart) -> Result<Response, Problem> {
-    let form = Form::read(form).await?;
+    let form = UploadForm::read(form).await?;
     visitor.check_csrf(&state, &form.csrf)?;
     let mut files = Vec::new();
     for (slot, file) in for_slots(&state, form.files, form.shown).await? {
         check_text(&state.assignment.files[slot], &file.bytes).map_err(|problem| problem.about(&file.name))?;
         let text = source::readable(&file).map(|source| source.text);
         let text = text.ok_or_else(|| Problem::internal(&"a text without a text"))?;
-        files.push(Read { slot, name: file.name, text, bytes: BASE64_STANDARD.encode(&file.bytes) });
+        files.push(EditorFile { slot, name: file.name, text, bytes: BASE64_STANDARD.encode(&file.bytes) });
     }
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(files)).into_response())
 }
@@ -188,7 +191,7 @@ pub(super) async fn read(Shared(state): Shared<State>, visitor: Visitor, form: M
 /// `POST /a/{assignment}`: hands in, and goes to the report. A script gets the receipt as a part of its page.
 pub(super) async fn hand_in(
     Shared(state): Shared<State>,
-    frame: Frame,
+    frame: PageFrame,
     client: Client,
     visitor: Visitor,
     headers: HeaderMap,
@@ -204,7 +207,7 @@ pub(super) async fn hand_in(
 /// `POST /a/{assignment}/draft`: grades without handing in. A script gets the report as a part of its page.
 pub(super) async fn draft(
     Shared(state): Shared<State>,
-    frame: Frame,
+    frame: PageFrame,
     client: Client,
     visitor: Visitor,
     headers: HeaderMap,
@@ -230,7 +233,7 @@ async fn take(
     form: Multipart,
     via: Via,
 ) -> Result<Receipt, Problem> {
-    let mut form = Form::read(form).await?;
+    let mut form = UploadForm::read(form).await?;
     visitor.check_csrf(state, &form.csrf)?;
     let field = form.key.take();
     let visitor = visitor.known(state).await?;
@@ -244,7 +247,7 @@ async fn take(
 /// The form by which somebody chooses what counts.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-struct Chosen {
+struct CountedSubmissionForm {
     csrf: String,
     submission: String,
 }
@@ -253,7 +256,7 @@ struct Chosen {
 async fn choose(
     Shared(state): Shared<State>,
     visitor: Visitor,
-    axum::Form(chosen): axum::Form<Chosen>,
+    axum::Form(chosen): axum::Form<CountedSubmissionForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&state, &chosen.csrf)?;
     let (_, submission) = state.submission(&chosen.submission).await?;

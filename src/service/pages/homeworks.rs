@@ -1,10 +1,10 @@
 //! The list of the homeworks, where a service has several: for students, and for teachers.
 
-use super::frame::{Frame, SignInLink};
+use super::frame::{PageFrame, SignInLink};
 use super::standing::{Fact, StudentStanding};
 use super::{internal, shown, student};
 use crate::language::Language;
-use crate::report::html::rich::Piece;
+use crate::report::html::rich::MessagePiece;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{TeacherPage, Visitor};
@@ -29,9 +29,9 @@ pub(super) fn router() -> Router<Service> {
 #[derive(Template)]
 #[template(path = "service/pages/templates/homeworks.html")]
 struct HomeworksPage {
-    frame: Frame,
+    frame: PageFrame,
     heading: &'static str,
-    homeworks: Vec<Homework>,
+    homeworks: Vec<HomeworkCard>,
     /// Student number.
     who: Option<String>,
     sign_ins: Vec<SignInLink>,
@@ -39,21 +39,21 @@ struct HomeworksPage {
     csrf: Option<String>,
 }
 
-/// One of them.
-struct Homework {
+/// A homework of the list.
+struct HomeworkCard {
     href: String,
     title: String,
     /// The names of its files.
     file: String,
-    task: Vec<Piece>,
+    task: Vec<MessagePiece>,
     facts: Vec<Fact>,
     /// What a right answer draws, a PNG in the address, and the address of the same as it moves.
     still: String,
     moving: String,
 }
 
-impl Homework {
-    fn of(state: &State, frame: &Frame, href: String, facts: Vec<Fact>) -> Result<Self, Problem> {
+impl HomeworkCard {
+    fn of(state: &State, frame: &PageFrame, href: String, facts: Vec<Fact>) -> Result<Self, Problem> {
         let assignment = &state.assignment;
         let picture = &state.right.portraits().map_err(internal)?.expected;
         Ok(Self {
@@ -69,14 +69,14 @@ impl Homework {
 }
 
 /// `GET /`.
-async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) -> Result<Response, Problem> {
+async fn list(Shared(service): Shared<Service>, frame: PageFrame, visitor: Visitor) -> Result<Response, Problem> {
     let mut homeworks = Vec::new();
     for state in service.homeworks() {
         if !service.store.assignment(&state.assignment.id).await?.is_shown(service.clock.now()) {
             continue;
         }
         let facts = facts(&state, &frame, &visitor).await?;
-        homeworks.push(Homework::of(&state, &frame, state.page(), facts)?);
+        homeworks.push(HomeworkCard::of(&state, &frame, state.page(), facts)?);
     }
     let heading = frame.say("Homework", "課題の一覧");
     let who = visitor.identity.student().map(|student| student.number.clone());
@@ -85,7 +85,7 @@ async fn list(Shared(service): Shared<Service>, frame: Frame, visitor: Visitor) 
 }
 
 /// Dates, attempts, and the best of what this browser has handed in.
-async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fact>, Problem> {
+async fn facts(state: &State, frame: &PageFrame, visitor: &Visitor) -> Result<Vec<Fact>, Problem> {
     let id = &state.assignment.id;
     let identity = &visitor.identity;
     let settings = state.store.assignment_for(id, identity.student_id()).await?;
@@ -104,7 +104,7 @@ async fn facts(state: &State, frame: &Frame, visitor: &Visitor) -> Result<Vec<Fa
 async fn classes(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let visible: Vec<State> = service.homeworks().filter(|state| teacher.may_see(&state.assignment.id)).collect();
     if let [only] = visible.as_slice() {
@@ -119,7 +119,7 @@ async fn classes(
             Language::Ja => format!("提出 {hand_ins} 件"),
         };
         let facts = vec![Fact::plain("", text)];
-        homeworks.push(Homework::of(&state, &frame, format!("{}/teacher", state.base()), facts)?);
+        homeworks.push(HomeworkCard::of(&state, &frame, format!("{}/teacher", state.base()), facts)?);
     }
     let heading = frame.say("Classes", "クラスの一覧");
     let csrf = Some(teacher.csrf(&service));

@@ -1,6 +1,6 @@
 //! The course link: a student says by which number they are known, and proves it by their personal code.
 
-use super::frame::{Frame, SignInLink};
+use super::frame::{PageFrame, SignInLink};
 use super::{shown, student};
 use crate::service::Service;
 use crate::service::courses::at;
@@ -17,7 +17,7 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/join.html")]
 struct JoinPage {
-    frame: Frame,
+    frame: PageFrame,
     /// The title of the homework, where there is one only.
     title: String,
     problem: Option<String>,
@@ -48,7 +48,7 @@ pub(super) struct JoinForm {
 
 async fn view(
     service: &Service,
-    frame: Frame,
+    frame: PageFrame,
     secret: &str,
     visitor: &Visitor,
     given: JoinForm,
@@ -83,7 +83,7 @@ pub(super) async fn page(
     Shared(service): Shared<Service>,
     Path(secret): Path<String>,
     Query(given): Query<JoinForm>,
-    frame: Frame,
+    frame: PageFrame,
     visitor: Visitor,
 ) -> Result<Response, Problem> {
     identity::check_course_link(&service, &secret).await?;
@@ -94,7 +94,7 @@ pub(super) async fn page(
 pub(super) async fn join(
     Shared(service): Shared<Service>,
     Path(secret): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
     visitor: Visitor,
     Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {

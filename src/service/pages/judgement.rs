@@ -1,7 +1,7 @@
 //! The page of a report as the place where people judge: what those who teach can do there, and what its student can ask.
 
-use super::datetime::Moment;
-use super::frame::Frame;
+use super::datetime::TimeElement;
+use super::frame::PageFrame;
 use super::report_fragment;
 use crate::report::Report;
 use crate::report::labels::{mistake_title, rubric_label};
@@ -10,7 +10,7 @@ use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, Visitor};
 use crate::service::judgement::{self, Handling, asker, handle};
-use crate::service::store::{Appeal, Stored, Via};
+use crate::service::store::{Appeal, StoredSubmission, Via};
 use crate::service::{Service, State};
 use axum::Form;
 use axum::extract::{Path, State as Shared};
@@ -60,7 +60,7 @@ pub(super) struct ShownAppeal {
     pub id: String,
     pub label: String,
     pub question: String,
-    pub at: Moment,
+    pub at: TimeElement,
     /// How far it is, in words.
     pub standing: String,
     /// Whether somebody handles it, and who; empty where only the course is known.
@@ -88,8 +88,8 @@ impl Judgement {
     /// What there is for whoever looks at a report.
     pub async fn of(
         state: &State,
-        frame: &Frame,
-        stored: &Stored,
+        frame: &PageFrame,
+        stored: &StoredSubmission,
         teacher: Option<&Teacher>,
         visitor: &Visitor,
     ) -> Result<Self, Problem> {
@@ -123,8 +123,8 @@ impl Judgement {
 impl StaffForms {
     async fn of(
         state: &State,
-        frame: &Frame,
-        stored: &Stored,
+        frame: &PageFrame,
+        stored: &StoredSubmission,
         report: &Report,
         teacher: &Teacher,
     ) -> Result<Self, Problem> {
@@ -171,7 +171,7 @@ impl StaffForms {
 }
 
 impl ShownAppeal {
-    pub fn of(state: &State, frame: &Frame, appeal: Appeal) -> Self {
+    pub fn of(state: &State, frame: &PageFrame, appeal: Appeal) -> Self {
         Self {
             standing: standing(frame, &appeal),
             is_taken: appeal.taken_at.is_some(),
@@ -186,7 +186,7 @@ impl ShownAppeal {
 }
 
 /// How far an appeal is, in words.
-pub(super) fn standing(frame: &Frame, appeal: &Appeal) -> String {
+pub(super) fn standing(frame: &PageFrame, appeal: &Appeal) -> String {
     let handler = appeal.taken_at.map(|_| appeal.handler.as_deref());
     match (&appeal.answer, handler, frame.tag()) {
         (Some(_), _, "ja") => "回答済み".to_owned(),
@@ -199,7 +199,7 @@ pub(super) fn standing(frame: &Frame, appeal: &Appeal) -> String {
 }
 
 /// The submission with its report, for a teacher who may see it.
-async fn judged(service: &Service, teacher: &Teacher, csrf: &str, id: &str) -> Result<Stored, Problem> {
+async fn judged(service: &Service, teacher: &Teacher, csrf: &str, id: &str) -> Result<StoredSubmission, Problem> {
     teacher.check_csrf(service, csrf)?;
     let (_, stored) = service.stored(id).await?;
     teacher.check(&stored.submission.assignment)?;
@@ -207,7 +207,7 @@ async fn judged(service: &Service, teacher: &Teacher, csrf: &str, id: &str) -> R
 }
 
 /// Back to the page, with a line for the log.
-fn done(stored: &Stored, text: String) -> Response {
+fn done(stored: &StoredSubmission, text: String) -> Response {
     let submission = &stored.submission;
     let detail =
         Detail { student_id: submission.student_id.clone(), assignment: Some(submission.assignment.clone()), text };

@@ -1,12 +1,12 @@
 //! What people see of learning platforms: the choice of a homework, a launch that lost its cookie, a registration.
 
-use super::frame::Frame;
+use super::frame::PageFrame;
 use super::shown;
 use crate::service::Service;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
-use crate::service::lti::deep_linking::Choice;
-use crate::service::lti::registration::{self, Asked};
+use crate::service::lti::deep_linking::HomeworkChoice;
+use crate::service::lti::registration::{self, RegistrationQuery};
 use askama::Template;
 use axum::extract::{Path, Query, Request, State as Shared};
 use axum::http::{HeaderValue, StatusCode, header};
@@ -16,26 +16,26 @@ use axum::response::Response;
 #[derive(Template)]
 #[template(path = "service/pages/templates/lti_choice.html")]
 struct ChoicePage {
-    frame: Frame,
-    choice: Choice,
+    frame: PageFrame,
+    choice: HomeworkChoice,
 }
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/lti_lost.html")]
 struct LostPage {
-    frame: Frame,
+    frame: PageFrame,
     again: String,
 }
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/lti_registered.html")]
 struct RegisteredPage {
-    frame: Frame,
+    frame: PageFrame,
     name: String,
 }
 
 /// The page on which a lecturer chooses a homework; its forms go to the platform.
-pub(in crate::service) fn shown_choice(frame: Frame, choice: Choice) -> Result<Response, Problem> {
+pub(in crate::service) fn shown_choice(frame: PageFrame, choice: HomeworkChoice) -> Result<Response, Problem> {
     let origin = choice.origin.clone();
     let mut response = shown(ChoicePage { frame, choice }.render())?;
     let policy = crate::service::CSP
@@ -49,7 +49,7 @@ pub(in crate::service) fn shown_choice(frame: Frame, choice: Choice) -> Result<R
 
 /// The page of a launch that comes back without the cookie with which it began: the browser keeps none in a frame. In a
 /// window of its own it does.
-pub(in crate::service) fn launch_lost(frame: Frame, begun_by: &str) -> Result<Response, Problem> {
+pub(in crate::service) fn launch_lost(frame: PageFrame, begun_by: &str) -> Result<Response, Problem> {
     let again = at(&format!("/lti/login?{begun_by}"));
     let mut page = shown(LostPage { frame, again }.render())?;
     *page.status_mut() = StatusCode::FORBIDDEN;
@@ -60,8 +60,8 @@ pub(in crate::service) fn launch_lost(frame: Frame, begun_by: &str) -> Result<Re
 pub(super) async fn register(
     Shared(service): Shared<Service>,
     Path(secret): Path<String>,
-    Query(asked): Query<Asked>,
-    frame: Frame,
+    Query(asked): Query<RegistrationQuery>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let platform = registration::register(&service, &secret, &asked).await?;
     shown(RegisteredPage { frame, name: platform.name }.render())
@@ -94,5 +94,5 @@ pub(super) async fn embeddable(Shared(service): Shared<Service>, request: Reques
 /// Where a platform is whose administrator opens a registration link there: what is wrong with the link is read in that frame.
 fn registering(request: &Request) -> Option<String> {
     request.uri().path().strip_prefix("/lti/register/")?;
-    Query::<Asked>::try_from_uri(request.uri()).ok().map(|Query(asked)| asked.openid_configuration)
+    Query::<RegistrationQuery>::try_from_uri(request.uri()).ok().map(|Query(asked)| asked.openid_configuration)
 }

@@ -1,11 +1,11 @@
 //! What a preview shows its teacher: beside the student's page what the folder's own files score, and in its place what is
 //! wrong with a folder that cannot be used.
 
-use super::frame::Frame;
+use super::frame::PageFrame;
 use super::report_fragment;
 use crate::language::Text;
 use crate::report::html::Mark;
-use crate::report::html::rich::{Piece, pieces};
+use crate::report::html::rich::{MessagePiece, pieces};
 use crate::report::{Report, Verdict};
 use crate::service::State;
 use crate::service::courses::at;
@@ -37,7 +37,7 @@ pub(super) struct OwnFile {
 }
 
 /// The panel, where the service is a preview.
-pub(super) fn panel(state: &State, frame: &Frame) -> Option<PreviewPanel> {
+pub(super) fn panel(state: &State, frame: &PageFrame) -> Option<PreviewPanel> {
     let shown = state.preview.get()?;
     let own = shown.own.get();
     Some(PreviewPanel {
@@ -48,7 +48,7 @@ pub(super) fn panel(state: &State, frame: &Frame) -> Option<PreviewPanel> {
     })
 }
 
-fn own_files(frame: &Frame, own: &OwnFiles) -> Vec<OwnFile> {
+fn own_files(frame: &PageFrame, own: &OwnFiles) -> Vec<OwnFile> {
     let file = |label, receipt: &Receipt, is_as_wanted: fn(&Report) -> bool, complaint: &str| {
         let href = at(&format!("/r/{}", receipt.submission.id));
         let Some(report) = receipt.report() else {
@@ -87,7 +87,7 @@ fn own_files(frame: &Frame, own: &OwnFiles) -> Vec<OwnFile> {
 }
 
 /// The addresses of the pictures of a right answer, which stand beside those of the solution.
-fn frames(frame: &Frame, solution: &Receipt) -> Vec<String> {
+fn frames(frame: &PageFrame, solution: &Receipt) -> Vec<String> {
     let count = solution.report().map_or(0, |report| report.frames.len());
     let address =
         |index| format!("{}&view=expected", frame.picture(&solution.submission.id, &format!("frames/{index}")));
@@ -97,13 +97,13 @@ fn frames(frame: &Frame, solution: &Receipt) -> Vec<String> {
 #[derive(Template)]
 #[template(path = "service/pages/templates/broken_folder.html")]
 struct BrokenFolder {
-    frame: Frame,
-    why: Vec<Piece>,
+    frame: PageFrame,
+    why: Vec<MessagePiece>,
     version: u64,
 }
 
 /// The page in place of all others while the folder cannot be used. A page that is open waits, as for a busy service.
-pub fn broken_folder(frame: Frame, why: &Text, version: u64) -> Result<Response, Problem> {
+pub fn broken_folder(frame: PageFrame, why: &Text, version: u64) -> Result<Response, Problem> {
     let why = pieces(why.get(frame.language));
     let page = BrokenFolder { frame, why, version }.render().map_err(|error| Problem::internal(&error))?;
     let headers = [(header::CACHE_CONTROL, "no-store"), (header::RETRY_AFTER, "1")];

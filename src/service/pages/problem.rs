@@ -1,6 +1,6 @@
 //! A problem as a page.
 
-use super::frame::Frame;
+use super::frame::PageFrame;
 use crate::language::Language;
 use crate::service::course::Course;
 use crate::service::errors::Problem;
@@ -11,7 +11,7 @@ use axum::response::Html;
 #[derive(Template)]
 #[template(path = "service/pages/templates/problem.html")]
 struct ProblemPage {
-    frame: Frame,
+    frame: PageFrame,
     status: u16,
     heading: &'static str,
     detail: String,
@@ -23,7 +23,7 @@ pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String
     // Of one of several homeworks the teacher's pages stand below `/a/{assignment}`.
     let within = path.strip_prefix("/a/").and_then(|rest| rest.find('/').map(|slash| &rest[slash..])).unwrap_or(path);
     let is_teachers = within == "/teacher" || within.starts_with("/teacher/");
-    let frame = Frame::new(language, Course::default(), Uri::from_static("/"), None);
+    let frame = PageFrame::new(language, Course::default(), Uri::from_static("/"), None);
     let heading = match problem.status.as_u16() {
         401 | 403 => frame.say("Not possible here", "この操作はできません"),
         404 => frame.say("Nothing here", "ページが見つかりません"),

@@ -1,20 +1,20 @@
 //! The receipt of what was handed in: what came, when, and as which attempt.
 
-use super::datetime::Moment;
-use super::frame::Frame;
+use super::datetime::TimeElement;
+use super::frame::PageFrame;
 use super::report_fragment;
 use crate::report::Report;
 use crate::service::State;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
-use crate::service::store::{State as Progress, Submission};
+use crate::service::store::{Submission, SubmissionState as Progress};
 use askama::Template;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/receipt.html")]
 struct ReceiptPage<'a> {
-    frame: &'a Frame,
-    at: Moment,
+    frame: &'a PageFrame,
+    at: TimeElement,
     name: &'a str,
     attempt: String,
     score: String,
@@ -26,7 +26,7 @@ struct ReceiptPage<'a> {
 /// The receipt of a submission, without a page around it.
 pub(super) async fn receipt(
     state: &State,
-    frame: &Frame,
+    frame: &PageFrame,
     submission: &Submission,
     report: Option<&Report>,
 ) -> Result<String, Problem> {

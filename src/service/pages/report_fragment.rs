@@ -1,12 +1,12 @@
 //! A report as a part of a page, with what the editor needs of it.
 
 use super::assets;
-use super::frame::{Frame, picture};
+use super::frame::{PageFrame, picture};
 use super::terms;
 use crate::diagnostic::Severity;
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::report::html::{Gallery, Lines, Mark, Part};
+use crate::report::html::{LineLinks, Mark, PictureAddresses, ReportFragment};
 use crate::report::text::number;
 use crate::report::{Report, Verdict};
 use crate::service::State;
@@ -40,14 +40,14 @@ struct LineMark {
 /// A report with its pictures at the addresses of a submission; none where it has no pictures to show.
 pub(super) fn render(
     assignment: &Assignment,
-    frame: &Frame,
+    frame: &PageFrame,
     report: &Report,
-    source: Lines<'_>,
-    gallery: Option<&Gallery>,
+    source: LineLinks<'_>,
+    gallery: Option<&PictureAddresses>,
     level: u8,
 ) -> Result<String, Fault> {
     let has_footer = level == 1;
-    let part = Part { assignment, report, source, gallery, language: frame.language, level, has_footer };
+    let part = ReportFragment { assignment, report, source, gallery, language: frame.language, level, has_footer };
     let view = FragmentPage {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_report(report),
@@ -60,7 +60,7 @@ pub(super) fn render(
 }
 
 /// The result in one sentence, as a screen reader says it.
-fn summary(frame: &Frame, report: &Report) -> String {
+fn summary(frame: &PageFrame, report: &Report) -> String {
     let verdict = verdict(frame, report.verdict);
     let said = format!("{verdict}: {} / {}", number(report.score), number(report.max_score));
     let mut errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
@@ -83,7 +83,7 @@ pub(super) fn points(points: Option<f64>) -> String {
 }
 
 /// A verdict in words.
-pub(super) fn verdict(frame: &Frame, verdict: Verdict) -> &'static str {
+pub(super) fn verdict(frame: &PageFrame, verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Correct => frame.say("Correct", "正解"),
         Verdict::Wrong => frame.say("Not right yet", "修正が必要"),
@@ -113,11 +113,11 @@ fn marks(report: &Report) -> Vec<LineMark> {
 }
 
 /// Where the pictures of a submission are; `sources` are its files.
-pub(super) fn gallery(state: &State, id: &str, report: &Report, sources: &[Source]) -> Option<Gallery> {
+pub(super) fn gallery(state: &State, id: &str, report: &Report, sources: &[Source]) -> Option<PictureAddresses> {
     if report.frames.is_empty() {
         return None;
     }
-    Some(Gallery {
+    Some(PictureAddresses {
         yours: picture(Some(&state.assignment), id, "yours"),
         expected: assets::expected(&state.assignment).into(),
         difference: picture(Some(&state.assignment), id, "difference"),

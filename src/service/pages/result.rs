@@ -1,18 +1,18 @@
 //! The page of a report, and its pictures.
 
-use super::frame::Frame;
+use super::frame::PageFrame;
 use super::judgement::Judgement;
 use super::{internal, receipt, report_fragment, shown};
 use crate::hand_in::HandIn;
 use crate::report::Report;
-use crate::report::html::Lines;
+use crate::report::html::LineLinks;
 use crate::report::text::number;
 use crate::service::courses::at;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery::PictureSet;
 use crate::service::identity::{Teacher, Visitor};
-use crate::service::store::{State as Progress, Stored, Submission, Via};
+use crate::service::store::{StoredSubmission, Submission, SubmissionState as Progress, Via};
 use crate::service::{Service, State};
 use askama::Template;
 use axum::extract::{Path, Query, State as Shared};
@@ -23,7 +23,7 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/report.html")]
 struct ResultPage {
-    frame: Frame,
+    frame: PageFrame,
     title: String,
     back: String,
     back_name: &'static str,
@@ -42,7 +42,7 @@ struct ResultPage {
 #[derive(Template)]
 #[template(path = "service/pages/templates/waiting.html")]
 struct Waiting {
-    frame: Frame,
+    frame: PageFrame,
     heading: &'static str,
     detail: String,
     address: String,
@@ -55,19 +55,20 @@ pub(super) async fn page(
     Path(id): Path<String>,
     teacher: Option<Teacher>,
     visitor: Visitor,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let (state, stored) = service.stored(&id).await?;
     let frame = frame.of(&state);
     let judgement = Judgement::of(&state, &frame, &stored, teacher.as_ref(), &visitor).await?;
-    let Stored { submission, report, cross_check } = stored;
+    let StoredSubmission { submission, report, cross_check } = stored;
     let Some(mut report) = report else { return waiting(&state, frame, &submission).await };
     if teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment)) {
         report.cross_check = cross_check;
     }
     let sources = state.store.hand_in(&id).await?.unwrap_or_default().readable();
     let gallery = report_fragment::gallery(&state, &id, &report, &sources);
-    let part = report_fragment::render(&state.assignment, &frame, &report, Lines::of(&sources), gallery.as_ref(), 1);
+    let part =
+        report_fragment::render(&state.assignment, &frame, &report, LineLinks::of(&sources), gallery.as_ref(), 1);
     let part = part.map_err(internal)?;
     let receipt = match submission.via {
         Via::Page | Via::Api => Some(receipt::receipt(&state, &frame, &submission, Some(&report)).await?),
@@ -96,7 +97,7 @@ pub(super) async fn page(
     )
 }
 
-fn about(frame: &Frame, submission: &Submission) -> String {
+fn about(frame: &PageFrame, submission: &Submission) -> String {
     let at = frame.moment(submission.received_at).text;
     let what = match submission.via {
         Via::Editor => frame.say("A draft, not handed in", "下書き（未提出）"),
@@ -105,7 +106,7 @@ fn about(frame: &Frame, submission: &Submission) -> String {
     format!("{what} · {at}")
 }
 
-async fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result<Response, Problem> {
+async fn waiting(state: &State, frame: PageFrame, submission: &Submission) -> Result<Response, Problem> {
     let failed = submission.state == Progress::Failed;
     let position = state.store.position(&submission.id, state.clock.now()).await?.unwrap_or(1);
     let detail = match (failed, frame.tag()) {
@@ -136,23 +137,25 @@ async fn waiting(state: &State, frame: Frame, submission: &Submission) -> Result
 pub(super) async fn part_of(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let (state, stored) = service.stored(&id).await?;
     let frame = frame.of(&state);
     match stored {
-        Stored { submission, report: Some(report), .. } => draft_part(&state, &frame, &submission, &report).await,
-        Stored { submission, .. } if submission.state == Progress::Failed => {
+        StoredSubmission { submission, report: Some(report), .. } => {
+            draft_part(&state, &frame, &submission, &report).await
+        }
+        StoredSubmission { submission, .. } if submission.state == Progress::Failed => {
             Err(Problem::internal(&"grading a draft failed"))
         }
-        Stored { .. } => Ok(come_back(&id)),
+        StoredSubmission { .. } => Ok(come_back(&id)),
     }
 }
 
 /// A report as a part of the page with the editor, which shows the lines itself.
 pub(super) async fn draft_part(
     state: &State,
-    frame: &Frame,
+    frame: &PageFrame,
     submission: &Submission,
     report: &Report,
 ) -> Result<Response, Problem> {
@@ -162,19 +165,19 @@ pub(super) async fn draft_part(
 
 async fn beside_editor(
     state: &State,
-    frame: &Frame,
+    frame: &PageFrame,
     submission: &Submission,
     report: &Report,
 ) -> Result<String, Problem> {
     let sources = state.store.hand_in(&submission.id).await?.unwrap_or_default().readable();
     let gallery = report_fragment::gallery(state, &submission.id, report, &sources);
-    let part = report_fragment::render(&state.assignment, frame, report, Lines::Elsewhere, gallery.as_ref(), 2);
+    let part = report_fragment::render(&state.assignment, frame, report, LineLinks::Elsewhere, gallery.as_ref(), 2);
     part.map_err(internal)
 }
 
 /// A report with its homework and its files.
 pub(super) async fn report_of(service: &Service, id: &str) -> Result<(State, Report, HandIn), Problem> {
-    let (state, Stored { report, .. }) = service.stored(id).await?;
+    let (state, StoredSubmission { report, .. }) = service.stored(id).await?;
     let hand_in = state.store.hand_in(id).await?;
     let (report, hand_in) = report.zip(hand_in).ok_or_else(Problem::not_found)?;
     Ok((state, report, hand_in))
@@ -183,7 +186,7 @@ pub(super) async fn report_of(service: &Service, id: &str) -> Result<(State, Rep
 /// The receipt of what was handed in, with its report as soon as there is one, as parts of the page with the editor.
 pub(super) async fn handed_in(
     state: &State,
-    frame: &Frame,
+    frame: &PageFrame,
     submission: &Submission,
     report: Option<&Report>,
 ) -> Result<Response, Problem> {
@@ -205,9 +208,9 @@ pub(super) async fn handed_in(
 pub(super) async fn receipt_of(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
-    let (state, Stored { submission, report, .. }) = service.stored(&id).await?;
+    let (state, StoredSubmission { submission, report, .. }) = service.stored(&id).await?;
     handed_in(&state, &frame.of(&state), &submission, report.as_ref()).await
 }
 
@@ -230,7 +233,7 @@ pub(super) fn png(bytes: Vec<u8>) -> Response {
 
 /// Which of the views of a picture.
 #[derive(Debug, Default, Deserialize)]
-pub(super) struct Asked {
+pub(super) struct PictureQuery {
     #[serde(default)]
     view: PictureSet,
 }
@@ -239,7 +242,7 @@ pub(super) struct Asked {
 pub(super) async fn picture(
     Shared(service): Shared<Service>,
     Path((id, picture)): Path<(String, String)>,
-    Query(asked): Query<Asked>,
+    Query(asked): Query<PictureQuery>,
 ) -> Result<Response, Problem> {
     let (state, submission) = service.submission(&id).await?;
     let found = match picture.as_str() {
@@ -256,7 +259,7 @@ pub(super) async fn picture(
 pub(super) async fn frame(
     Shared(service): Shared<Service>,
     Path((id, picture)): Path<(String, String)>,
-    Query(asked): Query<Asked>,
+    Query(asked): Query<PictureQuery>,
 ) -> Result<Response, Problem> {
     let index = picture.strip_suffix(".png").and_then(|index| index.parse().ok()).ok_or_else(Problem::not_found)?;
     let (state, submission) = service.submission(&id).await?;

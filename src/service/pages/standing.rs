@@ -1,10 +1,10 @@
 //! What a student may still hand in, and until when.
 
-use super::frame::Frame;
+use super::frame::PageFrame;
 use crate::language::{Language, span};
 use crate::report::text::number;
 use crate::service::clock::Millis;
-use crate::service::store::{Assignment, LateSpan};
+use crate::service::store::{AssignmentSettings, LateSpan};
 
 /// Milliseconds before the deadline from which it is urgent.
 const URGENT: Millis = 24 * 3_600_000;
@@ -13,7 +13,7 @@ const URGENT: Millis = 24 * 3_600_000;
 #[derive(Clone, Copy)]
 pub(super) struct StudentStanding<'a> {
     /// What the teacher set.
-    pub settings: &'a Assignment,
+    pub settings: &'a AssignmentSettings,
     pub now: Millis,
     /// Whether the course knows enough of who sits there.
     pub may_hand_in: bool,
@@ -64,7 +64,7 @@ impl StudentStanding<'_> {
     }
 
     /// Dates and attempts.
-    pub fn facts(&self, frame: &Frame) -> Vec<Fact> {
+    pub fn facts(&self, frame: &PageFrame) -> Vec<Fact> {
         let is_english = frame.language == Language::En;
         let say = |en: String, ja: String| if is_english { en } else { ja };
         let moment = |at| frame.deadline(at).text;
@@ -92,7 +92,7 @@ impl StudentStanding<'_> {
     }
 
     /// What there is to say of a due date: when it is, or what comes after it.
-    fn dates(&self, frame: &Frame, due: Millis) -> Vec<Fact> {
+    fn dates(&self, frame: &PageFrame, due: Millis) -> Vec<Fact> {
         let is_english = frame.language == Language::En;
         let say = |en: String, ja: String| if is_english { en } else { ja };
         let moment = |at| frame.deadline(at).text;
@@ -133,13 +133,13 @@ impl StudentStanding<'_> {
         }
     }
 
-    fn until(&self, frame: &Frame, at: Millis, template: &'static str, over: &'static str, closes: bool) -> Until {
+    fn until(&self, frame: &PageFrame, at: Millis, template: &'static str, over: &'static str, closes: bool) -> Until {
         let text = template.replace('%', &span((at - self.now).max(0).unsigned_abs(), frame.language));
         Until { at, template, text, over, closes }
     }
 
     /// What stands in place of the button, where there is none.
-    pub fn hindrance(&self, frame: &Frame) -> Option<&'static str> {
+    pub fn hindrance(&self, frame: &PageFrame) -> Option<&'static str> {
         match () {
             () if !self.may_hand_in || self.can_hand_in() => None,
             () if self.settings.is_archived => Some(frame.say(
@@ -159,7 +159,7 @@ impl StudentStanding<'_> {
     }
 
     /// What the page does with what is typed; `has_several` says whether the homework is several files.
-    pub fn how(&self, frame: &Frame, has_several: bool) -> String {
+    pub fn how(&self, frame: &PageFrame, has_several: bool) -> String {
         let given = if has_several {
             frame.say(
                 "Drop files here, several at once or a ZIP of them, paste, or type.",
@@ -189,7 +189,7 @@ impl StudentStanding<'_> {
     }
 
     /// The steps of a student's work that follow upon the writing.
-    pub fn steps(&self, frame: &Frame) -> Vec<&'static str> {
+    pub fn steps(&self, frame: &PageFrame) -> Vec<&'static str> {
         let seen =
             frame.say("See at once what is right and what is not.", "どこが正しく、どこが違うかがすぐに分かります。");
         match (self.grades_drafts(), self.can_hand_in()) {
@@ -204,7 +204,7 @@ impl StudentStanding<'_> {
     }
 
     /// What a graded text is called that was not handed in.
-    pub fn draft_word(&self, frame: &Frame) -> &'static str {
+    pub fn draft_word(&self, frame: &PageFrame) -> &'static str {
         if self.can_hand_in() {
             frame.say("draft, not handed in", "下書き（未提出）")
         } else {
@@ -214,7 +214,7 @@ impl StudentStanding<'_> {
 }
 
 /// Until when late hand-ins are taken, and what they lose.
-fn late_rules(settings: &Assignment, frame: &Frame, ends: Millis) -> String {
+fn late_rules(settings: &AssignmentSettings, frame: &PageFrame, ends: Millis) -> String {
     let (rules, ends) = (&settings.late, frame.moment(ends).text);
     let (percent, floor) = (number(rules.percent), number(rules.floor));
     let (en, ja) = match rules.span {

@@ -1,14 +1,14 @@
 //! The page on which a student works: an editor, what came of it, and the attempts so far.
 
 use super::assets;
-use super::attempts::{Attempt, Choice};
-use super::frame::{Frame, SignInLink};
+use super::attempts::{Attempt, CountingChoice};
+use super::frame::{PageFrame, SignInLink};
 use super::judgement;
 use super::preview::PreviewPanel;
 use super::report_fragment;
 use super::standing::{Fact, StudentStanding};
 use crate::language::Language;
-use crate::report::html::rich::{Piece, pieces};
+use crate::report::html::rich::{MessagePiece, pieces};
 use crate::service::clock::Millis;
 use crate::service::counting::{Counting, counted};
 use crate::service::courses::at;
@@ -25,8 +25,8 @@ use reference::typeset::{SumPart, Typeset};
 pub(super) const LISTED: u32 = 60;
 
 /// What a student's page is made of.
-pub(super) struct Desk<'a> {
-    pub frame: Frame,
+pub(super) struct StudentPageParts<'a> {
+    pub frame: PageFrame,
     /// The homework.
     pub homework: std::sync::Arc<reference::Assignment>,
     /// What may still be handed in.
@@ -51,12 +51,12 @@ pub(super) struct Desk<'a> {
 #[derive(Template)]
 #[template(path = "service/pages/templates/student.html")]
 struct StudentPage<'a> {
-    frame: Frame,
+    frame: PageFrame,
     title: String,
     /// The names of the homework's files.
     file: String,
     /// An editor for each file of the homework.
-    sheets: Vec<Sheet>,
+    sheets: Vec<EditorSheet>,
     /// Extensions of the files that may be chosen.
     accepted: String,
     facts: Vec<Fact>,
@@ -84,7 +84,7 @@ struct StudentPage<'a> {
     can_hand_in: bool,
     grades_drafts: bool,
     expected: String,
-    task: Vec<Piece>,
+    task: Vec<MessagePiece>,
     picture: &'a str,
     equation: Option<&'a Typeset>,
     attempts: Vec<Attempt>,
@@ -95,7 +95,7 @@ struct StudentPage<'a> {
 }
 
 /// The editor of one file.
-struct Sheet {
+struct EditorSheet {
     /// The file's name.
     name: String,
     /// The id of its text field.
@@ -109,7 +109,7 @@ struct Sheet {
     text: String,
 }
 
-impl Desk<'_> {
+impl StudentPageParts<'_> {
     /// The page.
     pub fn render(mut self) -> askama::Result<String> {
         let homework = std::sync::Arc::clone(&self.homework);
@@ -177,7 +177,7 @@ impl Desk<'_> {
         let counting = settings.counting;
         let counted = counted(self.history, counting, |row| row).map(|row| row.submission.id.as_str());
         let may_choose = !settings.is_closed(self.standing.now);
-        let choice = Choice { counting, counted, may_choose };
+        let choice = CountingChoice { counting, counted, may_choose };
         self.history.iter().map(|row| Attempt::of(&self.frame, row, choice)).collect()
     }
 }
@@ -188,14 +188,14 @@ fn starter(id: &str) -> String {
 }
 
 /// The editors of a homework's files, with these texts or what is handed out.
-fn sheets(homework: &reference::Assignment, texts: Option<Vec<String>>) -> Vec<Sheet> {
+fn sheets(homework: &reference::Assignment, texts: Option<Vec<String>>) -> Vec<EditorSheet> {
     let slots = &homework.files;
     let id = &homework.id;
     let mut texts = texts.unwrap_or_default().into_iter();
     let sheet = |(index, slot): (usize, &Slot)| {
         let suffix = if index == 0 { String::new() } else { format!("-{}", index + 1) };
         let encoded = utf8_percent_encode(&slot.name, NON_ALPHANUMERIC);
-        Sheet {
+        EditorSheet {
             name: slot.name.clone(),
             id: format!("code{suffix}"),
             key: if slots.len() == 1 { format!("ggrade {id}") } else { format!("ggrade {id} {}", slot.name) },
@@ -233,7 +233,7 @@ fn accepted(slots: &[Slot]) -> String {
 }
 
 /// What counts of some attempts, the newest first.
-pub(super) fn counted_fact(frame: &Frame, history: &[HistoryRow], counting: Counting) -> Option<Fact> {
+pub(super) fn counted_fact(frame: &PageFrame, history: &[HistoryRow], counting: Counting) -> Option<Fact> {
     let row = counted(history, counting, |row| row)?;
     let (total, most) = (report_fragment::points(row.total()), report_fragment::points(row.max_score));
     let said = match counting {
@@ -244,7 +244,7 @@ pub(super) fn counted_fact(frame: &Frame, history: &[HistoryRow], counting: Coun
 }
 
 /// What there is to do.
-pub(super) fn task(homework: &reference::Assignment, frame: &Frame) -> Vec<Piece> {
+pub(super) fn task(homework: &reference::Assignment, frame: &PageFrame) -> Vec<MessagePiece> {
     let draw_this = match homework.files.len() {
         1 => frame.say(
             "Complete the file so that it draws this picture.",

@@ -36,7 +36,7 @@ mod tokens;
 mod welcome;
 
 use super::Service;
-use super::frame::Frame;
+use super::frame::PageFrame;
 use super::report_fragment;
 use crate::service::State;
 use crate::service::classes::PersonStanding;
@@ -158,12 +158,12 @@ impl Tab {
     }
 
     /// What a page of the whole course is called, for the closed menu that has it.
-    fn in_course(self, frame: &Frame) -> Option<&'static str> {
+    fn in_course(self, frame: &PageFrame) -> Option<&'static str> {
         self.is_of_course().then(|| self.name(frame))
     }
 
     /// What the navigation calls a page that stands in a menu.
-    fn name(self, frame: &Frame) -> &'static str {
+    fn name(self, frame: &PageFrame) -> &'static str {
         match self {
             Self::Gradebook => frame.say("Gradebook", "成績一覧"),
             Self::Plan => frame.say("Plan", "構成"),
@@ -180,7 +180,7 @@ impl Tab {
 }
 
 /// How somebody stands, in words.
-fn word(frame: &Frame, standing: PersonStanding) -> &'static str {
+fn word(frame: &PageFrame, standing: PersonStanding) -> &'static str {
     match standing {
         PersonStanding::Graded(verdict) => report_fragment::verdict(frame, verdict),
         PersonStanding::Queued => frame.say("Being graded", "採点中"),
@@ -191,7 +191,7 @@ fn word(frame: &Frame, standing: PersonStanding) -> &'static str {
 }
 
 /// What a page says of a form that cannot be done as it is filled in; any other problem is the answer.
-fn said_of(problem: Problem, frame: &Frame) -> Result<String, Problem> {
+fn said_of(problem: Problem, frame: &PageFrame) -> Result<String, Problem> {
     match problem.status {
         StatusCode::UNPROCESSABLE_ENTITY => Ok(problem.detail.get(frame.language).replace('`', "")),
         _ => Err(problem),

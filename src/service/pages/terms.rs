@@ -4,7 +4,7 @@ use super::frame;
 use super::result::{png, report_of};
 use crate::fault::Fault;
 use crate::pictures::Terms;
-use crate::report::html::Term;
+use crate::report::html::TermFilm;
 use crate::report::{Report, pictures};
 use crate::service::errors::Problem;
 use crate::service::{Service, State};
@@ -14,7 +14,7 @@ use axum::response::Response;
 use std::sync::Arc;
 
 /// The terms of a report with the addresses of their pictures.
-pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Source]) -> Arc<[Term]> {
+pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Source]) -> Arc<[TermFilm]> {
     if report.frames.is_empty() {
         return Arc::default();
     }
@@ -24,7 +24,7 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Sou
     let name = |term: &str, whose: &str| frame::picture(Some(&state.assignment), id, &format!("terms/{term}-{whose}"));
     let address = |term: &str, whose| format!("{}&seed={seed}", name(term, whose));
     let scenes = terms.scenes();
-    let terms = scenes.iter().map(|scene| Term {
+    let terms = scenes.iter().map(|scene| TermFilm {
         id: scene.id().to_owned(),
         t: scene.t(),
         yours: scene.is_explained().then(|| address(scene.id(), "yours")),

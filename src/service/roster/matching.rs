@@ -7,7 +7,7 @@
 use crate::batch::class::Student as Entry;
 use crate::batch::intake::is_blind;
 use crate::service::identity::normal_number;
-use crate::service::store::Student;
+use crate::service::store::StudentRecord;
 use std::collections::{HashMap, HashSet};
 use unicode_normalization::UnicodeNormalization;
 
@@ -23,7 +23,7 @@ pub struct Matcher {
 
 impl Matcher {
     /// The roster's students.
-    pub fn new(roster: &[Student]) -> Self {
+    pub fn new(roster: &[StudentRecord]) -> Self {
         let mut matcher = Self::default();
         for student in roster {
             matcher.numbers.insert(student.number.clone(), student.id.clone());
@@ -125,8 +125,8 @@ mod tests {
     use super::*;
     use crate::batch::class::Participant;
 
-    fn student(number: &str, name: &str, moodle: Option<i64>) -> Student {
-        Student {
+    fn student(number: &str, name: &str, moodle: Option<i64>) -> StudentRecord {
+        StudentRecord {
             id: format!("id-{number}"),
             number: number.into(),
             name: name.into(),

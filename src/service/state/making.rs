@@ -1,16 +1,16 @@
 //! How a service comes to be: the first course from what it is started with, another one beside it.
 
-use super::{Service, Shared, with_pictures};
+use super::{Service, ServiceParts, with_pictures};
 use crate::fault::Fault;
 use crate::service::Config;
 use crate::service::classes::Jobs;
 use crate::service::clock::Clock;
-use crate::service::courses::{self, Courses, Plan};
+use crate::service::courses::{self, CoursePlan, Courses};
 use crate::service::folders::{self, FolderCache};
 use crate::service::gallery::Gallery;
 use crate::service::grading::{CrossChecks, Judge, Queue};
 use crate::service::identity::{new_id, new_token};
-use crate::service::limits::{Limits, Proxies};
+use crate::service::limits::{Proxies, RateLimits};
 use crate::service::lti::Connections;
 use crate::service::server::database;
 use crate::service::store::{Result as StoreResult, Store};
@@ -20,11 +20,11 @@ use std::sync::{Arc, OnceLock, RwLock};
 use tokio::sync::{Semaphore, watch};
 
 /// What the courses of a service have in common.
-struct Common {
+struct CourseResources {
     config: Config,
     pool: Arc<dyn Judge>,
     clock: Clock,
-    limits: Arc<Limits>,
+    limits: Arc<RateLimits>,
     proxies: Proxies,
     identity_proxies: Proxies,
     queue: Arc<Queue>,
@@ -44,8 +44,8 @@ impl Service {
         pool: Arc<dyn Judge>,
         clock: Clock,
     ) -> Result<Self, Fault> {
-        let common = Common {
-            limits: Arc::new(Limits::new(&config, &clock)),
+        let common = CourseResources {
+            limits: Arc::new(RateLimits::new(&config, &clock)),
             proxies: Proxies::parse("trusted_proxies", &config.trusted_proxies)?,
             identity_proxies: Proxies::parse("identity_proxies", &config.identity_proxies)?,
             queue: Arc::new(Queue::new(config.queue)),
@@ -67,7 +67,7 @@ impl Service {
         let store = self.store.open_course(id).await?;
         // Tokens of single homeworks are for those of the first course.
         let config = Config { homework_tokens: Default::default(), ..self.config.clone() };
-        let common = Common {
+        let common = CourseResources {
             config,
             pool: Arc::clone(&self.pool),
             clock: self.clock.clone(),
@@ -87,13 +87,13 @@ impl Service {
     }
 
     async fn made(
-        common: Common,
+        common: CourseResources,
         named: Vec<Arc<Assignment>>,
         store: Store,
         other: Option<(&str, Store)>,
     ) -> StoreResult<Self> {
         let key = store.setting_or("csrf_key", &new_token()).await?;
-        let plan = Plan::read(&store).await?;
+        let plan = CoursePlan::read(&store).await?;
         let (root, first) = other.map(|(id, first)| (courses::root_of_id(id), first)).unzip();
         let root = root.unwrap_or_default();
         let chosen = plan.chosen(&named, root.is_empty());
@@ -101,9 +101,10 @@ impl Service {
         for assignment in &served {
             store.assignment(&assignment.id).await?;
         }
-        let Common { config, pool, clock, limits, .. } = common;
-        let Common { proxies, identity_proxies, queue, cross_checks, login_turn, instance, ending, .. } = common;
-        Ok(Self(Arc::new(Shared {
+        let CourseResources { config, pool, clock, limits, .. } = common;
+        let CourseResources { proxies, identity_proxies, queue, cross_checks, login_turn, instance, ending, .. } =
+            common;
+        Ok(Self(Arc::new(ServiceParts {
             root,
             first,
             courses: Courses::default(),

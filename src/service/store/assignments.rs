@@ -20,7 +20,7 @@ pub enum Audience {
 
 /// The settings of an assignment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Assignment {
+pub struct AssignmentSettings {
     /// Its id.
     pub id: String,
     /// Seed of the fresh probes of every grading: the same for all, so that the same file always gets the same report. It
@@ -50,7 +50,7 @@ pub struct Assignment {
     pub is_archived: bool,
 }
 
-type Row = (
+type AssignmentRow = (
     String,
     i64,
     String,
@@ -69,7 +69,7 @@ type Row = (
     i64,
 );
 
-/// The columns of [`Row`].
+/// The columns of [`AssignmentRow`].
 macro_rules! columns {
     () => {
         "id, seed, hints, opens_at, closes_at, attempts, audience, practice, grace, late_until, late_percent, late_span, \
@@ -78,8 +78,8 @@ macro_rules! columns {
     };
 }
 
-impl Assignment {
-    fn of(row: Row) -> Result<Self> {
+impl AssignmentSettings {
+    fn of(row: AssignmentRow) -> Result<Self> {
         let (id, seed, hints, opens_at, closes_at, attempts, audience, practice, ..) = row;
         let (.., grace, until, percent, span, floor, counting, shown_from, archived) = row;
         Ok(Self {
@@ -137,24 +137,25 @@ impl Assignment {
 
 impl Store {
     /// The settings of an assignment; the usual ones, with a seed that nobody knows, when it is met first.
-    pub async fn assignment(&self, id: &str) -> Result<Assignment> {
+    pub async fn assignment(&self, id: &str) -> Result<AssignmentSettings> {
         const SELECT: &str = concat!("SELECT ", columns!(), " FROM assignments WHERE id = $1");
         const INSERT: &str = "INSERT INTO assignments (id, seed, hints, audience) VALUES ($1, $2, $3, $4) \
                               ON CONFLICT (id) DO NOTHING";
-        let found: Option<Row> = on!(&self.read, db => sqlx::query_as(SELECT).bind(id).fetch_optional(db).await?);
+        let found: Option<AssignmentRow> =
+            on!(&self.read, db => sqlx::query_as(SELECT).bind(id).fetch_optional(db).await?);
         if let Some(row) = found {
-            return Assignment::of(row);
+            return AssignmentSettings::of(row);
         }
         let seed = signed(crate::grade::random_seed());
         let (hints, audience) = (word(&Hints::default()), word(&Audience::default()));
         on!(&self.write, db => {
             sqlx::query(INSERT).bind(id).bind(seed).bind(&hints).bind(&audience).execute(db).await?;
         });
-        Assignment::of(on!(&self.write, db => sqlx::query_as(SELECT).bind(id).fetch_one(db).await?))
+        AssignmentSettings::of(on!(&self.write, db => sqlx::query_as(SELECT).bind(id).fetch_one(db).await?))
     }
 
     /// Sets everything of an assignment.
-    pub async fn set_assignment(&self, assignment: &Assignment) -> Result<()> {
+    pub async fn set_assignment(&self, assignment: &AssignmentSettings) -> Result<()> {
         const SQL: &str = "UPDATE assignments SET seed = $2, hints = $3, opens_at = $4, closes_at = $5, \
                            attempts = $6, audience = $7, practice = $8, grace = $9, late_until = $10, \
                            late_percent = $11, late_span = $12, late_floor = $13, counting = $14 WHERE id = $1";

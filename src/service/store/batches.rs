@@ -2,7 +2,7 @@
 
 use super::keys::keep_key;
 use super::submissions::insert_submission;
-use super::{Key, NewSubmission, Result, Store, on};
+use super::{NewSubmission, Result, Store, StoredKey, on};
 use crate::batch::class::{Refused, Student};
 use crate::language::Text;
 use crate::service::clock::Millis;
@@ -68,10 +68,10 @@ impl Progress {
     }
 }
 
-type Row = (String, String, String, String, i64);
+type BatchRow = (String, String, String, String, i64);
 
 impl Batch {
-    fn of((id, assignment, title, refused, created_at): Row) -> Result<Self> {
+    fn of((id, assignment, title, refused, created_at): BatchRow) -> Result<Self> {
         Ok(Self { id, assignment, title, refused: serde_json::from_str(&refused)?, created_at })
     }
 }
@@ -83,7 +83,7 @@ impl Store {
         batch: &Batch,
         entries: &[BatchEntry],
         files: &[NewSubmission],
-        key: Option<&Key>,
+        key: Option<&StoredKey>,
     ) -> Result<bool> {
         const BATCH: &str =
             "INSERT INTO batches (id, assignment, title, refused, created_at) VALUES ($1, $2, $3, $4, $5)";
@@ -123,7 +123,7 @@ impl Store {
     /// The batch with this id.
     pub async fn batch(&self, id: &str) -> Result<Option<Batch>> {
         const SQL: &str = "SELECT id, assignment, title, refused, created_at FROM batches WHERE id = $1";
-        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        let row: Option<BatchRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(Batch::of).transpose()
     }
 
@@ -131,14 +131,14 @@ impl Store {
     pub async fn batches(&self, assignment: &str) -> Result<Vec<Batch>> {
         const SQL: &str = "SELECT id, assignment, title, refused, created_at FROM batches WHERE assignment = $1 \
                            ORDER BY created_at DESC, id";
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
+        let rows: Vec<BatchRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
         rows.into_iter().map(Batch::of).collect()
     }
 
     /// Every batch of every assignment.
     pub async fn all_batches(&self) -> Result<Vec<Batch>> {
         const SQL: &str = "SELECT id, assignment, title, refused, created_at FROM batches ORDER BY created_at DESC, id";
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
+        let rows: Vec<BatchRow> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
         rows.into_iter().map(Batch::of).collect()
     }
 
@@ -146,9 +146,9 @@ impl Store {
     pub async fn batch_entries(&self, id: &str) -> Result<Vec<BatchEntry>> {
         const SQL: &str = "SELECT position, student, path, submission_id, note, student_id FROM batch_entries \
                            WHERE batch_id = $1 ORDER BY position";
-        type Row = (i64, String, Option<String>, Option<String>, Option<String>, Option<String>);
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
-        let entry = |(position, student, path, submission_id, note, student_id): Row| {
+        type EntryRow = (i64, String, Option<String>, Option<String>, Option<String>, Option<String>);
+        let rows: Vec<EntryRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
+        let entry = |(position, student, path, submission_id, note, student_id): EntryRow| {
             Ok(BatchEntry {
                 position,
                 student: serde_json::from_str(&student)?,

@@ -8,7 +8,7 @@ const ARCHIVED: &str = "archived_at";
 
 /// A homework's place in its course.
 #[derive(Clone, Debug, PartialEq, sqlx::FromRow)]
-pub struct Place {
+pub struct CoursePlace {
     /// Id of the homework.
     pub id: String,
     /// 1 where the course has it, whatever the command line says.
@@ -54,14 +54,14 @@ impl Store {
     }
 
     /// What the course says of every homework that it has met, in its order.
-    pub async fn places(&self) -> Result<Vec<Place>> {
+    pub async fn places(&self) -> Result<Vec<CoursePlace>> {
         const SQL: &str = "SELECT id, is_chosen, position, points, is_hidden, shown_from FROM assignments \
                            ORDER BY CASE WHEN position IS NULL THEN 1 ELSE 0 END, position, id";
         Ok(on!(&self.write, db => sqlx::query_as(SQL).fetch_all(db).await?))
     }
 
     /// Sets what the course says of homeworks, which it has met.
-    pub async fn set_places(&self, places: &[Place]) -> Result<()> {
+    pub async fn set_places(&self, places: &[CoursePlace]) -> Result<()> {
         const SQL: &str = "UPDATE assignments SET is_chosen = $2, position = $3, points = $4, is_hidden = $5, \
                            shown_from = $6 WHERE id = $1";
         on!(&self.write, db => {

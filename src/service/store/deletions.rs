@@ -51,7 +51,7 @@ fn deleted_note() -> Text {
     Text::new("deleted by the teacher", "教員が削除しました")
 }
 
-type Rows = Vec<(String, String, String)>;
+type SubmissionRows = Vec<(String, String, String)>;
 
 impl DeletionTarget {
     /// The word in the log: people without a number are students as well.
@@ -120,7 +120,7 @@ impl DeletionTarget {
 }
 
 impl Counts {
-    fn of(rows: &Rows, entries: i64, browsers: i64) -> Result<Self> {
+    fn of(rows: &SubmissionRows, entries: i64, browsers: i64) -> Result<Self> {
         let mut counts = Self { entries: entries.unsigned_abs(), browsers: browsers.unsigned_abs(), ..Self::default() };
         for (_, _, via) in rows {
             match from_word(via.clone())? {
@@ -176,7 +176,7 @@ impl Store {
         let (sql, id, position) = target.submissions();
         let (entries, browsers) = target.others();
         on!(&self.read, db => {
-            let rows: Rows = sqlx::query_as(sql).bind(id).bind(position).fetch_all(db).await?;
+            let rows: SubmissionRows = sqlx::query_as(sql).bind(id).bind(position).fetch_all(db).await?;
             let entries: i64 = sqlx::query_scalar(entries).bind(id).bind(position).fetch_one(db).await?;
             let browsers: i64 = sqlx::query_scalar(browsers).bind(id).bind(position).fetch_one(db).await?;
             Counts::of(&rows, entries, browsers)
@@ -201,7 +201,7 @@ impl Store {
         let note = serde_json::to_string(&deleted_note())?;
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
-            let rows: Rows = sqlx::query_as(sql).bind(id).bind(position).fetch_all(&mut *transaction).await?;
+            let rows: SubmissionRows = sqlx::query_as(sql).bind(id).bind(position).fetch_all(&mut *transaction).await?;
             let entries: i64 =
                 sqlx::query_scalar(entries).bind(id).bind(position).fetch_one(&mut *transaction).await?;
             let browsers: i64 =

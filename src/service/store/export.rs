@@ -6,10 +6,10 @@ use crate::service::clock::Millis;
 use serde_json::{Map, Value, json};
 
 /// One kind of what is kept: its name, the statement for a student's id, and the names of its columns, all of them texts.
-type Kind = (&'static str, &'static str, &'static [&'static str]);
+type ExportedTable = (&'static str, &'static str, &'static [&'static str]);
 
 /// What is kept of a student beside their hand-ins. Numbers are told as texts.
-const KINDS: [Kind; 7] = [
+const KINDS: [ExportedTable; 7] = [
     (
         "extensions",
         "SELECT assignment, CAST(closes_at AS TEXT), reason FROM extensions WHERE student_id = $1 ORDER BY assignment",

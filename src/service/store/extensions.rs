@@ -1,6 +1,6 @@
 //! Deadlines of single students, and of groups of them.
 
-use super::{Assignment, Result, Store, on};
+use super::{AssignmentSettings, Result, Store, on};
 use crate::service::clock::Millis;
 
 /// Whose deadline it is.
@@ -55,7 +55,7 @@ impl NamedExtension {
 impl Store {
     /// The settings of an assignment as they are for somebody: with their own deadline or that of their group, where the
     /// homework has one and theirs is later.
-    pub async fn assignment_for(&self, id: &str, student_id: Option<&str>) -> Result<Assignment> {
+    pub async fn assignment_for(&self, id: &str, student_id: Option<&str>) -> Result<AssignmentSettings> {
         const SQL: &str = "SELECT max(closes_at) FROM (SELECT closes_at FROM extensions \
                            WHERE assignment = $1 AND student_id = $2 UNION ALL SELECT g.closes_at FROM group_extensions g \
                            JOIN students t ON t.group_name = g.group_name WHERE g.assignment = $1 AND t.id = $2) AS own";
@@ -64,7 +64,7 @@ impl Store {
         let own: Option<Millis> =
             on!(&self.read, db => sqlx::query_scalar(SQL).bind(id).bind(student_id).fetch_one(db).await?);
         Ok(match own.filter(|own| *own > closes) {
-            Some(own) => Assignment { closes_at: Some(own), has_own_deadline: true, ..settings },
+            Some(own) => AssignmentSettings { closes_at: Some(own), has_own_deadline: true, ..settings },
             None => settings,
         })
     }

@@ -26,9 +26,9 @@ pub struct UploadedFolder {
     pub published_at: Option<Millis>,
 }
 
-type Row = (String, String, String, i64, Option<String>, String, String, Option<i64>);
+type FolderRow = (String, String, String, i64, Option<String>, String, String, Option<i64>);
 
-/// Selects a [`Row`].
+/// Selects a [`FolderRow`].
 macro_rules! select {
     ($rest:literal) => {
         concat!(
@@ -40,7 +40,9 @@ macro_rules! select {
 }
 
 impl UploadedFolder {
-    fn of((id, assignment, digest, uploaded_at, uploader, solution, handed_out, published_at): Row) -> Result<Self> {
+    fn of(
+        (id, assignment, digest, uploaded_at, uploader, solution, handed_out, published_at): FolderRow,
+    ) -> Result<Self> {
         let (solution, handed_out) = (serde_json::from_str(&solution)?, serde_json::from_str(&handed_out)?);
         Ok(Self { id, assignment, digest, uploaded_at, uploader, solution, handed_out, published_at })
     }
@@ -79,21 +81,21 @@ impl Store {
     /// Every uploaded folder, the newest first.
     pub async fn folders(&self) -> Result<Vec<UploadedFolder>> {
         const SQL: &str = select!("ORDER BY f.uploaded_at DESC, f.id");
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
+        let rows: Vec<FolderRow> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
         rows.into_iter().map(UploadedFolder::of).collect()
     }
 
     /// The folder with this id.
     pub async fn folder(&self, id: &str) -> Result<Option<UploadedFolder>> {
         const SQL: &str = select!("WHERE f.id = $1");
-        let row: Option<Row> = on!(&self.write, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        let row: Option<FolderRow> = on!(&self.write, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(UploadedFolder::of).transpose()
     }
 
     /// The folder of this digest.
     pub async fn folder_of_digest(&self, digest: &str) -> Result<Option<UploadedFolder>> {
         const SQL: &str = select!("WHERE f.digest = $1");
-        let row: Option<Row> = on!(&self.write, db => sqlx::query_as(SQL).bind(digest).fetch_optional(db).await?);
+        let row: Option<FolderRow> = on!(&self.write, db => sqlx::query_as(SQL).bind(digest).fetch_optional(db).await?);
         row.map(UploadedFolder::of).transpose()
     }
 

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 /// The part of a stored report that is read.
 #[derive(serde::Deserialize)]
-struct Said {
+struct StoredDiagnostics {
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -18,7 +18,8 @@ impl Store {
                            WHERE s.assignment = $1 AND s.via <> 'editor' AND r.verdict IN ('rejected', 'stopped')";
         let rows: Vec<(String, String)> =
             on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
-        let read = |(id, json): (String, String)| Ok((id, serde_json::from_str::<Said>(&json)?.diagnostics));
+        let read =
+            |(id, json): (String, String)| Ok((id, serde_json::from_str::<StoredDiagnostics>(&json)?.diagnostics));
         rows.into_iter().map(read).collect()
     }
 }

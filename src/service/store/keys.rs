@@ -5,7 +5,7 @@ use crate::service::clock::Millis;
 
 /// The key of a request, as it is kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Key {
+pub struct StoredKey {
     /// A hash of the key as the client gave it, and of the client.
     pub id: String,
     /// A hash of what was sent with it.

@@ -1,6 +1,6 @@
 //! Opening the database and bringing its tables up to date.
 
-use super::{Pool, Result, Store, StoreError};
+use super::{DatabasePool, Result, Store, StoreError};
 use sqlx::postgres::{PgConnectOptions, PgPoolOptions};
 use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
 use sqlx::{ConnectOptions, Connection};
@@ -95,7 +95,12 @@ impl Store {
         let read =
             SqlitePoolOptions::new().max_connections(READERS).acquire_timeout(BUSY).connect_with(options).await?;
         let location = Arc::new(Location::File(path.to_owned()));
-        Ok(Self { read: Pool::Sqlite(read), write: Pool::Sqlite(write), location, _lock: Some(Arc::new(lock)) })
+        Ok(Self {
+            read: DatabasePool::Sqlite(read),
+            write: DatabasePool::Sqlite(write),
+            location,
+            _lock: Some(Arc::new(lock)),
+        })
     }
 
     async fn open_postgres(url: &str, schema: Option<&str>) -> Result<Self> {
@@ -113,7 +118,12 @@ impl Store {
             PgPoolOptions::new().max_connections(2 * READERS).acquire_timeout(BUSY).connect_with(options).await?;
         POSTGRES.run(&pool).await?;
         let location = Arc::new(Location::Postgres(url.to_owned()));
-        Ok(Self { read: Pool::Postgres(pool.clone()), write: Pool::Postgres(pool), location, _lock: None })
+        Ok(Self {
+            read: DatabasePool::Postgres(pool.clone()),
+            write: DatabasePool::Postgres(pool),
+            location,
+            _lock: None,
+        })
     }
 }
 

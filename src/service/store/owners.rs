@@ -1,7 +1,7 @@
 //! Browsers that handed something in. Their cookies are stored as hashes only.
 
 use super::rows::{from_word, word};
-use super::{Result, Store, Student, on};
+use super::{Result, Store, StudentRecord, on};
 use crate::service::clock::Millis;
 use serde::{Deserialize, Serialize};
 
@@ -30,15 +30,15 @@ pub enum Proof {
     Platform,
 }
 
-type Row = (String, Option<String>, String, i64);
+type OwnerRow = (String, Option<String>, String, i64);
 
 impl Owner {
-    fn of((id, student_id, proof, code_generation): Row) -> Result<Self> {
+    fn of((id, student_id, proof, code_generation): OwnerRow) -> Result<Self> {
         Ok(Self { id, student_id, proof: from_word(proof)?, code_generation })
     }
 
     /// Whether this is known to be the student's browser.
-    pub fn proves(&self, student: &Student) -> bool {
+    pub fn proves(&self, student: &StudentRecord) -> bool {
         self.student_id.as_deref() == Some(student.id.as_str())
             && self.code_generation == student.code_generation
             && (self.proof != Proof::First || !student.is_on_roster())
@@ -50,7 +50,7 @@ const SELECT: &str = "SELECT id, student_id, proof, code_generation FROM owners 
 impl Store {
     /// The owner of a cookie.
     pub async fn owner(&self, token_hash: &str) -> Result<Option<Owner>> {
-        let row: Option<Row> = on!(&self.read, db => {
+        let row: Option<OwnerRow> = on!(&self.read, db => {
             sqlx::query_as(SELECT).bind(token_hash).fetch_optional(db).await?
         });
         row.map(Owner::of).transpose()
@@ -72,7 +72,7 @@ impl Store {
     pub async fn bind_owner(
         &self,
         (owner_id, token_hash): (&str, &str),
-        student: &Student,
+        student: &StudentRecord,
         proof: Proof,
     ) -> Result<Option<Owner>> {
         // Two that come at once wait for each other at this row.
@@ -81,7 +81,7 @@ impl Store {
         const BIND: &str = "UPDATE owners SET student_id = $2, proof = $3, code_generation = $4, token_hash = $5 \
                             WHERE id = $1";
         const BOUND: &str = "SELECT id, student_id, proof, code_generation FROM owners WHERE id = $1";
-        let row: Row = on!(&self.write, db => {
+        let row: OwnerRow = on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(TURN).bind(&student.id).execute(&mut *transaction).await?;
             let others: i64 = sqlx::query_scalar(OTHERS)

@@ -7,7 +7,7 @@
 //! of reports. An SQLite file has one process, which knows all that by itself.
 
 use super::rows::submission_columns;
-use super::{Pool, Result, Sender, Store, Submission, on};
+use super::{DatabasePool, Result, Sender, Store, Submission, on};
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::service::clock::Millis;
@@ -200,7 +200,7 @@ impl Store {
 
     /// Tells the other processes on this database.
     pub async fn tell(&self, news: &News) -> Result<()> {
-        let Pool::Postgres(db) = &self.write else { return Ok(()) };
+        let DatabasePool::Postgres(db) = &self.write else { return Ok(()) };
         let (channel, about) = match news {
             News::Waiting => (WAITING, ""),
             News::Finished(id) => (FINISHED, id.as_str()),
@@ -212,7 +212,7 @@ impl Store {
 
     /// What the other processes tell from now on; none where there can be no others.
     pub async fn listen(&self) -> Result<Option<Listener>> {
-        let Pool::Postgres(db) = &self.write else { return Ok(None) };
+        let DatabasePool::Postgres(db) = &self.write else { return Ok(None) };
         let mut listener = PgListener::connect_with(db).await?;
         listener.listen_all([WAITING, FINISHED, PUBLISHED]).await?;
         Ok(Some(Listener(listener)))

@@ -57,9 +57,9 @@ pub struct Again {
     pub folder: Option<String>,
 }
 
-type Row = (String, String, i64, String, i64, Option<i64>, Option<String>);
+type RegradingRow = (String, String, i64, String, i64, Option<i64>, Option<String>);
 
-/// Selects a [`Row`].
+/// Selects a [`RegradingRow`].
 macro_rules! select {
     ($rest:literal) => {
         concat!("SELECT id, assignment, seed, hints, created_at, adopted_at, folder_id FROM regradings ", $rest)
@@ -67,7 +67,7 @@ macro_rules! select {
 }
 
 impl Regrading {
-    fn of((id, assignment, seed, hints, created_at, adopted_at, folder): Row) -> Result<Self> {
+    fn of((id, assignment, seed, hints, created_at, adopted_at, folder): RegradingRow) -> Result<Self> {
         Ok(Self { id, assignment, seed: seed.unsigned_abs(), hints: from_word(hints)?, created_at, adopted_at, folder })
     }
 }
@@ -138,14 +138,14 @@ impl Store {
     /// Every regrading of an assignment, the newest first.
     pub async fn regradings(&self, assignment: &str) -> Result<Vec<Regrading>> {
         const SQL: &str = select!("WHERE assignment = $1 ORDER BY created_at DESC, id");
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
+        let rows: Vec<RegradingRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(assignment).fetch_all(db).await?);
         rows.into_iter().map(Regrading::of).collect()
     }
 
     /// The regrading with this id.
     pub async fn regrading(&self, id: &str) -> Result<Option<Regrading>> {
         const SQL: &str = select!("WHERE id = $1");
-        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        let row: Option<RegradingRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(Regrading::of).transpose()
     }
 

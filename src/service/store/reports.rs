@@ -11,7 +11,7 @@ use crate::service::clock::Millis;
 
 /// A submission with its report, where it has one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stored {
+pub struct StoredSubmission {
     /// What was handed in.
     pub submission: Submission,
     /// What came of it, as students see it.
@@ -149,7 +149,7 @@ where
 
 impl Store {
     /// A submission with its report, and what people judge in it.
-    pub async fn stored(&self, id: &str) -> Result<Option<Stored>> {
+    pub async fn stored(&self, id: &str) -> Result<Option<StoredSubmission>> {
         const SQL: &str = "SELECT report FROM reports WHERE submission_id = $1";
         let Some(submission) = self.submission(id).await? else { return Ok(None) };
         let json: Option<String> = on!(&self.read, db => sqlx::query_scalar(SQL).bind(id).fetch_optional(db).await?);
@@ -161,7 +161,7 @@ impl Store {
             report.lateness = self.lateness(id).await?;
         }
         let cross_check = report.as_mut().and_then(|report| report.cross_check.take());
-        Ok(Some(Stored { submission, report, cross_check }))
+        Ok(Some(StoredSubmission { submission, report, cross_check }))
     }
 
     /// Whether a submission's report has pictures: whether the file could be drawn to the end.

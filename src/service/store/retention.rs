@@ -6,7 +6,7 @@ use crate::service::clock::Millis;
 
 /// What was removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Removed {
+pub struct RemovedCounts {
     /// Submissions with their reports.
     pub submissions: u64,
     /// Files that no submission has any more.
@@ -24,7 +24,7 @@ pub(super) const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
 impl Store {
     /// Removes submissions that came before `before`, drafts that came before `drafts_before`, and what only they had.
     /// Of a submission on which driver and interpreter disagree the file and the report stay, and nothing of whose it was.
-    pub async fn remove_old(&self, before: Option<Millis>, drafts_before: Millis) -> Result<Removed> {
+    pub async fn remove_old(&self, before: Option<Millis>, drafts_before: Millis) -> Result<RemovedCounts> {
         const DRAFTS: &str = "DELETE FROM submissions WHERE via = 'editor' AND received_at < $1";
         const NAMELESS: &str = concat!(
             "UPDATE submissions SET owner_id = NULL, student_id = NULL, batch_id = NULL, via = 'api' \
@@ -44,7 +44,7 @@ impl Store {
         const ACTS: &str = "DELETE FROM acts WHERE at < $1";
         const OWNERS: &str = "DELETE FROM owners WHERE created_at < $1 AND NOT EXISTS \
                               (SELECT 1 FROM submissions s WHERE s.owner_id = owners.id)";
-        let mut removed = Removed::default();
+        let mut removed = RemovedCounts::default();
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             let gone = sqlx::query(DRAFTS).bind(drafts_before).execute(&mut *transaction).await?;

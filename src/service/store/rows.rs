@@ -21,8 +21,9 @@ pub enum Via {
 
 /// How far a submission is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[schema(as = State)]
 #[serde(rename_all = "lowercase")]
-pub enum State {
+pub enum SubmissionState {
     /// Stored, to be graded.
     Queued,
     /// There is a report.
@@ -57,7 +58,7 @@ pub struct Submission {
     /// When it came.
     pub received_at: Millis,
     /// How far it is.
-    pub state: State,
+    pub state: SubmissionState,
     /// Why it failed, where it did.
     pub fault: Option<Fault>,
 }

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// What somebody may do; each may do what those before may.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, utoipa::ToSchema)]
+#[schema(as = Role)]
 #[serde(rename_all = "lowercase")]
-pub enum Role {
+pub enum StaffRole {
     /// Sees the class and its reports.
     Assistant,
     /// Sets the homework, keeps the roster, deletes, grades again, lets assistants in.
@@ -27,7 +28,7 @@ pub struct StaffMember {
     /// Their name.
     pub name: String,
     /// What they may do.
-    pub role: Role,
+    pub role: StaffRole,
     /// Whether they have chosen a password.
     pub has_password: bool,
     /// Whether they may log in.
@@ -36,23 +37,23 @@ pub struct StaffMember {
 
 /// An open session of a teacher.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Session {
+pub struct TeacherSession {
     /// The homework whose class it opens; none: all.
     pub assignment: Option<String>,
     /// Whose it is; none: of who logged in with a secret of the whole service.
     pub staff: Option<StaffMember>,
 }
 
-type Row = (String, String, String, String, i64, i64);
+type StaffRow = (String, String, String, String, i64, i64);
 
 impl StaffMember {
-    fn of((id, login, name, role, has_password, is_active): Row) -> Result<Self> {
+    fn of((id, login, name, role, has_password, is_active): StaffRow) -> Result<Self> {
         let role = from_word(role)?;
         Ok(Self { id, login, name, role, has_password: has_password != 0, is_active: is_active != 0 })
     }
 }
 
-/// Selects a [`Row`].
+/// Selects a [`StaffRow`].
 macro_rules! select {
     ($rest:literal) => {
         concat!(
@@ -67,28 +68,28 @@ impl Store {
     /// Everybody who teaches in this course, by the name by which they log in.
     pub async fn staff(&self) -> Result<Vec<StaffMember>> {
         const SQL: &str = select!("WHERE is_member = 1 ORDER BY login");
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
+        let rows: Vec<StaffRow> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
         rows.into_iter().map(StaffMember::of).collect()
     }
 
     /// The one with this id.
     pub async fn staff_member(&self, id: &str) -> Result<Option<StaffMember>> {
         const SQL: &str = select!("WHERE id = $1");
-        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        let row: Option<StaffRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(StaffMember::of).transpose()
     }
 
     /// The one with this id, where they teach in this course.
     pub async fn course_member(&self, id: &str) -> Result<Option<StaffMember>> {
         const SQL: &str = select!("WHERE id = $1 AND is_member = 1");
-        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
+        let row: Option<StaffRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?);
         row.map(StaffMember::of).transpose()
     }
 
     /// The account of a login, whether they teach in this course or not.
     pub async fn account(&self, login: &str) -> Result<Option<StaffMember>> {
         const SQL: &str = select!("WHERE login = $1");
-        let row: Option<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(login).fetch_optional(db).await?);
+        let row: Option<StaffRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(login).fetch_optional(db).await?);
         row.map(StaffMember::of).transpose()
     }
 
@@ -103,7 +104,7 @@ impl Store {
     }
 
     /// Lets somebody teach in this course whose account it keeps.
-    pub async fn let_teach(&self, id: &str, role: Role) -> Result<()> {
+    pub async fn let_teach(&self, id: &str, role: StaffRole) -> Result<()> {
         const SQL: &str = "UPDATE staff SET role = $2, is_active = 1, is_member = 1 WHERE id = $1";
         on!(&self.write, db => { sqlx::query(SQL).bind(id).bind(word(&role)).execute(db).await?; });
         Ok(())
@@ -112,7 +113,7 @@ impl Store {
     /// The one whose link this is, while it holds.
     pub async fn invited(&self, invitation_hash: &str, now: Millis) -> Result<Option<StaffMember>> {
         const SQL: &str = select!("WHERE invitation_hash = $1 AND invited_until > $2 AND is_active = 1");
-        let row: Option<Row> =
+        let row: Option<StaffRow> =
             on!(&self.read, db => sqlx::query_as(SQL).bind(invitation_hash).bind(now).fetch_optional(db).await?);
         row.map(StaffMember::of).transpose()
     }
@@ -175,7 +176,7 @@ impl Store {
     }
 
     /// Sets what somebody may do, and whether they may log in; who may not has no session, no link and no token any more.
-    pub async fn set_staff(&self, id: &str, role: Role, is_active: bool) -> Result<()> {
+    pub async fn set_staff(&self, id: &str, role: StaffRole, is_active: bool) -> Result<()> {
         const SET: &str = "UPDATE staff SET role = $2, is_active = $3 WHERE id = $1";
         const SESSIONS: &str = "DELETE FROM teacher_sessions WHERE staff_id = $1";
         const LINK: &str = "UPDATE staff SET invitation_hash = NULL, invited_until = NULL WHERE id = $1";
@@ -197,7 +198,7 @@ impl Store {
     pub async fn open_session(
         &self,
         token_hash: &str,
-        session: &Session,
+        session: &TeacherSession,
         now: Millis,
         expires_at: Millis,
     ) -> Result<()> {
@@ -219,14 +220,14 @@ impl Store {
     }
 
     /// The session of a cookie, while it is open.
-    pub async fn session(&self, token_hash: &str, now: Millis) -> Result<Option<Session>> {
+    pub async fn session(&self, token_hash: &str, now: Millis) -> Result<Option<TeacherSession>> {
         const SQL: &str = "SELECT assignment, staff_id FROM teacher_sessions WHERE token_hash = $1 AND expires_at > $2";
         let row: Option<(Option<String>, Option<String>)> =
             on!(&self.read, db => sqlx::query_as(SQL).bind(token_hash).bind(now).fetch_optional(db).await?);
         let Some((assignment, staff_id)) = row else { return Ok(None) };
-        let Some(staff_id) = staff_id else { return Ok(Some(Session { assignment, staff: None })) };
+        let Some(staff_id) = staff_id else { return Ok(Some(TeacherSession { assignment, staff: None })) };
         let member = self.staff_member(&staff_id).await?.filter(|member| member.is_active);
-        Ok(member.map(|member| Session { assignment, staff: Some(member) }))
+        Ok(member.map(|member| TeacherSession { assignment, staff: Some(member) }))
     }
 
     /// Ends one session; none: all.

@@ -5,7 +5,7 @@ use crate::service::clock::Millis;
 
 /// A student.
 #[derive(Clone, Debug, PartialEq, Eq, sqlx::FromRow)]
-pub struct Student {
+pub struct StudentRecord {
     /// Id.
     pub id: String,
     /// Student number. Untrusted, as every text here.
@@ -22,7 +22,7 @@ pub struct Student {
     pub group_name: String,
 }
 
-impl Student {
+impl StudentRecord {
     /// Whether the roster has them.
     pub fn is_on_roster(&self) -> bool {
         self.on_roster != 0
@@ -55,7 +55,7 @@ pub struct EntryMatch {
 
 impl Store {
     /// The student with this number. Where there is a roster, only who is on it; otherwise they are made when met first.
-    pub async fn student(&self, number: &str, now: Millis) -> Result<Option<Student>> {
+    pub async fn student(&self, number: &str, now: Millis) -> Result<Option<StudentRecord>> {
         const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
                               SELECT $1, $2, '', 0, $3 WHERE NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1) \
                               ON CONFLICT (number) DO NOTHING";
@@ -71,35 +71,35 @@ impl Store {
     }
 
     /// The student with this id.
-    pub async fn student_by_id(&self, id: &str) -> Result<Option<Student>> {
+    pub async fn student_by_id(&self, id: &str) -> Result<Option<StudentRecord>> {
         const SQL: &str =
             "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE id = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?))
     }
 
     /// The student with this number, whether the roster has them or not.
-    pub async fn student_by_number(&self, number: &str) -> Result<Option<Student>> {
+    pub async fn student_by_number(&self, number: &str) -> Result<Option<StudentRecord>> {
         const SQL: &str =
             "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(number).fetch_optional(db).await?))
     }
 
     /// Everyone, by number.
-    pub async fn students(&self) -> Result<Vec<Student>> {
+    pub async fn students(&self) -> Result<Vec<StudentRecord>> {
         const SQL: &str =
             "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students ORDER BY number";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))
     }
 
     /// The roster, by number; empty where there is none.
-    pub async fn roster(&self) -> Result<Vec<Student>> {
-        Ok(self.students().await?.into_iter().filter(Student::is_on_roster).collect())
+    pub async fn roster(&self) -> Result<Vec<StudentRecord>> {
+        Ok(self.students().await?.into_iter().filter(StudentRecord::is_on_roster).collect())
     }
 
     /// Everyone who has a personal code: the roster; without one, whoever gave a number.
-    pub async fn with_codes(&self) -> Result<Vec<Student>> {
+    pub async fn with_codes(&self) -> Result<Vec<StudentRecord>> {
         let mut students = self.students().await?;
-        let has_roster = students.iter().any(Student::is_on_roster);
+        let has_roster = students.iter().any(StudentRecord::is_on_roster);
         students.retain(|student| !has_roster || student.is_on_roster());
         Ok(students)
     }
@@ -145,7 +145,7 @@ impl Store {
     }
 
     /// The student with a number, whom a learning platform has. Where there is a roster, they stand on it from now on.
-    pub async fn enrol(&self, line: &RosterLine, now: Millis) -> Result<Student> {
+    pub async fn enrol(&self, line: &RosterLine, now: Millis) -> Result<StudentRecord> {
         const SQL: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
                            VALUES ($1, $2, $3, CAST($4 AS BIGINT), $5) ON CONFLICT (number) DO UPDATE SET \
                            name = CASE WHEN students.name = '' THEN excluded.name ELSE students.name END, \

@@ -3,7 +3,7 @@
 use super::keys::keep_key;
 use super::rows::{submission_columns, word};
 use super::senders::{Sender, TAKE_TURN};
-use super::{Key, Priority, Result, Store, Submission, Via, on, signed};
+use super::{Priority, Result, Store, StoredKey, Submission, Via, on, signed};
 use crate::diagnose::Hints;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::report::{Report, Verdict};
@@ -90,7 +90,7 @@ pub(super) use insert_submission;
 
 impl Store {
     /// Stores a hand-in. When this is done, it is never lost. False, with nothing stored, where the request's key is taken.
-    pub async fn add_submission(&self, new: &NewSubmission, key: Option<&Key>) -> Result<bool> {
+    pub async fn add_submission(&self, new: &NewSubmission, key: Option<&StoredKey>) -> Result<bool> {
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             let mut turn = new.received_at;
@@ -115,7 +115,7 @@ impl Store {
     pub async fn add_graded(
         &self,
         new: &NewSubmission,
-        key: Option<&Key>,
+        key: Option<&StoredKey>,
         report: &Report,
         graded_at: Millis,
     ) -> Result<bool> {

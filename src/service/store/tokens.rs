@@ -47,16 +47,16 @@ pub struct OwnedToken {
     pub login: String,
 }
 
-type Row = (String, String, String, String, Option<String>, Millis, Millis, Option<Millis>);
+type TokenRow = (String, String, String, String, Option<String>, Millis, Millis, Option<Millis>);
 
 impl AccessToken {
-    fn of((id, staff_id, name, scope, assignment, created_at, expires_at, last_used_at): Row) -> Result<Self> {
+    fn of((id, staff_id, name, scope, assignment, created_at, expires_at, last_used_at): TokenRow) -> Result<Self> {
         let scope = from_word(scope)?;
         Ok(Self { id, staff_id, name, scope, assignment, created_at, expires_at, last_used_at })
     }
 }
 
-/// Selects a [`Row`].
+/// Selects a [`TokenRow`].
 macro_rules! select {
     ($rest:literal) => {
         concat!(
@@ -97,7 +97,7 @@ impl Store {
     /// The tokens that hold, of one owner or of everybody; the newest first.
     pub async fn tokens(&self, staff_id: Option<&str>, now: Millis) -> Result<Vec<OwnedToken>> {
         const SQL: &str = select!("WHERE expires_at > $1 ORDER BY created_at DESC, id");
-        let rows: Vec<Row> = on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?);
+        let rows: Vec<TokenRow> = on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?);
         let mut owned = Vec::new();
         for row in rows.into_iter().filter(|row| staff_id.is_none_or(|owner| owner == row.1)) {
             // An administrator has tokens here without being of the course's staff.
@@ -111,7 +111,7 @@ impl Store {
     pub async fn use_token(&self, token_hash: &str, now: Millis) -> Result<Option<(AccessToken, StaffMember)>> {
         const SQL: &str = select!("WHERE token_hash = $1 AND expires_at > $2");
         const USED: &str = "UPDATE access_tokens SET last_used_at = $2 WHERE id = $1";
-        let row: Option<Row> =
+        let row: Option<TokenRow> =
             on!(&self.read, db => sqlx::query_as(SQL).bind(token_hash).bind(now).fetch_optional(db).await?);
         let Some(token) = row.map(AccessToken::of).transpose()? else { return Ok(None) };
         let owner = self.staff_member(&token.staff_id).await?.filter(|member| member.is_active);

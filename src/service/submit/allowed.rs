@@ -9,7 +9,11 @@ use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Via};
 use axum::http::StatusCode;
 
-pub(super) async fn may_hand_in(state: &State, assignment: &store::Assignment, upload: &Upload) -> Result<(), Problem> {
+pub(super) async fn may_hand_in(
+    state: &State,
+    assignment: &store::AssignmentSettings,
+    upload: &Upload,
+) -> Result<(), Problem> {
     let forbidden = |kind, en: &str, ja: &str| Err(Problem::new(StatusCode::FORBIDDEN, kind, en, ja));
     let now = state.clock.now();
     if assignment.is_archived {
@@ -89,6 +93,6 @@ pub fn closed() -> Problem {
 }
 
 /// Whether there is a roster, and this student is not on it.
-pub async fn is_stranger(state: &State, student: &store::Student) -> Result<bool, Problem> {
+pub async fn is_stranger(state: &State, student: &store::StudentRecord) -> Result<bool, Problem> {
     Ok(!student.is_on_roster() && state.store.has_roster().await?)
 }

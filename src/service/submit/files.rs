@@ -1,7 +1,7 @@
 //! The files of an upload: which of them are asked for, and whether they are texts.
 
 use super::{MAX_UPLOAD, Upload, file_name, may_hand_in, too_large};
-use crate::batch::intake::{self, Content, HandInPart};
+use crate::batch::intake::{self, HandInContent, HandInPart};
 use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
@@ -13,7 +13,7 @@ use crate::source;
 use axum::http::StatusCode;
 
 /// The files that the homework asks for, where they may be handed in at all.
-pub(super) async fn checked(state: &State, upload: &Upload) -> Result<(store::Assignment, HandIn), Problem> {
+pub(super) async fn checked(state: &State, upload: &Upload) -> Result<(store::AssignmentSettings, HandIn), Problem> {
     if state.is_ending() {
         return Err(Problem::new(
             StatusCode::SERVICE_UNAVAILABLE,
@@ -33,11 +33,11 @@ pub(super) async fn checked(state: &State, upload: &Upload) -> Result<(store::As
 /// text is named; it is not stored and costs no attempt.
 pub(super) async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Problem> {
     let given = given(state, sent.files);
-    let options = intake::Options::new(&state.assignment);
+    let options = intake::IntakeOptions::new(&state.assignment);
     let chosen = tokio::task::spawn_blocking(move || intake::one(given, &options));
     let hand_in = match chosen.await.map_err(|panic| Problem::internal(&panic))? {
-        Content::Files { hand_in, .. } => hand_in,
-        Content::Nothing(why) => return Err(unfilled(&why)),
+        HandInContent::Files { hand_in, .. } => hand_in,
+        HandInContent::Nothing(why) => return Err(unfilled(&why)),
     };
     for (file, slot) in hand_in.files.iter().zip(&state.assignment.files) {
         check_text(slot, &file.bytes).map_err(|problem| match hand_in.files.len() {
@@ -55,7 +55,7 @@ pub async fn for_slots(
     shown: usize,
 ) -> Result<impl Iterator<Item = (usize, HandedInFile)>, Problem> {
     let given = given(state, sent);
-    let options = intake::Options::new(&state.assignment);
+    let options = intake::IntakeOptions::new(&state.assignment);
     let placed = tokio::task::spawn_blocking(move || intake::some(given, shown, &options));
     let placed = placed.await.map_err(|panic| Problem::internal(&panic))?.map_err(|why| unfilled(&why))?;
     Ok((0..).zip(placed).filter_map(|(slot, file)| Some((slot, file?))))

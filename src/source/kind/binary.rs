@@ -1,7 +1,7 @@
 //! Files that are no text, told by their first bytes.
 
 use super::looks_like;
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::Encoding;
 
@@ -91,7 +91,7 @@ fn is_utf16(bytes: &[u8]) -> bool {
 
 fn utf16_without_mark() -> Diagnostic {
     Diagnostic::error(
-        Stage::Source,
+        DiagnosticStage::Source,
         Text::new(
             "The file seems to be text in UTF-16 without a byte-order mark. OpenGL drivers cannot compile that.",
             "BOM のない UTF-16 で書かれたテキストのようです。OpenGL ドライバではコンパイルできません。",
@@ -102,7 +102,7 @@ fn utf16_without_mark() -> Diagnostic {
 
 fn utf16_without_sense() -> Diagnostic {
     Diagnostic::error(
-        Stage::Source,
+        DiagnosticStage::Source,
         Text::new(
             "The file begins with the byte-order mark of UTF-16, and read as UTF-16 it makes no sense: it is damaged, or \
              no text.",
@@ -118,7 +118,7 @@ fn utf16_without_sense() -> Diagnostic {
 fn with_nul(bytes: &[u8], at: usize) -> Diagnostic {
     let line = 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
     Diagnostic::error(
-        Stage::Source,
+        DiagnosticStage::Source,
         Text::new(
             format!("Line {line} holds a NUL byte (00). Text never does: the file is binary or damaged."),
             format!("{line} 行目に NUL バイト（00）があります。バイナリファイルか、壊れたファイルのようです。"),

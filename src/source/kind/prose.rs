@@ -80,7 +80,7 @@ fn empty(source: &Source) -> Diagnostic {
         Text::new("The file holds nothing but comments.", "ファイルにコメントしか入っていません。")
     };
     let open = source.comments.last().filter(|comment| !comment.to_line_end && comment.range.end == source.text.len());
-    let diagnostic = Diagnostic::error(crate::diagnostic::Stage::Source, message)
+    let diagnostic = Diagnostic::error(crate::diagnostic::DiagnosticStage::Source, message)
         .hint(Text::new("Was it saved before you handed it in?", "提出する前に保存したか確かめてください。"));
     let Some(open) = open else { return diagnostic };
     let (line, column) = source.position(open.range.start);
@@ -127,7 +127,7 @@ fn conflict() -> Diagnostic {
         "The marks of a Git merge conflict are still in the file.",
         "Git のマージで競合した箇所の印（<<<<<<<）が残っています。",
     );
-    Diagnostic::error(crate::diagnostic::Stage::Source, message).hint(Text::new(
+    Diagnostic::error(crate::diagnostic::DiagnosticStage::Source, message).hint(Text::new(
         "Keep one of the two versions and delete the lines <<<<<<<, ======= and >>>>>>>.",
         "どちらか一方を残し、<<<<<<<、=======、>>>>>>> の行を削除してください。",
     ))
@@ -138,7 +138,7 @@ fn fenced() -> Diagnostic {
         "The shader is wrapped in a Markdown code fence (```), which is not GLSL.",
         "シェーダが Markdown のコードブロックの印（```）で囲まれています。これは GLSL ではありません。",
     );
-    Diagnostic::error(crate::diagnostic::Stage::Source, message).hint(Text::new(
+    Diagnostic::error(crate::diagnostic::DiagnosticStage::Source, message).hint(Text::new(
         "Delete the lines that begin with ``` and everything outside of them.",
         "``` で始まる行と、その外側の文章を削除してください。",
     ))

@@ -1,7 +1,7 @@
 //! What is said of odd characters.
 
 use super::{CharacterKind, CharacterRun, kind};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::lookalikes::{ascii_for, name};
 
@@ -33,7 +33,7 @@ pub(super) fn told(run: &CharacterRun) -> Diagnostic {
         CharacterKind::LookAlike => (look_alike(run), instead(run.text)),
         CharacterKind::Foreign => (foreign(run), foreign_hint(run.text)),
     };
-    Diagnostic::error(Stage::Source, message).spanning(run.text.chars().count()).hint(hint)
+    Diagnostic::error(DiagnosticStage::Source, message).spanning(run.text.chars().count()).hint(hint)
 }
 
 /// The characters of a run with code point and name: `「；」(U+FF1B FULLWIDTH SEMICOLON)`.
@@ -143,7 +143,7 @@ pub(super) fn skipped(run: &CharacterRun) -> Diagnostic {
         format!("{} stands outside a comment, in a line that the compiler skips.", names.en),
         format!("コメントの外に{}があります。コンパイラが読み飛ばす行なので採点には影響しません。", names.ja),
     );
-    Diagnostic::warning(Stage::Source, message).spanning(run.text.chars().count())
+    Diagnostic::warning(DiagnosticStage::Source, message).spanning(run.text.chars().count())
 }
 
 pub(super) fn turned(c: char) -> Diagnostic {
@@ -152,7 +152,7 @@ pub(super) fn turned(c: char) -> Diagnostic {
         format!("A comment holds {name}, which changes the order in which the text is shown."),
         format!("コメントの中に、文字の表示順を変える制御文字（{name}）があります。"),
     );
-    Diagnostic::warning(Stage::Source, message).hint(Text::new(
+    Diagnostic::warning(DiagnosticStage::Source, message).hint(Text::new(
         "Delete it: the code may not read as it runs.",
         "削除してください。見た目と実際のプログラムの順序が食い違うことがあります。",
     ))
@@ -167,7 +167,7 @@ pub(super) fn unreadable_comment(count: usize) -> Diagnostic {
             "コメントの中に文字として読み取れないところが {count} か所あります。コメントなので採点には影響しません。"
         ),
     );
-    Diagnostic::warning(Stage::Source, message)
+    Diagnostic::warning(DiagnosticStage::Source, message)
 }
 
 /// The warning for a comment that a driver continues on the next line.
@@ -184,7 +184,7 @@ pub(super) fn joined(last: char) -> Diagnostic {
         "Save the file as UTF-8, or end the comment with another character.",
         "UTF-8 で保存し直すか、コメントの最後に句点などを付けてください。",
     );
-    Diagnostic::warning(Stage::Source, message).hint(hint)
+    Diagnostic::warning(DiagnosticStage::Source, message).hint(hint)
 }
 
 /// What stands for `more` places that are not told one by one.
@@ -193,5 +193,5 @@ pub(super) fn more(more: usize) -> Diagnostic {
         format!("And {more} more places of this kind."),
         format!("同じような箇所がほかに {more} か所あります。"),
     );
-    Diagnostic::error(Stage::Source, message)
+    Diagnostic::error(DiagnosticStage::Source, message)
 }

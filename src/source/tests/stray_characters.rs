@@ -2,7 +2,7 @@
 
 use super::*;
 
-fn only(refusal: &Refusal) -> &Diagnostic {
+fn only(refusal: &SourceRefusal) -> &Diagnostic {
     assert_eq!(refusal.diagnostics.len(), 1, "{:?}", refusal.diagnostics);
     &refusal.diagnostics[0]
 }
@@ -32,7 +32,7 @@ fn each_is_told_at_its_place_by_its_name_and_with_what_to_type() {
     ] {
         let refusal = refuse(shader("", "", code));
         let error = only(&refusal);
-        assert_eq!((error.severity, error.stage), (Severity::Error, crate::diagnostic::Stage::Source));
+        assert_eq!((error.severity, error.stage), (Severity::Error, crate::diagnostic::DiagnosticStage::Source));
         assert_eq!((error.line, error.column, error.length), (Some(6), Some(column), length), "{code}");
         assert!(error.message.en.contains(name), "{}", error.message.en);
         assert!(error.message.ja.contains(name), "{}", error.message.ja);

@@ -7,7 +7,7 @@
 
 use super::header::{CaptureHeader, insert};
 use super::inputs::feed;
-use super::{Hooks, Part};
+use super::{AttributePart, Hooks};
 use crate::translate::build::Build;
 use crate::translate::fuel;
 use naga::{
@@ -24,8 +24,8 @@ const MOST: f32 = 1_048_576.0;
 pub(super) fn rebuild(
     module: &mut Module,
     function: &mut Function,
-    inputs: &[Part],
-    outputs: &[Part],
+    inputs: &[AttributePart],
+    outputs: &[AttributePart],
     hooks: Option<&Hooks>,
 ) -> Option<u32> {
     let header = hooks.map(|hooks| (hooks, CaptureHeader::declare(module, None)));
@@ -110,7 +110,7 @@ struct Returned {
     vectors: [Handle<Type>; 3],
 }
 
-fn module_vec4(result: &Returned, part: &Part) -> Handle<Type> {
+fn module_vec4(result: &Returned, part: &AttributePart) -> Handle<Type> {
     match part.attribute.kind {
         Some(ScalarKind::Sint) => result.vectors[1],
         Some(ScalarKind::Uint) => result.vectors[2],
@@ -118,7 +118,7 @@ fn module_vec4(result: &Returned, part: &Part) -> Handle<Type> {
     }
 }
 
-fn result(module: &mut Module, outputs: &[Part], has_depth: bool) -> Returned {
+fn result(module: &mut Module, outputs: &[AttributePart], has_depth: bool) -> Returned {
     let vectors = [Scalar::F32, Scalar::I32, Scalar::U32]
         .map(|scalar| insert(module, TypeInner::Vector { size: VectorSize::Quad, scalar }));
     let f32 = insert(module, TypeInner::Scalar(Scalar::F32));
@@ -151,7 +151,7 @@ fn result(module: &mut Module, outputs: &[Part], has_depth: bool) -> Returned {
 fn colour(
     build: &mut Build<'_>,
     vec4: Handle<Type>,
-    part: &Part,
+    part: &AttributePart,
     is_frame: Option<Handle<Expression>>,
 ) -> Handle<Expression> {
     let place = part.pointer(build);

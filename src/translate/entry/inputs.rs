@@ -1,15 +1,15 @@
 //! The inputs of the entry point: which of them the program feeds, and what the others hold.
 
 use super::header::insert;
-use super::{Attribute, Part};
-use crate::translate::spirv::Interpolation;
+use super::{AttributePart, StageVariable};
+use crate::translate::spirv::InputInterpolation;
 use naga::{
     Binding, Block, BuiltIn, Expression, Function, FunctionArgument, GlobalVariable, Handle, Literal, Module, Sampling,
     Scalar, ScalarKind, Span, Statement, TypeInner, VectorSize,
 };
 
 /// Gives attributes the locations of their places in the interface, and the outputs location 0.
-pub(in crate::translate) fn locate(module: &mut Module, interface: &crate::translate::Interface) {
+pub(in crate::translate) fn locate(module: &mut Module, interface: &crate::translate::LinkedInterface) {
     let function = &mut module.entry_points[0].function;
     for argument in &mut function.arguments {
         let place = interface.inputs.iter().position(|input| Some(&input.name) == argument.name.as_ref());
@@ -37,7 +37,11 @@ pub(in crate::translate) fn locate(module: &mut Module, interface: &crate::trans
 }
 
 /// Adds an argument for each part that the program feeds, at locations from 0 on.
-pub(super) fn feed<'a>(function: &mut Function, parts: &'a [Part], is_fragment: bool) -> Vec<(&'a Part, u32)> {
+pub(super) fn feed<'a>(
+    function: &mut Function,
+    parts: &'a [AttributePart],
+    is_fragment: bool,
+) -> Vec<(&'a AttributePart, u32)> {
     let mut fed = Vec::with_capacity(parts.len());
     for (location, part) in (0..).zip(parts) {
         let (interpolation, sampling) = if is_fragment { interpolation(&part.attribute) } else { (None, None) };
@@ -50,19 +54,19 @@ pub(super) fn feed<'a>(function: &mut Function, parts: &'a [Part], is_fragment: 
 }
 
 /// How the driver is to interpolate an input.
-pub(super) fn interpolation(of: &Attribute) -> (Option<naga::Interpolation>, Option<Sampling>) {
+pub(super) fn interpolation(of: &StageVariable) -> (Option<naga::Interpolation>, Option<Sampling>) {
     let sampling = if of.qualifiers.centroid { Sampling::Centroid } else { Sampling::Center };
     match of.qualifiers.interpolation {
-        Interpolation::Flat => (Some(naga::Interpolation::Flat), Some(Sampling::First)),
+        InputInterpolation::Flat => (Some(naga::Interpolation::Flat), Some(Sampling::First)),
         _ if of.kind != Some(ScalarKind::Float) => (Some(naga::Interpolation::Flat), Some(Sampling::First)),
-        Interpolation::NoPerspective => (Some(naga::Interpolation::Linear), Some(sampling)),
-        Interpolation::Smooth => (Some(naga::Interpolation::Perspective), Some(sampling)),
+        InputInterpolation::NoPerspective => (Some(naga::Interpolation::Linear), Some(sampling)),
+        InputInterpolation::Smooth => (Some(naga::Interpolation::Perspective), Some(sampling)),
     }
 }
 
 /// Gives the inputs that nothing feeds their values: a generic attribute that nothing feeds is (0, 0, 0, 1).
-pub(in crate::translate) fn leave_unset(module: &mut Module, parts: &[Part]) {
-    for global in parts.iter().filter_map(Part::whole) {
+pub(in crate::translate) fn leave_unset(module: &mut Module, parts: &[AttributePart]) {
+    for global in parts.iter().filter_map(AttributePart::whole) {
         unset_attribute(module, global);
     }
 }

@@ -2,12 +2,12 @@
 
 use crate::translate::build::Build;
 use crate::translate::interface::type_name;
-use crate::translate::spirv::{Interpolation, Io, Qualifiers};
+use crate::translate::spirv::{InputInterpolation, InterfaceQualifiers, Io};
 use naga::{Expression, GlobalVariable, Handle, Module, ScalarKind, Type, TypeInner};
 
 /// A scalar or vector that goes into a stage or comes out of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Attribute {
+pub struct StageVariable {
     /// Its path in the student's file, such as `vc`, `tangents[1]` or, in a block, `Surface.normal`.
     pub name: String,
     /// Its location in the module.
@@ -21,22 +21,22 @@ pub struct Attribute {
     /// How many components it has.
     pub size: u8,
     /// Its qualifiers.
-    pub qualifiers: Qualifiers,
+    pub qualifiers: InterfaceQualifiers,
     /// Whether the stage reads or writes it.
     pub is_used: bool,
 }
 
 /// Such a part, and where it stands in the module.
 #[derive(Clone, Debug)]
-pub(in crate::translate) struct Part {
-    pub attribute: Attribute,
+pub(in crate::translate) struct AttributePart {
+    pub attribute: StageVariable,
     pub ty: Handle<Type>,
     variable: Handle<GlobalVariable>,
     /// Members and elements to it from the variable.
     chain: Vec<u32>,
 }
 
-impl Part {
+impl AttributePart {
     /// A pointer to it.
     pub fn pointer(&self, build: &mut Build<'_>) -> Handle<Expression> {
         let variable = build.leaf(Expression::GlobalVariable(self.variable));
@@ -55,14 +55,14 @@ pub(in crate::translate) fn is_input(io: &[Io], variable: &GlobalVariable) -> bo
 }
 
 /// The parts of the inputs or of the outputs, in the order of the text.
-pub(in crate::translate) fn parts(module: &Module, io: &[Io], inputs: bool) -> Vec<Part> {
+pub(in crate::translate) fn parts(module: &Module, io: &[Io], inputs: bool) -> Vec<AttributePart> {
     let mut found = Vec::new();
     for io in io.iter().filter(|io| io.is_input == inputs && !io.is_second) {
         let variable =
             module.global_variables.iter().find(|(_, variable)| variable.name.as_ref() == Some(&io.variable));
         let Some((variable, declared)) = variable else { continue };
         let first = found.len();
-        walk(module, declared.ty, &Walk { io, variable, path: io.name.clone(), chain: Vec::new() }, &mut found);
+        walk(module, declared.ty, &PartWalk { io, variable, path: io.name.clone(), chain: Vec::new() }, &mut found);
         for (number, part) in (0..).zip(&mut found[first..]) {
             part.attribute.location = io.location + number;
         }
@@ -70,20 +70,20 @@ pub(in crate::translate) fn parts(module: &Module, io: &[Io], inputs: bool) -> V
     found
 }
 
-struct Walk<'a> {
+struct PartWalk<'a> {
     io: &'a Io,
     variable: Handle<GlobalVariable>,
     path: String,
     chain: Vec<u32>,
 }
 
-impl Walk<'_> {
+impl PartWalk<'_> {
     fn into(&self, index: u32, path: String) -> Self {
-        Walk { path, chain: [&self.chain[..], &[index]].concat(), ..*self }
+        PartWalk { path, chain: [&self.chain[..], &[index]].concat(), ..*self }
     }
 }
 
-fn walk(module: &Module, ty: Handle<Type>, at: &Walk<'_>, found: &mut Vec<Part>) {
+fn walk(module: &Module, ty: Handle<Type>, at: &PartWalk<'_>, found: &mut Vec<AttributePart>) {
     match &module.types[ty].inner {
         TypeInner::Struct { members, .. } => {
             for (index, member) in (0..).zip(members) {
@@ -111,11 +111,11 @@ fn walk(module: &Module, ty: Handle<Type>, at: &Walk<'_>, found: &mut Vec<Part>)
             let outer = at.io.qualifiers;
             qualifiers.centroid |= outer.centroid;
             qualifiers.sample |= outer.sample;
-            if outer.interpolation != Interpolation::Smooth {
+            if outer.interpolation != InputInterpolation::Smooth {
                 qualifiers.interpolation = outer.interpolation;
             }
-            found.push(Part {
-                attribute: Attribute {
+            found.push(AttributePart {
+                attribute: StageVariable {
                     name: at.path.clone(),
                     location: 0,
                     ty: type_name(inner),

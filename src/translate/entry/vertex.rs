@@ -4,14 +4,20 @@
 
 use super::header::CaptureHeader;
 use super::inputs::{drop_arguments, feed};
-use super::{Hooks, Part};
+use super::{AttributePart, Hooks};
 use crate::translate::build::Build;
 use naga::{
     BinaryOperator, Binding, BuiltIn, Expression, Function, FunctionArgument, FunctionResult, Handle, Literal,
     LocalVariable, Module, ScalarKind, Span, Statement, Type, TypeInner,
 };
 
-pub(super) fn rebuild(module: &mut Module, function: &mut Function, inputs: &[Part], outputs: &[Part], hooks: &Hooks) {
+pub(super) fn rebuild(
+    module: &mut Module,
+    function: &mut Function,
+    inputs: &[AttributePart],
+    outputs: &[AttributePart],
+    hooks: &Hooks,
+) {
     let position = position(module, function);
     let instance = drop_arguments(module, function);
     let header = CaptureHeader::declare(module, Some(outputs.len() as u32));
@@ -58,7 +64,12 @@ pub(super) fn rebuild(module: &mut Module, function: &mut Function, inputs: &[Pa
 }
 
 /// The value as four floats; integers keep their bits, and what is missing is 0, 0, 0 and 1.
-fn as_floats(build: &mut Build<'_>, vec4: Handle<Type>, part: &Part, value: Handle<Expression>) -> Handle<Expression> {
+fn as_floats(
+    build: &mut Build<'_>,
+    vec4: Handle<Type>,
+    part: &AttributePart,
+    value: Handle<Expression>,
+) -> Handle<Expression> {
     let value = match part.attribute.kind {
         Some(ScalarKind::Float) => value,
         _ => build.node(Expression::As { expr: value, kind: ScalarKind::Float, convert: None }),

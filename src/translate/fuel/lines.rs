@@ -1,11 +1,11 @@
 //! Where the student's loops begin.
 
-use crate::translate::spirv::{self, Lines, op};
+use crate::translate::spirv::{self, LineTable, op};
 use naga::{Arena, Block, Expression, Span, Statement};
 use std::collections::HashMap;
 
 /// The first line that anything in a loop has.
-pub(super) fn first_line(body: &Block, expressions: &Arena<Expression>, lines: &Lines) -> Option<u32> {
+pub(super) fn first_line(body: &Block, expressions: &Arena<Expression>, lines: &LineTable) -> Option<u32> {
     let of_statement = |(statement, span): (&Statement, &Span)| match statement {
         Statement::Emit(range) => {
             range.clone().filter_map(|expression| lines.line(expressions.get_span(expression))).min()

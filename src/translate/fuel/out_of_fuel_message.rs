@@ -1,12 +1,12 @@
 //! What is said where the fuel is used up.
 
-use super::{MAX_TURNS, Meter};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::{LoopFuel, MAX_TURNS};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::ffi::glslang::Stage as GlslStage;
 use crate::language::Text;
 
 /// What a student is told whose loops ran out of fuel.
-pub(in crate::translate) fn out_of_fuel(meters: &[Meter], ran_out: u32, stage: GlslStage) -> Diagnostic {
+pub(in crate::translate) fn out_of_fuel(meters: &[LoopFuel], ran_out: u32, stage: GlslStage) -> Diagnostic {
     let (each, each_ja) = match stage {
         GlslStage::Vertex => ("vertex", "頂点"),
         GlslStage::Fragment => ("fragment", "フラグメント"),
@@ -28,7 +28,7 @@ pub(in crate::translate) fn out_of_fuel(meters: &[Meter], ran_out: u32, stage: G
             format!("ループの繰り返しが合わせて {turns} 回を超えたため、打ち切りました"),
         ),
     };
-    let diagnostic = Diagnostic::error(Stage::Run, message).hint(Text::new(
+    let diagnostic = Diagnostic::error(DiagnosticStage::Run, message).hint(Text::new(
         "Does the loop's condition ever become false? Look at the variable that it tests.",
         "ループの条件はいつか偽になりますか。条件で調べている変数の変わり方を確かめてください。",
     ));

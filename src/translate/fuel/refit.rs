@@ -1,8 +1,8 @@
 //! Puts the meters into the loops of a function.
 
-use super::{MAX_TURNS, Meter, OPERATIONS_PER_UNIT, holds_loop, lines::first_line};
+use super::{LoopFuel, MAX_TURNS, OPERATIONS_PER_UNIT, holds_loop, lines::first_line};
 use crate::translate::build::Build;
-use crate::translate::spirv::Lines;
+use crate::translate::spirv::LineTable;
 use naga::{Arena, BinaryOperator, Block, Expression, Function, Handle, LocalVariable, Span, Statement, Type};
 use std::collections::HashSet;
 
@@ -15,13 +15,13 @@ pub(super) struct Refit<'a> {
     /// Of each loop of the function, what a turn costs.
     pub operations: &'a [u64],
     pub known: Option<&'a Vec<Option<u32>>>,
-    pub lines: &'a Lines,
+    pub lines: &'a LineTable,
     pub looping: &'a HashSet<Handle<Function>>,
     /// The counters of the loops around the current statement.
     pub open: Vec<Handle<Expression>>,
     /// How many meters there were before this function's.
     pub first: usize,
-    pub meters: &'a mut Vec<Meter>,
+    pub meters: &'a mut Vec<LoopFuel>,
 }
 
 impl Refit<'_> {
@@ -74,7 +74,7 @@ impl Refit<'_> {
             Some(known) => known.get(index).copied().flatten(),
             None => first_line(&body, expressions, self.lines),
         };
-        self.meters.push(Meter { line, turns: MAX_TURNS / units });
+        self.meters.push(LoopFuel { line, turns: MAX_TURNS / units });
         let number = self.meters.len() as u32;
         let counter = LocalVariable { name: None, ty: self.u32_type, init: None };
         let counter = self.locals.append(counter, Span::UNDEFINED);

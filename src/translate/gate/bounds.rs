@@ -1,14 +1,14 @@
 //! The look at the module: what it costs the driver to compile, and how much memory it asks for.
 
-use super::cost::{Costs, Walk};
+use super::cost::{CostWalk, Costs};
 use super::stopped;
 use super::weight::scalars;
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::ffi::glslang::Stage as GlslStage;
 use crate::language::Text;
 use crate::source::Source;
 use crate::translate::interface::place;
-use crate::translate::{Lines, Refusal};
+use crate::translate::{LineTable, TranslationRefusal};
 use naga::{AddressSpace, Module};
 
 /// Most operations on scalars that are compiled, all calls inlined; see the weights below.
@@ -29,17 +29,17 @@ pub(super) const MAX_UNIFORM_BYTES: u64 = 65_536;
 pub(in crate::translate) fn check_module(
     module: &Module,
     costs: &Costs,
-    lines: &Lines,
+    lines: &LineTable,
     source: &Source,
     stage: GlslStage,
-) -> Result<(), Refusal> {
+) -> Result<(), TranslationRefusal> {
     let entry = &module.entry_points[0].function;
     if costs.of_entry <= MAX_OPERATIONS {
         return check_variables(module, costs, source, stage);
     }
     Err(stopped(
-        Stage::Compile,
-        Walk { module, costs }.heaviest(entry, lines),
+        DiagnosticStage::Compile,
+        CostWalk { module, costs }.heaviest(entry, lines),
         Text::new(
             format!(
                 "the shader has about {} operations when all calls and array accesses are written out, and at most \
@@ -55,7 +55,12 @@ pub(in crate::translate) fn check_module(
     ))
 }
 
-fn check_variables(module: &Module, costs: &Costs, source: &Source, stage: GlslStage) -> Result<(), Refusal> {
+fn check_variables(
+    module: &Module,
+    costs: &Costs,
+    source: &Source,
+    stage: GlslStage,
+) -> Result<(), TranslationRefusal> {
     let globals = || module.global_variables.iter().map(|(_, variable)| variable);
     let uniform: u64 = globals()
         .filter(|variable| variable.space == AddressSpace::Uniform)
@@ -82,7 +87,7 @@ fn check_variables(module: &Module, costs: &Costs, source: &Source, stage: GlslS
     Err(too_much_memory(all.saturating_mul(4), name, source, stage))
 }
 
-pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source, stage: GlslStage) -> Refusal {
+pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source, stage: GlslStage) -> TranslationRefusal {
     let (each, each_ja) = match stage {
         GlslStage::Vertex => ("vertex", "頂点"),
         GlslStage::Fragment => ("fragment", "フラグメント"),
@@ -107,15 +112,15 @@ pub(super) fn too_much_memory(bytes: u64, name: &str, source: &Source, stage: Gl
              (採点システムのメモリ上限){ja}"
         ),
     );
-    Refusal::Stopped(vec![place(Diagnostic::error(Stage::Compile, message), source, name)])
+    TranslationRefusal::Stopped(vec![place(Diagnostic::error(DiagnosticStage::Compile, message), source, name)])
 }
 
-pub(super) fn too_many_uniforms(bytes: u64) -> Refusal {
+pub(super) fn too_many_uniforms(bytes: u64) -> TranslationRefusal {
     let message = Text::new(
         format!("the uniform variables need {bytes} bytes; OpenGL drivers have room for {MAX_UNIFORM_BYTES}"),
         format!(
             "uniform 変数に {bytes} バイト必要ですが、OpenGL のドライバで使えるのは {MAX_UNIFORM_BYTES} バイトまでです"
         ),
     );
-    Refusal::Rejected(vec![Diagnostic::error(Stage::Link, message)])
+    TranslationRefusal::Rejected(vec![Diagnostic::error(DiagnosticStage::Link, message)])
 }

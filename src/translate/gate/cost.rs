@@ -5,8 +5,8 @@
 
 use super::bounds::MAX_SCALARS;
 use super::weight::{BRANCH, CALL, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
-use crate::translate::Lines;
-use crate::translate::entry::Part;
+use crate::translate::LineTable;
+use crate::translate::entry::AttributePart;
 use crate::translate::spirv::OURS;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
@@ -37,7 +37,7 @@ impl Costs {
             let operations = if is_ours { operations.min(LOOK_UP) } else { operations };
             costs.functions.insert(handle, operations);
             costs.scalars.insert(handle, scalars);
-            let loops = Walk { module, costs: &costs }.loops(&function.body);
+            let loops = CostWalk { module, costs: &costs }.loops(&function.body);
             costs.loops.insert(handle, loops);
         }
         (costs.of_entry, costs.scalars_of_entry) = costs.function(module, &module.entry_points[0].function);
@@ -46,15 +46,15 @@ impl Costs {
 
     /// Adds what the entry point copies: each number of an input once, each of an output, and the position, when it is
     /// read and when it is handed over.
-    pub fn copy(&mut self, inputs: &[Part], outputs: &[Part]) {
-        let numbers = |parts: &[Part]| parts.iter().map(|part| u64::from(part.attribute.size)).sum::<u64>();
+    pub fn copy(&mut self, inputs: &[AttributePart], outputs: &[AttributePart]) {
+        let numbers = |parts: &[AttributePart]| parts.iter().map(|part| u64::from(part.attribute.size)).sum::<u64>();
         let position = if outputs.is_empty() { 0 } else { POSITION };
         let copied = numbers(inputs) + 2 * numbers(outputs) + position;
         self.of_entry = self.of_entry.saturating_add(copied);
     }
 
     fn function(&self, module: &Module, function: &Function) -> (u64, u64) {
-        let walk = Walk { module, costs: self };
+        let walk = CostWalk { module, costs: self };
         let own =
             function.local_variables.iter().map(|(_, variable)| scalars(module, &module.types[variable.ty].inner));
         let own = own.fold(0, u64::saturating_add);
@@ -67,7 +67,7 @@ impl Costs {
 
     /// What a turn of each loop of a function costs, in the order in which the loops begin.
     pub fn loops(&self, module: &Module, function: &Function) -> Vec<u64> {
-        let walk = Walk { module, costs: self };
+        let walk = CostWalk { module, costs: self };
         let mut weights = None;
         let mut found = Vec::new();
         each_statement(&function.body, &mut |statement, _| {
@@ -80,12 +80,12 @@ impl Costs {
     }
 }
 
-pub(super) struct Walk<'a> {
+pub(super) struct CostWalk<'a> {
     pub module: &'a Module,
     pub costs: &'a Costs,
 }
 
-impl Walk<'_> {
+impl CostWalk<'_> {
     /// What each expression of the function costs.
     fn weights(&self, function: &Function) -> Vec<u64> {
         let context = ResolveContext::with_locals(self.module, &function.local_variables, &function.arguments);
@@ -161,7 +161,7 @@ impl Walk<'_> {
     }
 
     /// The line of the shader's `main` whose calls and expressions cost most.
-    pub fn heaviest(&self, entry: &Function, lines: &Lines) -> Option<u32> {
+    pub fn heaviest(&self, entry: &Function, lines: &LineTable) -> Option<u32> {
         let main = self.called(&entry.body).into_iter().next_back();
         let function = main.map_or(entry, |main| &self.module.functions[main]);
         let weights = self.weights(function);

@@ -42,7 +42,7 @@ fn token_length(text: &str) -> usize {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Macro {
+struct GateMacro {
     /// `None` for a macro without parentheses.
     parameters: Option<Vec<Rc<str>>>,
     body: Vec<Rc<str>>,
@@ -50,7 +50,7 @@ struct Macro {
 
 /// What is still to be read.
 #[derive(Clone, Debug)]
-enum Item {
+enum PendingToken {
     ExpandedToken(ExpandedToken),
     /// From here on the macro's name is not expanded (−1: it may be again).
     Hide(Rc<str>, i32),
@@ -63,7 +63,7 @@ pub(super) type Sink<'a> = dyn FnMut(&ExpandedToken) -> Result<(), (Excess, u32)
 #[derive(Debug, Default)]
 pub(super) struct Expander {
     /// What each name may stand for.
-    macros: HashMap<Rc<str>, Vec<Macro>>,
+    macros: HashMap<Rc<str>, Vec<GateMacro>>,
     hidden: HashMap<Rc<str>, i32>,
     written: usize,
 }
@@ -81,7 +81,7 @@ impl Expander {
         if is_certain {
             known.clear();
         }
-        let defined = Macro { parameters, body };
+        let defined = GateMacro { parameters, body };
         if !known.contains(&defined) {
             known.push(defined);
         }
@@ -95,12 +95,12 @@ impl Expander {
     /// Expands `tokens` and gives each that is left to `sink`.
     pub fn expand(&mut self, tokens: Vec<ExpandedToken>, sink: &mut Sink<'_>) -> Result<(), (Excess, u32)> {
         // The next item is the last: what a macro writes is pushed in front of what is still to come.
-        let mut items: Vec<Item> = tokens.into_iter().rev().map(Item::ExpandedToken).collect();
+        let mut items: Vec<PendingToken> = tokens.into_iter().rev().map(PendingToken::ExpandedToken).collect();
         self.hidden.clear();
         while let Some(item) = items.pop() {
             match item {
-                Item::Hide(name, change) => *self.hidden.entry(name).or_default() += change,
-                Item::ExpandedToken(token) => match self.written_by(&token, &mut items)? {
+                PendingToken::Hide(name, change) => *self.hidden.entry(name).or_default() += change,
+                PendingToken::ExpandedToken(token) => match self.written_by(&token, &mut items)? {
                     true => {}
                     false => sink(&token)?,
                 },
@@ -110,7 +110,7 @@ impl Expander {
     }
 
     /// Pushes what the macro `token` writes; false where it names none.
-    fn written_by(&mut self, token: &ExpandedToken, items: &mut Vec<Item>) -> Result<bool, (Excess, u32)> {
+    fn written_by(&mut self, token: &ExpandedToken, items: &mut Vec<PendingToken>) -> Result<bool, (Excess, u32)> {
         let is_hidden = self.hidden.get(&token.text).is_some_and(|count| *count > 0);
         let Some(found) = self.macros.get(&token.text).filter(|_| !is_hidden) else { return Ok(false) };
         let takes_arguments = found.iter().any(|one| one.parameters.is_some());
@@ -119,14 +119,14 @@ impl Expander {
             return Ok(false);
         }
         let arguments = arguments.unwrap_or_default();
-        let mut pushed = vec![Item::Hide(token.text.clone(), 1)];
+        let mut pushed = vec![PendingToken::Hide(token.text.clone(), 1)];
         for one in found {
             one.write(token, &arguments, &mut pushed);
             if self.written + pushed.len() > MAX_TOKENS {
                 return Err((Excess::Tokens, token.line));
             }
         }
-        pushed.push(Item::Hide(token.text.clone(), -1));
+        pushed.push(PendingToken::Hide(token.text.clone(), -1));
         self.written += pushed.len();
         items.extend(pushed.into_iter().rev());
         Ok(true)
@@ -140,10 +140,10 @@ pub(super) fn split_name(text: &str) -> (&str, &str) {
 }
 
 /// Takes `( … )` from the items and splits it at its commas; none where no parenthesis follows.
-fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Option<Vec<Vec<Item>>> {
+fn arguments(items: &mut Vec<PendingToken>, hidden: &mut HashMap<Rc<str>, i32>) -> Option<Vec<Vec<PendingToken>>> {
     let next = items.iter().rev().find_map(|item| match item {
-        Item::ExpandedToken(token) => Some(&*token.text == "("),
-        Item::Hide(..) => None,
+        PendingToken::ExpandedToken(token) => Some(&*token.text == "("),
+        PendingToken::Hide(..) => None,
     })?;
     if !next {
         return None;
@@ -152,13 +152,13 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
     let mut found = vec![Vec::new()];
     while let Some(item) = items.pop() {
         let token = match &item {
-            Item::ExpandedToken(token) => token,
+            PendingToken::ExpandedToken(token) => token,
             // Before the parenthesis.
-            Item::Hide(name, change) if depth == 0 => {
+            PendingToken::Hide(name, change) if depth == 0 => {
                 *hidden.entry(name.clone()).or_default() += change;
                 continue;
             }
-            Item::Hide(..) => {
+            PendingToken::Hide(..) => {
                 if let Some(last) = found.last_mut() {
                     last.push(item);
                 }
@@ -188,11 +188,11 @@ fn arguments(items: &mut Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Optio
 
 /// Keeps in an argument the pairs that let a macro's name be expanded in its own argument; what else there is of that kind
 /// belongs to macros that end among the arguments, and holds from here on.
-fn settle(argument: Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Vec<Item> {
+fn settle(argument: Vec<PendingToken>, hidden: &mut HashMap<Rc<str>, i32>) -> Vec<PendingToken> {
     let mut open: HashMap<Rc<str>, Vec<usize>> = HashMap::new();
     let mut is_kept = vec![true; argument.len()];
     for (at, item) in argument.iter().enumerate() {
-        let Item::Hide(name, change) = item else { continue };
+        let PendingToken::Hide(name, change) = item else { continue };
         match (*change, open.get_mut(name).and_then(Vec::pop)) {
             (1, Some(_)) => {}
             (_, before) => {
@@ -210,16 +210,16 @@ fn settle(argument: Vec<Item>, hidden: &mut HashMap<Rc<str>, i32>) -> Vec<Item> 
     let mut kept = Vec::with_capacity(argument.len());
     for (item, is_kept) in argument.into_iter().zip(is_kept) {
         match item {
-            Item::Hide(name, change) if !is_kept => *hidden.entry(name).or_default() += change,
+            PendingToken::Hide(name, change) if !is_kept => *hidden.entry(name).or_default() += change,
             item => kept.push(item),
         }
     }
     kept
 }
 
-impl Macro {
+impl GateMacro {
     /// Writes what stands for `token`; arguments that no parameter takes are written as well.
-    fn write(&self, token: &ExpandedToken, arguments: &[Vec<Item>], pushed: &mut Vec<Item>) {
+    fn write(&self, token: &ExpandedToken, arguments: &[Vec<PendingToken>], pushed: &mut Vec<PendingToken>) {
         let parameters = self.parameters.as_deref().unwrap_or_default();
         let mut is_pasted = false;
         let mut at = 0;
@@ -235,11 +235,13 @@ impl Macro {
             match parameter.and_then(|index| arguments.get(index)) {
                 // Inside its own argument a macro's name is expanded.
                 Some(argument) => {
-                    pushed.push(Item::Hide(token.text.clone(), -1));
+                    pushed.push(PendingToken::Hide(token.text.clone(), -1));
                     pushed.extend(argument.iter().cloned());
-                    pushed.push(Item::Hide(token.text.clone(), 1));
+                    pushed.push(PendingToken::Hide(token.text.clone(), 1));
                 }
-                None => pushed.push(Item::ExpandedToken(ExpandedToken { text: text.clone(), line: token.line })),
+                None => {
+                    pushed.push(PendingToken::ExpandedToken(ExpandedToken { text: text.clone(), line: token.line }))
+                }
             }
             if let Some(before) = before {
                 paste(before, pushed, start, token.line);
@@ -254,21 +256,21 @@ impl Macro {
 }
 
 /// Takes the last token out of the items.
-fn take_last(items: &mut Vec<Item>) -> Option<Rc<str>> {
-    let at = items.iter().rposition(|item| matches!(item, Item::ExpandedToken(_)))?;
+fn take_last(items: &mut Vec<PendingToken>) -> Option<Rc<str>> {
+    let at = items.iter().rposition(|item| matches!(item, PendingToken::ExpandedToken(_)))?;
     match items.remove(at) {
-        Item::ExpandedToken(token) => Some(token.text),
-        Item::Hide(..) => None,
+        PendingToken::ExpandedToken(token) => Some(token.text),
+        PendingToken::Hide(..) => None,
     }
 }
 
 /// Makes `before` and the first token from `start` on one, as `##` does. What is pasted is none of an argument's own, so
 /// it stands in front of what lets the macro's name be expanded there.
-fn paste(before: Rc<str>, items: &mut Vec<Item>, start: usize, line: u32) {
-    let first = (start..items.len()).find(|&at| matches!(items[at], Item::ExpandedToken(_)));
+fn paste(before: Rc<str>, items: &mut Vec<PendingToken>, start: usize, line: u32) {
+    let first = (start..items.len()).find(|&at| matches!(items[at], PendingToken::ExpandedToken(_)));
     let text = match first.map(|at| items.remove(at)) {
-        Some(Item::ExpandedToken(token)) => format!("{before}{}", token.text).into(),
+        Some(PendingToken::ExpandedToken(token)) => format!("{before}{}", token.text).into(),
         _ => before,
     };
-    items.insert(start, Item::ExpandedToken(ExpandedToken { text, line }));
+    items.insert(start, PendingToken::ExpandedToken(ExpandedToken { text, line }));
 }

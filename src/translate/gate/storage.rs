@@ -4,13 +4,13 @@
 //! atomic counters compile on real drivers, but the program binds none, so what a shader makes of them is chance.
 
 use super::bounds::{MAX_SCALARS, MAX_UNIFORM_BYTES, too_many_uniforms, too_much_memory};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::ffi::glslang::Stage as GlslStage;
 use crate::language::Text;
 use crate::source::Source;
-use crate::translate::Refusal;
+use crate::translate::TranslationRefusal;
 use crate::translate::interface::place;
-use crate::translate::spirv::{Instruction, instructions, op, text};
+use crate::translate::spirv::{RawInstruction, instructions, op, text};
 use std::collections::{HashMap, HashSet};
 
 /// What the program does not provide.
@@ -28,7 +28,7 @@ pub(in crate::translate) fn check_words(
     source: &Source,
     stage: GlslStage,
     set: &[&str],
-) -> Result<(), Refusal> {
+) -> Result<(), TranslationRefusal> {
     let names: HashMap<u32, String> = instructions(words).filter_map(|i| name(&i)).collect();
     let buffers: HashSet<u32> = instructions(words)
         .filter_map(|i| match (i.opcode, i.words) {
@@ -76,7 +76,7 @@ pub(in crate::translate) fn check_words(
 }
 
 /// What an instruction names, and how.
-fn name(instruction: &Instruction<'_>) -> Option<(u32, String)> {
+fn name(instruction: &RawInstruction<'_>) -> Option<(u32, String)> {
     match (instruction.opcode, instruction.words) {
         (op::NAME, [_, id, name @ ..]) => Some((*id, text(name))),
         _ => None,
@@ -84,7 +84,12 @@ fn name(instruction: &Instruction<'_>) -> Option<(u32, String)> {
 }
 
 /// Refuses a variable that is too large by itself; naga counts bytes in 32 bits and gives up beyond.
-fn check_sizes(words: &[u32], names: &HashMap<u32, String>, source: &Source, stage: GlslStage) -> Result<(), Refusal> {
+fn check_sizes(
+    words: &[u32],
+    names: &HashMap<u32, String>,
+    source: &Source,
+    stage: GlslStage,
+) -> Result<(), TranslationRefusal> {
     let mut lengths: HashMap<u32, u64> = HashMap::new();
     let mut sizes: HashMap<u32, u64> = HashMap::new();
     for instruction in instructions(words) {
@@ -140,7 +145,7 @@ fn kind(class: u32, is_texture: bool, is_buffer: bool) -> Option<StorageKind> {
     }
 }
 
-fn refusal(kind: StorageKind, name: &str, source: &Source, stage: GlslStage) -> Refusal {
+fn refusal(kind: StorageKind, name: &str, source: &Source, stage: GlslStage) -> TranslationRefusal {
     let (en, ja) = match kind {
         StorageKind::Texture => ("a texture or an image", "テクスチャや画像"),
         StorageKind::Buffer => {
@@ -161,5 +166,9 @@ fn refusal(kind: StorageKind, name: &str, source: &Source, stage: GlslStage) -> 
         "This homework needs only the attributes and uniforms of the handed-out file.",
         "この課題は、配布されたファイルにある頂点属性と uniform 変数だけで解けます。",
     );
-    Refusal::Rejected(vec![place(Diagnostic::error(Stage::Interface, message).hint(hint), source, name)])
+    TranslationRefusal::Rejected(vec![place(
+        Diagnostic::error(DiagnosticStage::Interface, message).hint(hint),
+        source,
+        name,
+    )])
 }

@@ -14,13 +14,13 @@ pub(super) struct Structures {
     /// Members of each that is known.
     members: HashMap<String, u64>,
     /// Those that are being defined, the innermost last.
-    open: Vec<Open>,
+    open: Vec<OpenStructure>,
     /// What stands between `struct` and `{`.
     head: Option<String>,
 }
 
 #[derive(Debug)]
-struct Open {
+struct OpenStructure {
     name: String,
     members: u64,
     /// Members of the type of the declaration that is being read.
@@ -33,7 +33,7 @@ impl Structures {
     pub fn take(&mut self, token: &str) -> bool {
         match (token, self.head.take()) {
             ("struct", _) => self.head = Some(String::new()),
-            ("{", Some(name)) => self.open.push(Open { name, members: 0, of_type: 1, brackets: 0 }),
+            ("{", Some(name)) => self.open.push(OpenStructure { name, members: 0, of_type: 1, brackets: 0 }),
             // Not a definition after all.
             (";" | ")", Some(_)) => {}
             (name, Some(_)) => self.head = Some(name.into()),

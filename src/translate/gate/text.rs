@@ -4,10 +4,10 @@ use super::expand::{ExpandedToken, Expander, split_name, tokens};
 use super::nesting::{MAX_NESTING, Nesting};
 use super::stopped;
 use super::structures::{MAX_MEMBERS, Structures};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::Source;
-use crate::translate::Refusal;
+use crate::translate::TranslationRefusal;
 
 /// Most tokens that the macros of a file may write, those in between included.
 ///
@@ -27,7 +27,7 @@ pub(super) enum Excess {
 }
 
 /// Refuses a text whose macros write too much, or that nests too deeply after they did.
-pub(in crate::translate) fn check_text(source: &Source) -> Result<(), Refusal> {
+pub(in crate::translate) fn check_text(source: &Source) -> Result<(), TranslationRefusal> {
     check_extensions(source)?;
     check(source.code()).map_err(|(excess, line)| refusal(excess, line))
 }
@@ -47,7 +47,7 @@ const FOREIGN_EXTENSIONS: [&str; 9] = [
 ];
 
 /// Refuses a file that asks for one of them.
-fn check_extensions(source: &Source) -> Result<(), Refusal> {
+fn check_extensions(source: &Source) -> Result<(), TranslationRefusal> {
     for (line, text) in logical_lines(source.code()) {
         let Some(directive) = text.trim_start().strip_prefix('#').map(str::trim_start) else { continue };
         let Some((name, behaviour)) = directive.strip_prefix("extension").and_then(|rest| rest.split_once(':')) else {
@@ -60,8 +60,8 @@ fn check_extensions(source: &Source) -> Result<(), Refusal> {
                 format!("the extension `{name}` is not available to this homework's vertex shader"),
                 format!("拡張機能 `{name}` は、この課題の頂点シェーダでは使えません"),
             );
-            let diagnostic = Diagnostic::error(Stage::Compile, message).at(line, None);
-            return Err(Refusal::Rejected(vec![diagnostic]));
+            let diagnostic = Diagnostic::error(DiagnosticStage::Compile, message).at(line, None);
+            return Err(TranslationRefusal::Rejected(vec![diagnostic]));
         }
     }
     Ok(())
@@ -131,7 +131,7 @@ fn logical_lines(code: &str) -> Vec<(u32, String)> {
     joined
 }
 
-fn refusal(excess: Excess, line: u32) -> Refusal {
+fn refusal(excess: Excess, line: u32) -> TranslationRefusal {
     let message = match excess {
         Excess::Tokens => Text::new(
             format!("the macros of this file expand to more than {MAX_TOKENS} tokens (limit of the grader)"),
@@ -154,7 +154,7 @@ fn refusal(excess: Excess, line: u32) -> Refusal {
             ),
         ),
     };
-    stopped(Stage::Compile, Some(line), message)
+    stopped(DiagnosticStage::Compile, Some(line), message)
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! Brackets that do not match, and which of them is to blame.
 
-use super::file::File;
+use super::file::HintContext;
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// The brackets that are open in front of the code token `index`, outermost first.
-pub fn open_before(file: &File<'_>, index: usize) -> Vec<usize> {
+pub fn open_before(file: &HintContext<'_>, index: usize) -> Vec<usize> {
     let mut open: Vec<usize> = Vec::new();
     for (at, token) in file.code[..index.min(file.code.len())].iter().enumerate() {
         match token.text {
@@ -23,7 +23,7 @@ pub fn open_before(file: &File<'_>, index: usize) -> Vec<usize> {
 ///
 /// Counting alone blames the outermost one: the `}` of `main` closes the `if` in it. Indentation says more: a `}` that
 /// stands further left than the line of its `{` belongs to another.
-pub fn unclosed_brace(file: &File<'_>) -> Option<usize> {
+pub fn unclosed_brace(file: &HintContext<'_>) -> Option<usize> {
     let mut open = Vec::new();
     let mut stepped_over = None;
     for (at, token) in file.code.iter().enumerate() {
@@ -44,19 +44,19 @@ pub fn unclosed_brace(file: &File<'_>) -> Option<usize> {
 }
 
 /// Whether the file has more `}` than `{`.
-fn closes_too_often(file: &File<'_>) -> bool {
+fn closes_too_often(file: &HintContext<'_>) -> bool {
     let count = |text| file.code.iter().filter(|token| token.text == text).count();
     count("}") > count("{")
 }
 
 /// The `}` that ended the function too early, if the parser gave up outside any function at the code token `at`.
-pub fn stray_brace(file: &File<'_>, at: usize) -> Option<usize> {
+pub fn stray_brace(file: &HintContext<'_>, at: usize) -> Option<usize> {
     let outside = open_before(file, at).is_empty() && closes_too_often(file);
     file.code[..at].iter().rposition(|token| token.text == "}").filter(|_| outside)
 }
 
 /// What brackets have to do with the parser's giving up at the code token `at`.
-pub fn explain(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let open = open_before(file, at);
     let unexpected = file.word(Some(at));
     let innermost = open.last().copied();
@@ -81,13 +81,13 @@ pub fn explain(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Whether a new line at the code token `at` begins another statement: a declaration or an assignment.
-fn statement_begins(file: &File<'_>, at: usize) -> bool {
+fn statement_begins(file: &HintContext<'_>, at: usize) -> bool {
     let line = |index: usize| file.line(file.code[index].start);
     let fresh = at > 0 && at < file.code.len() && line(at) > line(at - 1);
     fresh && (super::vocabulary::begins_statement(file.code[at].text) || file.word(Some(at + 1)) == "=")
 }
 
-fn unclosed_at_semicolon(file: &File<'_>, open: usize, at: usize) -> Diagnostic {
+fn unclosed_at_semicolon(file: &HintContext<'_>, open: usize, at: usize) -> Diagnostic {
     if file.word(open.checked_sub(1)) != "for" {
         return unclosed(file, open);
     }
@@ -117,7 +117,7 @@ fn partner(bracket: &str) -> &'static str {
     }
 }
 
-fn unclosed(file: &File<'_>, open: usize) -> Diagnostic {
+fn unclosed(file: &HintContext<'_>, open: usize) -> Diagnostic {
     let bracket = file.code[open].text;
     let close = partner(bracket);
     let text = Text::new(
@@ -140,7 +140,7 @@ fn unclosed(file: &File<'_>, open: usize) -> Diagnostic {
     file.error_at(open, text).hint(hint)
 }
 
-fn extra(file: &File<'_>, close: usize) -> Diagnostic {
+fn extra(file: &HintContext<'_>, close: usize) -> Diagnostic {
     // The brace that is missing may stand in a comment that was never ended.
     if let Some(swallowed) = file.swallowed("{").filter(|_| file.code[close].text == "}") {
         return swallowed;

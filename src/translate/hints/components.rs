@@ -1,13 +1,13 @@
 //! Components of vectors, members, indices and conditions.
 
-use super::file::File;
+use super::file::HintContext;
 use super::tokens::LexemeKind;
-use super::{Finding, expression, types};
+use super::{CompilerMessage, expression, types};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// Puts a message about a part of a value, or about a condition, into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     let about = |start: &str| message.starts_with(start);
     if finding.entry.token == "scalar swizzle" {
@@ -28,7 +28,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     index(file, finding)
 }
 
-fn scalar(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn scalar(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let text = Text::new(
         "A single number has no components: `.x`, `.xyz` and the like belong to vectors.",
         "スカラーに成分はありません。`.x` や `.xyz` が使えるのはベクトルだけです。",
@@ -36,13 +36,13 @@ fn scalar(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
     file.error_at(finding.index, text)
 }
 
-fn length(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn length(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let text = Text::new("`.length` is for arrays only.", "`.length` が使えるのは配列だけです。");
     file.error_at(finding.index, text)
         .hint(Text::new("The length of a vector is `length(v)`.", "ベクトルの長さは `length(v)` で求めます。"))
 }
 
-fn swizzle(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn swizzle(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let field = finding.entry.token;
     if file.word(Some(finding.index + 1)) == "(" {
         let text = Text::new(
@@ -77,7 +77,7 @@ fn swizzle(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 }
 
 /// How the length of the vector is written whose member `.length` was meant to be.
-fn length_of_vector(file: &File<'_>, index: usize) -> Text {
+fn length_of_vector(file: &HintContext<'_>, index: usize) -> Text {
     let name = index.checked_sub(2).filter(|before| file.code[*before].kind == LexemeKind::Word);
     let example = format!("length({})", name.map_or("…", |before| file.code[before].text));
     Text::new(
@@ -94,7 +94,7 @@ pub fn names_of_components() -> Text {
     )
 }
 
-fn no_such_part(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn no_such_part(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let field = finding.entry.token;
     let phrase = finding.entry.message.rsplit_once(':').map_or("", |(_, phrase)| phrase);
     let text = match types::from_phrase(phrase) {
@@ -108,7 +108,7 @@ fn no_such_part(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 }
 
 /// The condition of an `if` or a loop that is none.
-fn condition(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn condition(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let keyword = file.word(Some(finding.index));
     let open = finding.index + 1;
     let close = if file.word(Some(open)) == "(" { file.closing(open) } else { None };
@@ -135,7 +135,7 @@ fn condition(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
     ))
 }
 
-fn index(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn index(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     let text = if message.contains("index out of range") {
         let number = message.rsplit('\'').nth(1).unwrap_or_default();

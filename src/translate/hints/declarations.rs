@@ -18,7 +18,7 @@ pub enum DeclarationKind {
 
 /// A declared name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Declaration<'a> {
+pub struct DeclaredName<'a> {
     /// The name.
     pub name: &'a str,
     /// What it is.
@@ -37,7 +37,7 @@ pub struct Declaration<'a> {
     pub global: bool,
 }
 
-impl Declaration<'_> {
+impl DeclaredName<'_> {
     /// Whether the name can be used at byte `offset`.
     pub fn is_visible(&self, offset: usize) -> bool {
         self.start < offset && offset < self.scope_end
@@ -56,8 +56,8 @@ const MAX_DECLARATIONS: usize = 2_000;
 const MAX_LIST: usize = 500;
 
 /// Everything that `code` declares, in order.
-pub fn find<'a>(code: &[Lexeme<'a>]) -> Vec<Declaration<'a>> {
-    let mut all: Vec<Declaration<'a>> = Vec::new();
+pub fn find<'a>(code: &[Lexeme<'a>]) -> Vec<DeclaredName<'a>> {
+    let mut all: Vec<DeclaredName<'a>> = Vec::new();
     let braces = Braces::new(code);
     for index in 1..code.len() {
         if all.len() > MAX_DECLARATIONS {
@@ -83,7 +83,7 @@ fn structure(code: &[Lexeme<'_>], index: usize) -> Option<(String, DeclarationKi
 }
 
 /// The type and role of the name at `index`, if it is one that is declared there.
-fn typed(code: &[Lexeme<'_>], index: usize, before: &[Declaration<'_>]) -> Option<(String, DeclarationKind)> {
+fn typed(code: &[Lexeme<'_>], index: usize, before: &[DeclaredName<'_>]) -> Option<(String, DeclarationKind)> {
     let name = code[index];
     if name.kind != LexemeKind::Word || vocabulary::is_keyword(name.text) {
         return None;
@@ -168,10 +168,10 @@ fn declaration<'a>(
     ty: &str,
     role: DeclarationKind,
     qualifiers: &[&'a str],
-) -> Declaration<'a> {
+) -> DeclaredName<'a> {
     let array = code.get(index + 1).is_some_and(|next| next.text == "[");
     let (scope_end, global) = braces.scope(code, index, role);
-    Declaration {
+    DeclaredName {
         name: code[index].text,
         role,
         ty: if array { format!("{ty}[]") } else { ty.to_owned() },

@@ -1,9 +1,9 @@
 //! Preprocessor lines: `#version` and conditions, comments without an end, and `#line`.
 
-use super::file::File;
+use super::file::HintContext;
 use super::tokens::{Lexeme, LexemeKind, tokens};
-use super::{Entry, Finding, vocabulary};
-use crate::diagnostic::{Diagnostic, Stage};
+use super::{CompilerMessage, LogEntry, vocabulary};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 
 const NAMES: [&str; 12] =
@@ -37,7 +37,7 @@ pub fn refused_line_directive(text: &str) -> Diagnostic {
     let all = tokens(text);
     let first = all.iter().find(|token| is_line(token));
     let line = first.map(|token| text[..token.start].bytes().filter(|byte| *byte == b'\n').count() as u32 + 1);
-    let diagnostic = Diagnostic::error(Stage::Compile, message).hint(hint);
+    let diagnostic = Diagnostic::error(DiagnosticStage::Compile, message).hint(hint);
     match line {
         Some(line) => diagnostic.at(line, None),
         None => diagnostic,
@@ -55,18 +55,18 @@ pub fn directive_name(directive: &str) -> &str {
 }
 
 /// Whether `entry` is about a directive that was meant to be `#version`.
-pub fn is_misspelt_version(entry: &Entry<'_>) -> bool {
+pub fn is_misspelt_version(entry: &LogEntry<'_>) -> bool {
     let name = entry.message.strip_prefix("invalid directive:").map(str::trim);
     name.and_then(|name| vocabulary::nearest(name, NAMES.into_iter())) == Some("version")
 }
 
 /// Whether `entry` is about the number or the profile of a `#version` line without saying where that is.
-pub fn is_about_version(entry: &Entry<'_>) -> bool {
+pub fn is_about_version(entry: &LogEntry<'_>) -> bool {
     entry.message == "version not supported" || entry.message.starts_with("#version")
 }
 
 /// Puts a message of the preprocessor into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let entry = finding.entry;
     let line = entry.place.map(|(line, _)| line);
     let directive = file.directives.iter().find(|token| Some(file.line(token.start)) == line);
@@ -128,7 +128,7 @@ fn misspelt(name: &str, mark: impl Fn(Text) -> Diagnostic) -> Diagnostic {
     }
 }
 
-fn version(file: &File<'_>, directive: Option<&Lexeme<'_>>, message: &str) -> Option<Diagnostic> {
+fn version(file: &HintContext<'_>, directive: Option<&Lexeme<'_>>, message: &str) -> Option<Diagnostic> {
     let own = |token: &&Lexeme<'_>| directive_name(token.text) == "version";
     let line = directive.or_else(|| file.directives.iter().find(own));
     let text = if message.starts_with("must occur first") {
@@ -147,12 +147,12 @@ fn version(file: &File<'_>, directive: Option<&Lexeme<'_>>, message: &str) -> Op
         Text::new("There is no GLSL of this version.", "この番号の GLSL は存在しません。")
     };
     let hint = version_hint(file);
-    let Some(line) = line else { return Some(Diagnostic::error(Stage::Compile, text).hint(hint)) };
+    let Some(line) = line else { return Some(Diagnostic::error(DiagnosticStage::Compile, text).hint(hint)) };
     Some(file.error(line.start, line.text.len(), text).hint(hint))
 }
 
 /// The `#if` whose `#endif` is missing.
-fn unclosed_condition<'f, 'a>(file: &'f File<'a>) -> Option<&'f Lexeme<'a>> {
+fn unclosed_condition<'f, 'a>(file: &'f HintContext<'a>) -> Option<&'f Lexeme<'a>> {
     let mut open = Vec::new();
     for directive in &file.directives {
         match directive_name(directive.text) {
@@ -168,7 +168,7 @@ fn unclosed_condition<'f, 'a>(file: &'f File<'a>) -> Option<&'f Lexeme<'a>> {
 
 /// A file that is written in today's GLSL and does not say so, or not in a way that the compiler reads: it is then taken
 /// for one of 2004.
-pub fn missing_version(file: &File<'_>) -> Option<Diagnostic> {
+pub fn missing_version(file: &HintContext<'_>) -> Option<Diagnostic> {
     if file.directives.iter().any(|token| directive_name(token.text) == "version") {
         return None;
     }
@@ -187,7 +187,7 @@ pub fn missing_version(file: &File<'_>) -> Option<Diagnostic> {
 }
 
 /// A line that was meant to be `#version`.
-fn meant_version(file: &File<'_>) -> Option<Diagnostic> {
+fn meant_version(file: &HintContext<'_>) -> Option<Diagnostic> {
     let is_meant = |name: &str| vocabulary::nearest(name, std::iter::once("version")).is_some();
     let number_joined =
         |name: &str| name.strip_prefix("version").is_some_and(|rest| rest.starts_with(char::is_numeric));
@@ -225,7 +225,7 @@ fn meant_version(file: &File<'_>) -> Option<Diagnostic> {
 }
 
 /// Where a line of a comment is a `#version`.
-fn version_in_comment(file: &File<'_>) -> Option<usize> {
+fn version_in_comment(file: &HintContext<'_>) -> Option<usize> {
     let mut start = 0;
     file.text.split_inclusive('\n').find_map(|line| {
         let at = start;
@@ -236,7 +236,7 @@ fn version_in_comment(file: &File<'_>) -> Option<usize> {
 }
 
 /// The `#version` of what is handed out.
-pub fn version_hint(file: &File<'_>) -> Text {
+pub fn version_hint(file: &HintContext<'_>) -> Text {
     let version = &file.interface.version;
     Text::new(
         format!("The file of this assignment begins with `{version}`."),

@@ -1,13 +1,13 @@
 //! Words of other languages, declarations that GLSL does not allow, and what another version has.
 
-use super::file::{File, macro_name};
+use super::file::{HintContext, macro_name};
 use super::tokens::Lexeme;
-use super::{Finding, suggestions, vocabulary};
+use super::{CompilerMessage, suggestions, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// A message of the compiler and its wording for a student; `{}` stands for the token that it names.
-struct Wording {
+struct DisallowedWording {
     /// The token, or the beginning of the message.
     says: &'static str,
     /// What is wrong, in English and in Japanese.
@@ -19,16 +19,16 @@ struct Wording {
 const NO_HINT: [&str; 2] = ["", ""];
 
 /// Things of other languages, by the compiler's token.
-const ALIEN: [Wording; 7] = [
+const ALIEN: [DisallowedWording; 7] = [
     QUOTED,
-    Wording { says: "'", ..QUOTED },
-    Wording { says: "string", ..QUOTED },
-    Wording {
+    DisallowedWording { says: "'", ..QUOTED },
+    DisallowedWording { says: "string", ..QUOTED },
+    DisallowedWording {
         says: "::",
         message: ["GLSL has no namespaces: `::` is C++.", "`::` は C++ の書き方です。GLSL に名前空間はありません。"],
         hint: ["Write the function's name alone, such as `max`.", "`max` のように関数名だけを書いてください。"],
     },
-    Wording {
+    DisallowedWording {
         says: "explicit typecast",
         message: ["GLSL has no casts such as `(float) x`.", "GLSL に `(float) x` のようなキャストはありません。"],
         hint: [
@@ -36,7 +36,7 @@ const ALIEN: [Wording; 7] = [
             "型の変換は `float(x)` のように関数の形で書きます。",
         ],
     },
-    Wording {
+    DisallowedWording {
         says: "{ } style initializers",
         message: [
             "Lists in braces need `#version 420` or newer.",
@@ -47,14 +47,14 @@ const ALIEN: [Wording; 7] = [
             "それより前の版では `float[3](1.0, 2.0, 3.0)` のようにコンストラクタを使います。",
         ],
     },
-    Wording {
+    DisallowedWording {
         says: "\\",
         message: ["A `\\` cannot stand in code.", "コードの中に `\\` は書けません。"],
         hint: NO_HINT,
     },
 ];
 
-const QUOTED: Wording = Wording {
+const QUOTED: DisallowedWording = DisallowedWording {
     says: "string literal",
     message: ["GLSL has no strings or characters in quotes.", "GLSL に文字列や文字のリテラルはありません。"],
     hint: [
@@ -64,8 +64,8 @@ const QUOTED: Wording = Wording {
 };
 
 /// Declarations and names that are not allowed, by the beginning of the compiler's message.
-const DECLARATIONS: [Wording; 14] = [
-    Wording {
+const DECLARATIONS: [DisallowedWording; 14] = [
+    DisallowedWording {
         says: "Reserved word",
         message: [
             "`{}` is a word that GLSL keeps for itself; it cannot be a name.",
@@ -73,7 +73,7 @@ const DECLARATIONS: [Wording; 14] = [
         ],
         hint: suggestions::ANOTHER_NAME,
     },
-    Wording {
+    DisallowedWording {
         says: "identifiers starting with \"gl_\"",
         message: [
             "`{}`: names that begin with `gl_` belong to GLSL itself.",
@@ -81,12 +81,12 @@ const DECLARATIONS: [Wording; 14] = [
         ],
         hint: suggestions::ANOTHER_NAME,
     },
-    Wording {
+    DisallowedWording {
         says: "variables with qualifier 'const' must be initialized",
         message: ["The constant `{}` has no value.", "定数 `{}` に値がありません。"],
         hint: ["A constant gets its value where it is declared.", "定数の値は宣言と同時に指定します。"],
     },
-    Wording {
+    DisallowedWording {
         says: "global const initializers must be constant",
         message: [
             "The value of a global constant must be known when the shader is compiled.",
@@ -98,8 +98,8 @@ const DECLARATIONS: [Wording; 14] = [
         ],
     },
     MAIN,
-    Wording { says: "function cannot take any parameter", ..MAIN },
-    Wording {
+    DisallowedWording { says: "function cannot take any parameter", ..MAIN },
+    DisallowedWording {
         says: "interpolation qualifiers must appear before",
         message: [
             "The qualifiers stand in the wrong order: before GLSL 4.20 `smooth` and the like come before `in` or `out`.",
@@ -107,7 +107,7 @@ const DECLARATIONS: [Wording; 14] = [
         ],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "cannot initialize this type of qualifier",
         message: [
             "A variable declared with `{}` takes no value there.",
@@ -115,12 +115,12 @@ const DECLARATIONS: [Wording; 14] = [
         ],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "identifier not previously declared",
         message: ["The type of `{}` is missing.", "`{}` の型がありません。"],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "can only apply to uniform, buffer, in, or out",
         message: [
             "With `layout (…)`, this variable needs `in`, `out` or `uniform`.",
@@ -128,12 +128,12 @@ const DECLARATIONS: [Wording; 14] = [
         ],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "not allowed in nested scope",
         message: ["`{}` variables are declared outside functions.", "`{}` 変数は関数の外で宣言します。"],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "float literal needs a decimal point",
         message: [
             "A number that ends with `f` needs a decimal point: `1.0f`.",
@@ -141,12 +141,12 @@ const DECLARATIONS: [Wording; 14] = [
         ],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "unexpected token",
         message: ["The character `{}` has no meaning in GLSL.", "`{}` は GLSL では使えない文字です。"],
         hint: NO_HINT,
     },
-    Wording {
+    DisallowedWording {
         says: "l-value of swizzle cannot have duplicate",
         message: [
             "A component stands twice on the left side of this assignment.",
@@ -156,14 +156,14 @@ const DECLARATIONS: [Wording; 14] = [
     },
 ];
 
-const MAIN: Wording = Wording {
+const MAIN: DisallowedWording = DisallowedWording {
     says: "entry point cannot return a value",
     message: ["`main` is declared as `void main()`.", "`main` は `void main()` と宣言します。"],
     hint: NO_HINT,
 };
 
 /// A `const` whose value is known only at run time, inside a function.
-const LATE_CONSTANT: Wording = Wording {
+const LATE_CONSTANT: DisallowedWording = DisallowedWording {
     says: "non-constant initializer",
     message: [
         "Before GLSL 4.20, the value of a `const` must be known when the shader is compiled.",
@@ -173,7 +173,7 @@ const LATE_CONSTANT: Wording = Wording {
 };
 
 /// Puts a message about something that GLSL does not allow into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let (token, message) = (finding.entry.token, finding.entry.message);
     let by_token = ALIEN.iter().chain([&LATE_CONSTANT]).find(|wording| wording.says == token);
     let by_message = || DECLARATIONS.iter().find(|wording| message.starts_with(wording.says));
@@ -184,7 +184,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
 }
 
 /// What another `#version` has.
-fn version(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn version(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     let about = |start: &str| message.starts_with(start);
     let what = match finding.entry.token {
@@ -211,7 +211,7 @@ fn version(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
 }
 
 /// Puts a warning into words.
-pub fn warn(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn warn(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     let (line, column) = finding.entry.place?;
     if finding.entry.token == "line continuation" {

@@ -1,12 +1,12 @@
 //! The type of an expression, where it follows from names, sizes and operators.
 
-use super::file::File;
+use super::file::HintContext;
 use super::tokens::{Lexeme, LexemeKind};
 use super::types::Numeric;
 use super::vocabulary;
 
 /// The type of the expression that `tokens` are, where it follows from names, sizes and operators.
-pub fn type_of(file: &File<'_>, tokens: &[Lexeme<'_>]) -> Option<Numeric> {
+pub fn type_of(file: &HintContext<'_>, tokens: &[Lexeme<'_>]) -> Option<Numeric> {
     let mut reader = ExpressionReader { file, tokens, at: 0, depth: 0 };
     let ty = reader.sum()?;
     (reader.at == tokens.len()).then_some(ty)
@@ -34,7 +34,7 @@ pub fn arguments<'t, 'a>(tokens: &'t [Lexeme<'a>]) -> Vec<&'t [Lexeme<'a>]> {
 const MAX_DEPTH: u32 = 40;
 
 struct ExpressionReader<'r, 'a> {
-    file: &'r File<'a>,
+    file: &'r HintContext<'a>,
     tokens: &'r [Lexeme<'r>],
     at: usize,
     depth: u32,
@@ -175,7 +175,7 @@ fn swizzle(ty: Numeric, field: &str) -> Option<Numeric> {
 }
 
 /// The type that the function or constructor `name` returns for arguments of the types that `types` gives.
-fn result(file: &File<'_>, name: Lexeme<'_>, types: impl Fn() -> Option<Vec<Numeric>>) -> Option<Numeric> {
+fn result(file: &HintContext<'_>, name: Lexeme<'_>, types: impl Fn() -> Option<Vec<Numeric>>) -> Option<Numeric> {
     if let Some(function) = file.anywhere(name.text) {
         return Numeric::named(&function.ty);
     }
@@ -221,7 +221,7 @@ mod tests {
         ] {
             let text = text.replace("EXPR", expression);
             let interface = interface();
-            let file = File::new(&text, &interface);
+            let file = HintContext::new(&text, &interface);
             let open = file.code.iter().rposition(|token| token.text == "{").expect("the text has a body");
             let tokens = &file.code[open + 1..file.code.len() - 2];
             assert_eq!(type_of(&file, tokens).map(|ty| ty.to_string()).as_deref(), name, "{expression}");

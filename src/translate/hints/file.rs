@@ -1,13 +1,13 @@
 //! The student's file as the hints look at it: text, lines, tokens, declarations, and the assignment's interface.
 
-use super::declarations::{self, Declaration};
+use super::declarations::{self, DeclaredName};
 use super::tokens::{self, Lexeme, LexemeKind};
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::translate::Interface;
+use crate::translate::LinkedInterface;
 
 /// What every hint may look at.
-pub struct File<'a> {
+pub struct HintContext<'a> {
     /// The student's text; lines end with `\n`.
     pub text: &'a str,
     /// The tokens outside preprocessor lines.
@@ -15,15 +15,15 @@ pub struct File<'a> {
     /// The preprocessor lines.
     pub directives: Vec<Lexeme<'a>>,
     /// What the file declares, in order.
-    pub declarations: Vec<Declaration<'a>>,
+    pub declarations: Vec<DeclaredName<'a>>,
     /// What the assignment's program offers and takes.
-    pub interface: &'a Interface,
+    pub interface: &'a LinkedInterface,
     line_starts: Vec<usize>,
 }
 
-impl<'a> File<'a> {
+impl<'a> HintContext<'a> {
     /// Looks through `text`.
-    pub fn new(text: &'a str, interface: &'a Interface) -> Self {
+    pub fn new(text: &'a str, interface: &'a LinkedInterface) -> Self {
         let (directives, code): (Vec<_>, Vec<_>) =
             tokens::tokens(text).into_iter().partition(|token| token.kind == LexemeKind::Directive);
         let declarations = declarations::find(&code);
@@ -103,12 +103,12 @@ impl<'a> File<'a> {
     }
 
     /// The declaration that `name` refers to at byte `offset`: the last one before it whose scope is still open.
-    pub fn visible(&self, name: &str, offset: usize) -> Option<&Declaration<'a>> {
+    pub fn visible(&self, name: &str, offset: usize) -> Option<&DeclaredName<'a>> {
         self.declarations.iter().rev().find(|d| d.name == name && d.is_visible(offset))
     }
 
     /// The first declaration of `name` anywhere.
-    pub fn anywhere(&self, name: &str) -> Option<&Declaration<'a>> {
+    pub fn anywhere(&self, name: &str) -> Option<&DeclaredName<'a>> {
         self.declarations.iter().find(|d| d.name == name)
     }
 
@@ -145,7 +145,7 @@ impl<'a> File<'a> {
         let characters = |part: Option<&str>| part.map_or(0, |part| part.chars().count());
         let column = u32::try_from(characters(self.text.get(start..offset)) + 1).unwrap_or(u32::MAX);
         let end = (offset + length).min(self.line_end(offset));
-        Diagnostic::error(Stage::Compile, message)
+        Diagnostic::error(DiagnosticStage::Compile, message)
             .at(line, Some(column))
             .spanning(characters(self.text.get(offset..end)))
     }

@@ -1,15 +1,15 @@
 //! What the linker says about the vertex shader and the fixed fragment shader.
 
-use super::declarations::{Declaration, DeclarationKind};
-use super::file::File;
+use super::declarations::{DeclarationKind, DeclaredName};
+use super::file::HintContext;
 use super::suggestions;
 use super::vocabulary;
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::translate::log::Entry;
+use crate::translate::log::LogEntry;
 
 /// Puts a message of the linker into words.
-pub fn explain(file: &File<'_>, entry: &Entry<'_>) -> Diagnostic {
+pub fn explain(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Diagnostic {
     let message = entry.message;
     let found = if message.contains("no matching declaration for statically used input") {
         Some(output_missing(file))
@@ -29,7 +29,7 @@ pub fn explain(file: &File<'_>, entry: &Entry<'_>) -> Diagnostic {
         let words = format!("{message} {more}");
         let words = words.trim();
         Diagnostic::error(
-            Stage::Link,
+            DiagnosticStage::Link,
             Text::new(
                 format!("The shaders cannot be linked: “{words}”."),
                 format!("シェーダをリンクできません:「{words}」。"),
@@ -38,12 +38,12 @@ pub fn explain(file: &File<'_>, entry: &Entry<'_>) -> Diagnostic {
     })
 }
 
-fn at(file: &File<'_>, declaration: &Declaration<'_>, text: Text) -> Diagnostic {
-    Diagnostic { stage: Stage::Link, ..file.error_at(declaration.index, text) }
+fn at(file: &HintContext<'_>, declaration: &DeclaredName<'_>, text: Text) -> Diagnostic {
+    Diagnostic { stage: DiagnosticStage::Link, ..file.error_at(declaration.index, text) }
 }
 
 /// How the fragment shader's input wants the output declared.
-fn output_hint(file: &File<'_>) -> Text {
+fn output_hint(file: &HintContext<'_>) -> Text {
     let needed = suggestions::declaration_of(file, &file.interface.output.name).unwrap_or_default();
     Text::new(
         format!("The fragment shader's input fits an output `{needed}`: the name and the type must be just these."),
@@ -53,7 +53,7 @@ fn output_hint(file: &File<'_>) -> Text {
 
 /// An error of the compiler: `own` has the name of the output and is none.
 /// Says that the output of the homework is not declared.
-pub fn output_missing_as(file: &File<'_>, own: &Declaration<'_>) -> Diagnostic {
+pub fn output_missing_as(file: &HintContext<'_>, own: &DeclaredName<'_>) -> Diagnostic {
     let name = own.name;
     let text = if own.global {
         Text::new(
@@ -70,21 +70,21 @@ pub fn output_missing_as(file: &File<'_>, own: &Declaration<'_>) -> Diagnostic {
 }
 
 /// Whether `declaration` is an output variable, also in the words of old GLSL.
-fn is_output(declaration: &Declaration<'_>) -> bool {
+fn is_output(declaration: &DeclaredName<'_>) -> bool {
     let output = declaration.is("out") || declaration.is("varying");
     declaration.global && declaration.role == DeclarationKind::Variable && output
 }
 
 /// Says that the output of the homework is not declared.
-pub fn output_missing(file: &File<'_>) -> Diagnostic {
+pub fn output_missing(file: &HintContext<'_>) -> Diagnostic {
     let output = &file.interface.output;
     let name = output.name.as_str();
     let hint = output_hint(file);
     if let Some(swallowed) = file.swallowed(name).filter(|_| file.anywhere(name).is_none()) {
-        return Diagnostic { stage: Stage::Link, ..swallowed };
+        return Diagnostic { stage: DiagnosticStage::Link, ..swallowed };
     }
     if let Some(own) = file.anywhere(name).filter(|d| !is_output(d)) {
-        return Diagnostic { stage: Stage::Link, ..output_missing_as(file, own) };
+        return Diagnostic { stage: DiagnosticStage::Link, ..output_missing_as(file, own) };
     }
     let outputs: Vec<_> = file.declarations.iter().filter(|d| is_output(d) && d.name != name).collect();
     let near = vocabulary::nearest(name, outputs.iter().map(|d| d.name));
@@ -99,7 +99,7 @@ pub fn output_missing(file: &File<'_>) -> Diagnostic {
             at(file, renamed, text).hint(hint)
         }
         None => Diagnostic::error(
-            Stage::Link,
+            DiagnosticStage::Link,
             Text::new(
                 format!("The output `{name}`, which the fragment shader reads, is not declared."),
                 format!("フラグメントシェーダが受け取る出力変数 `{name}` が宣言されていません。"),
@@ -109,7 +109,7 @@ pub fn output_missing(file: &File<'_>) -> Diagnostic {
     }
 }
 
-fn output_differs(file: &File<'_>, message: &str) -> Option<Diagnostic> {
+fn output_differs(file: &HintContext<'_>, message: &str) -> Option<Diagnostic> {
     let output = &file.interface.output;
     let own = file.declarations.iter().find(|d| d.name == output.name && is_output(d))?;
     let (name, ty, needed) = (own.name, &own.ty, &output.ty);
@@ -131,9 +131,9 @@ fn output_differs(file: &File<'_>, message: &str) -> Option<Diagnostic> {
     )))
 }
 
-fn no_main(file: &File<'_>) -> Diagnostic {
+fn no_main(file: &HintContext<'_>) -> Diagnostic {
     if let Some(swallowed) = file.swallowed("main") {
-        return Diagnostic { stage: Stage::Link, ..swallowed };
+        return Diagnostic { stage: DiagnosticStage::Link, ..swallowed };
     }
     let text = Text::new("The file has no function `main`.", "関数 `main` がありません。");
     let functions = || file.declarations.iter().filter(|d| d.role == DeclarationKind::Function);
@@ -146,21 +146,21 @@ fn no_main(file: &File<'_>) -> Diagnostic {
                 format!("`{name}` は `main` の間違いではありませんか。GLSL では大文字と小文字を区別します。"),
             ))
         }
-        None => Diagnostic::error(Stage::Link, text)
+        None => Diagnostic::error(DiagnosticStage::Link, text)
             .hint(Text::new("A shader begins at `void main()`.", "シェーダの処理は `void main()` から始まります。")),
     }
 }
 
 /// The function names in the compiler's lines about functions: `f(f1; calling g(vf3;`.
-fn function_names<'e>(entry: &Entry<'e>) -> Vec<&'e str> {
+fn function_names<'e>(entry: &LogEntry<'e>) -> Vec<&'e str> {
     let line = entry.more.first().copied().unwrap_or_default();
     line.split(" calling ").filter_map(|mangled| mangled.split_once('(')).map(|(name, _)| name.trim()).collect()
 }
 
-fn recursion(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
+fn recursion(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Option<Diagnostic> {
     let names = function_names(entry);
     let (caller, callee) = (*names.first()?, *names.last()?);
-    let is_body = |d: &&Declaration<'_>| {
+    let is_body = |d: &&DeclaredName<'_>| {
         let close = file.closing(d.index + 1);
         d.role == DeclarationKind::Function && close.is_some_and(|close| file.word(Some(close + 1)) == "{")
     };
@@ -174,11 +174,11 @@ fn recursion(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
             "関数 `{caller}` がここで (`{callee}` を通じて) 自分自身を呼び出しています。GLSL では再帰呼び出しはできません。"
         ),
     );
-    let diagnostic = Diagnostic { stage: Stage::Link, ..file.error_at(call, text) };
+    let diagnostic = Diagnostic { stage: DiagnosticStage::Link, ..file.error_at(call, text) };
     Some(diagnostic.hint(Text::new("Use a loop instead.", "繰り返しには `for` などのループを使ってください。")))
 }
 
-fn no_body(file: &File<'_>, entry: &Entry<'_>) -> Option<Diagnostic> {
+fn no_body(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Option<Diagnostic> {
     let name = *function_names(entry).first()?;
     let declared = file.declarations.iter().find(|d| d.role == DeclarationKind::Function && d.name == name)?;
     let text = Text::new(

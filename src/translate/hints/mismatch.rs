@@ -1,14 +1,14 @@
 //! Types that do not fit: conversions, operands, arguments, constructors, components.
 
 use super::declarations::DeclarationKind;
-use super::file::File;
+use super::file::HintContext;
 use super::types::{self, Numeric};
-use super::{Finding, expression, vocabulary};
+use super::{CompilerMessage, expression, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// Puts a message about types into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     if message.starts_with("cannot convert from") || message.starts_with("non-matching or non-convertible") {
         return conversion(file, finding);
@@ -30,7 +30,7 @@ fn quoted_types(message: &str) -> Vec<String> {
     message.split('\'').skip(1).step_by(2).map(types::from_phrase).collect()
 }
 
-fn conversion(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn conversion(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let quoted = quoted_types(finding.entry.message);
     let equals = (finding.index..file.code.len()).find(|&at| matches!(file.code[at].text, "=" | ";"))?;
     let value = || {
@@ -106,7 +106,7 @@ pub fn conversion_hint(from: &str, to: &str) -> Option<Text> {
     })
 }
 
-fn operands(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn operands(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let operator = finding.entry.token;
     let quoted = quoted_types(finding.entry.message);
     let Some((left, right)) = quoted.get(1).zip(quoted.get(2)) else {
@@ -189,7 +189,7 @@ fn operand_hint(operator: &str, left: &str, right: &str) -> Option<Text> {
     })
 }
 
-fn arguments(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn arguments(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let name = finding.entry.token;
     let open = finding.index + 1;
     let inside = file.closing(open).and_then(|close| file.code.get(open + 1..close)).unwrap_or_default();
@@ -214,7 +214,7 @@ fn arguments(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
 }
 
 /// What a function takes.
-fn form(file: &File<'_>, name: &str) -> Option<Text> {
+fn form(file: &HintContext<'_>, name: &str) -> Option<Text> {
     if let Some(function) = file.anywhere(name).filter(|d| d.role == DeclarationKind::Function) {
         let close = file.closing(function.index + 1)?;
         let parameters: String =
@@ -245,7 +245,7 @@ fn form(file: &File<'_>, name: &str) -> Option<Text> {
     Some(Text::new(format!("`{name}` {en}."), format!("`{name}` は{ja}。")))
 }
 
-fn constructor(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn constructor(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let name = file.word(Some(finding.index));
     let message = finding.entry.message;
     let ty = Numeric::named(name)?;

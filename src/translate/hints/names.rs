@@ -1,15 +1,15 @@
 //! Names that are not there, and those that were meant.
 
 use super::declarations::DeclarationKind;
-use super::file::{File, macro_name};
+use super::file::{HintContext, macro_name};
 use super::tokens::LexemeKind;
 use super::vocabulary;
-use super::{Entry, Finding, suggestions};
+use super::{CompilerMessage, LogEntry, suggestions};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// The index of the code token that `entry` is about; `offset` is where the compiler noticed.
-pub fn locate(file: &File<'_>, entry: &Entry<'_>, offset: usize) -> usize {
+pub fn locate(file: &HintContext<'_>, entry: &LogEntry<'_>, offset: usize) -> usize {
     let at = file.index_at(offset);
     // The token of this message is a keyword, its place that of the name.
     if entry.message.starts_with("non-matching") {
@@ -30,7 +30,7 @@ pub fn locate(file: &File<'_>, entry: &Entry<'_>, offset: usize) -> usize {
 }
 
 /// Whether `name` is a function, a type or a variable that can be called or indexed by its name at least.
-pub fn is_callable(file: &File<'_>, name: &str) -> bool {
+pub fn is_callable(file: &HintContext<'_>, name: &str) -> bool {
     let known = vocabulary::is_function(name) || vocabulary::is_type(name) || name.is_empty();
     let declared = file.declarations.iter().any(|d| d.name == name && d.role != DeclarationKind::Function);
     let function = file.declarations.iter().any(|d| d.name == name && d.role == DeclarationKind::Function);
@@ -38,7 +38,7 @@ pub fn is_callable(file: &File<'_>, name: &str) -> bool {
 }
 
 /// Puts a message about a name into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let name = finding.entry.token;
     let message = finding.entry.message;
     if message.starts_with("undeclared identifier") {
@@ -71,7 +71,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     None
 }
 
-fn undeclared(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Diagnostic {
+fn undeclared(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str) -> Diagnostic {
     let next = file.code.get(finding.index + 1);
     let is_type = next.is_some_and(|next| next.kind == LexemeKind::Word) && !vocabulary::is_function(name);
     if file.word(Some(finding.index)) == name && is_type {
@@ -92,7 +92,7 @@ fn undeclared(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Diagnos
 }
 
 /// A diagnostic about `name`: where it stands, or in the macro that brought it to the line of the message.
-fn place(file: &File<'_>, finding: &Finding<'_, '_>, name: &str, text: Text) -> Diagnostic {
+fn place(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str, text: Text) -> Diagnostic {
     if file.word(Some(finding.index)) == name || file.anywhere(name).is_some() {
         return file.error_at(finding.index, text);
     }
@@ -115,7 +115,7 @@ fn place(file: &File<'_>, finding: &Finding<'_, '_>, name: &str, text: Text) -> 
     }
 }
 
-fn unknown_function(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Diagnostic {
+fn unknown_function(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str) -> Diagnostic {
     let text = Text::new(format!("There is no function `{name}`."), format!("`{name}` という関数はありません。"));
     let functions = || file.declarations.iter().filter(|d| d.role == DeclarationKind::Function).map(|d| d.name);
     let otherwise = || {
@@ -135,7 +135,7 @@ fn unknown_function(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> D
 }
 
 /// A function of the file that is called before it is defined.
-fn defined_later(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Option<Diagnostic> {
+fn defined_later(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str) -> Option<Diagnostic> {
     let call = file.code.get(finding.index)?.start;
     let function = file.declarations.iter().find(|d| d.name == name && d.role == DeclarationKind::Function)?;
     if function.start < call {
@@ -153,7 +153,7 @@ fn defined_later(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Opti
 }
 
 /// A word at `index` that stands where a type or a qualifier belongs.
-pub fn unknown_type(file: &File<'_>, index: usize) -> Diagnostic {
+pub fn unknown_type(file: &HintContext<'_>, index: usize) -> Diagnostic {
     let name = file.code[index].text;
     if name == "main" {
         let text = Text::new("The type that `main` returns is missing.", "`main` の戻り値の型がありません。");

@@ -1,21 +1,21 @@
 //! What every driver refuses and the compiler here lets pass.
 
-use super::declarations::{Declaration, DeclarationKind};
+use super::declarations::{DeclarationKind, DeclaredName};
 use super::directives::directive_name;
-use super::file::File;
+use super::file::HintContext;
 use super::suggestions;
 use super::tokens::LexemeKind;
-use crate::diagnostic::{Diagnostic, Stage};
+use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::translate::Interface;
+use crate::translate::LinkedInterface;
 use crate::translate::log::MAX_DIAGNOSTICS;
 
 /// From this version on, the two shaders may differ in how an output is interpolated.
 const FREE_INTERPOLATION: u32 = 440;
 
 /// The errors that real drivers report in `text` although the compiler accepts it.
-pub fn overlooked_errors(text: &str, interface: &Interface) -> Vec<Diagnostic> {
-    let file = File::new(text, interface);
+pub fn overlooked_errors(text: &str, interface: &LinkedInterface) -> Vec<Diagnostic> {
+    let file = HintContext::new(text, interface);
     let mut all: Vec<_> = version(&file).into_iter().collect();
     all.extend(swizzles(&file));
     all.extend(interpolation(&file));
@@ -25,7 +25,7 @@ pub fn overlooked_errors(text: &str, interface: &Interface) -> Vec<Diagnostic> {
 }
 
 /// `#version 410core` and the versions of OpenGL ES, which no desktop program links.
-fn version(file: &File<'_>) -> Option<Diagnostic> {
+fn version(file: &HintContext<'_>) -> Option<Diagnostic> {
     let line = file.directives.iter().find(|token| directive_name(token.text) == "version")?;
     let mut words = line.text.split("version").nth(1)?.split_ascii_whitespace();
     let (number, profile) = (words.next()?, words.next().unwrap_or_default());
@@ -47,14 +47,14 @@ fn version(file: &File<'_>) -> Option<Diagnostic> {
 }
 
 /// The version number of the file; 0 if it has none.
-fn version_number(file: &File<'_>) -> u32 {
+fn version_number(file: &HintContext<'_>) -> u32 {
     let line = file.directives.iter().find(|token| directive_name(token.text) == "version");
     let number = line.and_then(|line| line.text.split("version").nth(1)?.split_ascii_whitespace().next());
     number.and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
 /// `.rgb2`: the compiler drops a last character that names no component.
-fn swizzles(file: &File<'_>) -> Vec<Diagnostic> {
+fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for index in 2..file.code.len() {
         let field = file.code[index];
@@ -80,7 +80,7 @@ fn swizzles(file: &File<'_>) -> Vec<Diagnostic> {
 }
 
 /// Whether the byte `offset` lies between an `#if` and its `#endif`.
-fn is_conditional(file: &File<'_>, offset: usize) -> bool {
+fn is_conditional(file: &HintContext<'_>, offset: usize) -> bool {
     let before = file.directives.iter().take_while(|line| line.start < offset);
     let depth = before.fold(0_i32, |depth, line| match directive_name(line.text) {
         "if" | "ifdef" | "ifndef" => depth + 1,
@@ -91,23 +91,23 @@ fn is_conditional(file: &File<'_>, offset: usize) -> bool {
 }
 
 /// The output as a member of a block, which is not the variable that the fragment shader reads.
-fn output_in_block(file: &File<'_>) -> Option<Diagnostic> {
+fn output_in_block(file: &HintContext<'_>) -> Option<Diagnostic> {
     let output = file.anywhere(&file.interface.output.name).filter(|d| !d.global)?;
     let inside = file.code[..output.index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
     let block = inside.checked_sub(1)?;
-    let is_block = |d: &Declaration<'_>| d.role == DeclarationKind::Structure && d.ty == "out" && d.index == block;
+    let is_block = |d: &DeclaredName<'_>| d.role == DeclarationKind::Structure && d.ty == "out" && d.index == block;
     (file.code[inside].text == "{" && file.declarations.iter().any(is_block)).then(|| super::link::output_missing(file))
 }
 
 /// An output that is `flat` or `noperspective` where the fragment shader's input is not, or the other way round.
-fn interpolation(file: &File<'_>) -> Option<Diagnostic> {
+fn interpolation(file: &HintContext<'_>) -> Option<Diagnostic> {
     if version_number(file) >= FREE_INTERPOLATION {
         return None;
     }
-    let fragment = File::new(file.interface.fragment.to_str().ok()?, file.interface);
+    let fragment = HintContext::new(file.interface.fragment.to_str().ok()?, file.interface);
     let name = file.interface.output.name.as_str();
     let is =
-        |d: &&Declaration<'_>, qualifiers: [&str; 2]| d.global && d.name == name && qualifiers.iter().any(|q| d.is(q));
+        |d: &&DeclaredName<'_>, qualifiers: [&str; 2]| d.global && d.name == name && qualifiers.iter().any(|q| d.is(q));
     let output = file.declarations.iter().find(|d| is(d, ["out", "varying"]))?;
     let input = fragment.declarations.iter().find(|d| is(d, ["in", "varying"]))?;
     let qualifier = ["flat", "noperspective"].into_iter().find(|q| output.is(q) != input.is(q))?;
@@ -116,7 +116,7 @@ fn interpolation(file: &File<'_>) -> Option<Diagnostic> {
         format!("出力変数 `{name}` とフラグメントシェーダの入力変数とで、`{qualifier}` の有無が異なっています。"),
     );
     let declaration = suggestions::declaration_of(file, name)?;
-    let diagnostic = Diagnostic { stage: Stage::Link, ..file.error_at(output.index, text) };
+    let diagnostic = Diagnostic { stage: DiagnosticStage::Link, ..file.error_at(output.index, text) };
     Some(diagnostic.hint(Text::new(
         format!("It must be declared as `{declaration}`."),
         format!("`{declaration}` と宣言してください。"),

@@ -1,14 +1,14 @@
 //! What GLSL does not allow with names, functions and declarations that it knows.
 
 use super::declarations::DeclarationKind;
-use super::file::File;
+use super::file::HintContext;
 use super::tokens::LexemeKind;
-use super::{Finding, brackets, disallowed, expression, mismatch};
+use super::{CompilerMessage, brackets, disallowed, expression, mismatch};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// Puts a broken rule into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     if message.starts_with("l-value required") {
         return Some(not_assignable(file, finding));
@@ -22,7 +22,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     disallowed::explain(file, finding)
 }
 
-fn not_assignable(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn not_assignable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let operator = file.word(Some(finding.index));
     if !(operator.ends_with('=') || matches!(operator, "++" | "--")) {
         let open = brackets::open_before(file, finding.index).last().copied();
@@ -89,7 +89,7 @@ fn not_assignable(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
 }
 
 /// The index of the name that the operator at `index` changes: `cv` in `cv.xyz[0] = …`.
-fn assigned(file: &File<'_>, index: usize) -> Option<usize> {
+fn assigned(file: &HintContext<'_>, index: usize) -> Option<usize> {
     let operator = file.word(Some(index));
     let mut at = index.checked_sub(1)?;
     if matches!(operator, "++" | "--") && file.code[at].kind != LexemeKind::Word && file.code[at].text != "]" {
@@ -106,7 +106,7 @@ fn assigned(file: &File<'_>, index: usize) -> Option<usize> {
     }
 }
 
-fn redefinition(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
+fn redefinition(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
     let name = finding.entry.token;
     // The compiler names a function where its parameters end.
     let here = file.declarations.iter().rfind(|d| d.name == name && d.index <= finding.index);
@@ -139,7 +139,7 @@ fn redefinition(file: &File<'_>, finding: &Finding<'_, '_>) -> Diagnostic {
     })
 }
 
-fn returned(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+fn returned(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     let message = finding.entry.message;
     let at = finding.index;
     if message.starts_with("void function cannot return a value") {

@@ -1,7 +1,7 @@
 //! Statements and declarations that do not end, do not begin or do not hold together.
 
 use super::declarations::DeclarationKind;
-use super::file::File;
+use super::file::HintContext;
 use super::syntax::{in_brackets, is_operand_end};
 use super::tokens::LexemeKind;
 use super::{brackets, names, suggestions, vocabulary};
@@ -9,7 +9,7 @@ use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// `const lspec = …`, `float f(x)`: a name without its type.
-pub fn missing_type(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn missing_type(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let open = brackets::open_before(file, at).last().copied();
     let head = open.and_then(|open| open.checked_sub(1));
     let parameter = file.code.get(at)?.kind == LexemeKind::Word
@@ -34,7 +34,7 @@ pub fn missing_type(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// `vec4 sample`, `float vec3`: a keyword where a name belongs.
-pub fn keyword_as_name(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn keyword_as_name(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let word = file.word(Some(at));
     let (before, token) = (file.code.get(at.checked_sub(1)?)?, file.code.get(at)?);
     let same_line = file.line(before.start) == file.line(token.start);
@@ -49,7 +49,7 @@ pub fn keyword_as_name(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// The `{` of a function that is missing, cut off by a `;`, or inside another function.
-pub fn body(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn body(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let before = at.checked_sub(1)?;
     let outside = brackets::open_before(file, at).is_empty();
     match (file.word(Some(before)), file.word(Some(at))) {
@@ -84,13 +84,13 @@ pub fn body(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Whether the `)` at `close` ends the parameters of a function that is declared or defined there.
-fn is_function_head(file: &File<'_>, close: usize) -> bool {
+fn is_function_head(file: &HintContext<'_>, close: usize) -> bool {
     let name = file.opening(close).and_then(|open| open.checked_sub(1));
     file.declarations.iter().any(|d| d.role == DeclarationKind::Function && Some(d.index) == name)
 }
 
 /// A word that begins a declaration or statement and is none that GLSL knows there.
-pub fn unknown_first_word(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn unknown_first_word(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let token = file.code.get(at)?;
     let outside = brackets::open_before(file, at).is_empty();
     let structure = at.checked_sub(1).is_some_and(|before| ends_structure(file, before));
@@ -120,7 +120,7 @@ pub fn unknown_first_word(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// A `;` that is missing, at the end of the line that lacks it.
-pub fn semicolon(file: &File<'_>, at: usize, message: &str) -> Option<Diagnostic> {
+pub fn semicolon(file: &HintContext<'_>, at: usize, message: &str) -> Option<Diagnostic> {
     let mut before = at.checked_sub(1)?;
     let token = file.code.get(at)?;
     let line = |index: usize| file.line(file.code[index].start);
@@ -162,7 +162,7 @@ pub fn semicolon(file: &File<'_>, at: usize, message: &str) -> Option<Diagnostic
 
 /// Whether the statement of the line above goes on at the code token `at`: no statement begins with an operand that an
 /// operator follows, or with a function whose only use is its value.
-fn goes_on(file: &File<'_>, at: usize) -> bool {
+fn goes_on(file: &HintContext<'_>, at: usize) -> bool {
     let token = file.code[at];
     let next = file.word(Some(at + 1));
     let operand = matches!(token.kind, LexemeKind::Word | LexemeKind::Number) && !vocabulary::is_keyword(token.text);
@@ -171,7 +171,7 @@ fn goes_on(file: &File<'_>, at: usize) -> bool {
 }
 
 /// Whether the `}` at `close` ends a structure or a block.
-fn ends_structure(file: &File<'_>, close: usize) -> bool {
+fn ends_structure(file: &HintContext<'_>, close: usize) -> bool {
     if file.word(Some(close)) != "}" {
         return false;
     }
@@ -179,7 +179,7 @@ fn ends_structure(file: &File<'_>, close: usize) -> bool {
     file.declarations.iter().any(|d| d.role == DeclarationKind::Structure && Some(d.index) == name)
 }
 
-fn colon(file: &File<'_>, at: usize) -> Diagnostic {
+fn colon(file: &HintContext<'_>, at: usize) -> Diagnostic {
     let next = file.word(Some(at + 1));
     if next == "=" {
         let text = Text::new("An assignment is written `=`, without `:`.", "代入は `:` を付けずに `=` と書きます。");
@@ -203,7 +203,7 @@ fn colon(file: &File<'_>, at: usize) -> Diagnostic {
 }
 
 /// An `if`, a loop or a number that is not written as it must be.
-pub fn construct(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn construct(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let token = file.code.get(at)?;
     let (previous, word) = (file.code[at.checked_sub(1)?], token.text);
     if matches!(previous.text, "if" | "while" | "for" | "switch") {
@@ -233,7 +233,7 @@ pub fn construct(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// An operator without an operand, or a type without a name.
-pub fn nothing_between(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn nothing_between(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let before = at.checked_sub(1)?;
     let token = file.code.get(at)?;
     let (previous, word) = (file.code[before], token.text);
@@ -261,7 +261,7 @@ pub fn nothing_between(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Two operands without an operator.
-pub fn operands(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+pub fn operands(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let before = at.checked_sub(1)?;
     let token = file.code.get(at)?;
     let (previous, word) = (file.code[before], token.text);
@@ -291,7 +291,7 @@ pub fn operands(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Whether the bracket open at `at` is that of a `for` with fewer than two `;`.
-fn for_semicolons(file: &File<'_>, at: usize) -> bool {
+fn for_semicolons(file: &HintContext<'_>, at: usize) -> bool {
     let Some(open) = brackets::open_before(file, at).last().copied() else { return false };
     let count = file.code[open..at].iter().filter(|token| token.text == ";").count();
     file.word(open.checked_sub(1)) == "for" && count < 2

@@ -1,13 +1,13 @@
 //! What a student may have meant by a name, and what the assignment calls it.
 
-use super::Finding;
-use super::declarations::Declaration;
-use super::file::File;
+use super::CompilerMessage;
+use super::declarations::DeclaredName;
+use super::file::HintContext;
 use super::vocabulary::{self, Instead, Origin};
 use crate::language::Text;
 use crate::translate::Variable;
 
-pub fn hint_for_variable(file: &File<'_>, finding: &Finding<'_, '_>, name: &str) -> Text {
+pub fn hint_for_variable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str) -> Text {
     let offset = file.code.get(finding.index).map_or(file.text.len(), |token| token.start);
     let visible = || file.declarations.iter().filter(|d| d.is_visible(offset)).map(|d| d.name);
     let known = || visible().chain(interface_names(file)).chain(vocabulary::variables()).chain(["true", "false"]);
@@ -28,7 +28,7 @@ pub fn hint_for_variable(file: &File<'_>, finding: &Finding<'_, '_>, name: &str)
         })
 }
 
-fn interface_names<'a>(file: &File<'a>) -> impl Iterator<Item = &'a str> {
+fn interface_names<'a>(file: &HintContext<'a>) -> impl Iterator<Item = &'a str> {
     let interface = file.interface;
     let variables = interface.inputs.iter().chain(&interface.uniforms).chain(std::iter::once(&interface.output));
     variables.map(|variable| variable.name.as_str()).chain(interface.constants.iter().map(String::as_str))
@@ -41,7 +41,7 @@ fn type_missing(name: &str) -> Text {
     )
 }
 
-pub fn did_you_mean(file: &File<'_>, meant: &str, offset: usize) -> Text {
+pub fn did_you_mean(file: &HintContext<'_>, meant: &str, offset: usize) -> Text {
     match file.visible(meant, offset) {
         Some(declaration) => {
             let line = file.line(declaration.start);
@@ -57,7 +57,7 @@ pub fn did_you_mean(file: &File<'_>, meant: &str, offset: usize) -> Text {
     }
 }
 
-fn out_of_reach(file: &File<'_>, declaration: &Declaration<'_>, offset: usize) -> Text {
+fn out_of_reach(file: &HintContext<'_>, declaration: &DeclaredName<'_>, offset: usize) -> Text {
     let line = file.line(declaration.start);
     if declaration.start > offset {
         return Text::new(
@@ -72,7 +72,7 @@ fn out_of_reach(file: &File<'_>, declaration: &Declaration<'_>, offset: usize) -
 }
 
 /// How a declaration of the interface is written.
-pub fn declaration_of(file: &File<'_>, name: &str) -> Option<String> {
+pub fn declaration_of(file: &HintContext<'_>, name: &str) -> Option<String> {
     let interface = file.interface;
     let line = |qualifier: &str, variable: &Variable| format!("{qualifier} {} {};", variable.ty, variable.name);
     let find = |variables: &[Variable], qualifier| {
@@ -83,7 +83,7 @@ pub fn declaration_of(file: &File<'_>, name: &str) -> Option<String> {
         .or_else(|| (interface.output.name == name).then(|| line("out", &interface.output)))
 }
 
-pub fn of_interface(file: &File<'_>, name: &str) -> Option<Text> {
+pub fn of_interface(file: &HintContext<'_>, name: &str) -> Option<Text> {
     if file.anywhere(name).is_some() {
         return None;
     }
@@ -102,13 +102,13 @@ pub fn of_interface(file: &File<'_>, name: &str) -> Option<Text> {
 }
 
 /// What the program feeds to the shader, for a name that someone else's program uses.
-fn attribute_by_role(file: &File<'_>, name: &str) -> Option<Text> {
+fn attribute_by_role(file: &HintContext<'_>, name: &str) -> Option<Text> {
     let lower = name.to_ascii_lowercase();
     let roles = ["normal", "position", "color", "colour", "vertex", "texcoord"];
     (name.len() == 2 || roles.iter().any(|role| lower.contains(role)) || lower == "pos").then(|| attributes(file))
 }
 
-fn attributes(file: &File<'_>) -> Text {
+fn attributes(file: &HintContext<'_>) -> Text {
     let name = |variable: &Variable| match file.anywhere(&variable.name) {
         Some(d) => (
             format!("`{}` ({}, line {})", variable.name, variable.ty, file.line(d.start)),
@@ -127,7 +127,7 @@ fn attributes(file: &File<'_>) -> Text {
 }
 
 /// What to say about a word of an older GLSL or of another language.
-pub fn from_elsewhere(file: &File<'_>, name: &str) -> Option<Text> {
+pub fn from_elsewhere(file: &HintContext<'_>, name: &str) -> Option<Text> {
     let (origin, instead) = vocabulary::foreign(name)?;
     let (en, ja) = match origin {
         Origin::OldGlsl => ("GLSL before version 1.40", "1.40 より前の古い GLSL"),

@@ -1,14 +1,14 @@
 //! Where the parser gave up, and what it stumbled over.
 
-use super::file::File;
+use super::file::HintContext;
 use super::tokens::LexemeKind;
-use super::{Entry, Finding, brackets, statement, vocabulary};
+use super::{CompilerMessage, LogEntry, brackets, statement, vocabulary};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 
 /// The index of the token at which the parser gave up at byte `offset`: it counts to the end of a token, and one
 /// further where a line ends there.
-pub fn unexpected_token(file: &File<'_>, entry: &Entry<'_>, offset: usize) -> usize {
+pub fn unexpected_token(file: &HintContext<'_>, entry: &LogEntry<'_>, offset: usize) -> usize {
     let end_of_file = entry.message.contains("unexpected end of file");
     let index = file.index_at(offset);
     if offset + 1 >= file.text.trim_end().len() && end_of_file {
@@ -20,7 +20,7 @@ pub fn unexpected_token(file: &File<'_>, entry: &Entry<'_>, offset: usize) -> us
 }
 
 /// Puts a syntax error into words.
-pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic> {
+pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option<Diagnostic> {
     if !finding.entry.is_syntax_error() {
         return None;
     }
@@ -40,7 +40,7 @@ pub fn explain(file: &File<'_>, finding: &Finding<'_, '_>) -> Option<Diagnostic>
     Some(found.unwrap_or_else(|| unexpected(file, at)))
 }
 
-fn unexpected(file: &File<'_>, at: usize) -> Diagnostic {
+fn unexpected(file: &HintContext<'_>, at: usize) -> Diagnostic {
     let text = match file.word(Some(at)) {
         "" => Text::new("The file ends too early.", "ファイルが途中で終わっています。"),
         word => Text::new(
@@ -55,7 +55,7 @@ fn unexpected(file: &File<'_>, at: usize) -> Diagnostic {
 }
 
 /// The end of the file in the middle of an expression, or a `?` without its `:`.
-fn cut_off(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+fn cut_off(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let before = at.checked_sub(1)?;
     if at == file.code.len() && matches!(file.word(Some(before)), "+" | "-" | "*" | "/" | "=" | "," | "(") {
         let text =
@@ -75,7 +75,7 @@ fn cut_off(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Signs that mean something in other languages.
-fn alien_sign(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+fn alien_sign(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let before = at.checked_sub(1);
     let (previous, sign, next) = (file.word(before), file.word(Some(at)), file.word(Some(at + 1)));
     let touches = |a: usize, b: usize| file.code.get(a).zip(file.code.get(b)).is_some_and(|(a, b)| a.end() == b.start);
@@ -134,7 +134,7 @@ fn alien_sign(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Whether an expression can end with the code token `index`.
-pub fn is_operand_end(file: &File<'_>, index: Option<usize>) -> bool {
+pub fn is_operand_end(file: &HintContext<'_>, index: Option<usize>) -> bool {
     let Some(token) = index.and_then(|index| file.code.get(index)) else { return false };
     match token.kind {
         LexemeKind::Word => !vocabulary::is_keyword(token.text) || matches!(token.text, "true" | "false"),
@@ -144,7 +144,7 @@ pub fn is_operand_end(file: &File<'_>, index: Option<usize>) -> bool {
 }
 
 /// A macro whose text ends with `;`, used where the parser gave up.
-fn macro_with_semicolon(file: &File<'_>, at: usize) -> Option<Diagnostic> {
+fn macro_with_semicolon(file: &HintContext<'_>, at: usize) -> Option<Diagnostic> {
     let line = file.line(file.code.get(at)?.start);
     let used = |line_text: &&super::tokens::Lexeme<'_>| {
         let name = super::file::macro_name(line_text.text).unwrap_or_default();
@@ -165,6 +165,6 @@ fn macro_with_semicolon(file: &File<'_>, at: usize) -> Option<Diagnostic> {
 }
 
 /// Whether the code token `at` stands inside parentheses or square brackets.
-pub fn in_brackets(file: &File<'_>, at: usize) -> bool {
+pub fn in_brackets(file: &HintContext<'_>, at: usize) -> bool {
     matches!(file.word(brackets::open_before(file, at).last().copied()), "(" | "[")
 }

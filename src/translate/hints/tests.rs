@@ -5,10 +5,10 @@ mod link;
 mod robustness;
 
 use crate::diagnostic::Diagnostic;
-use crate::ffi::glslang::{self, CompilerOutput, Request, Rules, Stage, StageText};
+use crate::ffi::glslang::{self, CompilerOutput, GlslangRequest, GlslangRules, Stage, StageText};
 use crate::translate::hints::overlooked_errors;
 use crate::translate::log::{link_diagnostics, stage_diagnostics};
-use crate::translate::{Interface, Variable};
+use crate::translate::{LinkedInterface, Variable};
 use std::ffi::CString;
 
 /// A right shader for an assignment of its own.
@@ -44,9 +44,9 @@ void main()
 ";
 
 /// The interface of that assignment: its names are those of no real one.
-pub fn interface() -> Interface {
+pub fn interface() -> LinkedInterface {
     let variable = |name: &str, ty: &str| Variable { name: name.to_owned(), ty: ty.to_owned() };
-    Interface {
+    LinkedInterface {
         inputs: vec![variable("position", "vec4"), variable("nv", "vec4")],
         uniforms: vec![variable("mv", "mat4"), variable("mvp", "mat4")],
         output: variable("colour", "vec4"),
@@ -57,10 +57,10 @@ pub fn interface() -> Interface {
     }
 }
 
-fn outcome(text: &str, interface: &Interface) -> CompilerOutput {
+fn outcome(text: &str, interface: &LinkedInterface) -> CompilerOutput {
     let vertex = CString::new(text).expect("no test has a NUL");
     let stages = [StageText::plain(Stage::Vertex, &vertex), StageText::plain(Stage::Fragment, &interface.fragment)];
-    glslang::compile(&Request { stages: &stages, rules: Rules::OpenGl, emit: Stage::Vertex })
+    glslang::compile(&GlslangRequest { stages: &stages, rules: GlslangRules::OpenGl, emit: Stage::Vertex })
 }
 
 /// Everything that is said about `text`.
@@ -75,7 +75,7 @@ fn diagnostics(text: &str) -> Vec<Diagnostic> {
 
 /// What to put in place of what in the right shader, `§` in front of the mistake; then words of the English and the
 /// Japanese wording.
-type Case = (&'static str, &'static str, &'static str, &'static str);
+type HintCase = (&'static str, &'static str, &'static str, &'static str);
 
 /// `RIGHT` with the first `from` replaced, without the mark, and the line and column of the mark.
 fn broken(from: &str, to: &str) -> (String, Option<(u32, u32)>) {
@@ -90,7 +90,7 @@ fn broken(from: &str, to: &str) -> (String, Option<(u32, u32)>) {
     (marked.replace('§', ""), place)
 }
 
-fn check(&(from, to, en, ja): &Case) {
+fn check(&(from, to, en, ja): &HintCase) {
     let (text, place) = broken(from, to);
     let all = diagnostics(&text);
     let first = all.first().unwrap_or_else(|| panic!("{to:?}: nothing is said"));

@@ -1,6 +1,6 @@
 //! SPIR-V as instructions, with what a pass over them needs: new ids, types, constants.
 
-use super::{Lines, op, sound, text};
+use super::{LineTable, op, sound, text};
 use std::collections::{BTreeMap, HashMap};
 
 const HEADER_WORDS: usize = 5;
@@ -9,7 +9,7 @@ const BOUND: usize = 3;
 
 /// One instruction.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Instruction {
+pub struct SpirvInstruction {
     pub opcode: u16,
     /// Its words without the first.
     pub operands: Vec<u32>,
@@ -17,7 +17,7 @@ pub struct Instruction {
     pub line: Option<u32>,
 }
 
-impl Instruction {
+impl SpirvInstruction {
     pub fn new(opcode: u16, operands: Vec<u32>) -> Self {
         Self { opcode, operands, line: None }
     }
@@ -43,17 +43,17 @@ impl Instruction {
 
 /// A module in SPIR-V.
 #[derive(Debug)]
-pub struct Code {
+pub struct SpirvCode {
     header: [u32; HEADER_WORDS],
     /// All that stands before the types: capabilities, entry points, names, decorations.
-    pub heads: Vec<Instruction>,
+    pub heads: Vec<SpirvInstruction>,
     /// Types, constants and global variables.
-    pub globals: Vec<Instruction>,
+    pub globals: Vec<SpirvInstruction>,
     /// The functions.
-    pub functions: Vec<Instruction>,
+    pub functions: Vec<SpirvInstruction>,
 }
 
-impl Code {
+impl SpirvCode {
     /// Reads words; `None` where they are not sound. Lines move from `OpLine` into the instructions.
     pub fn parse(words: &[u32]) -> Option<Self> {
         let header = words.get(..HEADER_WORDS)?.try_into().ok()?;
@@ -67,13 +67,13 @@ impl Code {
             match *first as u16 {
                 op::LINE => line = operands.get(1).copied(),
                 op::NO_LINE => line = None,
-                opcode => code.place(Instruction { opcode, operands, line }),
+                opcode => code.place(SpirvInstruction { opcode, operands, line }),
             }
         }
         sound::is_sound(&code).then_some(code)
     }
 
-    fn place(&mut self, mut instruction: Instruction) {
+    fn place(&mut self, mut instruction: SpirvInstruction) {
         if instruction.opcode == op::FUNCTION || !self.functions.is_empty() {
             if matches!(instruction.opcode, op::FUNCTION | op::FUNCTION_END) {
                 instruction.line = None;
@@ -89,7 +89,7 @@ impl Code {
     }
 
     /// The words, and from which line each comes.
-    pub fn encode(&self) -> (Vec<u32>, Lines) {
+    pub fn encode(&self) -> (Vec<u32>, LineTable) {
         let mut words = self.header.to_vec();
         let mut lines = BTreeMap::new();
         let mut last = None;
@@ -101,7 +101,7 @@ impl Code {
             words.push((instruction.operands.len() as u32 + 1) << 16 | u32::from(instruction.opcode));
             words.extend_from_slice(&instruction.operands);
         }
-        (words, Lines(lines))
+        (words, LineTable(lines))
     }
 
     /// Whether the entry point is one of fragments (SPIR-V specification, section 3.3).
@@ -144,19 +144,19 @@ impl Code {
         }
         let id = self.fresh();
         let operands = std::iter::once(id).chain(operands.iter().copied()).collect();
-        self.globals.push(Instruction::new(opcode, operands));
+        self.globals.push(SpirvInstruction::new(opcode, operands));
         id
     }
 
     /// The constant with these operands, made where there is none.
     pub fn constant(&mut self, opcode: u16, ty: u32, operands: &[u32]) -> u32 {
-        let is_it = |i: &&Instruction| i.opcode == opcode && i.operands[0] == ty && i.operands[2..] == *operands;
+        let is_it = |i: &&SpirvInstruction| i.opcode == opcode && i.operands[0] == ty && i.operands[2..] == *operands;
         if let Some(known) = self.globals.iter().find(is_it) {
             return known.operands[1];
         }
         let id = self.fresh();
         let operands = [ty, id].into_iter().chain(operands.iter().copied()).collect();
-        self.globals.push(Instruction::new(opcode, operands));
+        self.globals.push(SpirvInstruction::new(opcode, operands));
         id
     }
 
@@ -166,7 +166,7 @@ impl Code {
     }
 
     /// The declaration of a type or global.
-    pub fn global(&self, id: u32) -> Option<&Instruction> {
+    pub fn global(&self, id: u32) -> Option<&SpirvInstruction> {
         self.globals.iter().find(|i| {
             let at = usize::from(!(op::TYPE_VOID..=op::TYPE_FUNCTION).contains(&i.opcode));
             i.operands.get(at) == Some(&id)
@@ -176,7 +176,7 @@ impl Code {
     /// From every value to its type.
     pub fn value_types(&self) -> HashMap<u32, u32> {
         let all = self.globals.iter().chain(&self.functions);
-        all.filter_map(Instruction::result).map(|(ty, id)| (id, ty)).collect()
+        all.filter_map(SpirvInstruction::result).map(|(ty, id)| (id, ty)).collect()
     }
 
     /// From ids to the names that the source gives them.
@@ -188,15 +188,15 @@ impl Code {
     pub fn name(&mut self, target: &[u32], name: &str) {
         let opcode = if target.len() == 1 { op::NAME } else { op::MEMBER_NAME };
         // Names stand before decorations.
-        let is_decoration = |i: &Instruction| matches!(i.opcode, op::DECORATE | op::MEMBER_DECORATE);
+        let is_decoration = |i: &SpirvInstruction| matches!(i.opcode, op::DECORATE | op::MEMBER_DECORATE);
         let at = self.heads.iter().position(is_decoration).unwrap_or(self.heads.len());
-        self.heads.insert(at, Instruction::new(opcode, [target, &literal(name)].concat()));
+        self.heads.insert(at, SpirvInstruction::new(opcode, [target, &literal(name)].concat()));
     }
 
     /// Decorates `target` (an id, or an id and the number of a member).
     pub fn decorate(&mut self, target: &[u32], decoration: &[u32]) {
         let opcode = if target.len() == 1 { op::DECORATE } else { op::MEMBER_DECORATE };
-        self.heads.push(Instruction::new(opcode, [target, decoration].concat()));
+        self.heads.push(SpirvInstruction::new(opcode, [target, decoration].concat()));
     }
 
     /// Drops all decorations of `id` and its members.

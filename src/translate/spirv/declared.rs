@@ -1,14 +1,14 @@
 //! What types are, as GLSL declares them.
 
-use super::code::Code;
+use super::code::SpirvCode;
 use super::io;
 use super::op;
-use super::textures::Samplers;
+use super::textures::SamplerTypes;
 use std::collections::HashMap;
 
 /// A part of a uniform that the program sets: its path and its GLSL type.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Declared {
+pub struct DeclaredUniform {
     /// Such as `lights[1].colour`.
     pub path: String,
     /// Such as `vec3`.
@@ -19,12 +19,12 @@ pub struct Declared {
 
 /// Lists the parts of a type that are scalars, vectors and matrices.
 pub(super) fn declare(
-    code: &Code,
-    samplers: &Samplers,
+    code: &SpirvCode,
+    samplers: &SamplerTypes,
     ty: u32,
     path: String,
     is_in_block: bool,
-    found: &mut Vec<Declared>,
+    found: &mut Vec<DeclaredUniform>,
 ) {
     let Some(declared) = code.global(ty) else { return };
     match declared.opcode {
@@ -41,12 +41,16 @@ pub(super) fn declare(
                 declare(code, samplers, declared.operands[1], format!("{path}[{index}]"), is_in_block, found);
             }
         }
-        _ => found.push(Declared { path, ty: samplers.name(ty).unwrap_or_else(|| glsl_name(code, ty)), is_in_block }),
+        _ => found.push(DeclaredUniform {
+            path,
+            ty: samplers.name(ty).unwrap_or_else(|| glsl_name(code, ty)),
+            is_in_block,
+        }),
     }
 }
 
 /// The name that GLSL gives to a scalar, vector or matrix.
-fn glsl_name(code: &Code, ty: u32) -> String {
+fn glsl_name(code: &SpirvCode, ty: u32) -> String {
     let Some(declared) = code.global(ty) else { return String::new() };
     let operand = |at: usize| declared.operands.get(at).copied().unwrap_or_default();
     let prefix = |scalar: u32| match glsl_name(code, scalar).as_str() {
@@ -74,7 +78,7 @@ fn glsl_name(code: &Code, ty: u32) -> String {
 }
 
 /// What an array of arrays has in it, or the type itself where it is none.
-pub(super) fn element(code: &Code, mut ty: u32) -> u32 {
+pub(super) fn element(code: &SpirvCode, mut ty: u32) -> u32 {
     while let Some(array) = code.global(ty).filter(|declared| declared.opcode == op::TYPE_ARRAY) {
         ty = array.operands[1];
     }
@@ -82,7 +86,7 @@ pub(super) fn element(code: &Code, mut ty: u32) -> u32 {
 }
 
 /// Whether it has a size, so that a private variable can hold it.
-pub(super) fn has_size(code: &Code, ty: u32) -> bool {
+pub(super) fn has_size(code: &SpirvCode, ty: u32) -> bool {
     code.global(ty).is_some_and(|declared| match declared.opcode {
         op::TYPE_RUNTIME_ARRAY => false,
         op::TYPE_ARRAY => has_size(code, declared.operands[1]),
@@ -92,7 +96,7 @@ pub(super) fn has_size(code: &Code, ty: u32) -> bool {
 }
 
 /// Whether a block can hold it, as it is or with integers for truth values.
-pub(super) fn fits_block(code: &Code, ty: u32) -> bool {
+pub(super) fn fits_block(code: &SpirvCode, ty: u32) -> bool {
     code.global(ty).is_some_and(|declared| match declared.opcode {
         op::TYPE_BOOL | op::TYPE_INT | op::TYPE_FLOAT => true,
         op::TYPE_VECTOR | op::TYPE_MATRIX | op::TYPE_ARRAY => fits_block(code, declared.operands[1]),
@@ -102,7 +106,7 @@ pub(super) fn fits_block(code: &Code, ty: u32) -> bool {
 }
 
 /// The short name of a type that no block of the program can hold.
-pub(super) fn short_name(code: &Code, ty: u32) -> &'static str {
+pub(super) fn short_name(code: &SpirvCode, ty: u32) -> &'static str {
     match code.global(ty).map(|declared| (declared.opcode, declared.operands.get(2).copied().unwrap_or(0))) {
         Some((op::TYPE_BOOL, _)) => "bool",
         Some((op::TYPE_VECTOR, 2)) => "bvec2",

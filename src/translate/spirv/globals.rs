@@ -1,13 +1,13 @@
 //! Global variables as wgpu takes them: uniforms that are set in one block, all others private.
 
 use super::How;
-use super::code::{Code, Instruction};
-use super::declared::{Declared, declare, element, fits_block, has_size, short_name};
+use super::code::{SpirvCode, SpirvInstruction};
+use super::declared::{DeclaredUniform, declare, element, fits_block, has_size, short_name};
 use super::images;
 use super::io::{self, Io};
-use super::memory::{Memory, place_members};
+use super::memory::{MemoryTypes, place_members};
 use super::op::{self, built_in, decoration, execution_mode, storage};
-use super::textures::Samplers;
+use super::textures::SamplerTypes;
 use std::collections::HashMap;
 
 /// Name of the block of OpenGL's default-block uniforms.
@@ -27,9 +27,9 @@ pub struct Unset {
 
 /// What became of the uniforms.
 #[derive(Clone, Debug, Default)]
-pub struct Uniforms {
+pub struct UniformVariables {
     /// Those that the program sets, part by part.
-    pub declared: Vec<Declared>,
+    pub declared: Vec<DeclaredUniform>,
     /// Those that nothing sets.
     pub unset: Vec<Unset>,
 }
@@ -44,7 +44,7 @@ enum Destination {
 
 /// Reworks the global variables. `set` are the uniforms and blocks that the program sets, as a whole or in part.
 /// Where `is_split`, inputs and outputs become plain variables.
-pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uniforms, Vec<Io>) {
+pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes) -> (UniformVariables, Vec<Io>) {
     let How { set, is_split, .. } = how;
     images::plain_types(code);
     uncaught(code);
@@ -52,10 +52,10 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
     let names = code.names();
     let mut plain = draw_parameters(code);
     plain.extend(io.iter().map(|(id, _)| *id));
-    let variables: Vec<Instruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
+    let variables: Vec<SpirvInstruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
     let mut places = HashMap::new();
     let mut members = Vec::new();
-    let mut uniforms = Uniforms::default();
+    let mut uniforms = UniformVariables::default();
     let mut initials = HashMap::new();
     for variable in &variables {
         let [pointer, id, class, ..] = variable.operands[..] else { continue };
@@ -83,7 +83,7 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
             uniforms.unset.push(Unset { name, ty: if is_block { "block" } else { short_name(code, pointee) } });
         }
     }
-    let mut memory = Memory::default();
+    let mut memory = MemoryTypes::default();
     let block = (!members.is_empty()).then(|| default_block(code, &mut memory, &members));
     for variable in &variables {
         if let Some((place, pointee)) = places.get(&variable.operands[1]) {
@@ -96,7 +96,7 @@ pub(super) fn rework(code: &mut Code, how: How<'_>, samplers: &Samplers) -> (Uni
 }
 
 /// Whether the program sets a block, by its name or a member's. Whether it has an instance name is the shader's own affair.
-fn is_set_block(code: &Code, set: &[&str], ty: u32, name: &str) -> bool {
+fn is_set_block(code: &SpirvCode, set: &[&str], ty: u32, name: &str) -> bool {
     if code.global(ty).is_none_or(|declared| declared.opcode != op::TYPE_STRUCT) {
         return false;
     }
@@ -104,7 +104,7 @@ fn is_set_block(code: &Code, set: &[&str], ty: u32, name: &str) -> bool {
 }
 
 /// Takes away what says which outputs transform feedback catches: the program catches none.
-fn uncaught(code: &mut Code) {
+fn uncaught(code: &mut SpirvCode) {
     use decoration::{OFFSET, XFB_BUFFER, XFB_STRIDE};
     code.heads.retain(|head| {
         !matches!(
@@ -118,7 +118,7 @@ fn uncaught(code: &mut Code) {
 
 /// The variables of `gl_BaseVertex`, `gl_BaseInstance` and `gl_DrawID`, zero in a plain draw; renames
 /// OpenGL's built-ins to those that naga knows.
-fn draw_parameters(code: &mut Code) -> Vec<u32> {
+fn draw_parameters(code: &mut SpirvCode) -> Vec<u32> {
     let mut found = Vec::new();
     let is_fragment = code.is_fragment();
     for instruction in code.heads.iter_mut().filter(|i| i.opcode == op::DECORATE) {
@@ -151,18 +151,18 @@ fn draw_parameters(code: &mut Code) -> Vec<u32> {
 }
 
 /// `near`, `far` and `diff` as they are where a program sets nothing: 0, 1, 1.
-fn depth_range(code: &mut Code, ty: u32) -> u32 {
+fn depth_range(code: &mut SpirvCode, ty: u32) -> u32 {
     let float = code.ty(op::TYPE_FLOAT, &[32]);
     let [near, far] = [0.0f32, 1.0].map(|depth| code.constant(op::CONSTANT, float, &[depth.to_bits()]));
     code.constant(op::CONSTANT_COMPOSITE, ty, &[near, far, far])
 }
 
-pub(super) fn pointee(code: &Code, pointer: u32) -> Option<u32> {
+pub(super) fn pointee(code: &SpirvCode, pointer: u32) -> Option<u32> {
     code.global(pointer).filter(|i| i.opcode == op::TYPE_POINTER).and_then(|i| i.operands.get(2).copied())
 }
 
 /// Declares the block and its variable; gives the variable.
-fn default_block(code: &mut Code, memory: &mut Memory, members: &[(String, u32)]) -> u32 {
+fn default_block(code: &mut SpirvCode, memory: &mut MemoryTypes, members: &[(String, u32)]) -> u32 {
     let (block, variable) = (code.fresh(), code.fresh());
     code.name(&[block], DEFAULT_BLOCK);
     code.decorate(&[block], &[decoration::BLOCK]);
@@ -174,14 +174,14 @@ fn default_block(code: &mut Code, memory: &mut Memory, members: &[(String, u32)]
     let own: Vec<u32> = members.iter().map(|member| memory.of(code, member.1)).collect();
     place_members(code, block, &own);
     let types = std::iter::once(block).chain(own).collect();
-    code.globals.push(Instruction::new(op::TYPE_STRUCT, types));
+    code.globals.push(SpirvInstruction::new(op::TYPE_STRUCT, types));
     let pointer = code.ty(op::TYPE_POINTER, &[storage::UNIFORM, block]);
-    code.globals.push(Instruction::new(op::VARIABLE, vec![pointer, variable, storage::UNIFORM]));
+    code.globals.push(SpirvInstruction::new(op::VARIABLE, vec![pointer, variable, storage::UNIFORM]));
     variable
 }
 
 /// Takes away a variable that becomes a member, and declares one that becomes private anew.
-fn replace(code: &mut Code, variable: &Instruction, place: &Destination, pointee: u32, initial: Option<u32>) {
+fn replace(code: &mut SpirvCode, variable: &SpirvInstruction, place: &Destination, pointee: u32, initial: Option<u32>) {
     let id = variable.operands[1];
     code.undecorate(id);
     code.globals.retain(|i| i.opcode != op::VARIABLE || i.operands[1] != id);
@@ -193,11 +193,11 @@ fn replace(code: &mut Code, variable: &Instruction, place: &Destination, pointee
     }
     let initial = initial.unwrap_or_else(|| code.null(pointee));
     let pointer = code.ty(op::TYPE_POINTER, &[storage::PRIVATE, pointee]);
-    code.globals.push(Instruction::new(op::VARIABLE, vec![pointer, id, storage::PRIVATE, initial]));
+    code.globals.push(SpirvInstruction::new(op::VARIABLE, vec![pointer, id, storage::PRIVATE, initial]));
 }
 
 /// Leads every use of the variables, and of pointers into them, to their new places.
-fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Destination, u32)>, block: Option<u32>) {
+fn uses(code: &mut SpirvCode, memory: &MemoryTypes, places: &HashMap<u32, (Destination, u32)>, block: Option<u32>) {
     let mut classes: HashMap<u32, u32> = HashMap::new();
     for (id, (place, _)) in places {
         classes.insert(*id, if matches!(place, Destination::Private) { storage::PRIVATE } else { storage::UNIFORM });
@@ -232,7 +232,7 @@ fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Destination, u3
             if instruction.opcode == op::LOAD {
                 let pointer = code.ty(op::TYPE_POINTER, &[class, own(*pointee)]);
                 let member = code.fresh();
-                let mut chain = Instruction::new(op::ACCESS_CHAIN, vec![pointer, member, block, number]);
+                let mut chain = SpirvInstruction::new(op::ACCESS_CHAIN, vec![pointer, member, block, number]);
                 chain.line = instruction.line;
                 out.push(chain);
                 instruction.operands[at] = member;
@@ -257,9 +257,9 @@ fn uses(code: &mut Code, memory: &Memory, places: &HashMap<u32, (Destination, u3
 
 /// A sampler in the block, handed to a function by a pointer: a variable of its own takes its place.
 fn hand_over(
-    code: &mut Code,
-    out: &mut Vec<Instruction>,
-    call: &mut Instruction,
+    code: &mut SpirvCode,
+    out: &mut Vec<SpirvInstruction>,
+    call: &mut SpirvInstruction,
     classes: &HashMap<u32, u32>,
     places: &HashMap<u32, (Destination, u32)>,
     block: Option<u32>,
@@ -275,19 +275,19 @@ fn hand_over(
             let (number, ty) = (index(code, *number), code.ty(op::TYPE_POINTER, &[storage::UNIFORM, uint]));
             pointer = code.fresh();
             let operands = vec![ty, pointer, block, number];
-            out.push(Instruction { opcode: op::ACCESS_CHAIN, operands, line: call.line });
+            out.push(SpirvInstruction { opcode: op::ACCESS_CHAIN, operands, line: call.line });
         }
         let (loaded, variable) = (code.fresh(), code.fresh());
         let ty = code.ty(op::TYPE_POINTER, &[storage::PRIVATE, uint]);
         let null = code.null(uint);
-        code.globals.push(Instruction::new(op::VARIABLE, vec![ty, variable, storage::PRIVATE, null]));
-        out.push(Instruction { opcode: op::LOAD, operands: vec![uint, loaded, pointer], line: call.line });
-        out.push(Instruction { opcode: op::STORE, operands: vec![variable, loaded], line: call.line });
+        code.globals.push(SpirvInstruction::new(op::VARIABLE, vec![ty, variable, storage::PRIVATE, null]));
+        out.push(SpirvInstruction { opcode: op::LOAD, operands: vec![uint, loaded, pointer], line: call.line });
+        out.push(SpirvInstruction { opcode: op::STORE, operands: vec![variable, loaded], line: call.line });
         call.operands[at] = variable;
     }
 }
 
-fn index(code: &mut Code, number: u32) -> u32 {
+fn index(code: &mut SpirvCode, number: u32) -> u32 {
     let int = code.ty(op::TYPE_INT, &[32, 1]);
     code.constant(op::CONSTANT, int, &[number])
 }

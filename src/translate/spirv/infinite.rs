@@ -3,12 +3,12 @@
 //! Such a constant is made from its bits at the start of each function instead, under its own id, so that the functions
 //! stay as they are. (An id that has a value in each function is no valid SPIR-V, but naga reads function by function.)
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::op::{self, storage};
 use std::collections::HashMap;
 
 /// Takes the constants out of the globals.
-pub(super) fn rework(code: &mut Code) {
+pub(super) fn rework(code: &mut SpirvCode) {
     let mut scalars = HashMap::new();
     for constant in code.globals.iter().filter(|i| i.opcode == op::CONSTANT) {
         if let Some(kind) = kind(code, constant) {
@@ -40,7 +40,7 @@ pub(super) fn rework(code: &mut Code) {
             _ => code.globals.push(global),
         }
     }
-    let start: Vec<Instruction> =
+    let start: Vec<SpirvInstruction> =
         start.into_iter().flat_map(|(ty, id, parts)| written(code, ty, id, parts, scalars.get(&id))).collect();
     let first = stores(&stored);
     insert(code, &start, &made, &first);
@@ -54,7 +54,7 @@ struct NonFinite {
     is_double: bool,
 }
 
-fn kind(code: &Code, constant: &Instruction) -> Option<NonFinite> {
+fn kind(code: &SpirvCode, constant: &SpirvInstruction) -> Option<NonFinite> {
     let float = code.global(*constant.operands.first()?).filter(|ty| ty.opcode == op::TYPE_FLOAT)?;
     let bits = match (float.operands.get(1)?, constant.operands.get(2..)?) {
         (32, &[bits]) => f32::from_bits(bits),
@@ -69,9 +69,15 @@ fn kind(code: &Code, constant: &Instruction) -> Option<NonFinite> {
 }
 
 /// The instructions that make one of them.
-fn written(code: &mut Code, ty: u32, id: u32, parts: Option<Vec<u32>>, kind: Option<&NonFinite>) -> Vec<Instruction> {
+fn written(
+    code: &mut SpirvCode,
+    ty: u32,
+    id: u32,
+    parts: Option<Vec<u32>>,
+    kind: Option<&NonFinite>,
+) -> Vec<SpirvInstruction> {
     let instruction =
-        |opcode, id: u32, ty: u32, operands: &[u32]| Instruction::new(opcode, [&[ty, id], operands].concat());
+        |opcode, id: u32, ty: u32, operands: &[u32]| SpirvInstruction::new(opcode, [&[ty, id], operands].concat());
     match (parts, kind) {
         (Some(parts), _) => vec![instruction(op::COMPOSITE_CONSTRUCT, id, ty, &parts)],
         (None, Some(NonFinite { bits, is_double })) => {
@@ -87,12 +93,12 @@ fn written(code: &mut Code, ty: u32, id: u32, parts: Option<Vec<u32>>, kind: Opt
     }
 }
 
-fn stores(stored: &[(u32, u32)]) -> Vec<Instruction> {
-    stored.iter().map(|&(variable, value)| Instruction::new(op::STORE, vec![variable, value])).collect()
+fn stores(stored: &[(u32, u32)]) -> Vec<SpirvInstruction> {
+    stored.iter().map(|&(variable, value)| SpirvInstruction::new(op::STORE, vec![variable, value])).collect()
 }
 
 /// Puts `start` behind the variables of every function, and behind it, in the entry point, `first`.
-fn insert(code: &mut Code, start: &[Instruction], made: &[u32], first: &[Instruction]) {
+fn insert(code: &mut SpirvCode, start: &[SpirvInstruction], made: &[u32], first: &[SpirvInstruction]) {
     let entry = code.heads.iter().find(|i| i.opcode == op::ENTRY_POINT).and_then(|i| i.operands.get(1).copied());
     let mut is_entry = false;
     // Whether the block of the function's variables is being read, and those that begin with such a constant.
@@ -122,7 +128,7 @@ fn insert(code: &mut Code, start: &[Instruction], made: &[u32], first: &[Instruc
         let is_first_label = instruction.opcode == op::LABEL
             && out
                 .last()
-                .is_some_and(|last: &Instruction| matches!(last.opcode, op::FUNCTION | op::FUNCTION_PARAMETER));
+                .is_some_and(|last: &SpirvInstruction| matches!(last.opcode, op::FUNCTION | op::FUNCTION_PARAMETER));
         begins |= is_first_label;
         out.push(instruction);
     }

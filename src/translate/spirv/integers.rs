@@ -1,11 +1,11 @@
 //! Integer instructions that naga does not know, whose operands it wants of one sign, or whose divisor it wants not to be
 //! zero.
 
-use super::lower::Builder;
+use super::lower::InstructionBuilder;
 use super::op;
 
 /// Writes what stands for an integer instruction; `None` where it stays as it is.
-pub(super) fn lowered(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, operands: &[u32]) -> Option<()> {
+pub(super) fn lowered(b: &mut InstructionBuilder<'_>, opcode: u16, id: u32, ty: u32, operands: &[u32]) -> Option<()> {
     let &first = operands.first()?;
     let first_ty = b.type_of(first)?;
     match (opcode, operands) {
@@ -45,7 +45,7 @@ pub(super) fn lowered(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, operan
 ///
 /// GLSL leaves a division by zero undefined; here it divides by one. naga's back end sees to that for what it cannot know,
 /// and its validator refuses a zero that it can see.
-fn divided(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, [x, y]: [u32; 2]) -> Option<()> {
+fn divided(b: &mut InstructionBuilder<'_>, opcode: u16, id: u32, ty: u32, [x, y]: [u32; 2]) -> Option<()> {
     let divisor = divisor(b, y)?;
     // GLSL leaves the sign of a remainder open; drivers take that of the dividend.
     let lowered = if opcode == op::S_MOD { op::S_REM } else { opcode };
@@ -57,7 +57,7 @@ fn divided(b: &mut Builder<'_>, opcode: u16, id: u32, ty: u32, [x, y]: [u32; 2])
 }
 
 /// The divisor with ones in place of zeros, where it is a constant or may have one among its components.
-fn divisor(b: &mut Builder<'_>, id: u32) -> Option<u32> {
+fn divisor(b: &mut InstructionBuilder<'_>, id: u32) -> Option<u32> {
     let ty = b.type_of(id)?;
     let size = b.shape(ty)?.size;
     let Some(constant) = b.code.global(id).cloned() else {
@@ -79,7 +79,7 @@ fn divisor(b: &mut Builder<'_>, id: u32) -> Option<u32> {
 }
 
 /// 1 where the left is less than the right, as unsigned numbers, else 0.
-fn flag(b: &mut Builder<'_>, ty: u32, operands: [u32; 2]) -> Option<u32> {
+fn flag(b: &mut InstructionBuilder<'_>, ty: u32, operands: [u32; 2]) -> Option<u32> {
     let size = b.shape(ty)?.size;
     let bools = b.bools(size);
     let (one, zero) = (b.splat(ty, &[1]), b.splat(ty, &[0]));
@@ -88,13 +88,13 @@ fn flag(b: &mut Builder<'_>, ty: u32, operands: [u32; 2]) -> Option<u32> {
 }
 
 /// The upper 32 of the 64 bits of an unsigned product, from the products of 16-bit halves.
-fn high_word(b: &mut Builder<'_>, ty: u32, x: u32, y: u32) -> u32 {
+fn high_word(b: &mut InstructionBuilder<'_>, ty: u32, x: u32, y: u32) -> u32 {
     let sixteen = b.splat(ty, &[16]);
     let mask = b.splat(ty, &[0xffff]);
-    let low = |b: &mut Builder<'_>, word| b.op(op::BITWISE_AND, ty, &[word, mask]);
-    let high = |b: &mut Builder<'_>, word| b.op(op::SHIFT_RIGHT_LOGICAL, ty, &[word, sixteen]);
-    let product = |b: &mut Builder<'_>, x, y| b.op(op::I_MUL, ty, &[x, y]);
-    let sum = |b: &mut Builder<'_>, x, y| b.op(op::I_ADD, ty, &[x, y]);
+    let low = |b: &mut InstructionBuilder<'_>, word| b.op(op::BITWISE_AND, ty, &[word, mask]);
+    let high = |b: &mut InstructionBuilder<'_>, word| b.op(op::SHIFT_RIGHT_LOGICAL, ty, &[word, sixteen]);
+    let product = |b: &mut InstructionBuilder<'_>, x, y| b.op(op::I_MUL, ty, &[x, y]);
+    let sum = |b: &mut InstructionBuilder<'_>, x, y| b.op(op::I_ADD, ty, &[x, y]);
     let ([x0, x1], [y0, y1]) = ([low(b, x), high(b, x)], [low(b, y), high(b, y)]);
     let (p00, p01, p10, p11) = (product(b, x0, y0), product(b, x0, y1), product(b, x1, y0), product(b, x1, y1));
     // At most 3 · 0xffff, so no carry is lost.
@@ -109,13 +109,13 @@ fn high_word(b: &mut Builder<'_>, ty: u32, x: u32, y: u32) -> u32 {
 }
 
 /// The upper 32 bits of a signed product: a negative factor counts 2³² too much as an unsigned one.
-fn signed_high_word(b: &mut Builder<'_>, ty: u32, x: u32, y: u32) -> Option<u32> {
+fn signed_high_word(b: &mut InstructionBuilder<'_>, ty: u32, x: u32, y: u32) -> Option<u32> {
     let size = b.shape(ty)?.size;
     let (uints, bools) = (b.ints(size, false), b.bools(size));
     let (ux, uy) = (b.op(op::BITCAST, uints, &[x]), b.op(op::BITCAST, uints, &[y]));
     let high = high_word(b, uints, ux, uy);
     let (signed_zero, zero) = (b.splat(ty, &[0]), b.splat(uints, &[0]));
-    let excess = |b: &mut Builder<'_>, factor, other| {
+    let excess = |b: &mut InstructionBuilder<'_>, factor, other| {
         let is_negative = b.op(op::S_LESS_THAN, bools, &[factor, signed_zero]);
         b.op(op::SELECT, uints, &[is_negative, other, zero])
     };

@@ -1,14 +1,14 @@
 //! What goes into a stage and comes out of it by the student's own names: plain variables here, which the entry point
 //! fills and reads part by part, for naga takes no structure, array or matrix as an input.
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::op::{self, decoration, storage};
 use super::text;
 use std::collections::HashSet;
 
 /// How an input of the fragment stage comes from the values at the corners.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Interpolation {
+pub enum InputInterpolation {
     /// Perspective-correct.
     #[default]
     Smooth,
@@ -20,9 +20,9 @@ pub enum Interpolation {
 
 /// The qualifiers of an input or output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Qualifiers {
+pub struct InterfaceQualifiers {
     /// How it is interpolated.
-    pub interpolation: Interpolation,
+    pub interpolation: InputInterpolation,
     /// Whether it is `centroid`.
     pub centroid: bool,
     /// Whether it is `sample`.
@@ -45,16 +45,16 @@ pub struct Io {
     /// Whether it is the second colour of a blend.
     pub is_second: bool,
     /// Its qualifiers.
-    pub qualifiers: Qualifiers,
+    pub qualifiers: InterfaceQualifiers,
     /// Those of the members of a block.
-    pub members: Vec<Qualifiers>,
+    pub members: Vec<InterfaceQualifiers>,
 }
 
 /// Inputs and outputs that are to be plain variables: their ids, and what they are.
-pub(super) fn find(code: &mut Code) -> Vec<(u32, Io)> {
+pub(super) fn find(code: &mut SpirvCode) -> Vec<(u32, Io)> {
     let used: HashSet<u32> = code.functions.iter().flat_map(|i| i.operands.iter().copied()).collect();
     let names = code.names();
-    let variables: Vec<Instruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
+    let variables: Vec<SpirvInstruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
     let mut found = Vec::new();
     for variable in variables {
         let [pointer, id, class, ..] = variable.operands[..] else { continue };
@@ -91,7 +91,7 @@ pub(super) fn find(code: &mut Code) -> Vec<(u32, Io)> {
 }
 
 /// Whether the compiler's own rules say what it holds.
-fn is_built_in(code: &Code, id: u32, pointee: u32) -> bool {
+fn is_built_in(code: &SpirvCode, id: u32, pointee: u32) -> bool {
     let mut ty = pointee;
     while let Some(array) = code.global(ty).filter(|declared| declared.opcode == op::TYPE_ARRAY) {
         ty = array.operands[1];
@@ -103,28 +103,28 @@ fn is_built_in(code: &Code, id: u32, pointee: u32) -> bool {
     })
 }
 
-fn decorations(code: &Code, id: u32) -> impl Iterator<Item = &[u32]> {
+fn decorations(code: &SpirvCode, id: u32) -> impl Iterator<Item = &[u32]> {
     let own = code.heads.iter().filter(move |head| head.opcode == op::DECORATE && head.operands[0] == id);
     own.map(|head| &head.operands[1..])
 }
 
-fn member_decorations(code: &Code, ty: u32, number: u32) -> impl Iterator<Item = &[u32]> {
-    let is_own = move |head: &&Instruction| {
+fn member_decorations(code: &SpirvCode, ty: u32, number: u32) -> impl Iterator<Item = &[u32]> {
+    let is_own = move |head: &&SpirvInstruction| {
         head.opcode == op::MEMBER_DECORATE && head.operands[..2] == [ty, number] && head.operands.len() > 2
     };
     code.heads.iter().filter(is_own).map(|head| &head.operands[2..])
 }
 
-fn member_location(code: &Code, ty: u32) -> Option<u32> {
+fn member_location(code: &SpirvCode, ty: u32) -> Option<u32> {
     member_decorations(code, ty, 0).find(|own| own[0] == decoration::LOCATION).and_then(|own| own.get(1).copied())
 }
 
-fn qualifiers(decorations: impl Iterator<Item = u32>) -> Qualifiers {
-    let mut found = Qualifiers::default();
+fn qualifiers(decorations: impl Iterator<Item = u32>) -> InterfaceQualifiers {
+    let mut found = InterfaceQualifiers::default();
     for one in decorations {
         match one {
-            decoration::FLAT => found.interpolation = Interpolation::Flat,
-            decoration::NO_PERSPECTIVE => found.interpolation = Interpolation::NoPerspective,
+            decoration::FLAT => found.interpolation = InputInterpolation::Flat,
+            decoration::NO_PERSPECTIVE => found.interpolation = InputInterpolation::NoPerspective,
             decoration::CENTROID => found.centroid = true,
             decoration::SAMPLE => found.sample = true,
             _ => {}
@@ -134,7 +134,7 @@ fn qualifiers(decorations: impl Iterator<Item = u32>) -> Qualifiers {
 }
 
 /// The names of the members of a structure, by number.
-pub(super) fn member_names(code: &Code, ty: u32) -> Vec<(u32, String)> {
+pub(super) fn member_names(code: &SpirvCode, ty: u32) -> Vec<(u32, String)> {
     let own = code.heads.iter().filter(|head| head.opcode == op::MEMBER_NAME && head.operands[0] == ty);
     own.map(|head| (head.operands[1], text(&head.operands[2..]))).collect()
 }

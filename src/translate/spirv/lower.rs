@@ -1,21 +1,24 @@
 //! Instructions that naga's front end does not know, or takes for something else, in terms of ones it knows.
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::{images, integers, op, op::glsl, packing};
 use std::collections::HashMap;
 
 /// Lowers the functions of `code`.
-pub(super) fn lower(code: &mut Code) {
+pub(super) fn lower(code: &mut SpirvCode) {
     // A vertex shader here shares no memory with anybody.
     code.functions.retain(|instruction| !matches!(instruction.opcode, op::IMAGE_WRITE | op::MEMORY_BARRIER));
     rewrite(code, lowered);
 }
 
 /// Replaces the instructions of all functions for which `replaced` writes others.
-pub(super) fn rewrite(code: &mut Code, replaced: impl Fn(&mut Builder<'_>, &Instruction) -> Option<()>) {
+pub(super) fn rewrite(
+    code: &mut SpirvCode,
+    replaced: impl Fn(&mut InstructionBuilder<'_>, &SpirvInstruction) -> Option<()>,
+) {
     let (types, set) = (code.value_types(), code.glsl());
     let functions = std::mem::take(&mut code.functions);
-    let mut builder = Builder { code, types, out: Vec::with_capacity(functions.len()), line: None, set };
+    let mut builder = InstructionBuilder { code, types, out: Vec::with_capacity(functions.len()), line: None, set };
     for instruction in functions {
         builder.line = instruction.line;
         if replaced(&mut builder, &instruction).is_none() {
@@ -40,16 +43,16 @@ pub(super) struct NumberType {
 }
 
 /// Writes instructions in place of one.
-pub(super) struct Builder<'a> {
-    pub code: &'a mut Code,
+pub(super) struct InstructionBuilder<'a> {
+    pub code: &'a mut SpirvCode,
     types: HashMap<u32, u32>,
-    out: Vec<Instruction>,
+    out: Vec<SpirvInstruction>,
     line: Option<u32>,
     /// The id of `GLSL.std.450`.
     set: u32,
 }
 
-impl Builder<'_> {
+impl InstructionBuilder<'_> {
     /// The type of a value.
     pub fn type_of(&self, id: u32) -> Option<u32> {
         self.types.get(&id).copied()
@@ -115,7 +118,7 @@ impl Builder<'_> {
 
     /// Appends an instruction.
     pub fn push(&mut self, opcode: u16, operands: Vec<u32>) {
-        self.out.push(Instruction { opcode, operands, line: self.line });
+        self.out.push(SpirvInstruction { opcode, operands, line: self.line });
     }
 
     /// Appends an extended instruction of GLSL with a new result.
@@ -125,7 +128,7 @@ impl Builder<'_> {
 }
 
 /// Writes what stands for `instruction`; `None` where it stays as it is.
-fn lowered(b: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
+fn lowered(b: &mut InstructionBuilder<'_>, instruction: &SpirvInstruction) -> Option<()> {
     let (ty, id) = instruction.result()?;
     let operands = &instruction.operands[2..];
     match (instruction.opcode, operands) {
@@ -143,7 +146,7 @@ fn lowered(b: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
     }
 }
 
-fn outer_product(b: &mut Builder<'_>, id: u32, ty: u32, column: u32, row: u32) -> Option<()> {
+fn outer_product(b: &mut InstructionBuilder<'_>, id: u32, ty: u32, column: u32, row: u32) -> Option<()> {
     let column_ty = b.type_of(column)?;
     let NumberType { scalar, size, .. } = b.shape(b.type_of(row)?)?;
     let columns: Vec<u32> = (0..size)
@@ -157,7 +160,7 @@ fn outer_product(b: &mut Builder<'_>, id: u32, ty: u32, column: u32, row: u32) -
 }
 
 /// The extended instructions that naga has for vectors only, writes through pointers, or gets wrong.
-fn extended(b: &mut Builder<'_>, id: u32, ty: u32, number: u32, arguments: &[u32]) -> Option<()> {
+fn extended(b: &mut InstructionBuilder<'_>, id: u32, ty: u32, number: u32, arguments: &[u32]) -> Option<()> {
     let argument_ty = b.type_of(*arguments.first()?)?;
     let is_scalar = b.shape(argument_ty).is_some_and(|shape| shape.size == 1);
     match (number, arguments) {
@@ -238,7 +241,7 @@ fn extended(b: &mut Builder<'_>, id: u32, ty: u32, number: u32, arguments: &[u32
 
 /// `refract` of scalars (GLSL 4.10, section 8.5): k = 1 − η²(1 − (N·I)²); 0 where k < 0, else
 /// ηI − (ηN·I + √k)N.
-fn refract(b: &mut Builder<'_>, id: u32, ty: u32, [incident, n, eta]: [u32; 3]) {
+fn refract(b: &mut InstructionBuilder<'_>, id: u32, ty: u32, [incident, n, eta]: [u32; 3]) {
     let one = b.float(ty, 1.0);
     let zero = b.float(ty, 0.0);
     let dot = b.op(op::F_MUL, ty, &[n, incident]);
@@ -259,7 +262,7 @@ fn refract(b: &mut Builder<'_>, id: u32, ty: u32, [incident, n, eta]: [u32; 3]) 
 }
 
 /// Significand in [0.5, 1) and exponent of x by the bits of a 32-bit float; both 0 for 0.
-fn frexp(b: &mut Builder<'_>, ty: u32, x: u32, exponent_ty: u32) -> Option<(u32, u32)> {
+fn frexp(b: &mut InstructionBuilder<'_>, ty: u32, x: u32, exponent_ty: u32) -> Option<(u32, u32)> {
     let shape = b.shape(ty).filter(|shape| shape.width == 32)?;
     let uints = b.ints(shape.size, false);
     let bools = b.bools(shape.size);

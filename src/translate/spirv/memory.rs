@@ -2,7 +2,7 @@
 //!
 //! A block holds no `bool`, so a type with one has another type in memory, and what is loaded is converted.
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::op::{self, decoration};
 use std::collections::HashMap;
 
@@ -11,11 +11,11 @@ const UNIFORM_ALIGNMENT: u32 = 16;
 
 /// The types in memory of the types of values.
 #[derive(Debug, Default)]
-pub(super) struct Memory(HashMap<u32, u32>);
+pub(super) struct MemoryTypes(HashMap<u32, u32>);
 
-impl Memory {
+impl MemoryTypes {
     /// The type in memory of `ty`, with the places of its parts declared.
-    pub fn of(&mut self, code: &mut Code, ty: u32) -> u32 {
+    pub fn of(&mut self, code: &mut SpirvCode, ty: u32) -> u32 {
         if let Some(known) = self.0.get(&ty) {
             return *known;
         }
@@ -35,26 +35,26 @@ impl Memory {
         own
     }
 
-    fn array(&mut self, code: &mut Code, ty: u32, element: u32, length: u32) -> u32 {
+    fn array(&mut self, code: &mut SpirvCode, ty: u32, element: u32, length: u32) -> u32 {
         let inner = self.of(code, element);
         let own = if inner == element { ty } else { code.fresh() };
         if own != ty {
-            code.globals.push(Instruction::new(op::TYPE_ARRAY, vec![own, inner, length]));
+            code.globals.push(SpirvInstruction::new(op::TYPE_ARRAY, vec![own, inner, length]));
         }
         let stride = stride(code, inner);
         code.decorate(&[own], &[decoration::ARRAY_STRIDE, stride]);
         own
     }
 
-    fn structure(&mut self, code: &mut Code, ty: u32, members: &[u32]) -> u32 {
+    fn structure(&mut self, code: &mut SpirvCode, ty: u32, members: &[u32]) -> u32 {
         let inner: Vec<u32> = members.iter().map(|&member| self.of(code, member)).collect();
         let own = if inner == members { ty } else { code.fresh() };
         if own != ty {
-            code.globals.push(Instruction::new(op::TYPE_STRUCT, [&[own], &inner[..]].concat()));
+            code.globals.push(SpirvInstruction::new(op::TYPE_STRUCT, [&[own], &inner[..]].concat()));
             let named = code.heads.iter().filter(|head| head.opcode == op::MEMBER_NAME && head.operands[0] == ty);
             let names: Vec<_> = named.map(|head| [&[own], &head.operands[1..]].concat()).collect();
             let at = code.heads.iter().position(|head| head.opcode == op::MEMBER_NAME).unwrap_or(0);
-            let names = names.into_iter().map(|operands| Instruction::new(op::MEMBER_NAME, operands));
+            let names = names.into_iter().map(|operands| SpirvInstruction::new(op::MEMBER_NAME, operands));
             code.heads.splice(at..at, names);
         }
         place_members(code, own, &inner);
@@ -69,8 +69,8 @@ impl Memory {
     /// Writes the value `id` of type `ty` that `loaded`, of its type in memory, stands for.
     pub fn value(
         &self,
-        code: &mut Code,
-        out: &mut Vec<Instruction>,
+        code: &mut SpirvCode,
+        out: &mut Vec<SpirvInstruction>,
         line: Option<u32>,
         (ty, id): (u32, u32),
         loaded: u32,
@@ -85,7 +85,7 @@ impl Memory {
             op::TYPE_STRUCT => declared.operands[1..].to_vec(),
             _ => {
                 let zero = code.null(own);
-                out.push(Instruction { opcode: op::I_NOT_EQUAL, operands: vec![ty, id, loaded, zero], line });
+                out.push(SpirvInstruction { opcode: op::I_NOT_EQUAL, operands: vec![ty, id, loaded, zero], line });
                 return;
             }
         };
@@ -94,19 +94,23 @@ impl Memory {
             let inner = self.known(part);
             let extracted = code.fresh();
             let operands = vec![inner, extracted, loaded, at];
-            out.push(Instruction { opcode: op::COMPOSITE_EXTRACT, operands, line });
+            out.push(SpirvInstruction { opcode: op::COMPOSITE_EXTRACT, operands, line });
             let value = if inner == part { extracted } else { code.fresh() };
             if inner != part {
                 self.value(code, out, line, (part, value), extracted);
             }
             values.push(value);
         }
-        out.push(Instruction { opcode: op::COMPOSITE_CONSTRUCT, operands: [&[ty, id], &values[..]].concat(), line });
+        out.push(SpirvInstruction {
+            opcode: op::COMPOSITE_CONSTRUCT,
+            operands: [&[ty, id], &values[..]].concat(),
+            line,
+        });
     }
 }
 
 /// Says where the members of a structure lie in a block.
-pub(super) fn place_members(code: &mut Code, structure: u32, members: &[u32]) {
+pub(super) fn place_members(code: &mut SpirvCode, structure: u32, members: &[u32]) {
     let mut offset = 0;
     for (number, &ty) in (0..).zip(members) {
         let Layout { size, alignment, column } = layout(code, ty);
@@ -127,7 +131,7 @@ struct Layout {
     column: Option<u32>,
 }
 
-fn layout(code: &Code, ty: u32) -> Layout {
+fn layout(code: &SpirvCode, ty: u32) -> Layout {
     let scalar = Layout { size: 4, alignment: 4, column: None };
     let Some(declared) = code.global(ty) else { return scalar };
     let operand = |at: usize| declared.operands.get(at).copied().unwrap_or_default();
@@ -164,7 +168,7 @@ fn layout(code: &Code, ty: u32) -> Layout {
 }
 
 /// Bytes from one element of an array of `element` to the next.
-fn stride(code: &Code, element: u32) -> u32 {
+fn stride(code: &SpirvCode, element: u32) -> u32 {
     let Layout { size, alignment, .. } = layout(code, element);
     size.next_multiple_of(alignment.max(UNIFORM_ALIGNMENT))
 }

@@ -1,11 +1,11 @@
 //! Packing that Mesa's Vulkan driver folds wrongly where the operands are constants, in plain arithmetic.
 
-use super::lower::Builder;
+use super::lower::InstructionBuilder;
 use super::op::{self, glsl};
 
 /// `packSnorm4x8` and `packSnorm2x16` (GLSL 4.20, section 8.4): round(clamp(c, −1, 1) · (2ⁿ⁻¹ − 1)), the first
 /// component lowest.
-pub(super) fn pack_signed(b: &mut Builder<'_>, id: u32, ty: u32, argument: u32) -> Option<()> {
+pub(super) fn pack_signed(b: &mut InstructionBuilder<'_>, id: u32, ty: u32, argument: u32) -> Option<()> {
     let argument_ty = b.type_of(argument)?;
     let size = b.shape(argument_ty)?.size;
     let width = 32 / size;
@@ -32,7 +32,7 @@ pub(super) fn pack_signed(b: &mut Builder<'_>, id: u32, ty: u32, argument: u32) 
 }
 
 /// `unpackHalf2x16` (GLSL 4.20, section 8.4), the component in the lower half first.
-pub(super) fn unpack_half(b: &mut Builder<'_>, id: u32, ty: u32, argument: u32) -> Option<()> {
+pub(super) fn unpack_half(b: &mut InstructionBuilder<'_>, id: u32, ty: u32, argument: u32) -> Option<()> {
     let uint = b.type_of(argument)?;
     let float = b.shape(ty)?.scalar;
     let sixteen = b.splat(uint, &[16]);
@@ -43,9 +43,9 @@ pub(super) fn unpack_half(b: &mut Builder<'_>, id: u32, ty: u32, argument: u32) 
 }
 
 /// The half-precision number in the lower 16 bits: sign, 5 bits of exponent with bias 15, 10 of fraction.
-fn half(b: &mut Builder<'_>, float: u32, uint: u32, word: u32) -> u32 {
+fn half(b: &mut InstructionBuilder<'_>, float: u32, uint: u32, word: u32) -> u32 {
     let bool = b.bools(1);
-    let constant = |b: &mut Builder<'_>, bits| b.splat(uint, &[bits]);
+    let constant = |b: &mut InstructionBuilder<'_>, bits| b.splat(uint, &[bits]);
     let magnitude_bits = constant(b, 0x7fff);
     let magnitude = b.op(op::BITWISE_AND, uint, &[word, magnitude_bits]);
     let thirteen = constant(b, 13);

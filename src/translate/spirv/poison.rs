@@ -1,7 +1,7 @@
 //! Makes visible what depends on an undefined result.
 
-use super::code::{Code, Instruction};
-use super::lower::{Builder, NumberType, rewrite};
+use super::code::{SpirvCode, SpirvInstruction};
+use super::lower::{InstructionBuilder, NumberType, rewrite};
 use super::{op, op::glsl};
 
 /// A base below this is negative; what rounding makes of 0 is not.
@@ -10,11 +10,11 @@ pub(in crate::translate) const NEGATIVE: f32 = -1e-5;
 const POISON: f64 = 12_345.678;
 
 /// Has `pow` give [`POISON`] wherever its base is negative.
-pub(super) fn poison(code: &mut Code) {
+pub(super) fn poison(code: &mut SpirvCode) {
     rewrite(code, poisoned);
 }
 
-fn poisoned(builder: &mut Builder<'_>, instruction: &Instruction) -> Option<()> {
+fn poisoned(builder: &mut InstructionBuilder<'_>, instruction: &SpirvInstruction) -> Option<()> {
     let [ty, id, set, glsl::POW, base, exponent] = instruction.operands[..] else { return None };
     if instruction.opcode != op::EXT_INST {
         return None;

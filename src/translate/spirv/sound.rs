@@ -1,7 +1,7 @@
 //! Whether words are what a compiler writes, as far as the passes rely on it: they read a file's words without asking
 //! at each whether the compiler, which the file may have upset, was right.
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::op;
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ const MAX_BOUND: u32 = 4_194_303;
 
 /// Whether every instruction has the operands that its opcode needs, types and constants consist of what stands
 /// before them, and numbers have sizes that GLSL knows.
-pub(super) fn is_sound(code: &Code) -> bool {
+pub(super) fn is_sound(code: &SpirvCode) -> bool {
     let all = || code.heads.iter().chain(&code.globals).chain(&code.functions);
     code.bound() <= MAX_BOUND && all().all(|i| i.operands.len() >= fewest_operands(i.opcode)) && are_globals_sound(code)
 }
@@ -56,7 +56,7 @@ fn fewest_operands(opcode: u16) -> usize {
     }
 }
 
-fn are_globals_sound(code: &Code) -> bool {
+fn are_globals_sound(code: &SpirvCode) -> bool {
     let mut known: HashSet<u32> = HashSet::new();
     code.globals.iter().all(|global| {
         let (id, parts) = match (global.opcode, &global.operands[..]) {
@@ -73,7 +73,7 @@ fn are_globals_sound(code: &Code) -> bool {
     })
 }
 
-fn has_a_size(ty: &Instruction) -> bool {
+fn has_a_size(ty: &SpirvInstruction) -> bool {
     match ty.opcode {
         op::TYPE_INT | op::TYPE_FLOAT => matches!(ty.operands[1], 8 | 16 | 32 | 64),
         op::TYPE_VECTOR | op::TYPE_MATRIX => (2..=4).contains(&ty.operands[2]),

@@ -1,6 +1,6 @@
 //! `switch` without falling through: naga's front end takes a case only where it ends by itself.
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::{Unworkable, op};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -11,7 +11,7 @@ const MAX_WORDS: usize = 1 << 20;
 
 /// Gives every case that runs into the next a copy of that one, and takes the labels that share a block with `default`
 /// out of their `switch`.
-pub(super) fn separate_cases(code: &mut Code) -> Result<(), Unworkable> {
+pub(super) fn separate_cases(code: &mut SpirvCode) -> Result<(), Unworkable> {
     // An inner switch stands behind its outer one, so that its cases are whole before they are copied.
     let mut before = code.functions.len();
     while let Some(at) = code.functions[..before].iter().rposition(|i| i.opcode == op::SWITCH) {
@@ -22,12 +22,12 @@ pub(super) fn separate_cases(code: &mut Code) -> Result<(), Unworkable> {
 }
 
 /// A case: the label that it begins with, and its blocks.
-struct Case {
+struct CaseBlocks {
     label: u32,
     blocks: Range<usize>,
 }
 
-fn separate(code: &mut Code, at: usize) -> Result<(), Unworkable> {
+fn separate(code: &mut SpirvCode, at: usize) -> Result<(), Unworkable> {
     let switch = code.functions[at].operands.clone();
     let line = code.functions[at].line;
     let default = *switch.get(1).ok_or(Unworkable::Damaged)?;
@@ -37,7 +37,7 @@ fn separate(code: &mut Code, at: usize) -> Result<(), Unworkable> {
     let merge = *merge.and_then(|merge| merge.operands.first()).ok_or(Unworkable::Damaged)?;
     let cases = cases(&code.functions, at, &switch, merge).ok_or(Unworkable::Damaged)?;
     // What a case runs into is whole by then.
-    let mut whole: HashMap<u32, Vec<Instruction>> = HashMap::new();
+    let mut whole: HashMap<u32, Vec<SpirvInstruction>> = HashMap::new();
     for index in in_order(&code.functions, &cases) {
         let case = &cases[index];
         let mut blocks = Vec::new();
@@ -62,14 +62,15 @@ fn separate(code: &mut Code, at: usize) -> Result<(), Unworkable> {
         }
     }
     let (Some(first), Some(last)) = (cases.first(), cases.last()) else { return Ok(()) };
-    let all: Vec<Instruction> = cases.iter().filter_map(|case| whole.get(&case.label)).flatten().cloned().collect();
+    let all: Vec<SpirvInstruction> =
+        cases.iter().filter_map(|case| whole.get(&case.label)).flatten().cloned().collect();
     code.functions.splice(first.blocks.start..last.blocks.end, all);
     Ok(())
 }
 
 /// The numbers of the cases, each behind the one that it runs into, if it does: in the order of the blocks, `default` stands
 /// before all others, wherever it stands in the text.
-fn in_order(functions: &[Instruction], cases: &[Case]) -> Vec<usize> {
+fn in_order(functions: &[SpirvInstruction], cases: &[CaseBlocks]) -> Vec<usize> {
     let numbers: HashMap<u32, usize> = cases.iter().enumerate().map(|(number, case)| (case.label, number)).collect();
     let next = |number: usize| {
         let branches = functions[cases[number].blocks.clone()].iter().filter(|i| i.opcode == op::BRANCH);
@@ -91,10 +92,10 @@ fn in_order(functions: &[Instruction], cases: &[Case]) -> Vec<usize> {
 }
 
 /// The cases of the switch at `at` in the order of their blocks.
-fn cases(functions: &[Instruction], at: usize, switch: &[u32], merge: u32) -> Option<Vec<Case>> {
+fn cases(functions: &[SpirvInstruction], at: usize, switch: &[u32], merge: u32) -> Option<Vec<CaseBlocks>> {
     let targets: HashSet<u32> =
         std::iter::once(switch[1]).chain(switch[2..].chunks_exact(2).map(|pair| pair[1])).collect();
-    let mut cases: Vec<Case> = Vec::new();
+    let mut cases: Vec<CaseBlocks> = Vec::new();
     for (position, instruction) in functions.iter().enumerate().skip(at + 1) {
         let label = match instruction.opcode {
             op::LABEL => instruction.operands[0],
@@ -108,14 +109,14 @@ fn cases(functions: &[Instruction], at: usize, switch: &[u32], merge: u32) -> Op
             return Some(cases);
         }
         if targets.contains(&label) {
-            cases.push(Case { label, blocks: position..position });
+            cases.push(CaseBlocks { label, blocks: position..position });
         }
     }
     None
 }
 
 /// A copy of blocks in which everything that they define has a new id.
-fn copied(code: &mut Code, blocks: &[Instruction]) -> Vec<Instruction> {
+fn copied(code: &mut SpirvCode, blocks: &[SpirvInstruction]) -> Vec<SpirvInstruction> {
     let mut new = HashMap::new();
     for instruction in blocks {
         let defined = match instruction.opcode {
@@ -126,7 +127,7 @@ fn copied(code: &mut Code, blocks: &[Instruction]) -> Vec<Instruction> {
             new.insert(id, code.fresh());
         }
     }
-    let renamed = |instruction: &Instruction| {
+    let renamed = |instruction: &SpirvInstruction| {
         let mut instruction = instruction.clone();
         let opcode = instruction.opcode;
         for (at, operand) in instruction.operands.iter_mut().enumerate() {

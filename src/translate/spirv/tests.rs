@@ -1,8 +1,8 @@
 //! What the compiler writes for small shaders, before and after.
 
-use super::code::{Code, Instruction};
+use super::code::{SpirvCode, SpirvInstruction};
 use super::{How, Reworked, Unworkable, op, op::storage, rework};
-use crate::ffi::glslang::{self, Reached, Request, Rules, Stage, StageText};
+use crate::ffi::glslang::{self, GlslangRequest, GlslangRules, Reached, Stage, StageText};
 use std::collections::HashSet;
 use std::ffi::CString;
 
@@ -14,33 +14,34 @@ fn words(globals: &str, body: &str) -> Vec<u32> {
     );
     let text = CString::new(text).expect("no NUL");
     let stages = [StageText::plain(Stage::Vertex, &text)];
-    let outcome = glslang::compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Vertex });
+    let outcome =
+        glslang::compile(&GlslangRequest { stages: &stages, rules: GlslangRules::SpirV, emit: Stage::Vertex });
     assert_eq!(outcome.reached, Reached::Done, "{}{}", outcome.log(Stage::Vertex), outcome.link_log);
     outcome.spirv
 }
 
 /// The reworked shader, which naga must take and find valid.
-fn reworked(globals: &str, body: &str) -> (Code, Reworked) {
+fn reworked(globals: &str, body: &str) -> (SpirvCode, Reworked) {
     let done = rework(&words(globals, body), How { set: &["m"], ..How::default() }).expect("whole words");
     let options = naga::front::spv::Options { adjust_coordinate_space: false, ..Default::default() };
     let module = naga::front::spv::Frontend::new(done.words.iter().copied(), &options).parse().expect("naga takes it");
     use naga::valid::{Capabilities, ValidationFlags, Validator};
     Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).expect("naga finds it valid");
-    (Code::parse(&done.words).expect("whole words"), done)
+    (SpirvCode::parse(&done.words).expect("whole words"), done)
 }
 
-fn count(code: &Code, opcode: u16) -> usize {
+fn count(code: &SpirvCode, opcode: u16) -> usize {
     code.functions.iter().filter(|instruction| instruction.opcode == opcode).count()
 }
 
 #[test]
 fn code_comes_out_as_it_went_in() {
     let first = words("float f(float x) { return x * 2.0; }", "c.x = f(a.x);");
-    let code = Code::parse(&first).expect("whole words");
+    let code = SpirvCode::parse(&first).expect("whole words");
     let (again, lines) = code.encode();
     // Only the lines have moved: into the table.
     assert!(!again.windows(4).any(|w| w[0] == 4 << 16 | u32::from(op::LINE)));
-    assert_eq!(Code::parse(&again).expect("whole words").encode().0, again);
+    assert_eq!(SpirvCode::parse(&again).expect("whole words").encode().0, again);
     let store = again.iter().rposition(|&word| word == 3 << 16 | u32::from(op::STORE)).expect("a store");
     // The statement of the body stands on line 7 of the text.
     let at = store as u32 * 4;
@@ -61,7 +62,7 @@ fn every_id_is_defined_once() {
                 case 2: for (int i = 0; i < 3; i++) { if (i == k) continue; k++; } default: k--; } c.x = float(k);";
     let (code, _) = reworked("", body);
     let mut seen = HashSet::new();
-    for (_, id) in code.functions.iter().filter_map(Instruction::result) {
+    for (_, id) in code.functions.iter().filter_map(SpirvInstruction::result) {
         assert!(seen.insert(id), "%{id} is defined twice");
     }
     // The loop stands in the case itself and in the copies for the two cases before it.
@@ -72,7 +73,7 @@ fn every_id_is_defined_once() {
 fn a_case_that_ends_is_not_copied() {
     let body = "switch (int(a.x)) { case 0: c.x = 1.0; break; case 1: case 2: c.y = 1.0; break; default: c.z = 1.0; }";
     let (code, _) = reworked("", body);
-    let before = Code::parse(&words("", body)).expect("whole words");
+    let before = SpirvCode::parse(&words("", body)).expect("whole words");
     assert_eq!(count(&code, op::LABEL), count(&before, op::LABEL));
 }
 

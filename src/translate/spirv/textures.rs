@@ -8,11 +8,11 @@ mod description;
 mod image;
 mod library;
 
-use super::code::{Code, Instruction};
-use super::lower::{Builder, rewrite};
+use super::code::{SpirvCode, SpirvInstruction};
+use super::lower::{InstructionBuilder, rewrite};
 use super::op::{self};
-pub use description::{Alike, DESCRIPTION, descriptions};
-pub use image::Samplers;
+pub use description::{CommonTexture, DESCRIPTION, descriptions};
+pub use image::SamplerTypes;
 use image::{ImageType, Texel};
 use library::splice;
 use std::collections::HashMap;
@@ -24,8 +24,13 @@ pub const OURS: &str = "@ours";
 pub const TEXTURES: (u32, u32) = (1, 1);
 
 /// Replaces the lookups; gives whether there are any. `alike`: what all textures have in common, where they do.
-pub(super) fn lower(code: &mut Code, samplers: &Samplers, is_fragment: bool, alike: Option<Alike>) -> bool {
-    let is_lookup = |i: &Instruction| (op::IMAGE_SAMPLE_FIRST..=op::IMAGE_LAST).contains(&i.opcode);
+pub(super) fn lower(
+    code: &mut SpirvCode,
+    samplers: &SamplerTypes,
+    is_fragment: bool,
+    alike: Option<CommonTexture>,
+) -> bool {
+    let is_lookup = |i: &SpirvInstruction| (op::IMAGE_SAMPLE_FIRST..=op::IMAGE_LAST).contains(&i.opcode);
     if samplers.0.is_empty() || !code.functions.iter().any(is_lookup) {
         return false;
     }
@@ -38,8 +43,8 @@ pub(super) fn lower(code: &mut Code, samplers: &Samplers, is_fragment: bool, ali
 }
 
 struct LookUp<'a, 'b> {
-    b: &'a mut Builder<'b>,
-    samplers: &'a Samplers,
+    b: &'a mut InstructionBuilder<'b>,
+    samplers: &'a SamplerTypes,
     /// By name: the id, and the type of the result.
     functions: &'a HashMap<String, (u32, u32)>,
 }
@@ -79,7 +84,7 @@ impl Operands {
 }
 
 impl LookUp<'_, '_> {
-    fn lowered(&mut self, instruction: &Instruction) -> Option<()> {
+    fn lowered(&mut self, instruction: &SpirvInstruction) -> Option<()> {
         if !(op::IMAGE_SAMPLE_FIRST..=op::IMAGE_LAST).contains(&instruction.opcode) {
             return None;
         }

@@ -5,18 +5,18 @@ use super::op;
 const HEADER_WORDS: usize = 5;
 
 /// One instruction: its opcode and its words, the first included.
-pub(in crate::translate) struct Instruction<'a> {
+pub(in crate::translate) struct RawInstruction<'a> {
     pub opcode: u16,
     pub words: &'a [u32],
 }
 
 /// The instructions behind the header.
-pub(in crate::translate) fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction<'_>> {
+pub(in crate::translate) fn instructions(words: &[u32]) -> impl Iterator<Item = RawInstruction<'_>> {
     let mut at = HEADER_WORDS;
     std::iter::from_fn(move || {
         let first = *words.get(at)?;
         let length = ((first >> 16) as usize).max(1);
-        let instruction = Instruction { opcode: first as u16, words: words.get(at..at + length)? };
+        let instruction = RawInstruction { opcode: first as u16, words: words.get(at..at + length)? };
         at += length;
         Some(instruction)
     })

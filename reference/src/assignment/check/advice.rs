@@ -1,7 +1,7 @@
 //! What is said of right answers that would break elsewhere.
 
-use super::Checked;
-use super::solution::Solution;
+use super::CheckResult;
+use super::solution::CheckedSolution;
 use crate::advice::{Advice, Circumstance};
 use crate::assignment::{Constant, Interface, both, error};
 use crate::equation::Reads;
@@ -12,8 +12,8 @@ pub(super) fn advice(
     entry: manifest::Advice,
     interface: &Interface,
     constants: &[Constant],
-    solution: &Solution<'_>,
-) -> Checked<Advice> {
+    solution: &CheckedSolution<'_>,
+) -> CheckResult<Advice> {
     let place = format!("advice `{}`", entry.id);
     for definition in &entry.about {
         solution.definition(definition, &|| place.clone())?;
@@ -50,7 +50,7 @@ pub(super) fn advice(
         };
         value.map(|value| (name.clone(), value)).ok_or_else(wrong)
     };
-    let constants = changed.into_iter().map(value).collect::<Checked<Vec<_>>>()?;
+    let constants = changed.into_iter().map(value).collect::<CheckResult<Vec<_>>>()?;
     if scaled.is_empty() && stretched.is_none() && constants.is_empty() {
         return Err(error(
             place,

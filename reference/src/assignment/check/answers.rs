@@ -1,6 +1,6 @@
 //! What is right must be a number in every picture: what GLSL leaves undefined is another thing on another machine.
 
-use super::{Checked, solution};
+use super::{CheckResult, solution};
 use crate::Assignment;
 use crate::assignment::{MANIFEST, both, error};
 use crate::equation::Reads;
@@ -14,7 +14,7 @@ const VERTICES: usize = 100_000;
 /// Pictures are looked at in a window with sides of a fraction of theirs.
 const FRACTION: u32 = 8;
 
-pub(super) fn are_defined(assignment: &Assignment) -> Checked<()> {
+pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
     let interface = &assignment.interface;
     let mut known: HashSet<&str> = HashSet::new();
     known.extend(interface.uniforms.iter().map(|uniform| uniform.path.as_str()));

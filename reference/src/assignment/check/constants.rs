@@ -1,6 +1,6 @@
 //! What the handed-out files define, as the solution does.
 
-use super::Checked;
+use super::CheckResult;
 use super::solution::{place, refused};
 use crate::Value;
 use crate::assignment::{Constant, HandedIn, both, error};
@@ -11,19 +11,19 @@ use crate::manifest;
 type Defined = Vec<(Cell, Vec<f64>)>;
 
 /// The constants with the values that they have in the solution, which are those of the handed-out file.
-pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::Constant>) -> Checked<Vec<Constant>> {
+pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::Constant>) -> CheckResult<Vec<Constant>> {
     let names: Vec<&str> = entries.iter().map(|constant| constant.name.as_str()).collect();
     if names.is_empty() {
         return Ok(Vec::new());
     }
-    let defined = |file: &HandedIn, name: &str, text: &str| -> Checked<Defined> {
+    let defined = |file: &HandedIn, name: &str, text: &str| -> CheckResult<Defined> {
         Draft::constants(text, file.stage.into(), &names).map_err(|refusal| refused(name, &refusal))
     };
     let in_file = |file: &HandedIn| {
         let HandedIn { solution, starter_name, starter, .. } = file;
         Ok((defined(file, &solution.name, &solution.text)?, defined(file, starter_name, starter)?))
     };
-    let all = files.iter().map(in_file).collect::<Checked<Vec<(Defined, Defined)>>>()?;
+    let all = files.iter().map(in_file).collect::<CheckResult<Vec<(Defined, Defined)>>>()?;
     let constant = |entry: manifest::Constant| {
         let manifest::Constant { name, means, line } = entry;
         let is_it = |(cell, _): &&(Cell, Vec<f64>)| cell.name == name;

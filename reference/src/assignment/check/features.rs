@@ -1,15 +1,15 @@
 //! The feature that each line of the rubric judges.
 
-use super::Checked;
-use super::solution::Solution;
+use super::CheckResult;
+use super::solution::CheckedSolution;
 use super::variants::Variants;
 use crate::feature::Feature;
 use crate::interpreter::Scalar;
 use crate::manifest::Manifest;
-use crate::mistake::{Form, Override};
+use crate::mistake::{DefinitionOverride, MistakeForm};
 
 /// For each line of the rubric the solution with 0 for the definition that it judges, where that is a part of what is seen.
-pub(super) fn terms(m: &Manifest, solution: &mut Solution<'_>) -> Checked<Vec<Option<Form>>> {
+pub(super) fn terms(m: &Manifest, solution: &mut CheckedSolution<'_>) -> CheckResult<Vec<Option<MistakeForm>>> {
     m.rubric.iter().map(|line| term(solution, &line.judges)).collect()
 }
 
@@ -17,10 +17,10 @@ pub(super) fn terms(m: &Manifest, solution: &mut Solution<'_>) -> Checked<Vec<Op
 /// at which probes a definition can be judged.
 pub(super) fn features(
     m: &Manifest,
-    terms: &[Option<Form>],
+    terms: &[Option<MistakeForm>],
     variants: &Variants<'_>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Vec<Option<Feature>>> {
+) -> CheckResult<Vec<Option<Feature>>> {
     let mut features = Vec::new();
     for (line, term) in m.rubric.iter().zip(terms) {
         let place = |at: usize| format!("{}, rubric line `{}`", place_at(at), line.id);
@@ -34,7 +34,7 @@ pub(super) fn features(
 }
 
 /// The equation with a definition that is 0; none where the definition is all that is seen, or no number.
-fn term(solution: &mut Solution<'_>, name: &str) -> Checked<Option<Form>> {
+fn term(solution: &mut CheckedSolution<'_>, name: &str) -> CheckResult<Option<MistakeForm>> {
     let definition = solution.definition(name, &String::new)?;
     let is_all = definition == solution.colour()? || solution.is_position(name);
     let kind = solution.kind(definition);
@@ -43,5 +43,5 @@ fn term(solution: &mut Solution<'_>, name: &str) -> Checked<Option<Form>> {
     }
     let text = format!("{kind}(0.0)");
     let (formula, _) = solution.replacement(definition, &text, None, &String::new)?;
-    Ok(Some(Form { overrides: vec![Override { definition, text, formula }], free: false }))
+    Ok(Some(MistakeForm { overrides: vec![DefinitionOverride { definition, text, formula }], free: false }))
 }

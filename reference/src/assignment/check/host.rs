@@ -1,9 +1,9 @@
 //! Programs that are handed in instead of shaders: they are read as shaders before anything else.
 
-use super::{Checked, solution};
+use super::{CheckResult, solution};
 use crate::AssignmentError;
 use crate::assignment::{HandedIn, HostProgram, MANIFEST, Solution, both, error};
-use crate::host::{HostArray, Notice, Unreadable};
+use crate::host::{HostArray, Notice, UnreadableProgram};
 use crate::manifest::{self, Stage};
 
 /// The solution as a shader, and how what is handed in becomes one, where the file is a program.
@@ -11,8 +11,8 @@ pub(super) fn program(
     file: &manifest::File,
     files: usize,
     written: Solution,
-    read: &dyn Fn(&str) -> Checked<String>,
-) -> Checked<(Solution, Option<HostProgram>)> {
+    read: &dyn Fn(&str) -> CheckResult<String>,
+) -> CheckResult<(Solution, Option<HostProgram>)> {
     let Some(entry) = &file.array else { return Ok((written, None)) };
     if file.stage != Stage::Vertex || files > 1 {
         let message = both(
@@ -27,7 +27,7 @@ pub(super) fn program(
     array.notices = entry.notice.iter().map(notice).collect();
     let array = array.with_shader(&read(&entry.shader)?).map_err(|what| error(&entry.shader, what))?;
     let as_shader = |name: &str, text: &str| {
-        let wrong = |what: Unreadable| error(solution::place(name, what.line.unwrap_or_default()), what.message);
+        let wrong = |what: UnreadableProgram| error(solution::place(name, what.line.unwrap_or_default()), what.message);
         array.read(text).map(|listing| listing.shader).map_err(wrong)
     };
     let starter = as_shader(&file.starter, &read(&file.starter)?)?;
@@ -42,7 +42,7 @@ fn notice(entry: &manifest::Notice) -> Notice {
 
 /// Whether a program is judged by definitions of its shader: only then it is known which uniforms its numbers stand for.
 /// `why`: why the solution is no list of definitions, where it is none.
-pub(super) fn is_known(files: &[HandedIn], why: Option<&AssignmentError>) -> Checked<()> {
+pub(super) fn is_known(files: &[HandedIn], why: Option<&AssignmentError>) -> CheckResult<()> {
     let file = files.iter().find(|file| file.program.is_some());
     let (Some(_), Some(why)) = (file, why) else { return Ok(()) };
     let message = both(

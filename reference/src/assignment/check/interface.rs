@@ -3,17 +3,17 @@
 mod samplers;
 mod values;
 
-use super::Checked;
+use super::CheckResult;
 use super::scene::expression;
-use super::solution::{self, Solution};
+use super::solution::{self, CheckedSolution};
 use super::stages::{Compiled, Stages};
 use crate::Text;
 use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, both, error};
 use crate::feed::{Feed, Role, Stream};
 use crate::free::Free;
-use crate::interpreter::{Stage, Texture, Type, Variable};
+use crate::interpreter::{ProgramVariable, Stage, Texture, Type};
 use crate::manifest::{self, Manifest};
-use samplers::Samplers;
+use samplers::FolderSamplers;
 
 /// More uniforms, each part counted, than this are refused.
 const MOST_UNIFORMS: usize = 4_096;
@@ -23,10 +23,10 @@ pub(super) fn interface(
     m: &Manifest,
     textures: &[Texture],
     stages: &Stages,
-    solution: &Solution<'_>,
+    solution: &CheckedSolution<'_>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Interface> {
-    let samplers = Samplers { entries: &m.texture, textures, place_at };
+) -> CheckResult<Interface> {
+    let samplers = FolderSamplers { entries: &m.texture, textures, place_at };
     let reader = InterfaceReader { programs: &stages.0, samplers, place_at };
     let mut uniforms = Vec::new();
     for entry in &m.uniform {
@@ -42,7 +42,7 @@ pub(super) fn interface(
         ));
     }
     reader.samplers.are_all_fed(&stages.0, &uniforms)?;
-    let inputs = m.input.iter().map(|entry| reader.input(entry)).collect::<Checked<Vec<_>>>()?;
+    let inputs = m.input.iter().map(|entry| reader.input(entry)).collect::<CheckResult<Vec<_>>>()?;
     for (index, input) in inputs.iter().enumerate() {
         if inputs[..index].iter().any(|other| other.name == input.name) {
             return Err(error(
@@ -85,8 +85,8 @@ pub(super) fn free(
     textures: &[Texture],
     stages: &Stages,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Vec<Free>> {
-    let samplers = Samplers { entries: &m.texture, textures, place_at };
+) -> CheckResult<Vec<Free>> {
+    let samplers = FolderSamplers { entries: &m.texture, textures, place_at };
     let reader = InterfaceReader { programs: &stages.0, samplers, place_at };
     let mut all: Vec<Free> = Vec::new();
     for entry in &m.free {
@@ -114,7 +114,7 @@ pub(super) fn free(
 
 struct InterfaceReader<'a> {
     programs: &'a [Compiled],
-    samplers: Samplers<'a>,
+    samplers: FolderSamplers<'a>,
     place_at: &'a dyn Fn(usize) -> String,
 }
 
@@ -143,9 +143,9 @@ impl InterfaceReader<'_> {
     }
 
     /// The uniforms that an entry speaks of, each with its type.
-    fn leaves(&self, entry: &manifest::Uniform, place: &str) -> Checked<Vec<(String, Type)>> {
+    fn leaves(&self, entry: &manifest::Uniform, place: &str) -> CheckResult<Vec<(String, Type)>> {
         let path = entry.name.get_ref();
-        let mut leaves: Vec<(&Variable, &str)> = Vec::new();
+        let mut leaves: Vec<(&ProgramVariable, &str)> = Vec::new();
         for Compiled { name, program, .. } in self.programs {
             for variable in program.uniforms().iter().filter(|variable| lies_in(&variable.name, path)) {
                 match leaves.iter().find(|(known, _)| known.name == variable.name) {
@@ -192,7 +192,7 @@ impl InterfaceReader<'_> {
         Ok(found)
     }
 
-    fn named(&self, text: &str, at: usize, place: &str) -> Checked<Type> {
+    fn named(&self, text: &str, at: usize, place: &str) -> CheckResult<Type> {
         Type::named(text).filter(|kind| *kind != Type::Void).ok_or_else(|| {
             let message = both(
                 format!("`{text}` is not a type: write one of GLSL's, such as vec3, mat4 or int"),
@@ -202,7 +202,7 @@ impl InterfaceReader<'_> {
         })
     }
 
-    fn uniforms(&self, entry: &manifest::Uniform, all: &mut Vec<Uniform>) -> Checked<()> {
+    fn uniforms(&self, entry: &manifest::Uniform, all: &mut Vec<Uniform>) -> CheckResult<()> {
         let (path, at) = (entry.name.get_ref(), entry.name.span().start);
         let place = format!("uniform `{path}`");
         let leaves = self.leaves(entry, &place)?;
@@ -226,7 +226,7 @@ impl InterfaceReader<'_> {
         Ok(())
     }
 
-    fn feed(&self, entry: &manifest::Uniform, rest: &str, leaf: &str, kind: &Type, place: &str) -> Checked<Feed> {
+    fn feed(&self, entry: &manifest::Uniform, rest: &str, leaf: &str, kind: &Type, place: &str) -> CheckResult<Feed> {
         let at = entry.name.span().start;
         if let Type::Sampler(sampler) = kind {
             let feed = self.samplers.feed(entry, rest, *sampler);
@@ -287,7 +287,7 @@ impl InterfaceReader<'_> {
         }
     }
 
-    fn input(&self, entry: &manifest::Input) -> Checked<Input> {
+    fn input(&self, entry: &manifest::Input) -> CheckResult<Input> {
         let (name, at) = (entry.name.get_ref(), entry.name.span().start);
         let place = format!("input `{name}`");
         let vertex = self.programs.iter().find(|program| program.stage == Stage::Vertex);

@@ -1,6 +1,6 @@
 //! The meshes of an assignment: each is made once, however often it is drawn.
 
-use super::Checked;
+use super::CheckResult;
 use crate::Folder;
 use crate::assignment::{AssignmentError, both, error};
 use crate::scene::{Mesh, MeshError, Shape};
@@ -25,7 +25,7 @@ impl<'a> Meshes<'a> {
     }
 
     /// The mesh that an entry describes.
-    pub fn mesh(&self, shape: &Spanned<Shape>) -> Checked<Arc<Mesh>> {
+    pub fn mesh(&self, shape: &Spanned<Shape>) -> CheckResult<Arc<Mesh>> {
         let at = shape.span().start;
         let key = match shape.get_ref() {
             Shape::File(name) => (0, name.clone()),

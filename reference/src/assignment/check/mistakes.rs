@@ -1,13 +1,13 @@
 //! The known mistakes of an assignment.
 
-use super::solution::Solution;
+use super::solution::CheckedSolution;
 use super::variants::Variants;
-use super::{Checked, known_line};
+use super::{CheckResult, known_line};
 use crate::Text;
 use crate::assignment::{Constant, both, error};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine, TermState};
-use crate::mistake::{Alternative, Condition, Form, FreeParameter, Mistake, Override};
+use crate::mistake::{Alternative, Condition, DefinitionOverride, FreeParameter, Mistake, MistakeForm};
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashSet};
 use toml::Spanned;
@@ -16,11 +16,11 @@ use toml::Spanned;
 pub(super) fn all(
     entries: Vec<manifest::Mistake>,
     rubric: &[RubricLine],
-    solution: &mut Solution<'_>,
+    solution: &mut CheckedSolution<'_>,
     constants: &[Constant],
     variants: &Variants<'_>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Vec<Mistake>> {
+) -> CheckResult<Vec<Mistake>> {
     let lines: HashSet<String> = rubric.iter().map(|line| line.id.clone()).collect();
     let mut ids = HashSet::new();
     let mut titles = [HashSet::new(), HashSet::new()];
@@ -50,7 +50,7 @@ pub(super) fn all(
 }
 
 /// What goes wrong in any homework.
-fn general(rubric: &[RubricLine], solution: &Solution<'_>) -> Checked<Vec<manifest::Mistake>> {
+fn general(rubric: &[RubricLine], solution: &CheckedSolution<'_>) -> CheckResult<Vec<manifest::Mistake>> {
     /// The file, where `keeps` speaks of kinds of lines.
     #[derive(Deserialize)]
     struct General {
@@ -71,12 +71,12 @@ fn general(rubric: &[RubricLine], solution: &Solution<'_>) -> Checked<Vec<manife
 /// A mistake whose forms fit the solution. `place_at`: where a byte of the manifest stands.
 fn mistake(
     entry: manifest::Mistake,
-    solution: &mut Solution<'_>,
+    solution: &mut CheckedSolution<'_>,
     lines: &HashSet<String>,
     constants: &[Constant],
     variants: &Variants<'_>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Mistake> {
+) -> CheckResult<Mistake> {
     let place = format!("mistake `{}`", entry.id);
     title(&entry.title, &place)?;
     for (line, fraction) in &entry.keeps {
@@ -131,7 +131,7 @@ fn mistake(
     let numbered = entry.variants.iter().enumerate();
     let variants = numbered.map(|(number, variant)| variants.program(variant, &format!("{place}, variant {number}")));
     Ok(Mistake {
-        variants: variants.collect::<Checked<_>>()?,
+        variants: variants.collect::<CheckResult<_>>()?,
         id: entry.id,
         title: entry.title,
         keeps: entry.keeps.into_iter().collect(),
@@ -145,7 +145,7 @@ fn mistake(
             .instead
             .into_iter()
             .map(|other| alternative(other, forms.len() + entry.variants.len(), &place))
-            .collect::<Checked<_>>()?,
+            .collect::<CheckResult<_>>()?,
         forms,
         seen: entry.seen,
         equation: entry.equation,
@@ -157,7 +157,7 @@ fn mistake(
 const LONGEST_TITLE: usize = 60;
 
 /// A title is one short line in each language.
-fn title(title: &Text, place: &str) -> Checked<()> {
+fn title(title: &Text, place: &str) -> CheckResult<()> {
     for wording in [&title.en, &title.ja] {
         let length = wording.chars().count();
         if wording.trim().is_empty() || length > LONGEST_TITLE || wording.contains(['\n', '{', '⟨']) {
@@ -173,7 +173,7 @@ fn title(title: &Text, place: &str) -> Checked<()> {
     Ok(())
 }
 
-fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> Checked<Alternative> {
+fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> CheckResult<Alternative> {
     let manifest::When { forms: of_forms, lacks, term } = entry.when;
     if let Some(form) = of_forms.iter().find(|form| **form >= forms) {
         return Err(error(
@@ -215,11 +215,11 @@ fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> Check
 
 fn form(
     texts: &BTreeMap<String, Spanned<String>>,
-    solution: &mut Solution<'_>,
+    solution: &mut CheckedSolution<'_>,
     free_name: Option<&str>,
     at: &dyn Fn(usize) -> String,
     place: &str,
-) -> Checked<Form> {
+) -> CheckResult<MistakeForm> {
     let mut overrides = Vec::new();
     let mut free = false;
     for (name, text) in texts {
@@ -229,7 +229,7 @@ fn form(
         let text = text.get_ref();
         let (formula, is_free) = solution.replacement(definition, text, free_name, &place)?;
         free |= is_free;
-        overrides.push(Override { definition, text: text.clone(), formula });
+        overrides.push(DefinitionOverride { definition, text: text.clone(), formula });
     }
     if overrides.is_empty() {
         return Err(error(
@@ -241,5 +241,5 @@ fn form(
         ));
     }
     overrides.sort_by_key(|o| o.definition);
-    Ok(Form { overrides, free })
+    Ok(MistakeForm { overrides, free })
 }

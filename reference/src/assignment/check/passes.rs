@@ -2,7 +2,7 @@
 
 use super::scene::expression;
 use super::stages::compiled;
-use super::{Checked, listed, textures};
+use super::{CheckResult, listed, textures};
 use crate::assignment::{AssignmentError, Interface, both, error};
 use crate::interpreter::{Stage, Texels, Texture, Type};
 use crate::manifest::{Format, Manifest};
@@ -14,9 +14,9 @@ pub(super) fn pass(
     textures: &[Texture],
     scene: &mut Scene,
     interface: &Interface,
-    read: &dyn Fn(&str) -> Checked<String>,
+    read: &dyn Fn(&str) -> CheckResult<String>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<()> {
+) -> CheckResult<()> {
     let is_depth = |texture: &&crate::manifest::Texture| texture.format.is_some_and(Format::is_depth);
     let target = m.texture.iter().find(is_depth);
     let entry = match (&m.pass[..], target) {

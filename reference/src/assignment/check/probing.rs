@@ -1,7 +1,7 @@
 //! How probes are chosen, and what a right answer shows at them.
 
-use super::solution::Solution;
-use super::{Checked, listed};
+use super::solution::CheckedSolution;
+use super::{CheckResult, listed};
 use crate::assignment::{Assignment, Attribute, Constant, Input, Stream, both, error};
 use crate::equation::{Definition, Reads};
 use crate::interpreter::Type;
@@ -11,7 +11,11 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 /// The probes whose names are known and whose ranges are ranges.
-pub(super) fn probing(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>) -> Checked<Probing> {
+pub(super) fn probing(
+    entry: &manifest::Probes,
+    constants: &[Constant],
+    solution: &CheckedSolution<'_>,
+) -> CheckResult<Probing> {
     if entry.groups == 0 || entry.per_group == 0 {
         return Err(error("probes", "there are none: `groups` and `per_group` are 1 or more"));
     }
@@ -26,7 +30,7 @@ pub(super) fn probing(entry: &manifest::Probes, constants: &[Constant], solution
     Ok(Probing { groups: entry.groups, per_group: entry.per_group, aim })
 }
 
-fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>) -> Checked<Aim> {
+fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &CheckedSolution<'_>) -> CheckResult<Aim> {
     let place = || "probes".to_owned();
     let is_power = |constant: &Constant| constant.name == entry.power && *constant.value.kind() == Type::FLOAT;
     let power = constants.iter().position(is_power);
@@ -39,12 +43,12 @@ fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &Solution<'_>
     let direction = |name: &str| solution.definition_of(name, &Type::VEC3, &place);
     let (axis, lobe) = (direction(&entry.axis)?, direction(&entry.lobe)?);
     let designs = entry.design.iter().zip(1..).map(|(entry, number)| design(entry, number, solution));
-    Ok(Aim { axis, lobe, power, designs: designs.collect::<Checked<_>>()? })
+    Ok(Aim { axis, lobe, power, designs: designs.collect::<CheckResult<_>>()? })
 }
 
-fn design(entry: &manifest::Design, number: usize, solution: &Solution<'_>) -> Checked<Design> {
+fn design(entry: &manifest::Design, number: usize, solution: &CheckedSolution<'_>) -> CheckResult<Design> {
     let place = format!("probes, design {number}");
-    let range = |range: manifest::Range, lowest: f64, highest: f64| -> Checked<RangeInclusive<f64>> {
+    let range = |range: manifest::Range, lowest: f64, highest: f64| -> CheckResult<RangeInclusive<f64>> {
         let [from, to] = range;
         let is_range = lowest <= from && from <= to && to <= highest;
         let wrong = || error(&place, format!("[{from}, {to}] is no range within [{lowest}, {highest}]"));
@@ -63,12 +67,12 @@ fn design(entry: &manifest::Design, number: usize, solution: &Solution<'_>) -> C
         angle: range(entry.angle, 0.0, 180.0)?,
         distance: range(entry.distance, 0.0, f64::MAX)?,
         normal,
-        within: within.collect::<Checked<_>>()?,
+        within: within.collect::<CheckResult<_>>()?,
     })
 }
 
 /// The lobe is what a normal is chosen by: it has to be known before.
-pub(super) fn lobe_is_known(assignment: &Assignment) -> Checked<()> {
+pub(super) fn lobe_is_known(assignment: &Assignment) -> CheckResult<()> {
     let Assignment { equation, interface, probing, .. } = assignment;
     let Some(Aim { lobe, .. }) = probing.aim else { return Ok(()) };
     let is_normal = |input: &Input| matches!(input.stream, Stream::Mesh(Attribute::Normal));
@@ -88,10 +92,10 @@ pub(super) fn lobe_is_known(assignment: &Assignment) -> Checked<()> {
 /// The regions whose conditions can be computed, and which the rubric knows.
 pub(super) fn regions(
     entries: Vec<manifest::Region>,
-    solution: &mut Solution<'_>,
+    solution: &mut CheckedSolution<'_>,
     rubric: &[RubricLine],
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Vec<Region>> {
+) -> CheckResult<Vec<Region>> {
     let mut ids = HashSet::new();
     let mut regions = Vec::new();
     for entry in entries {

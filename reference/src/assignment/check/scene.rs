@@ -1,10 +1,10 @@
 //! The scenes of an assignment.
 
-use super::Checked;
+use super::CheckResult;
 use super::meshes::Meshes;
 use crate::Folder;
 use crate::assignment::{AssignmentError, both, error};
-use crate::feed::Expression;
+use crate::feed::FeedExpression;
 use crate::interpreter::Type;
 use crate::manifest::{self, Depth, Poses};
 use crate::scene::{Draw, Mesh, Model, Point, Scene, Vertex, View};
@@ -23,7 +23,11 @@ const MOST_INSTANCES: u32 = 1_000;
 const LONGEST_SIDE: u32 = 8_192;
 
 /// All scenes as one. `place_at`: where a byte of the manifest stands.
-pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, place_at: &dyn Fn(usize) -> String) -> Checked<Scene> {
+pub(super) fn scene(
+    scenes: &manifest::Scenes,
+    folder: &Folder,
+    place_at: &dyn Fn(usize) -> String,
+) -> CheckResult<Scene> {
     let meshes = Meshes::new(folder, place_at);
     let [first, ..] = &scenes.0[..] else {
         return Err(error("scene", both("there is none: write [scene]", "ありません。[scene] を書いてください")));
@@ -56,7 +60,7 @@ pub(super) fn scene(scenes: &manifest::Scenes, folder: &Folder, place_at: &dyn F
         .0
         .iter()
         .map(|own| SceneReader { own, first, meshes: &meshes, place_at }.view())
-        .collect::<Checked<Vec<_>>>()?;
+        .collect::<CheckResult<Vec<_>>>()?;
     let scene = Scene {
         width,
         height,
@@ -121,7 +125,7 @@ struct SceneReader<'a> {
 }
 
 impl SceneReader<'_> {
-    fn get<T>(&self, key: &str, of: impl Fn(&manifest::Scene) -> Option<T>) -> Checked<T> {
+    fn get<T>(&self, key: &str, of: impl Fn(&manifest::Scene) -> Option<T>) -> CheckResult<T> {
         of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
             error(
                 "scene",
@@ -130,8 +134,8 @@ impl SceneReader<'_> {
         })
     }
 
-    fn view(&self) -> Checked<View> {
-        let point = |key, of: fn(&manifest::Scene) -> Option<&manifest::Point>| -> Checked<Point> {
+    fn view(&self) -> CheckResult<View> {
+        let point = |key, of: fn(&manifest::Scene) -> Option<&manifest::Point>| -> CheckResult<Point> {
             let point = of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
                 error(
                     "scene",
@@ -141,7 +145,7 @@ impl SceneReader<'_> {
             match point {
                 manifest::Point::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
                 manifest::Point::Expression(text) => {
-                    let expression = Expression::compile(text, &Type::vector(3));
+                    let expression = FeedExpression::compile(text, &Type::vector(3));
                     let wrong = |what: &str| {
                         let message = both(
                             format!("{what}: write three numbers, or a vec3 of `t`"),
@@ -181,7 +185,7 @@ impl SceneReader<'_> {
         Ok(view)
     }
 
-    fn draws(&self) -> Checked<Vec<Draw>> {
+    fn draws(&self) -> CheckResult<Vec<Draw>> {
         let shows = |scene: &manifest::Scene| scene.draw.is_some() || scene.mesh.is_some() || scene.triangle.is_some();
         let scene = if shows(self.own) { self.own } else { self.first };
         let said = [scene.draw.is_some(), scene.mesh.is_some(), scene.triangle.is_some()];
@@ -207,7 +211,7 @@ impl SceneReader<'_> {
             }
         }
         let draws = match (&scene.draw, &scene.mesh, &scene.triangle) {
-            (Some(draws), ..) => draws.iter().map(|draw| self.draw(draw)).collect::<Checked<Vec<_>>>()?,
+            (Some(draws), ..) => draws.iter().map(|draw| self.draw(draw)).collect::<CheckResult<Vec<_>>>()?,
             (None, Some(shape), _) => vec![self.with(self.meshes.mesh(shape)?, Some(Depth::Less))?],
             (None, None, triangle) => {
                 let triangle = triangle.unwrap_or_default();
@@ -232,7 +236,7 @@ impl SceneReader<'_> {
     }
 
     /// What a scene says of its only draw.
-    fn with(&self, mesh: Arc<Mesh>, depth: Option<Depth>) -> Checked<Draw> {
+    fn with(&self, mesh: Arc<Mesh>, depth: Option<Depth>) -> CheckResult<Draw> {
         let said = |scene: &manifest::Scene| scene.depth_test;
         let depth = said(self.own).or_else(|| said(self.first)).or(depth);
         Ok(Draw {
@@ -245,7 +249,7 @@ impl SceneReader<'_> {
         })
     }
 
-    fn draw(&self, draw: &manifest::Draw) -> Checked<Draw> {
+    fn draw(&self, draw: &manifest::Draw) -> CheckResult<Draw> {
         let like = self.with(self.meshes.mesh(&draw.mesh)?, Some(Depth::Less))?;
         Ok(Draw {
             name: draw.name.clone(),
@@ -258,7 +262,7 @@ impl SceneReader<'_> {
     }
 
     /// The nearest that says how something stands: a draw, its scene, the first scene.
-    fn model(&self, model: Option<&Spanned<String>>, turn: Option<f64>) -> Checked<Model> {
+    fn model(&self, model: Option<&Spanned<String>>, turn: Option<f64>) -> CheckResult<Model> {
         let said =
             [(model, turn), (self.own.model.as_ref(), self.own.turn), (self.first.model.as_ref(), self.first.turn)];
         match said.into_iter().find(|(model, turn)| model.is_some() || turn.is_some()) {
@@ -291,7 +295,7 @@ pub(super) fn expression(
     kind: &Type,
     place: &str,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Expression> {
+) -> CheckResult<FeedExpression> {
     let wrong = |what: &str| -> AssignmentError {
         let line = place_at(text.span().start);
         let message = both(
@@ -300,5 +304,5 @@ pub(super) fn expression(
         );
         error(format!("{line}, {place}"), message)
     };
-    Expression::compile(text.get_ref(), kind).map_err(|refusal| wrong(refusal.what()))
+    FeedExpression::compile(text.get_ref(), kind).map_err(|refusal| wrong(refusal.what()))
 }

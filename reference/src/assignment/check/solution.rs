@@ -1,9 +1,9 @@
 //! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
 
-use super::{Checked, listed};
+use super::{CheckResult, listed};
 use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
-use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, Stored, Texture, Type};
+use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, StoredOutput, Texture, Type};
 use crate::manifest::{self, Manifest};
 use crate::pipeline::Pipeline;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ const SHOWN_COLOUR: &str = "shown_colour";
 const SHOWN_POSITION: &str = "shown_position";
 
 /// The solution, as long as forms of mistakes are read beside it.
-pub(super) struct Solution<'a> {
+pub(super) struct CheckedSolution<'a> {
     /// The file that the definitions stand in; the last one where they are what the whole program shows.
     file: &'a HandedIn,
     reads: Reads,
@@ -32,9 +32,13 @@ pub(super) struct Solution<'a> {
     outputs: Vec<Output>,
 }
 
-impl<'a> Solution<'a> {
+impl<'a> CheckedSolution<'a> {
     /// Reads the solution: as a list of definitions where it is one file that is one, else as what the program shows.
-    pub(super) fn read(files: &'a [HandedIn], pipeline: &Pipeline, constants: &[manifest::Constant]) -> Checked<Self> {
+    pub(super) fn read(
+        files: &'a [HandedIn],
+        pipeline: &Pipeline,
+        constants: &[manifest::Constant],
+    ) -> CheckResult<Self> {
         let names: Vec<&str> = constants.iter().map(|constant| constant.name.as_str()).collect();
         let why = match files {
             [file] => match Self::of_definitions(file, &names) {
@@ -46,7 +50,7 @@ impl<'a> Solution<'a> {
         Self::of_outputs(files, pipeline, why)
     }
 
-    fn of_definitions(file: &'a HandedIn, constants: &[&str]) -> Checked<Self> {
+    fn of_definitions(file: &'a HandedIn, constants: &[&str]) -> CheckResult<Self> {
         let draft = Draft::read(&file.solution.text, file.stage.into(), constants);
         let draft = draft.map_err(|refusal| refused(&file.solution.name, &refusal))?;
         let first = draft.formulas().first().map(Formula::cell);
@@ -80,13 +84,13 @@ impl<'a> Solution<'a> {
             solution.output(Some(POSITION))?;
         }
         let stored = solution.draft.stored().iter().filter(|stored| stored.output != POSITION);
-        let kind = |stored: &Stored| solution.draft.cells()[stored.cell].kind.clone();
+        let kind = |stored: &StoredOutput| solution.draft.cells()[stored.cell].kind.clone();
         solution.outputs = stored.map(|stored| Output { name: stored.output.clone(), kind: kind(stored) }).collect();
         Ok(solution)
     }
 
     /// The colour and, where a vertex stage is handed in, the position are the definitions.
-    fn of_outputs(files: &'a [HandedIn], pipeline: &Pipeline, why: AssignmentError) -> Checked<Self> {
+    fn of_outputs(files: &'a [HandedIn], pipeline: &Pipeline, why: AssignmentError) -> CheckResult<Self> {
         let nothing = || error("file", both("nothing is handed in", "提出するファイルがありません"));
         let file = files.last().ok_or_else(nothing)?;
         let has = |stage| files.iter().any(|file| file.stage == stage);
@@ -136,7 +140,7 @@ impl<'a> Solution<'a> {
     }
 
     /// The place of a definition.
-    pub(super) fn definition(&self, name: &str, place: &dyn Fn() -> String) -> Checked<usize> {
+    pub(super) fn definition(&self, name: &str, place: &dyn Fn() -> String) -> CheckResult<usize> {
         let stored = self.draft.stored().iter().find(|stored| stored.output == name);
         let named = self.definitions().iter().position(|cell| cell.name == name);
         named.or_else(|| stored.map(|stored| stored.cell - self.first)).ok_or_else(|| {
@@ -161,7 +165,7 @@ impl<'a> Solution<'a> {
     }
 
     /// The place of the definition that is the colour.
-    pub(super) fn colour(&self) -> Checked<usize> {
+    pub(super) fn colour(&self) -> CheckResult<usize> {
         self.output(None)
     }
 
@@ -176,7 +180,7 @@ impl<'a> Solution<'a> {
     }
 
     /// The place of a definition of this type.
-    pub(super) fn definition_of(&self, name: &str, kind: &Type, place: &dyn Fn() -> String) -> Checked<usize> {
+    pub(super) fn definition_of(&self, name: &str, kind: &Type, place: &dyn Fn() -> String) -> CheckResult<usize> {
         let definition = self.definition(name, place)?;
         let found = &self.definitions()[definition].kind;
         let other = || error(place(), format!("`{name}` is a {found}, and has to be a {kind}"));
@@ -184,7 +188,7 @@ impl<'a> Solution<'a> {
     }
 
     /// A condition on the definitions.
-    pub(super) fn condition(&mut self, text: &str, place: &dyn Fn() -> String) -> Checked<Formula> {
+    pub(super) fn condition(&mut self, text: &str, place: &dyn Fn() -> String) -> CheckResult<Formula> {
         self.draft.condition(text).map_err(|refusal| {
             let known =
                 listed(self.draft.cells().iter().map(|cell| cell.name.as_str()).filter(|name| !name.is_empty()));
@@ -193,7 +197,7 @@ impl<'a> Solution<'a> {
     }
 
     /// A name for what is free in a mistake's forms.
-    pub(super) fn parameter(&self, name: &str, place: &str) -> Checked<()> {
+    pub(super) fn parameter(&self, name: &str, place: &str) -> CheckResult<()> {
         let taken = || {
             error(
                 place,
@@ -213,7 +217,7 @@ impl<'a> Solution<'a> {
         text: &str,
         free: Option<&str>,
         place: &dyn Fn() -> String,
-    ) -> Checked<(Formula, bool)> {
+    ) -> CheckResult<(Formula, bool)> {
         let cell = self.first + definition;
         let allowed = |solution: &Self| {
             let names = solution.draft.cells()[..cell].iter().map(|cell| cell.name.as_str());
@@ -240,7 +244,7 @@ impl<'a> Solution<'a> {
     }
 
     /// A search keeps what a definition uses in a few places.
-    fn few_enough(&self, formula: &Formula, place: &dyn Fn() -> String) -> Checked<()> {
+    fn few_enough(&self, formula: &Formula, place: &dyn Fn() -> String) -> CheckResult<()> {
         let used = formula.uses().iter().filter(|cell| **cell >= self.first);
         if used.count() > MAX_INPUTS {
             let message = format!("uses more than {MAX_INPUTS} definitions: name a part of it first");
@@ -262,7 +266,7 @@ impl<'a> Solution<'a> {
         pipeline: &Pipeline,
         constants: &[Constant],
         textures: Arc<[Texture]>,
-    ) -> Checked<Equation> {
+    ) -> CheckResult<Equation> {
         for name in m.definition.keys() {
             self.definition(name, &|| format!("definition `{name}`"))?;
         }
@@ -314,7 +318,7 @@ impl<'a> Solution<'a> {
     }
 
     /// The place of the definition that an output is given; without a name, of the only output beside the position.
-    fn output(&self, name: Option<&str>) -> Checked<usize> {
+    fn output(&self, name: Option<&str>) -> CheckResult<usize> {
         let is_it = |output: &str| name.map_or(output != POSITION, |name| output == name);
         let mut stored = self.draft.stored().iter().filter(|stored| is_it(&stored.output));
         let missing = || match name {

@@ -1,6 +1,6 @@
 //! The stages of the right program: those of the solution, and those that are fixed.
 
-use super::{Checked, solution};
+use super::{CheckResult, solution};
 use crate::accepted::AcceptedAnswer;
 use crate::assignment::{FixedStage, HandedIn, both, error};
 use crate::interpreter::{Program, Stage};
@@ -21,7 +21,7 @@ pub(super) struct Stages(pub Vec<Compiled>);
 
 impl Stages {
     /// Compiles the solution and what it is linked with.
-    pub fn of(files: &[HandedIn], fixed: &[FixedStage]) -> Checked<Self> {
+    pub fn of(files: &[HandedIn], fixed: &[FixedStage]) -> CheckResult<Self> {
         let handed_in = files.iter().map(|file| (&file.solution.name, file.stage, &file.solution.text));
         let fixed = fixed.iter().map(|fixed| (&fixed.name, fixed.stage, &fixed.text));
         let mut stages: Vec<Compiled> = Vec::new();
@@ -49,7 +49,7 @@ impl Stages {
     }
 
     /// The right program.
-    pub fn pipeline(&self) -> Checked<Pipeline> {
+    pub fn pipeline(&self) -> CheckResult<Pipeline> {
         let [vertex, fragment] = [Stage::Vertex, Stage::Fragment].map(|stage| self.get(stage));
         let linked = Pipeline::link(&vertex.program, &fragment.program, None);
         linked.map_err(|what| error(&fragment.name, format!("{what} ({})", vertex.name)))
@@ -60,8 +60,8 @@ impl Stages {
         &self,
         stage: manifest::Stage,
         entries: &[manifest::Accepted],
-        read: &dyn Fn(&str) -> Checked<String>,
-    ) -> Checked<Vec<AcceptedAnswer>> {
+        read: &dyn Fn(&str) -> CheckResult<String>,
+    ) -> CheckResult<Vec<AcceptedAnswer>> {
         let answer = |entry: &manifest::Accepted| {
             let name = entry.file();
             let own = compiled(name, stage.into(), &read(name)?)?;
@@ -76,7 +76,7 @@ impl Stages {
 
 impl Stages {
     /// The program in which some files have another text; `place`: what it is called where it does not fit.
-    pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> Checked<AcceptedAnswer> {
+    pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> CheckResult<AcceptedAnswer> {
         let mut own = Vec::new();
         for (file, text) in texts {
             let program = Program::compile(text, file.stage.into()).map_err(|refusal| {
@@ -95,7 +95,7 @@ impl Stages {
     }
 }
 
-pub(super) fn compiled(name: &str, stage: Stage, text: &str) -> Checked<Compiled> {
+pub(super) fn compiled(name: &str, stage: Stage, text: &str) -> CheckResult<Compiled> {
     let program = Program::compile(text, stage).map_err(|refusal| solution::refused(name, &refusal))?;
     Ok(Compiled { name: name.to_owned(), stage, program: Arc::new(program) })
 }

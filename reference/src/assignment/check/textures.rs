@@ -1,11 +1,11 @@
 //! The textures of an assignment.
 
-use super::{Checked, passes};
+use super::{CheckResult, passes};
 use crate::Folder;
 use crate::assignment::{AssignmentError, both, error};
 use crate::interpreter::{Compare, Depths, Filter, Texels, Texture, Wrap};
 use crate::manifest::{self, Format};
-use crate::texture::{BrokenPicture, Generator, Picture, read};
+use crate::texture::{BrokenPicture, Generator, TexturePicture, read};
 
 /// More textures than this are refused: OpenGL promises room for so many in a stage.
 const MOST_TEXTURES: usize = 16;
@@ -28,7 +28,7 @@ pub(super) fn textures(
     pictures: usize,
     folder: &Folder,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Vec<Texture>> {
+) -> CheckResult<Vec<Texture>> {
     if entries.len() > MOST_TEXTURES {
         let count = entries.len();
         return Err(error(
@@ -86,7 +86,7 @@ struct TextureReader<'a> {
 }
 
 /// The pictures of a texture, one after the other.
-struct Pictures {
+struct TexturePictures {
     /// One, or six.
     faces: usize,
     width: usize,
@@ -108,7 +108,7 @@ impl TextureReader<'_> {
     }
 
     /// The texture, of at most so many texels.
-    fn texture(&self, room: usize) -> Checked<Texture> {
+    fn texture(&self, room: usize) -> CheckResult<Texture> {
         let entry = self.entry;
         if entry.compare.is_some() {
             return Err(self.wrong(
@@ -116,7 +116,7 @@ impl TextureReader<'_> {
                 "`compare` は深度のためのものです。取り除くか、`format = \"depth24\"` と書いてください",
             ));
         }
-        let Pictures { faces, width, height, texels } = match (&entry.file, &entry.cube, &entry.generate) {
+        let TexturePictures { faces, width, height, texels } = match (&entry.file, &entry.cube, &entry.generate) {
             (Some(file), None, None) => self.files(&[file], room)?,
             (None, Some(files), None) => self.files(&files.each_ref().map(String::as_str), room)?,
             (None, None, Some(generator)) => self.generated(generator, room)?,
@@ -135,7 +135,7 @@ impl TextureReader<'_> {
     }
 
     /// Depths that a pass draws, as probes read them.
-    fn depths(&self, pictures: usize) -> Checked<Texture> {
+    fn depths(&self, pictures: usize) -> CheckResult<Texture> {
         let entry = self.entry;
         let is_picture = entry.file.is_some() || entry.cube.is_some() || entry.generate.is_some();
         if is_picture || entry.flip.is_some() || entry.srgb {
@@ -190,7 +190,7 @@ impl TextureReader<'_> {
     }
 
     /// The picture of a file, or those of six.
-    fn files(&self, names: &[&str], room: usize) -> Checked<Pictures> {
+    fn files(&self, names: &[&str], room: usize) -> CheckResult<TexturePictures> {
         let entry = self.entry;
         if entry.size.is_some() || entry.format.is_some() {
             return Err(self.wrong(
@@ -219,7 +219,7 @@ impl TextureReader<'_> {
             texels.extend(if flip { picture.flipped().texels } else { picture.texels });
         }
         let (width, height) = size.unwrap_or_default();
-        Ok(Pictures { faces: names.len(), width, height, texels: self.bytes(texels) })
+        Ok(TexturePictures { faces: names.len(), width, height, texels: self.bytes(texels) })
     }
 
     fn bytes(&self, texels: Vec<[u8; 4]>) -> Texels {
@@ -227,7 +227,7 @@ impl TextureReader<'_> {
     }
 
     /// The picture of a file, the first row first.
-    fn picture(&self, name: &str, room: usize) -> Checked<Picture<u8>> {
+    fn picture(&self, name: &str, room: usize) -> CheckResult<TexturePicture<u8>> {
         let bytes = self.folder.bytes(name);
         let bytes = bytes.map_err(|missing| AssignmentError { entry: Some(self.name()), ..missing })?;
         let picture = read(bytes, room).map_err(|broken| match broken {
@@ -247,7 +247,7 @@ impl TextureReader<'_> {
         if is_too_long { Err(self.too_large(Some(name), [picture.width, picture.height])) } else { Ok(picture) }
     }
 
-    fn generated(&self, generator: &Generator, room: usize) -> Checked<Pictures> {
+    fn generated(&self, generator: &Generator, room: usize) -> CheckResult<TexturePictures> {
         let entry = self.entry;
         if entry.flip.is_some() {
             return Err(self
@@ -283,10 +283,10 @@ impl TextureReader<'_> {
             }
             self.bytes(numbers.into_iter().map(|texel| texel.map(|number| (number * 255.0).round() as u8)).collect())
         };
-        Ok(Pictures { faces, width: size[0], height: size[1], texels })
+        Ok(TexturePictures { faces, width: size[0], height: size[1], texels })
     }
 
-    fn wrap(&self, is_cube: bool) -> Checked<[Wrap; 3]> {
+    fn wrap(&self, is_cube: bool) -> CheckResult<[Wrap; 3]> {
         let said = self.entry.wrap.map(manifest::Wraps::each);
         if is_cube && said.is_some_and(|wrap| wrap != [Wrap::ClampToEdge; 3]) {
             return Err(self.wrong(
@@ -297,7 +297,7 @@ impl TextureReader<'_> {
         Ok(said.unwrap_or(if is_cube { [Wrap::ClampToEdge; 3] } else { [Wrap::Repeat; 3] }))
     }
 
-    fn border(&self, wrap: [Wrap; 3]) -> Checked<[f64; 4]> {
+    fn border(&self, wrap: [Wrap; 3]) -> CheckResult<[f64; 4]> {
         let Some(border) = self.entry.border else { return Ok([0.0; 4]) };
         if !wrap.contains(&Wrap::ClampToBorder) {
             return Err(self.wrong(

@@ -1,6 +1,6 @@
 //! The equation as the lecture writes it.
 
-use super::{Checked, known_line};
+use super::{CheckResult, known_line};
 use crate::assignment::{both, error};
 use crate::manifest;
 use crate::typeset::{SumPart, SymbolMeaning, Term, Typeset};
@@ -13,7 +13,7 @@ pub(super) fn typeset(
     entry: manifest::Equation,
     lines: &HashSet<String>,
     place_at: &dyn Fn(usize) -> String,
-) -> Checked<Typeset> {
+) -> CheckResult<Typeset> {
     let latex = LatexToMathML::new(Default::default()).map_err(|e| error("equation", format!("{e:?}")))?;
     let formula = |text: &Spanned<String>| {
         let made = latex.convert_with_local_state(text.get_ref(), MathDisplay::Inline);
@@ -32,7 +32,7 @@ pub(super) fn typeset(
         known_line(lines, &term.line, "equation")?;
         Ok(Term { symbol: formula(&term.symbol)?, value: formula(&term.value)?, line: term.line })
     };
-    let terms: Vec<Term> = entry.term.into_iter().map(term).collect::<Checked<_>>()?;
+    let terms: Vec<Term> = entry.term.into_iter().map(term).collect::<CheckResult<_>>()?;
     let sum = match &entry.sum {
         Some(sum) => parts(sum, &terms, &formula)?,
         None => {
@@ -47,7 +47,7 @@ pub(super) fn typeset(
         total: formula(&entry.total)?,
         sum,
         terms,
-        given: entry.given.into_iter().map(given).collect::<Checked<_>>()?,
+        given: entry.given.into_iter().map(given).collect::<CheckResult<_>>()?,
         source: entry.source,
     })
 }
@@ -56,8 +56,8 @@ pub(super) fn typeset(
 fn parts(
     sum: &Spanned<String>,
     terms: &[Term],
-    formula: &dyn Fn(&Spanned<String>) -> Checked<String>,
-) -> Checked<Vec<SumPart>> {
+    formula: &dyn Fn(&Spanned<String>) -> CheckResult<String>,
+) -> CheckResult<Vec<SumPart>> {
     let (mut rest, mut start) = (sum.get_ref().as_str(), sum.span().start);
     let mut parts = Vec::new();
     loop {

@@ -1,7 +1,7 @@
 //! The solution, changed: what a rubric line's feature is told by, and what a mistake draws.
 
 use super::stages::Stages;
-use super::{Checked, listed};
+use super::{CheckResult, listed};
 use crate::accepted::AcceptedAnswer;
 use crate::assignment::{HandedIn, both, error};
 use crate::manifest;
@@ -10,12 +10,12 @@ use crate::manifest;
 pub(super) struct Variants<'a> {
     pub files: &'a [HandedIn],
     pub stages: &'a Stages,
-    pub read: &'a dyn Fn(&str) -> Checked<String>,
+    pub read: &'a dyn Fn(&str) -> CheckResult<String>,
 }
 
 impl Variants<'_> {
     /// The program of a variant; `place`: where it stands.
-    pub fn program(&self, variant: &manifest::Variant, place: &str) -> Checked<AcceptedAnswer> {
+    pub fn program(&self, variant: &manifest::Variant, place: &str) -> CheckResult<AcceptedAnswer> {
         let manifest::Variant { define, replace, file, of } = variant;
         if define.is_empty() && replace.is_empty() && file.is_none() {
             let message = both(
@@ -50,7 +50,7 @@ impl Variants<'_> {
     }
 
     /// The files that a variant may change.
-    fn meant(&self, of: Option<&str>, place: &str) -> Checked<Vec<usize>> {
+    fn meant(&self, of: Option<&str>, place: &str) -> CheckResult<Vec<usize>> {
         let all = 0..self.files.len();
         match of {
             None => Ok(all.collect()),

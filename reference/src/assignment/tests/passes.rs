@@ -5,7 +5,7 @@ use crate::assignment::{Assignment, MANIFEST};
 use crate::built_in::assignment;
 use crate::interpreter::{Program, Stage, Texels};
 use crate::pipeline::Pipeline;
-use crate::probes::Course;
+use crate::probes::EdgeDefect;
 use crate::rasteriser::Coverage;
 use crate::{Folder, feed::Feed};
 use std::sync::Arc;
@@ -128,7 +128,7 @@ fn a_mean_of_comparisons_goes_over_edges_gradually_and_one_comparison_at_once() 
         crossings.course(&shown.iter().map(|shown| shown.colour.to_array()).collect::<Vec<_>>())
     };
     assert_eq!(course(&soft.pipeline), None);
-    assert_eq!(course(&hard.pipeline), Some(Course::Abrupt));
+    assert_eq!(course(&hard.pipeline), Some(EdgeDefect::Abrupt));
     assert!(hard.crossings().is_none(), "nobody asks for them");
 }
 

@@ -1,11 +1,11 @@
 //! Functions that work component by component (GLSL 4.60, sections 8.1 to 8.3).
 
-use crate::interpreter::code::{Class, Operation, Slot};
-use crate::interpreter::compile::Builder;
+use crate::interpreter::code::{ArithmeticClass, Operation, Slot};
+use crate::interpreter::compile::CodeBuilder;
 use std::f64::consts::PI;
 
 /// Writes the function; none where it is not one of these.
-pub fn write(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+pub fn write(builder: &mut CodeBuilder, name: &str, class: ArithmeticClass, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let operation = match (name, of.len()) {
         ("sin", 1) => Operation::Sin,
         ("cos", 1) => Operation::Cos,
@@ -54,7 +54,7 @@ pub fn write(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) ->
 }
 
 /// Functions of more than one instruction.
-fn composed(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+fn composed(builder: &mut CodeBuilder, name: &str, class: ArithmeticClass, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let result = match (name, of) {
         ("radians", [a]) => {
             let factor = builder.number(class, PI / 180.0);
@@ -87,7 +87,7 @@ fn composed(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) -> 
     Some(vec![result])
 }
 
-fn mix(builder: &mut Builder, class: Class, [a, b, share]: [&[Slot]; 3]) -> Vec<Slot> {
+fn mix(builder: &mut CodeBuilder, class: ArithmeticClass, [a, b, share]: [&[Slot]; 3]) -> Vec<Slot> {
     let one = builder.number(class, 1.0);
     let rest = builder.each2(Operation::Subtract, class, &[one], share);
     let first = builder.each2(Operation::Multiply, class, a, &rest);
@@ -95,7 +95,7 @@ fn mix(builder: &mut Builder, class: Class, [a, b, share]: [&[Slot]; 3]) -> Vec<
 }
 
 /// `t² (3 − 2t)` for `t = clamp((a − low) / (high − low), 0, 1)`.
-fn smoothstep(builder: &mut Builder, class: Class, [low, high, a]: [&[Slot]; 3]) -> Vec<Slot> {
+fn smoothstep(builder: &mut CodeBuilder, class: ArithmeticClass, [low, high, a]: [&[Slot]; 3]) -> Vec<Slot> {
     let [zero, one, two, three] = [0.0, 1.0, 2.0, 3.0].map(|value| builder.number(class, value));
     let low = builder.each2(Operation::Below, class, low, high);
     let above = builder.each2(Operation::Subtract, class, a, &low);

@@ -1,19 +1,19 @@
 //! Integers, bits, comparisons of vectors and derivatives (GLSL 4.60, sections 8.3, 8.4, 8.7, 8.8, 8.14).
 
-use super::Call;
+use super::BuiltinCall;
 use crate::interpreter::Stage;
-use crate::interpreter::code::{Class, Direction, Node, Operation, Slot};
-use crate::interpreter::compile::{Builder, class};
+use crate::interpreter::code::{ArithmeticClass, DerivativeAxis, Node, Operation, Slot};
+use crate::interpreter::compile::{CodeBuilder, class};
 use crate::interpreter::types::Scalar;
 
 /// Writes the function; none where it is not one of these.
-pub fn write(builder: &mut Builder, name: &str, scalar: Scalar, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+pub fn write(builder: &mut CodeBuilder, name: &str, scalar: Scalar, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     relation(builder, name, class(scalar), of)
         .or_else(|| carry(builder, name, of))
         .or_else(|| field(builder, name, scalar, of).or_else(|| packing(builder, name, of)).map(|result| vec![result]))
 }
 
-fn relation(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+fn relation(builder: &mut CodeBuilder, name: &str, class: ArithmeticClass, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let result = match (name, of) {
         ("lessThan", [a, b]) => builder.each2(Operation::Less, class, a, b),
         ("lessThanEqual", [a, b]) => builder.each2(Operation::LessEqual, class, a, b),
@@ -33,9 +33,9 @@ fn relation(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) -> 
 }
 
 /// Functions with a second half of the result.
-fn carry(builder: &mut Builder, name: &str, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+fn carry(builder: &mut CodeBuilder, name: &str, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let [a, b] = of else { return None };
-    let (unsigned, signed) = (Class::Uint, Class::Int);
+    let (unsigned, signed) = (ArithmeticClass::Uint, ArithmeticClass::Int);
     match name {
         "uaddCarry" => {
             let sum = builder.each2(Operation::Add, unsigned, a, b);
@@ -56,7 +56,7 @@ fn carry(builder: &mut Builder, name: &str, of: &[&[Slot]]) -> Option<Vec<Vec<Sl
     }
 }
 
-fn field(builder: &mut Builder, name: &str, scalar: Scalar, of: &[&[Slot]]) -> Option<Vec<Slot>> {
+fn field(builder: &mut CodeBuilder, name: &str, scalar: Scalar, of: &[&[Slot]]) -> Option<Vec<Slot>> {
     let class = class(scalar);
     Some(match (name, of) {
         ("bitfieldExtract", [a, offset, count]) => builder.each3(Operation::BitfieldExtract, class, [a, offset, count]),
@@ -73,11 +73,11 @@ fn field(builder: &mut Builder, name: &str, scalar: Scalar, of: &[&[Slot]]) -> O
         }
         ("bitfieldReverse", [a]) => builder.each1(Operation::BitfieldReverse, class, a),
         ("bitCount", [a]) => builder.each1(Operation::BitCount, class, a),
-        ("findLSB", [a]) => builder.each1(Operation::FindLowest, Class::Int, a),
-        ("findMSB", [a]) => builder.each1(Operation::FindHighest, Class::Int, a),
-        ("floatBitsToInt", [a]) => builder.each1(Operation::FloatBits, Class::Int, a),
-        ("floatBitsToUint", [a]) => builder.each1(Operation::FloatBits, Class::Uint, a),
-        ("intBitsToFloat" | "uintBitsToFloat", [a]) => builder.each1(Operation::BitsFloat, Class::Float, a),
+        ("findLSB", [a]) => builder.each1(Operation::FindLowest, ArithmeticClass::Int, a),
+        ("findMSB", [a]) => builder.each1(Operation::FindHighest, ArithmeticClass::Int, a),
+        ("floatBitsToInt", [a]) => builder.each1(Operation::FloatBits, ArithmeticClass::Int, a),
+        ("floatBitsToUint", [a]) => builder.each1(Operation::FloatBits, ArithmeticClass::Uint, a),
+        ("intBitsToFloat" | "uintBitsToFloat", [a]) => builder.each1(Operation::BitsFloat, ArithmeticClass::Float, a),
         _ => return None,
     })
 }
@@ -93,20 +93,22 @@ fn format(name: &str) -> Option<(u32, f64, bool)> {
     })
 }
 
-fn packing(builder: &mut Builder, name: &str, of: &[&[Slot]]) -> Option<Vec<Slot>> {
+fn packing(builder: &mut CodeBuilder, name: &str, of: &[&[Slot]]) -> Option<Vec<Slot>> {
     match (name, of) {
         ("packHalf2x16", [a]) => {
-            let halves = builder.each1(Operation::HalfBits, Class::Uint, a);
+            let halves = builder.each1(Operation::HalfBits, ArithmeticClass::Uint, a);
             Some(vec![joined(builder, &halves, 16)])
         }
         ("unpackHalf2x16", [a]) => {
-            let halves = parts(builder, Class::Uint, a[0], 16);
-            Some(builder.each1(Operation::BitsHalf, Class::Float, &halves))
+            let halves = parts(builder, ArithmeticClass::Uint, a[0], 16);
+            Some(builder.each1(Operation::BitsHalf, ArithmeticClass::Float, &halves))
         }
-        ("packDouble2x32", [a]) => Some(vec![builder.emit(Operation::BitsDouble, Class::Double, &[a[0], a[1]])]),
+        ("packDouble2x32", [a]) => {
+            Some(vec![builder.emit(Operation::BitsDouble, ArithmeticClass::Double, &[a[0], a[1]])])
+        }
         ("unpackDouble2x32", [a]) => Some(vec![
-            builder.emit(Operation::DoubleLow, Class::Uint, &[a[0]]),
-            builder.emit(Operation::DoubleHigh, Class::Uint, &[a[0]]),
+            builder.emit(Operation::DoubleLow, ArithmeticClass::Uint, &[a[0]]),
+            builder.emit(Operation::DoubleHigh, ArithmeticClass::Uint, &[a[0]]),
         ]),
         (_, [a]) => match name.strip_prefix("pack") {
             Some(name) => packed(builder, format(name)?, a),
@@ -116,23 +118,23 @@ fn packing(builder: &mut Builder, name: &str, of: &[&[Slot]]) -> Option<Vec<Slot
     }
 }
 
-fn packed(builder: &mut Builder, (bits, most, signed): (u32, f64, bool), a: &[Slot]) -> Option<Vec<Slot>> {
-    let float = Class::Float;
+fn packed(builder: &mut CodeBuilder, (bits, most, signed): (u32, f64, bool), a: &[Slot]) -> Option<Vec<Slot>> {
+    let float = ArithmeticClass::Float;
     let [least, one, most] = [if signed { -1.0 } else { 0.0 }, 1.0, most].map(|value| builder.float(value));
     let a = builder.each2(Operation::Maximum, float, a, &[least]);
     let a = builder.each2(Operation::Minimum, float, &a, &[one]);
     let a = builder.each2(Operation::Multiply, float, &a, &[most]);
     let a = builder.each1(Operation::RoundEven, float, &a);
-    let a = builder.each1(Operation::Truncate, Class::Int, &a);
-    let a = builder.each1(Operation::Reinterpret, Class::Uint, &a);
+    let a = builder.each1(Operation::Truncate, ArithmeticClass::Int, &a);
+    let a = builder.each1(Operation::Reinterpret, ArithmeticClass::Uint, &a);
     let mask = builder.whole(f64::from((1_u32 << bits) - 1));
-    let a = builder.each2(Operation::BitAnd, Class::Uint, &a, &[mask]);
+    let a = builder.each2(Operation::BitAnd, ArithmeticClass::Uint, &a, &[mask]);
     Some(vec![joined(builder, &a, bits)])
 }
 
-fn unpacked(builder: &mut Builder, (bits, most, signed): (u32, f64, bool), a: Slot) -> Option<Vec<Slot>> {
-    let float = Class::Float;
-    let class = if signed { Class::Int } else { Class::Uint };
+fn unpacked(builder: &mut CodeBuilder, (bits, most, signed): (u32, f64, bool), a: Slot) -> Option<Vec<Slot>> {
+    let float = ArithmeticClass::Float;
+    let class = if signed { ArithmeticClass::Int } else { ArithmeticClass::Uint };
     let whole = parts(builder, class, a, bits);
     let [most, least] = [most, -1.0].map(|value| builder.float(value));
     let a = builder.each2(Operation::Divide, float, &whole, &[most]);
@@ -141,18 +143,18 @@ fn unpacked(builder: &mut Builder, (bits, most, signed): (u32, f64, bool), a: Sl
 }
 
 /// Fields of so many bits in one word, the first one lowest.
-fn joined(builder: &mut Builder, fields: &[Slot], bits: u32) -> Slot {
+fn joined(builder: &mut CodeBuilder, fields: &[Slot], bits: u32) -> Slot {
     let mut word = fields[0];
     for (index, &field) in fields.iter().enumerate().skip(1) {
         let distance = builder.whole(index as f64 * f64::from(bits));
-        let moved = builder.emit(Operation::ShiftLeft, Class::Uint, &[field, distance]);
-        word = builder.emit(Operation::BitOr, Class::Uint, &[word, moved]);
+        let moved = builder.emit(Operation::ShiftLeft, ArithmeticClass::Uint, &[field, distance]);
+        word = builder.emit(Operation::BitOr, ArithmeticClass::Uint, &[word, moved]);
     }
     word
 }
 
 /// The fields of a word, with their signs where the class has one.
-fn parts(builder: &mut Builder, class: Class, word: Slot, bits: u32) -> Vec<Slot> {
+fn parts(builder: &mut CodeBuilder, class: ArithmeticClass, word: Slot, bits: u32) -> Vec<Slot> {
     let part = |index: u32| {
         let (offset, count) = (builder.whole(f64::from(index * bits)), builder.whole(f64::from(bits)));
         builder.emit(Operation::BitfieldExtract, class, &[word, offset, count])
@@ -160,16 +162,16 @@ fn parts(builder: &mut Builder, class: Class, word: Slot, bits: u32) -> Vec<Slot
     (0..32 / bits).map(part).collect()
 }
 
-impl Call<'_> {
+impl BuiltinCall<'_> {
     /// Derivatives; none where it is not one of these, or not in a fragment stage.
-    pub(super) fn derivative(&self, builder: &mut Builder, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+    pub(super) fn derivative(&self, builder: &mut CodeBuilder, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
         let [a] = of else { return None };
         if self.stage != Stage::Fragment {
             return None;
         }
         let coarse = self.name.ends_with("Coarse");
         let name = self.name.trim_end_matches("Coarse").trim_end_matches("Fine");
-        let along = |builder: &mut Builder, direction: Direction| -> Vec<Slot> {
+        let along = |builder: &mut CodeBuilder, direction: DerivativeAxis| -> Vec<Slot> {
             let one = |&of: &Slot| {
                 let (to, line) = (builder.temporary(), builder.line);
                 builder.push(Node::Derivative { to, of, direction, coarse, line });
@@ -178,13 +180,13 @@ impl Call<'_> {
             a.iter().map(one).collect()
         };
         let result = match name {
-            "dFdx" => along(builder, Direction::X),
-            "dFdy" => along(builder, Direction::Y),
+            "dFdx" => along(builder, DerivativeAxis::X),
+            "dFdy" => along(builder, DerivativeAxis::Y),
             "fwidth" => {
-                let [x, y] = [Direction::X, Direction::Y].map(|direction| along(builder, direction));
-                let x = builder.each1(Operation::Abs, Class::Float, &x);
-                let y = builder.each1(Operation::Abs, Class::Float, &y);
-                builder.each2(Operation::Add, Class::Float, &x, &y)
+                let [x, y] = [DerivativeAxis::X, DerivativeAxis::Y].map(|direction| along(builder, direction));
+                let x = builder.each1(Operation::Abs, ArithmeticClass::Float, &x);
+                let y = builder.each1(Operation::Abs, ArithmeticClass::Float, &y);
+                builder.each2(Operation::Add, ArithmeticClass::Float, &x, &y)
             }
             _ => return None,
         };

@@ -1,12 +1,12 @@
 //! Vectors and matrices (GLSL 4.60, sections 8.5 and 8.6).
 
-use super::Call;
-use crate::interpreter::code::{Class, Operation, Slot};
-use crate::interpreter::compile::Builder;
+use super::BuiltinCall;
+use crate::interpreter::code::{ArithmeticClass, Operation, Slot};
+use crate::interpreter::compile::CodeBuilder;
 use crate::interpreter::types::Type;
 
 /// Writes the function; none where it is not one of these.
-pub fn write(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
+pub fn write(builder: &mut CodeBuilder, name: &str, class: ArithmeticClass, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let result = match (name, of) {
         ("dot", [a, b]) => vec![builder.dot(class, a, b)],
         ("length", [a]) => vec![length(builder, class, a)],
@@ -40,9 +40,9 @@ pub fn write(builder: &mut Builder, name: &str, class: Class, of: &[&[Slot]]) ->
     Some(vec![result])
 }
 
-impl Builder {
+impl CodeBuilder {
     /// The sum of products.
-    pub fn dot(&mut self, class: Class, a: &[Slot], b: &[Slot]) -> Slot {
+    pub fn dot(&mut self, class: ArithmeticClass, a: &[Slot], b: &[Slot]) -> Slot {
         let mut sum = self.emit(Operation::Multiply, class, &[a[0], b[0]]);
         for (&a, &b) in a.iter().zip(b).skip(1) {
             sum = self.emit(Operation::MultiplyAdd, class, &[a, b, sum]);
@@ -51,7 +51,7 @@ impl Builder {
     }
 }
 
-fn length(builder: &mut Builder, class: Class, a: &[Slot]) -> Slot {
+fn length(builder: &mut CodeBuilder, class: ArithmeticClass, a: &[Slot]) -> Slot {
     if let [only] = *a {
         return builder.emit(Operation::Abs, class, &[only]);
     }
@@ -59,7 +59,7 @@ fn length(builder: &mut Builder, class: Class, a: &[Slot]) -> Slot {
     builder.emit(Operation::SquareRoot, class, &[square])
 }
 
-fn cross(builder: &mut Builder, class: Class, a: &[Slot], b: &[Slot]) -> Vec<Slot> {
+fn cross(builder: &mut CodeBuilder, class: ArithmeticClass, a: &[Slot], b: &[Slot]) -> Vec<Slot> {
     let component = |(i, j): (usize, usize)| {
         let first = builder.emit(Operation::Multiply, class, &[a[i], b[j]]);
         let second = builder.emit(Operation::Multiply, class, &[a[j], b[i]]);
@@ -69,7 +69,13 @@ fn cross(builder: &mut Builder, class: Class, a: &[Slot], b: &[Slot]) -> Vec<Slo
 }
 
 /// `k = 1 − ratio² (1 − (N·I)²)`; 0 where that is negative, else `ratio I − (ratio N·I + √k) N`.
-fn refract(builder: &mut Builder, class: Class, incident: &[Slot], normal: &[Slot], ratio: Slot) -> Vec<Slot> {
+fn refract(
+    builder: &mut CodeBuilder,
+    class: ArithmeticClass,
+    incident: &[Slot],
+    normal: &[Slot],
+    ratio: Slot,
+) -> Vec<Slot> {
     let (zero, one) = (builder.number(class, 0.0), builder.number(class, 1.0));
     let dot = builder.dot(class, normal, incident);
     let square = builder.emit(Operation::Multiply, class, &[dot, dot]);
@@ -87,9 +93,9 @@ fn refract(builder: &mut Builder, class: Class, incident: &[Slot], normal: &[Slo
     builder.each3(Operation::Select, class, [&[is_reflected], &[zero], &refracted])
 }
 
-impl Call<'_> {
+impl BuiltinCall<'_> {
     /// Functions of matrices; none where it is not one of these.
-    pub(super) fn matrix(&self, builder: &mut Builder, class: Class) -> Option<Vec<Vec<Slot>>> {
+    pub(super) fn matrix(&self, builder: &mut CodeBuilder, class: ArithmeticClass) -> Option<Vec<Vec<Slot>>> {
         let first = self.arguments.first()?;
         let shape = match &first.kind {
             Type::Matrix(_, columns, rows) => Some((usize::from(*columns), usize::from(*rows))),
@@ -116,7 +122,14 @@ impl Call<'_> {
 }
 
 /// The determinant of these columns and rows, along the first of them.
-fn minor(builder: &mut Builder, class: Class, of: &[Slot], side: usize, columns: &[usize], rows: &[usize]) -> Slot {
+fn minor(
+    builder: &mut CodeBuilder,
+    class: ArithmeticClass,
+    of: &[Slot],
+    side: usize,
+    columns: &[usize],
+    rows: &[usize],
+) -> Slot {
     let (Some((&column, columns)), false) = (columns.split_first(), rows.is_empty()) else {
         return builder.number(class, 1.0);
     };
@@ -140,7 +153,7 @@ fn minor(builder: &mut Builder, class: Class, of: &[Slot], side: usize, columns:
 }
 
 /// The adjugate over the determinant.
-fn inverse(builder: &mut Builder, class: Class, of: &[Slot], side: usize) -> Vec<Slot> {
+fn inverse(builder: &mut CodeBuilder, class: ArithmeticClass, of: &[Slot], side: usize) -> Vec<Slot> {
     let all: Vec<usize> = (0..side).collect();
     let without = |one: usize| all.iter().copied().filter(|&other| other != one).collect::<Vec<_>>();
     let mut cofactors = Vec::with_capacity(side * side);

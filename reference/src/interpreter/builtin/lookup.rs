@@ -1,10 +1,10 @@
 //! Texture functions (GLSL 4.60, section 8.9): their names say what they take.
 
-use super::Call;
+use super::BuiltinCall;
 use crate::interpreter::Stage;
-use crate::interpreter::code::{Class, Node, Operation, Slot};
-use crate::interpreter::compile::{Builder, Direction, Signature};
-use crate::interpreter::texture::{Mode, Query};
+use crate::interpreter::code::{ArithmeticClass, Node, Operation, Slot};
+use crate::interpreter::compile::{CodeBuilder, ParameterDirection, Signature};
+use crate::interpreter::texture::{LookupMode, Query};
 use crate::interpreter::types::{Dimension, Sampler, Scalar, Type};
 use std::collections::HashMap;
 
@@ -30,7 +30,7 @@ const NAMES: [&str; 18] = [
 ];
 
 /// What a function's name says.
-struct Form {
+struct LookupForm {
     projected: bool,
     level: bool,
     gradient: bool,
@@ -39,7 +39,7 @@ struct Form {
     gather: bool,
 }
 
-impl Form {
+impl LookupForm {
     fn of(name: &str) -> Self {
         Self {
             projected: name.contains("Proj"),
@@ -94,14 +94,14 @@ pub fn signatures(table: &mut HashMap<&'static str, Vec<Signature>>) {
 
 /// The ways in which a function takes a sampler.
 fn of_sampler(name: &str, sampler: Sampler) -> Vec<Signature> {
-    let form = Form::of(name);
+    let form = LookupForm::of(name);
     let (is_cube, is_rectangle) = (sampler.dimension == Dimension::Cube, sampler.dimension == Dimension::Rectangle);
     let float = |count: u8| Type::Vector(Scalar::Float, count);
     let int = |count: u8| Type::Vector(Scalar::Int, count);
     let texel = if sampler.shadow && !form.gather { Type::FLOAT } else { Type::Vector(sampler.texel, 4) };
     let signature = |result: Type, parameters: Vec<Type>| {
         let parameters = std::iter::once(Type::Sampler(sampler)).chain(parameters);
-        Signature { result, parameters: parameters.map(|kind| (Direction::In, kind)).collect() }
+        Signature { result, parameters: parameters.map(|kind| (ParameterDirection::In, kind)).collect() }
     };
     match name {
         "textureQueryLevels" => return vec![signature(Type::INT, Vec::new())],
@@ -163,10 +163,10 @@ fn of_sampler(name: &str, sampler: Sampler) -> Vec<Signature> {
     all
 }
 
-impl Call<'_> {
+impl BuiltinCall<'_> {
     /// Writes a texture function.
-    pub(super) fn lookup(&self, builder: &mut Builder) -> Result<Vec<Slot>, String> {
-        let form = Form::of(self.name);
+    pub(super) fn lookup(&self, builder: &mut CodeBuilder) -> Result<Vec<Slot>, String> {
+        let form = LookupForm::of(self.name);
         let Type::Sampler(sampler) = self.arguments[0].kind else { return Err(format!("the function {}", self.name)) };
         let to: Vec<Slot> = (0..self.result.slots().unwrap_or(0)).map(|_| builder.temporary()).collect();
         let mut query = Query {
@@ -175,7 +175,7 @@ impl Call<'_> {
             coordinates: Vec::new(),
             reference: None,
             offset: Vec::new(),
-            mode: Mode::Levels,
+            mode: LookupMode::Levels,
             to: to.clone(),
             line: builder.line,
         };
@@ -183,7 +183,7 @@ impl Call<'_> {
         let zero = builder.whole(0.0);
         match self.name {
             "textureQueryLevels" => {}
-            "textureSize" => query.mode = Mode::Size(rest.next().map_or(zero, |level| level[0])),
+            "textureSize" => query.mode = LookupMode::Size(rest.next().map_or(zero, |level| level[0])),
             _ => {
                 let place = rest.next().unwrap_or_default();
                 place_of(builder, &mut query, place, &form);
@@ -197,39 +197,39 @@ impl Call<'_> {
         Ok(to)
     }
 
-    fn mode(&self, query: &mut Query, rest: &mut impl Iterator<Item = Vec<Slot>>, form: &Form, zero: Slot) {
+    fn mode(&self, query: &mut Query, rest: &mut impl Iterator<Item = Vec<Slot>>, form: &LookupForm, zero: Slot) {
         let is_rectangle = query.sampler.dimension == Dimension::Rectangle;
         query.mode = if form.fetch {
-            Mode::Fetch(if is_rectangle { zero } else { rest.next().map_or(zero, |level| level[0]) })
+            LookupMode::Fetch(if is_rectangle { zero } else { rest.next().map_or(zero, |level| level[0]) })
         } else if form.level {
-            Mode::Level(rest.next().map_or(zero, |level| level[0]))
+            LookupMode::Level(rest.next().map_or(zero, |level| level[0]))
         } else if form.gradient {
-            Mode::Gradient(rest.next().unwrap_or_default(), rest.next().unwrap_or_default())
+            LookupMode::Gradient(rest.next().unwrap_or_default(), rest.next().unwrap_or_default())
         } else {
-            Mode::Implicit(None)
+            LookupMode::Implicit(None)
         };
         if form.offset {
             query.offset = rest.next().unwrap_or_default();
         }
         let last = rest.next().map(|last| last[0]);
         if form.gather {
-            query.mode = Mode::Gather(last.unwrap_or(zero));
-        } else if let Mode::Implicit(bias) = &mut query.mode {
+            query.mode = LookupMode::Gather(last.unwrap_or(zero));
+        } else if let LookupMode::Implicit(bias) = &mut query.mode {
             *bias = last;
             // A vertex has no neighbours: its level is 0.
             if self.stage == Stage::Vertex {
-                query.mode = Mode::Level(zero);
+                query.mode = LookupMode::Level(zero);
             }
         }
     }
 }
 
 /// Coordinates and what is compared, divided by the last where they are projected.
-fn place_of(builder: &mut Builder, query: &mut Query, mut place: Vec<Slot>, form: &Form) {
+fn place_of(builder: &mut CodeBuilder, query: &mut Query, mut place: Vec<Slot>, form: &LookupForm) {
     let sampler = query.sampler;
     if form.projected {
         let last = place.pop().unwrap_or(query.texture);
-        place = builder.each2(Operation::Divide, Class::Float, &place, &[last]);
+        place = builder.each2(Operation::Divide, ArithmeticClass::Float, &place, &[last]);
     }
     let count = usize::from(sampler.coordinates());
     if sampler.shadow && !form.gather && place.len() > count {

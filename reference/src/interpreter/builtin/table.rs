@@ -1,7 +1,7 @@
 //! The signatures of the built-in functions.
 
 use super::lookup;
-use crate::interpreter::compile::{Direction, Signature};
+use crate::interpreter::compile::{ParameterDirection, Signature};
 use crate::interpreter::types::{Scalar, Type};
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -107,10 +107,10 @@ fn letter(word: &str) -> Option<char> {
     word.chars().next().filter(|_| word.len() == 1)
 }
 
-fn parameter(word: &str, variant: u8) -> (Direction, Type) {
+fn parameter(word: &str, variant: u8) -> (ParameterDirection, Type) {
     let (direction, word) = match word.strip_prefix('>') {
-        Some(word) => (Direction::Out, word),
-        None => (Direction::In, word),
+        Some(word) => (ParameterDirection::Out, word),
+        None => (ParameterDirection::In, word),
     };
     let kind = match letter(word) {
         Some('M') => Type::Matrix(Scalar::Float, variant / 3 + 2, variant % 3 + 2),
@@ -129,7 +129,7 @@ fn parameter(word: &str, variant: u8) -> (Direction, Type) {
 fn matrices(table: &mut HashMap<&'static str, Vec<Signature>>, scalar: Scalar) {
     let of = |result: Type, parameters: Vec<Type>| Signature {
         result,
-        parameters: parameters.into_iter().map(|kind| (Direction::In, kind)).collect(),
+        parameters: parameters.into_iter().map(|kind| (ParameterDirection::In, kind)).collect(),
     };
     let mut add = |name: &'static str, signature| table.entry(name).or_default().push(signature);
     for a in 2..=4 {

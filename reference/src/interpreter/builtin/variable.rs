@@ -1,14 +1,14 @@
 //! Built-in variables and constants (GLSL 4.60, chapter 7).
 
 use crate::interpreter::Stage;
-use crate::interpreter::syntax::Storage;
+use crate::interpreter::syntax::StorageQualifier;
 use crate::interpreter::types::{Scalar, Struct, Type};
 use std::sync::Arc;
 
 /// Where a built-in variable lives in this stage, and its type.
-pub fn variable(name: &str, stage: Stage) -> Option<(Storage, Type)> {
+pub fn variable(name: &str, stage: Stage) -> Option<(StorageQualifier, Type)> {
     let vector = |count| Type::Vector(Scalar::Float, count);
-    let (input, output) = (Storage::Input, Storage::Output);
+    let (input, output) = (StorageQualifier::Input, StorageQualifier::Output);
     Some(match (name, stage) {
         ("gl_Position", Stage::Vertex) => (output, vector(4)),
         ("gl_PointSize", Stage::Vertex) => (output, vector(1)),
@@ -30,9 +30,9 @@ pub fn variable(name: &str, stage: Stage) -> Option<(Storage, Type)> {
         ("gl_DepthRange", _) => {
             let members = ["near", "far", "diff"].map(|name| (name.to_owned(), Type::FLOAT)).to_vec();
             let structure = Struct::new("gl_DepthRangeParameters".to_owned(), 0, members);
-            (Storage::Uniform, Type::Struct(Arc::new(structure)))
+            (StorageQualifier::Uniform, Type::Struct(Arc::new(structure)))
         }
-        ("gl_NumSamples", _) => (Storage::Uniform, Type::INT),
+        ("gl_NumSamples", _) => (StorageQualifier::Uniform, Type::INT),
         _ => return None,
     })
 }

@@ -1,7 +1,7 @@
 //! Slips around calls of functions.
 
-use super::tree::Place;
-use super::{Local, Operator, Scope, bare, is_literal};
+use super::tree::ExpressionPlace;
+use super::{Local, NameScope, Operator, bare, is_literal};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name};
 use crate::interpreter::types::Type;
 
@@ -22,7 +22,7 @@ const ALIKE: [&[&str]; 9] = [
 const SYMMETRIC: [&str; 4] = ["max", "min", "dot", "distance"];
 
 /// Those of a call.
-pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     match &place.own.kind {
         ExpressionKind::Call(name, arguments) if Type::named(name).is_none() => {
             let call = Call { name, arguments, line: place.own.line };
@@ -70,7 +70,7 @@ impl Call<'_> {
         Expression { line: self.line, changes: false, kind }
     }
 
-    fn left_out(&self, scope: &mut Scope<'_>, own: &Expression, found: &mut Vec<Local>) {
+    fn left_out(&self, scope: &mut NameScope<'_>, own: &Expression, found: &mut Vec<Local>) {
         let kind = (scope.kind)(own);
         let operator = match &**self.name {
             "max" | "min" | "clamp" => Operator::ClampLeftOut,
@@ -85,7 +85,7 @@ impl Call<'_> {
         }
     }
 
-    fn exchanged(&self, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+    fn exchanged(&self, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
         if SYMMETRIC.contains(&&**self.name) {
             return;
         }
@@ -101,7 +101,7 @@ impl Call<'_> {
         }
     }
 
-    fn another(&self, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+    fn another(&self, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
         let alike = ALIKE.iter().filter(|names| names.contains(&&**self.name)).flat_map(|names| names.iter());
         let alike = alike.filter(|name| **name != &**self.name);
         let mut others: Vec<Expression> = alike.map(|name| self.call(name, self.arguments.to_vec())).collect();

@@ -1,14 +1,14 @@
 //! Slips between operands.
 
-use super::tree::Place;
-use super::{Local, Operator, Scope, bare, is_literal};
+use super::tree::ExpressionPlace;
+use super::{Local, NameScope, Operator, bare, is_literal};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
 type Others = Vec<(Binary, u32, Expression)>;
 
 /// Those of a chain of operators.
-pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let ExpressionKind::Chain(first, others) = &place.own.kind else {
         if let ExpressionKind::Assign(Some(operator), to, from) = &place.own.kind {
             let with = |operator| {
@@ -95,9 +95,10 @@ impl Chain<'_> {
         }
     }
 
-    fn left_out(&self, own: &Expression, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+    fn left_out(&self, own: &Expression, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
         let kind = (scope.kind)(own);
-        let is_alike = |without: &Expression, scope: &mut Scope<'_>| kind.is_none() || (scope.kind)(without) == kind;
+        let is_alike =
+            |without: &Expression, scope: &mut NameScope<'_>| kind.is_none() || (scope.kind)(without) == kind;
         let begins = self.others[0].0;
         let (operand, rest) = (self.others[0].2.clone(), self.others[1..].to_vec());
         let start = match begins {
@@ -204,11 +205,11 @@ impl Chain<'_> {
         }
     }
 
-    fn exchanged(&self, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+    fn exchanged(&self, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
         for (at, (operator, line, operand)) in self.others.iter().enumerate() {
             let before = self.operand(at);
             let is_matrix =
-                |one: &Expression, scope: &mut Scope<'_>| matches!((scope.kind)(one), Some(Type::Matrix(..)));
+                |one: &Expression, scope: &mut NameScope<'_>| matches!((scope.kind)(one), Some(Type::Matrix(..)));
             let matters = matches!(operator, Binary::Subtract | Binary::Divide)
                 || *operator == Binary::Multiply && (is_matrix(before, scope) || is_matrix(operand, scope));
             if !matters {

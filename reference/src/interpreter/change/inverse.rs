@@ -1,13 +1,13 @@
 //! The slip that a change of a wrong text undoes.
 
-use super::tree::{Place, operands};
+use super::tree::{ExpressionPlace, operands};
 use super::{Change, Operator, bare, is_literal, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Statement, StatementKind, Unary};
 
 /// What the student did, where this change of `root` makes it right.
 pub(super) fn mistake_of(root: &Expression, change: &Change) -> Operator {
-    let own = Place::of(root, &change.path).own;
-    let removed = || removed(own, Place::of(&change.expression, &change.path).own);
+    let own = ExpressionPlace::of(root, &change.path).own;
+    let removed = || removed(own, ExpressionPlace::of(&change.expression, &change.path).own);
     match change.operator {
         Operator::ClampLeftOut => Operator::Clamped,
         Operator::NormalizeLeftOut => Operator::Normalized,
@@ -69,14 +69,14 @@ fn of_call(own: &Expression) -> Operator {
     }
 }
 
-struct Removed {
+struct RemovedOperand {
     /// Whether the same stands there once more.
     is_there_still: bool,
     is_literal: bool,
 }
 
 /// The operand that is in one expression and not in the other.
-fn removed(before: &Expression, after: &Expression) -> Option<Removed> {
+fn removed(before: &Expression, after: &Expression) -> Option<RemovedOperand> {
     let listed = |of: &Expression| match &of.kind {
         ExpressionKind::Chain(..) => operands(of).into_iter().map(written).collect(),
         _ => vec![written(of)],
@@ -95,5 +95,5 @@ fn removed(before: &Expression, after: &Expression) -> Option<Removed> {
     let text = written(gone);
     let squeezed = |text: &str| text.trim_matches(['(', ')']).to_owned();
     let is_there_still = listed(after).iter().any(|own| squeezed(own) == squeezed(&text));
-    Some(Removed { is_there_still, is_literal: is_literal(gone) })
+    Some(RemovedOperand { is_there_still, is_literal: is_literal(gone) })
 }

@@ -1,7 +1,7 @@
 //! Slips in what an expression begins with: names, numbers, components, signs.
 
-use super::tree::Place;
-use super::{FREE, Local, Operator, Scope, floats, is_literal, written};
+use super::tree::ExpressionPlace;
+use super::{FREE, Local, NameScope, Operator, floats, is_literal, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
@@ -13,7 +13,7 @@ const OF_THREE: [&str; 5] = ["xzy", "yxz", "zyx", "yzx", "zxy"];
 const OF_TWO: [&str; 4] = ["yx", "xz", "yz", "xx"];
 
 /// Those of names, numbers, components and signs.
-pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let own = place.own;
     let expression = |kind| Expression { line: own.line, changes: false, kind };
     let call = |name: &str, arguments| expression(ExpressionKind::Call(name.into(), arguments));
@@ -69,7 +69,7 @@ pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<
 }
 
 /// Other values of the same type, or a part of another.
-fn other_names(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+fn other_names(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let own = place.own;
     let Some(kind) = (scope.kind)(own) else { return };
     let expression = |kind| Expression { line: own.line, changes: false, kind };

@@ -1,7 +1,7 @@
 //! The slips of a program that is no list of definitions: each as a program of its own.
 
-use super::tree::{Names, Walk, walk};
-use super::{Change, Operator, Scope, changes, written};
+use super::tree::{TreeWalk, TypedNames, walk};
+use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::types::{Scalar, Type};
 use crate::interpreter::{Program, Refusal, Stage, builtin, compile, parse, text};
@@ -25,7 +25,7 @@ pub struct ProgramSlip {
 const MOST: usize = 1_200;
 
 /// Where a slip is, and what stands there then.
-enum Slip {
+enum PlacedSlip {
     /// The expression with this number, in the order of a walk.
     Expression(usize, Option<Name>, Change),
     /// What the loop with this number goes on by.
@@ -43,17 +43,17 @@ pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool)
     let items = parse::parse(&preprocessed.tokens)?;
     let mut slips = found(&items, is_part);
     slips.sort_by_key(|slip| match slip {
-        Slip::Expression(_, _, change) | Slip::Bound(_, change) => change.operator,
-        Slip::Statement(..) => Operator::StatementLeftOut,
+        PlacedSlip::Expression(_, _, change) | PlacedSlip::Bound(_, change) => change.operator,
+        PlacedSlip::Statement(..) => Operator::StatementLeftOut,
     });
     slips.truncate(MOST);
-    let compiled = |slip: &Slip| {
+    let compiled = |slip: &PlacedSlip| {
         let code = compile::compile(&with(&items, slip, is_part), preprocessed.version, stage).ok()?;
         let program = Program::of(code);
         let (name, change) = match slip {
-            Slip::Expression(_, name, change) => (name.as_ref(), Some(change)),
-            Slip::Bound(_, change) => (None, Some(change)),
-            Slip::Statement(_, name) => (name.as_ref(), None),
+            PlacedSlip::Expression(_, name, change) => (name.as_ref(), Some(change)),
+            PlacedSlip::Bound(_, change) => (None, Some(change)),
+            PlacedSlip::Statement(_, name) => (name.as_ref(), None),
         };
         Some(ProgramSlip {
             operator: change.map_or(Operator::StatementLeftOut, |change| change.operator),
@@ -66,7 +66,7 @@ pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool)
     Ok(slips.iter().filter_map(compiled).collect())
 }
 
-fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<Slip> {
+fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
     let mut items = items.to_vec();
     let mut slips = Vec::new();
     let mut of_statements = Vec::new();
@@ -75,24 +75,24 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<Slip> {
     let mut bound = 0;
     walk(
         &mut items,
-        &mut Walk {
+        &mut TreeWalk {
             is_part,
             bound: &mut |own, names| {
                 let changes = changes_of(own, names).into_iter();
                 // Any other slip may be a loop without an end.
                 let changes = changes.filter(|change| change.operator == Operator::OtherNumber);
-                bounds.extend(changes.map(|change| Slip::Bound(bound, change)));
+                bounds.extend(changes.map(|change| PlacedSlip::Bound(bound, change)));
                 bound += 1;
             },
             statement: &mut |own, _| {
                 if let Some(name) = left_out(own) {
-                    of_statements.push(Slip::Statement(statement, name));
+                    of_statements.push(PlacedSlip::Statement(statement, name));
                 }
                 statement += 1;
             },
             expression: &mut |own, name, names| {
                 let own = changes_of(own, names).into_iter();
-                slips.extend(own.map(|change| Slip::Expression(expression, name.cloned(), change)));
+                slips.extend(own.map(|change| PlacedSlip::Expression(expression, name.cloned(), change)));
                 expression += 1;
             },
         },
@@ -102,11 +102,11 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<Slip> {
     slips
 }
 
-fn changes_of(own: &Expression, names: &Names) -> Vec<Change> {
+fn changes_of(own: &Expression, names: &TypedNames) -> Vec<Change> {
     let typed = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
     let typed: Vec<(Expression, Type)> = typed.collect();
     let mut kind = |expression: &Expression| guess(expression, &typed);
-    changes(own, &mut Scope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false })
+    changes(own, &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false })
 }
 
 pub(super) fn of_name(name: &Name, line: u32) -> Expression {
@@ -129,15 +129,15 @@ pub(super) fn left_out(statement: &Statement) -> Option<Option<Name>> {
 }
 
 /// The program with a slip in it.
-fn with(items: &[Item], slip: &Slip, is_part: &dyn Fn(&str) -> bool) -> Vec<Item> {
+fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Vec<Item> {
     let mut items = items.to_vec();
     let (mut expression, mut statement, mut bound) = (0, 0, 0);
     walk(
         &mut items,
-        &mut Walk {
+        &mut TreeWalk {
             is_part,
             bound: &mut |own, _| {
-                if let Slip::Bound(at, change) = slip
+                if let PlacedSlip::Bound(at, change) = slip
                     && *at == bound
                 {
                     *own = change.expression.clone();
@@ -145,13 +145,13 @@ fn with(items: &[Item], slip: &Slip, is_part: &dyn Fn(&str) -> bool) -> Vec<Item
                 bound += 1;
             },
             statement: &mut |own, _| {
-                if matches!(slip, Slip::Statement(at, _) if *at == statement) {
+                if matches!(slip, PlacedSlip::Statement(at, _) if *at == statement) {
                     own.kind = StatementKind::Empty;
                 }
                 statement += 1;
             },
             expression: &mut |own, _, _| {
-                if let Slip::Expression(at, _, change) = slip
+                if let PlacedSlip::Expression(at, _, change) = slip
                     && *at == expression
                 {
                     *own = change.expression.clone();

@@ -7,8 +7,8 @@ mod ingredients;
 
 use super::inverse::{mistake_of, of_statement};
 use super::programs::{guess, left_out, of_name};
-use super::tree::{Names, Path, Place, Walk, operands, paths, walk, with};
-use super::{Change, Operator, Scope, changes, written};
+use super::tree::{ExpressionPlace, Path, TreeWalk, TypedNames, operands, paths, walk, with};
+use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Item, StatementKind};
 use crate::interpreter::types::Type;
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
@@ -25,7 +25,7 @@ pub struct Repairable {
 
 /// One change of it.
 #[derive(Clone, Debug)]
-pub struct Repair {
+pub struct ProgramRepair {
     /// What the student did, where this makes it right.
     pub mistake: Operator,
     /// The line of what is changed, from 1.
@@ -47,7 +47,7 @@ enum Where {
     Statement(usize),
 }
 
-impl Repair {
+impl ProgramRepair {
     /// The line of what was changed, in a program that was made to be traced.
     pub const MARK: u32 = u32::MAX;
 }
@@ -70,14 +70,14 @@ impl Repairable {
     }
 
     /// The changes of what stands on these lines: those of the first line first, the smaller ones before others.
-    pub fn repairs(&self, lines: &[u32], right: &Ingredients) -> Vec<Repair> {
-        let mut found: Vec<(usize, usize, Repair)> = Vec::new();
+    pub fn repairs(&self, lines: &[u32], right: &Ingredients) -> Vec<ProgramRepair> {
+        let mut found: Vec<(usize, usize, ProgramRepair)> = Vec::new();
         let (mut expression, mut statement) = (0, 0);
         let rank = |own: &[u32]| lines.iter().position(|line| own.contains(line));
         let mut statements = Vec::new();
         walk(
             &mut self.items.clone(),
-            &mut Walk {
+            &mut TreeWalk {
                 is_part: &|_| true,
                 bound: &mut |_, _| {},
                 statement: &mut |own, _| {
@@ -90,7 +90,7 @@ impl Repairable {
                         statements.push((
                             rank,
                             tokens(&written).len(),
-                            Repair {
+                            ProgramRepair {
                                 mistake: of_statement(own),
                                 line: own.line,
                                 is_bound_by_zero: false,
@@ -105,7 +105,8 @@ impl Repairable {
                 expression: &mut |own, _, names| {
                     let number = expression;
                     expression += 1;
-                    let own_lines: Vec<u32> = paths(own).iter().map(|path| Place::of(own, path).own.line).collect();
+                    let own_lines: Vec<u32> =
+                        paths(own).iter().map(|path| ExpressionPlace::of(own, path).own.line).collect();
                     if let Some(rank) = rank(&own_lines) {
                         let all = of_expression(own, number, names, right);
                         let sized = all.into_iter().map(|repair| (rank, size(&repair.texts), repair));
@@ -125,28 +126,28 @@ impl Repairable {
     }
 
     /// The program with a change in it; none where it is no program.
-    pub fn program(&self, repair: &Repair) -> Option<Program> {
+    pub fn program(&self, repair: &ProgramRepair) -> Option<Program> {
         let items = self.items_with(repair, false);
         Some(Program::of(compile::compile(&items, self.version, self.stage).ok()?))
     }
 
-    /// The same so that it can be traced, with what was changed on the line [`Repair::MARK`].
-    pub fn traced(&self, repair: &Repair) -> Option<Program> {
+    /// The same so that it can be traced, with what was changed on the line [`ProgramRepair::MARK`].
+    pub fn traced(&self, repair: &ProgramRepair) -> Option<Program> {
         let items = self.items_with(repair, true);
         Some(Program::of(compile::compile_traced(&items, self.version, self.stage).ok()?))
     }
 
     /// What is to be repaired further.
-    pub fn with(&self, repair: &Repair) -> Self {
+    pub fn with(&self, repair: &ProgramRepair) -> Self {
         Self { items: self.items_with(repair, false), ..*self }
     }
 
-    fn items_with(&self, repair: &Repair, is_marked: bool) -> Vec<Item> {
+    fn items_with(&self, repair: &ProgramRepair, is_marked: bool) -> Vec<Item> {
         let mut items = self.items.clone();
         let (mut expression, mut statement) = (0, 0);
         walk(
             &mut items,
-            &mut Walk {
+            &mut TreeWalk {
                 is_part: &|_| true,
                 bound: &mut |_, _| {},
                 statement: &mut |own, _| {
@@ -159,7 +160,7 @@ impl Repairable {
                     if let Where::Expression(at, path, changed) = &repair.place
                         && *at == expression
                     {
-                        let line = if is_marked { Repair::MARK } else { changed.line };
+                        let line = if is_marked { ProgramRepair::MARK } else { changed.line };
                         *own = with(own, path, Expression { line, ..changed.clone() });
                     }
                     expression += 1;
@@ -171,20 +172,20 @@ impl Repairable {
 }
 
 /// The changes of an expression.
-fn of_expression(own: &Expression, number: usize, names: &Names, right: &Ingredients) -> Vec<Repair> {
+fn of_expression(own: &Expression, number: usize, names: &TypedNames, right: &Ingredients) -> Vec<ProgramRepair> {
     let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
     let typed: Vec<(Expression, Type)> = known.collect();
     let theirs = &typed;
     let mut kind = |expression: &Expression| guess(expression, theirs);
-    let scope = &mut Scope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
+    let scope = &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
     let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
-    let mut found: Vec<Repair> = slips.map(|change| of_slip(own, number, change)).collect();
+    let mut found: Vec<ProgramRepair> = slips.map(|change| of_slip(own, number, change)).collect();
     for path in paths(own) {
-        let place = Place::of(own, &path);
+        let place = ExpressionPlace::of(own, &path);
         let Some(kind) = guess(place.own, theirs) else { continue };
         let is_whole = place.parent.is_none_or(is_statement);
         for added in right.changes(&place, &kind, is_whole, theirs) {
-            found.push(Repair {
+            found.push(ProgramRepair {
                 mistake: added.mistake,
                 line: place.own.line,
                 is_bound_by_zero: added.is_bound_by_zero,
@@ -236,7 +237,7 @@ fn tokens(text: &str) -> Vec<&str> {
     found
 }
 
-fn of_slip(own: &Expression, number: usize, change: Change) -> Repair {
+fn of_slip(own: &Expression, number: usize, change: Change) -> ProgramRepair {
     let mistake = mistake_of(own, &change);
     let at = |root: &Expression| {
         let mut place = root;
@@ -250,7 +251,7 @@ fn of_slip(own: &Expression, number: usize, change: Change) -> Repair {
     };
     let (before, after) = (at(own), at(&change.expression));
     let is_bound_by_zero = change.is_bound_by_zero || super::calls::is_bound_by_zero(&after);
-    Repair {
+    ProgramRepair {
         mistake,
         line: before.line,
         is_bound_by_zero,

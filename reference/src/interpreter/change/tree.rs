@@ -1,20 +1,21 @@
 //! Places in a syntax tree, and the tree with another expression at one of them.
 
 use crate::interpreter::syntax::{
-    Base, Condition, Declaration, Expression, ExpressionKind, Function, Item, Name, Statement, StatementKind, Storage,
+    BaseType, Declaration, Expression, ExpressionKind, Function, Item, LoopCondition, Name, Statement, StatementKind,
+    StorageQualifier,
 };
 
 /// A place in an expression: which operand of which operand.
 pub type Path = Vec<usize>;
 
 /// An expression within another.
-pub(super) struct Place<'a> {
+pub(super) struct ExpressionPlace<'a> {
     pub own: &'a Expression,
     /// What it is an operand of.
     pub parent: Option<&'a Expression>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> ExpressionPlace<'a> {
     pub fn of(root: &'a Expression, path: &[usize]) -> Self {
         let mut place = Self { own: root, parent: None };
         for at in path {
@@ -33,7 +34,7 @@ pub(super) fn paths(root: &Expression) -> Vec<Path> {
     let mut paths = vec![Vec::new()];
     let mut next = 0;
     while let Some(path) = paths.get(next).cloned() {
-        let count = operands(Place::of(root, &path).own).len();
+        let count = operands(ExpressionPlace::of(root, &path).own).len();
         paths.extend((0..count).map(|at| [path.as_slice(), &[at]].concat()));
         next += 1;
     }
@@ -86,27 +87,27 @@ pub(super) fn with(root: &Expression, path: &[usize], other: Expression) -> Expr
 }
 
 /// Names, and the names of their types.
-pub type Names = [(Name, Name)];
+pub type TypedNames = [(Name, Name)];
 
 /// What a walk through a program meets.
-pub struct Walk<'w> {
+pub struct TreeWalk<'w> {
     /// Whether the function of a name is gone through.
     pub is_part: &'w dyn Fn(&str) -> bool,
     /// What is called for every statement: may replace it. The names that are known there, with the names of their types.
-    pub statement: &'w mut dyn FnMut(&mut Statement, &Names),
+    pub statement: &'w mut dyn FnMut(&mut Statement, &TypedNames),
     /// What is called for every expression that is not part of another, with the variable that it gives a value to.
-    pub expression: &'w mut dyn FnMut(&mut Expression, Option<&Name>, &Names),
+    pub expression: &'w mut dyn FnMut(&mut Expression, Option<&Name>, &TypedNames),
     /// What is called for what a loop goes on by.
-    pub bound: &'w mut dyn FnMut(&mut Expression, &Names),
+    pub bound: &'w mut dyn FnMut(&mut Expression, &TypedNames),
 }
 
 /// Goes through the functions of a program, in the order of the text.
-pub fn walk(items: &mut [Item], walk: &mut Walk<'_>) {
+pub fn walk(items: &mut [Item], walk: &mut TreeWalk<'_>) {
     let mut names: Vec<(Name, Name)> = Vec::new();
     for item in items {
         match item {
             Item::Declaration(declaration) => {
-                if declaration.qualifiers.storage != Storage::Output {
+                if declaration.qualifiers.storage != StorageQualifier::Output {
                     declared(declaration, &mut names);
                 }
             }
@@ -120,16 +121,16 @@ pub fn walk(items: &mut [Item], walk: &mut Walk<'_>) {
     }
 }
 
-fn of_function(function: &mut Function, walk: &mut Walk<'_>, names: &mut Vec<(Name, Name)>) {
+fn of_function(function: &mut Function, walk: &mut TreeWalk<'_>, names: &mut Vec<(Name, Name)>) {
     for parameter in &function.parameters {
-        if let Base::Named(kind) = &parameter.kind.base {
+        if let BaseType::Named(kind) = &parameter.kind.base {
             names.push((Name::clone(&parameter.name), Name::clone(kind)));
         }
     }
     function.body.iter_mut().flatten().for_each(|statement| of_statement(statement, walk, names));
 }
 
-fn of_statement(statement: &mut Statement, walk: &mut Walk<'_>, names: &mut Vec<(Name, Name)>) {
+fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut Vec<(Name, Name)>) {
     (walk.statement)(statement, names);
     let known = names.len();
     match &mut statement.kind {
@@ -155,7 +156,7 @@ fn of_statement(statement: &mut Statement, walk: &mut Walk<'_>, names: &mut Vec<
             if let Some(first) = first {
                 of_statement(first, walk, names);
             }
-            if let Some(Condition::Expression(condition)) = condition {
+            if let Some(LoopCondition::Expression(condition)) = condition {
                 (walk.bound)(condition, names);
             }
             of_statement(body, walk, names);
@@ -170,7 +171,7 @@ fn of_statement(statement: &mut Statement, walk: &mut Walk<'_>, names: &mut Vec<
     names.truncate(known);
 }
 
-fn of_declaration(declaration: &mut Declaration, walk: &mut Walk<'_>, names: &mut Vec<(Name, Name)>) {
+fn of_declaration(declaration: &mut Declaration, walk: &mut TreeWalk<'_>, names: &mut Vec<(Name, Name)>) {
     for variable in &mut declaration.variables {
         if let Some(value) = &mut variable.value {
             (walk.expression)(value, Some(&variable.name), names);
@@ -180,7 +181,7 @@ fn of_declaration(declaration: &mut Declaration, walk: &mut Walk<'_>, names: &mu
 }
 
 fn declared(declaration: &Declaration, names: &mut Vec<(Name, Name)>) {
-    if let Base::Named(kind) = &declaration.kind.base {
+    if let BaseType::Named(kind) = &declaration.kind.base {
         let own = declaration.variables.iter().filter(|variable| variable.lengths.is_empty());
         names.extend(own.map(|variable| (Name::clone(&variable.name), Name::clone(kind))));
     }

@@ -1,12 +1,12 @@
 //! Slips around a value: something more that is done to it.
 
-use super::tree::Place;
-use super::{FREE, Local, Operator, Scope, floats, is_literal, name_of, written};
+use super::tree::ExpressionPlace;
+use super::{FREE, Local, NameScope, Operator, floats, is_literal, name_of, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
 /// Those of a value, whatever it is.
-pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<Local>) {
+pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let own = place.own;
     let is_bracket = matches!(&own.kind, ExpressionKind::Comma(_) | ExpressionKind::Assign(..));
     if is_literal(own) && !place.is_root() || is_bracket {
@@ -14,7 +14,7 @@ pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<
     }
     let kind = (scope.kind)(own);
     let Some(count) = floats(kind.as_ref()) else { return };
-    let value = Value { own, line: own.line, count };
+    let value = WrappedValue { own, line: own.line, count };
     value.wrapped(place, found);
     if scope.free && value.is_worth_a_number(place) {
         value.with_a_number(found);
@@ -24,14 +24,14 @@ pub(super) fn changes(place: &Place<'_>, scope: &mut Scope<'_>, found: &mut Vec<
     }
 }
 
-struct Value<'a> {
+struct WrappedValue<'a> {
     own: &'a Expression,
     line: u32,
     /// How many floats it has.
     count: u8,
 }
 
-impl Value<'_> {
+impl WrappedValue<'_> {
     fn expression(&self, kind: ExpressionKind) -> Expression {
         Expression { line: self.line, changes: false, kind }
     }
@@ -64,7 +64,7 @@ impl Value<'_> {
         self.call(&name, vec![self.number(number)])
     }
 
-    fn wrapped(&self, place: &Place<'_>, found: &mut Vec<Local>) {
+    fn wrapped(&self, place: &ExpressionPlace<'_>, found: &mut Vec<Local>) {
         let own = || self.own.clone();
         let mut add = |operator, expression| found.push(Local::new(operator, expression).about(self.own));
         let has_sign = |one: &Expression| matches!(one.kind, ExpressionKind::Unary(..));
@@ -94,7 +94,7 @@ impl Value<'_> {
     }
 
     /// Whether a number is looked for that is applied to it: to a whole definition, to a part of a sum, to an argument.
-    fn is_worth_a_number(&self, place: &Place<'_>) -> bool {
+    fn is_worth_a_number(&self, place: &ExpressionPlace<'_>) -> bool {
         let Some(parent) = place.parent else { return true };
         match &parent.kind {
             ExpressionKind::Chain(_, others) => {
@@ -119,7 +119,7 @@ impl Value<'_> {
     }
 
     /// What becomes of a whole definition.
-    fn as_a_whole(&self, scope: &Scope<'_>, found: &mut Vec<Local>) {
+    fn as_a_whole(&self, scope: &NameScope<'_>, found: &mut Vec<Local>) {
         found.push(Local::new(Operator::LeftOut, self.all(0.0)));
         if self.count == 1 {
             found.push(Local::new(Operator::FactorLeftOut, self.all(1.0)));

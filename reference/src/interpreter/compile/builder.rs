@@ -1,7 +1,7 @@
 //! Slots and instructions; what is known already is computed at once.
 
 use crate::interpreter::Refusal;
-use crate::interpreter::code::{Class, Constant, Instruction, Node, Operation, Slot};
+use crate::interpreter::code::{ArithmeticClass, CodeConstant, Instruction, Node, Operation, Slot};
 use crate::interpreter::run::{Undefined, scalar, undefined_lanes};
 use crate::interpreter::types::Scalar;
 use std::collections::HashMap;
@@ -12,19 +12,19 @@ const MAX_SLOTS: usize = 1 << 18;
 const MAX_NODES: usize = 1 << 20;
 
 /// What a scalar's arithmetic is.
-pub fn class(scalar: Scalar) -> Class {
+pub fn class(scalar: Scalar) -> ArithmeticClass {
     match scalar {
-        Scalar::Int => Class::Int,
-        Scalar::Uint | Scalar::Bool => Class::Uint,
-        Scalar::Float => Class::Float,
-        Scalar::Double => Class::Double,
+        Scalar::Int => ArithmeticClass::Int,
+        Scalar::Uint | Scalar::Bool => ArithmeticClass::Uint,
+        Scalar::Float => ArithmeticClass::Float,
+        Scalar::Double => ArithmeticClass::Double,
     }
 }
 
 /// Hands out slots and collects what is to be done.
 #[derive(Default)]
-pub struct Builder {
-    pub constants: Vec<Option<Constant>>,
+pub struct CodeBuilder {
+    pub constants: Vec<Option<CodeConstant>>,
     pool: HashMap<(u64, bool), Slot>,
     /// What is done by the block that is being compiled.
     pub nodes: Vec<Node>,
@@ -35,7 +35,7 @@ pub struct Builder {
     pub line: u32,
 }
 
-impl Builder {
+impl CodeBuilder {
     /// Consecutive slots of a variable.
     pub fn allocate(&mut self, count: usize) -> Result<Slot, Refusal> {
         let first = self.constants.len();
@@ -47,7 +47,7 @@ impl Builder {
     }
 
     /// Consecutive slots of known values.
-    pub fn allocate_constants(&mut self, values: &[Constant]) -> Result<Slot, Refusal> {
+    pub fn allocate_constants(&mut self, values: &[CodeConstant]) -> Result<Slot, Refusal> {
         let first = self.allocate(values.len())?;
         for (slot, value) in self.constants[first as usize..].iter_mut().zip(values) {
             *slot = Some(*value);
@@ -97,7 +97,7 @@ impl Builder {
     /// The slot of a known number.
     pub fn constant(&mut self, value: f64, is_float: bool) -> Slot {
         *self.pool.entry((value.to_bits(), is_float)).or_insert_with(|| {
-            self.constants.push(Some(Constant { value, is_float }));
+            self.constants.push(Some(CodeConstant { value, is_float }));
             (self.constants.len() - 1) as Slot
         })
     }
@@ -113,8 +113,8 @@ impl Builder {
     }
 
     /// A number of this class.
-    pub fn number(&mut self, class: Class, value: f64) -> Slot {
-        self.constant(value, class == Class::Float)
+    pub fn number(&mut self, class: ArithmeticClass, value: f64) -> Slot {
+        self.constant(value, class == ArithmeticClass::Float)
     }
 
     /// What a slot holds, if that is known.
@@ -123,13 +123,13 @@ impl Builder {
     }
 
     /// One instruction; its result is known at once where its operands are and GLSL defines it.
-    pub fn emit(&mut self, operation: Operation, class: Class, operands: &[Slot]) -> Slot {
+    pub fn emit(&mut self, operation: Operation, class: ArithmeticClass, operands: &[Slot]) -> Slot {
         let of: [Slot; 3] = std::array::from_fn(|index| operands.get(index).copied().unwrap_or(operands[0]));
         if let [Some(a), Some(b), Some(c)] = of.map(|slot| self.known(slot)) {
             let is_defined = undefined_lanes(operation, class, [&[a], &[b], &[c]]).is_none();
             let result = scalar(operation, class, [a, b, c]);
             if is_defined && !result.is_nan() {
-                return self.constant(result, class == Class::Float);
+                return self.constant(result, class == ArithmeticClass::Float);
             }
         }
         let to = self.temporary();
@@ -139,18 +139,18 @@ impl Builder {
     }
 
     /// The same for each of many operands.
-    pub fn each1(&mut self, operation: Operation, class: Class, a: &[Slot]) -> Vec<Slot> {
+    pub fn each1(&mut self, operation: Operation, class: ArithmeticClass, a: &[Slot]) -> Vec<Slot> {
         a.iter().map(|&a| self.emit(operation, class, &[a])).collect()
     }
 
     /// The same for each pair; one of the two may be a single operand for all.
-    pub fn each2(&mut self, operation: Operation, class: Class, a: &[Slot], b: &[Slot]) -> Vec<Slot> {
+    pub fn each2(&mut self, operation: Operation, class: ArithmeticClass, a: &[Slot], b: &[Slot]) -> Vec<Slot> {
         let count = a.len().max(b.len());
         (0..count).map(|n| self.emit(operation, class, &[pick(a, n), pick(b, n)])).collect()
     }
 
     /// The same for each triple; any of them may be a single operand for all.
-    pub fn each3(&mut self, operation: Operation, class: Class, [a, b, c]: [&[Slot]; 3]) -> Vec<Slot> {
+    pub fn each3(&mut self, operation: Operation, class: ArithmeticClass, [a, b, c]: [&[Slot]; 3]) -> Vec<Slot> {
         let count = a.len().max(b.len()).max(c.len());
         (0..count).map(|n| self.emit(operation, class, &[pick(a, n), pick(b, n), pick(c, n)])).collect()
     }
@@ -167,7 +167,13 @@ impl Builder {
 
     fn copy(&mut self, slot: Slot) -> Slot {
         let (to, line) = (self.temporary(), self.line);
-        self.push(Node::Do(Instruction { operation: Operation::Copy, class: Class::Double, to, of: [slot; 3], line }));
+        self.push(Node::Do(Instruction {
+            operation: Operation::Copy,
+            class: ArithmeticClass::Double,
+            to,
+            of: [slot; 3],
+            line,
+        }));
         to
     }
 
@@ -197,7 +203,7 @@ impl Builder {
     fn narrow(&mut self, slot: Slot) -> Slot {
         match self.known(slot) {
             Some(value) => self.float(f64::from(value as f32)),
-            None => self.emit(Operation::Narrow, Class::Float, &[slot]),
+            None => self.emit(Operation::Narrow, ArithmeticClass::Float, &[slot]),
         }
     }
 

@@ -1,9 +1,9 @@
 //! Calls of functions.
 
-use super::conversion::{Direction, Signature, resolve};
+use super::conversion::{ParameterDirection, Signature, resolve};
 use super::place::LValue;
 use super::scope::Symbol;
-use super::{Compiler, Value};
+use super::{CompiledValue, Compiler};
 use crate::interpreter::Refusal;
 use crate::interpreter::builtin;
 use crate::interpreter::code::Node;
@@ -13,8 +13,8 @@ use crate::interpreter::types::Type;
 
 /// What stands for a parameter.
 enum Argument {
-    Value(Value),
-    Place(LValue, Value),
+    Value(CompiledValue),
+    Place(LValue, CompiledValue),
 }
 
 impl Argument {
@@ -27,7 +27,7 @@ impl Argument {
 
 impl Compiler {
     /// `name(arguments)`: a constructor, an own function or a built-in one.
-    pub(super) fn call(&mut self, name: &Name, arguments: &[Expression], line: u32) -> Result<Value, Refusal> {
+    pub(super) fn call(&mut self, name: &Name, arguments: &[Expression], line: u32) -> Result<CompiledValue, Refusal> {
         let constructed = match self.scopes.get(name) {
             Some(Symbol::Structure(kind)) => Some(kind.clone()),
             _ => Type::named(name).filter(|_| !self.by_name.contains_key(name)),
@@ -70,7 +70,7 @@ impl Compiler {
         let mut all = Vec::new();
         for (index, argument) in arguments.iter().enumerate() {
             let writes = |signature: &Signature| {
-                signature.parameters.get(index).is_some_and(|(direction, _)| *direction != Direction::In)
+                signature.parameters.get(index).is_some_and(|(direction, _)| *direction != ParameterDirection::In)
             };
             let writes = own.iter().any(|&own| writes(&self.functions[own].signature)) || built_in.iter().any(writes);
             let place = if writes { self.place(argument)? } else { None };
@@ -89,7 +89,12 @@ impl Compiler {
         Ok(all)
     }
 
-    fn call_own(&mut self, index: usize, signature: &Signature, arguments: Vec<Argument>) -> Result<Value, Refusal> {
+    fn call_own(
+        &mut self,
+        index: usize,
+        signature: &Signature,
+        arguments: Vec<Argument>,
+    ) -> Result<CompiledValue, Refusal> {
         let parameters = self.functions[index].parameters.clone();
         let mut written = Vec::new();
         // All values are there before the first parameter is set: an argument may call the same function.
@@ -100,14 +105,14 @@ impl Compiler {
                 Argument::Value(value) => (None, value),
                 Argument::Place(place, value) => (Some(place), value),
             };
-            if *direction == Direction::Out {
+            if *direction == ParameterDirection::Out {
                 self.builder.undefine(slot, kind.slots().unwrap_or(0), Undefined::Uninitialised);
             } else {
                 let value = self.implicit(value, kind)?;
                 self.store(slot, &value.slots);
                 self.passed(number, count, slot, &value);
             }
-            if *direction != Direction::In {
+            if *direction != ParameterDirection::In {
                 let place = place.ok_or_else(|| self.invalid("this cannot be written by a function"))?;
                 written.push((place, slot, kind.clone()));
             }
@@ -119,33 +124,38 @@ impl Compiler {
         }
         let result: Vec<_> = (self.functions[index].result..).take(signature.result.slots().unwrap_or(0)).collect();
         self.read_from(&result);
-        let result = Value { kind: signature.result.clone(), slots: self.builder.copies(&result) };
+        let result = CompiledValue { kind: signature.result.clone(), slots: self.builder.copies(&result) };
         for (place, slot, kind) in written {
             let slots: Vec<_> = (slot..).take(kind.slots().unwrap_or(0)).collect();
             self.handed_back(&place, &slots);
-            let value = self.implicit(Value { kind, slots }, &place.kind)?;
+            let value = self.implicit(CompiledValue { kind, slots }, &place.kind)?;
             self.write(&place, &value)?;
         }
         Ok(result)
     }
 
-    fn call_built_in(&mut self, name: &str, signature: &Signature, arguments: Vec<Argument>) -> Result<Value, Refusal> {
+    fn call_built_in(
+        &mut self,
+        name: &str,
+        signature: &Signature,
+        arguments: Vec<Argument>,
+    ) -> Result<CompiledValue, Refusal> {
         let (mut values, mut places) = (Vec::new(), Vec::new());
         for (argument, (direction, kind)) in arguments.into_iter().zip(&signature.parameters) {
             match (direction, argument) {
-                (Direction::In, Argument::Value(value) | Argument::Place(_, value)) => {
+                (ParameterDirection::In, Argument::Value(value) | Argument::Place(_, value)) => {
                     values.push(self.implicit(value, kind)?);
                 }
                 (_, Argument::Place(place, _)) => places.push((place, kind.clone())),
                 (_, Argument::Value(_)) => return Err(self.invalid("this cannot be written by a function")),
             }
         }
-        let call = builtin::Call { name, arguments: &values, result: &signature.result, stage: self.stage };
+        let call = builtin::BuiltinCall { name, arguments: &values, result: &signature.result, stage: self.stage };
         let results = call.write(&mut self.builder).map_err(|what| self.limit(what))?;
         let mut results = results.into_iter();
-        let result = Value { kind: signature.result.clone(), slots: results.next().unwrap_or_default() };
+        let result = CompiledValue { kind: signature.result.clone(), slots: results.next().unwrap_or_default() };
         for ((place, kind), slots) in places.into_iter().zip(results) {
-            let value = self.implicit(Value { kind, slots }, &place.kind)?;
+            let value = self.implicit(CompiledValue { kind, slots }, &place.kind)?;
             self.write(&place, &value)?;
         }
         Ok(result)

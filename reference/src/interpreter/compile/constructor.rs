@@ -1,13 +1,13 @@
 //! Constructors.
 
-use super::{Compiler, Value, class};
+use super::{CompiledValue, Compiler, class};
 use crate::interpreter::Refusal;
 use crate::interpreter::code::Slot;
 use crate::interpreter::types::{Scalar, Type};
 
 impl Compiler {
     /// `kind(arguments)`
-    pub(super) fn construct(&mut self, kind: &Type, arguments: Vec<Value>) -> Result<Value, Refusal> {
+    pub(super) fn construct(&mut self, kind: &Type, arguments: Vec<CompiledValue>) -> Result<CompiledValue, Refusal> {
         match kind {
             Type::Vector(scalar, count) => self.vector(*scalar, usize::from(*count), &arguments),
             Type::Matrix(scalar, columns, rows) => {
@@ -31,7 +31,7 @@ impl Compiler {
         }
     }
 
-    fn parts(&mut self, kind: Type, kinds: &[Type], arguments: Vec<Value>) -> Result<Value, Refusal> {
+    fn parts(&mut self, kind: Type, kinds: &[Type], arguments: Vec<CompiledValue>) -> Result<CompiledValue, Refusal> {
         if kinds.len() != arguments.len() {
             return Err(self.invalid(format!("{kind} is made of {} values", kinds.len())));
         }
@@ -39,11 +39,11 @@ impl Compiler {
         for (argument, kind) in arguments.into_iter().zip(kinds) {
             slots.extend(self.implicit(argument, kind)?.slots);
         }
-        Ok(Value { kind, slots })
+        Ok(CompiledValue { kind, slots })
     }
 
     /// All components of the arguments in order, as one type.
-    fn components_of(&mut self, arguments: &[Value], scalar: Scalar) -> Result<Vec<Slot>, Refusal> {
+    fn components_of(&mut self, arguments: &[CompiledValue], scalar: Scalar) -> Result<Vec<Slot>, Refusal> {
         let mut slots = Vec::new();
         for argument in arguments {
             let from = argument.kind.scalar();
@@ -53,12 +53,12 @@ impl Compiler {
         Ok(slots)
     }
 
-    fn vector(&mut self, scalar: Scalar, count: usize, arguments: &[Value]) -> Result<Value, Refusal> {
+    fn vector(&mut self, scalar: Scalar, count: usize, arguments: &[CompiledValue]) -> Result<CompiledValue, Refusal> {
         let kind = Type::Vector(scalar, count as u8);
         // What the vector does not take of a longer one is not converted.
         let first = arguments.first().ok_or_else(|| self.invalid(format!("{kind}() without a value")))?;
         let mut slots = if arguments.len() == 1 && first.slots.len() > count {
-            let shortened = Value { kind: first.kind.clone(), slots: first.slots[..count].to_vec() };
+            let shortened = CompiledValue { kind: first.kind.clone(), slots: first.slots[..count].to_vec() };
             self.components_of(&[shortened], scalar)?
         } else {
             self.components_of(arguments, scalar)?
@@ -70,17 +70,24 @@ impl Compiler {
             return Err(self.invalid(format!("{kind} has {count} components, and {} are given", slots.len())));
         }
         slots.truncate(count);
-        Ok(Value { kind, slots })
+        Ok(CompiledValue { kind, slots })
     }
 
-    fn matrix(&mut self, scalar: Scalar, [columns, rows]: [usize; 2], arguments: &[Value]) -> Result<Value, Refusal> {
+    fn matrix(
+        &mut self,
+        scalar: Scalar,
+        [columns, rows]: [usize; 2],
+        arguments: &[CompiledValue],
+    ) -> Result<CompiledValue, Refusal> {
         let kind = Type::Matrix(scalar, columns as u8, rows as u8);
         let slots = self.components_of(arguments, scalar)?;
         let class = class(scalar);
         let (zero, one) = (self.builder.number(class, 0.0), self.builder.number(class, 1.0));
         let given = match arguments {
             [only] if only.kind.is_scalar() => Some((usize::MAX, 0)),
-            [Value { kind: Type::Matrix(_, columns, rows), .. }] => Some((usize::from(*columns), usize::from(*rows))),
+            [CompiledValue { kind: Type::Matrix(_, columns, rows), .. }] => {
+                Some((usize::from(*columns), usize::from(*rows)))
+            }
             _ => None,
         };
         let slots = match given {
@@ -103,6 +110,6 @@ impl Compiler {
                 })
                 .collect(),
         };
-        Ok(Value { kind, slots })
+        Ok(CompiledValue { kind, slots })
     }
 }

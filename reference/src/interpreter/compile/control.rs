@@ -1,8 +1,8 @@
 //! Statements.
 
-use super::{Compiler, Value};
+use super::{CompiledValue, Compiler};
 use crate::interpreter::code::{Node, Slot};
-use crate::interpreter::syntax::{Condition, Declaration, Expression, Name, Statement, StatementKind};
+use crate::interpreter::syntax::{Declaration, Expression, LoopCondition, Name, Statement, StatementKind};
 use crate::interpreter::types::{Scalar, Type};
 use crate::interpreter::{Refusal, Stage};
 
@@ -71,7 +71,7 @@ impl Compiler {
         self.only(&value, &Type::BOOL)
     }
 
-    fn only(&self, value: &Value, kind: &Type) -> Result<Slot, Refusal> {
+    fn only(&self, value: &CompiledValue, kind: &Type) -> Result<Slot, Refusal> {
         match value.slots[..] {
             [slot] if value.kind == *kind => Ok(slot),
             _ => Err(self.invalid(format!("{kind} is expected, not {}", value.kind))),
@@ -80,15 +80,15 @@ impl Compiler {
 
     fn repeat(
         &mut self,
-        condition: Option<&Condition>,
+        condition: Option<&LoopCondition>,
         step: Option<&Expression>,
         body: &Statement,
         line: u32,
     ) -> Result<(), Refusal> {
         let (test, condition) = self.nodes(|compiler| match condition {
             None => Ok(None),
-            Some(Condition::Expression(condition)) => compiler.truth(condition).map(Some),
-            Some(Condition::Declaration(declaration)) => compiler.declared_condition(declaration).map(Some),
+            Some(LoopCondition::Expression(condition)) => compiler.truth(condition).map(Some),
+            Some(LoopCondition::Declaration(declaration)) => compiler.declared_condition(declaration).map(Some),
         })?;
         let (body, ()) = self.nodes(|compiler| compiler.scoped(|compiler| compiler.statement(body)))?;
         let (step, ()) = self.nodes(|compiler| {

@@ -1,12 +1,12 @@
 //! Implicit conversions, and which function a call means (GLSL 4.60, sections 4.1.10 and 6.1).
 
-use super::{Compiler, Value};
+use super::{CompiledValue, Compiler};
 use crate::interpreter::Refusal;
 use crate::interpreter::types::{Scalar, Type};
 
 /// How a parameter is passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub enum ParameterDirection {
     /// In.
     In,
     /// Out.
@@ -19,16 +19,16 @@ pub enum Direction {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signature {
     /// Its parameters.
-    pub parameters: Vec<(Direction, Type)>,
+    pub parameters: Vec<(ParameterDirection, Type)>,
     /// What it returns.
     pub result: Type,
 }
 
 /// How good a conversion is; the best is the smallest.
-type Rank = u8;
+type ConversionRank = u8;
 
 /// The rank of a conversion of values; none where there is no such conversion without asking for it.
-pub fn rank(from: &Type, to: &Type, version: u32) -> Option<Rank> {
+pub fn rank(from: &Type, to: &Type, version: u32) -> Option<ConversionRank> {
     if from == to {
         return Some(0);
     }
@@ -48,21 +48,22 @@ pub fn rank(from: &Type, to: &Type, version: u32) -> Option<Rank> {
 
 /// The function that a call means, by its number.
 pub fn resolve(candidates: &[&Signature], arguments: &[Type], version: u32) -> Option<usize> {
-    let ranks = |signature: &&Signature| -> Option<Vec<Rank>> {
+    let ranks = |signature: &&Signature| -> Option<Vec<ConversionRank>> {
         if signature.parameters.len() != arguments.len() {
             return None;
         }
-        let one = |((direction, parameter), argument): (&(Direction, Type), &Type)| match direction {
-            Direction::In => rank(argument, parameter, version),
-            Direction::Out => rank(parameter, argument, version),
-            Direction::InOut => (parameter == argument).then_some(0),
+        let one = |((direction, parameter), argument): (&(ParameterDirection, Type), &Type)| match direction {
+            ParameterDirection::In => rank(argument, parameter, version),
+            ParameterDirection::Out => rank(parameter, argument, version),
+            ParameterDirection::InOut => (parameter == argument).then_some(0),
         };
         signature.parameters.iter().zip(arguments).map(one).collect()
     };
-    let fitting: Vec<(usize, Vec<Rank>)> =
+    let fitting: Vec<(usize, Vec<ConversionRank>)> =
         candidates.iter().enumerate().filter_map(|(index, signature)| Some((index, ranks(signature)?))).collect();
-    let is_better =
-        |a: &[Rank], b: &[Rank]| a.iter().zip(b).all(|(a, b)| a <= b) && a.iter().zip(b).any(|(a, b)| a < b);
+    let is_better = |a: &[ConversionRank], b: &[ConversionRank]| {
+        a.iter().zip(b).all(|(a, b)| a <= b) && a.iter().zip(b).any(|(a, b)| a < b)
+    };
     // The first of equals: own functions stand before built-in ones.
     let best = fitting.iter().find(|(_, ranks)| fitting.iter().all(|(_, other)| !is_better(other, ranks)));
     best.map(|(index, _)| *index)
@@ -70,7 +71,7 @@ pub fn resolve(candidates: &[&Signature], arguments: &[Type], version: u32) -> O
 
 impl Compiler {
     /// A value as another type, where that needs not be asked for.
-    pub(super) fn implicit(&mut self, value: Value, kind: &Type) -> Result<Value, Refusal> {
+    pub(super) fn implicit(&mut self, value: CompiledValue, kind: &Type) -> Result<CompiledValue, Refusal> {
         if value.kind == *kind {
             return Ok(value);
         }
@@ -79,7 +80,7 @@ impl Compiler {
             return Err(self.invalid(format!("{} is not {kind}", value.kind)));
         }
         let (Some(from), Some(to)) = (value.kind.scalar(), kind.scalar()) else { return Ok(value) };
-        Ok(Value { kind: kind.clone(), slots: self.converted(&value.slots, from, to) })
+        Ok(CompiledValue { kind: kind.clone(), slots: self.converted(&value.slots, from, to) })
     }
 
     /// Scalars as another type.
@@ -93,7 +94,8 @@ mod tests {
     use super::*;
 
     fn signature(parameters: &str) -> Signature {
-        let parameters = parameters.split(' ').map(|name| (Direction::In, Type::named(name).expect(name))).collect();
+        let parameters =
+            parameters.split(' ').map(|name| (ParameterDirection::In, Type::named(name).expect(name))).collect();
         Signature { parameters, result: Type::Void }
     }
 

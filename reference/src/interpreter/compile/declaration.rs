@@ -1,13 +1,13 @@
 //! Types as they are written, variables, functions.
 
-use super::conversion::{Direction, Signature};
+use super::conversion::{ParameterDirection, Signature};
 use super::scope::{self, Symbol};
-use super::{Compiler, Declared, Value};
+use super::{CompiledValue, Compiler, DeclaredFunction};
 use crate::interpreter::Refusal;
-use crate::interpreter::code::{Constant, Slot};
+use crate::interpreter::code::{CodeConstant, Slot};
 use crate::interpreter::run::Undefined;
 use crate::interpreter::syntax::{
-    Base, Declaration, Expression, ExpressionKind, Function, Name, Storage, TypeName, Variable,
+    BaseType, Declaration, DeclaredVariable, Expression, ExpressionKind, Function, Name, StorageQualifier, TypeName,
 };
 use crate::interpreter::types::{Scalar, Struct, Type};
 use std::sync::Arc;
@@ -17,11 +17,11 @@ impl Compiler {
     pub(super) fn type_of(&mut self, name: &TypeName) -> Result<Type, Refusal> {
         self.builder.line = name.line;
         let base = match &name.base {
-            Base::Named(name) => match self.scopes.get(name) {
+            BaseType::Named(name) => match self.scopes.get(name) {
                 Some(Symbol::Structure(kind)) => kind.clone(),
                 _ => Type::named(name).ok_or_else(|| self.limit(format!("there is no type `{name}`")))?,
             },
-            Base::Struct(name, members) => self.structure(name, members)?,
+            BaseType::Struct(name, members) => self.structure(name, members)?,
         };
         self.arrays_of(base, &name.lengths)
     }
@@ -82,7 +82,7 @@ impl Compiler {
     /// Declares variables without qualifiers, or constants.
     pub(super) fn plain_variables(&mut self, declaration: &Declaration) -> Result<(), Refusal> {
         let base = self.type_of(&declaration.kind)?;
-        let is_constant = declaration.qualifiers.storage == Storage::Constant;
+        let is_constant = declaration.qualifiers.storage == StorageQualifier::Constant;
         declaration.variables.iter().try_for_each(|variable| self.plain_variable(&base, variable, is_constant))
     }
 
@@ -90,7 +90,7 @@ impl Compiler {
     pub(super) fn plain_variable(
         &mut self,
         base: &Type,
-        variable: &Variable,
+        variable: &DeclaredVariable,
         is_constant: bool,
     ) -> Result<(), Refusal> {
         self.builder.line = variable.line;
@@ -111,7 +111,14 @@ impl Compiler {
         if is_main && self.scopes.depth() == 2 {
             let (name, kind, line) = (name.to_string(), kind.clone(), self.builder.line);
             let (interpolation, location) = Default::default();
-            self.locals.push(crate::interpreter::code::Variable { name, kind, slot, line, interpolation, location });
+            self.locals.push(crate::interpreter::code::ProgramVariable {
+                name,
+                kind,
+                slot,
+                line,
+                interpolation,
+                location,
+            });
         }
     }
 
@@ -133,8 +140,8 @@ impl Compiler {
     }
 
     /// A variable's own slots, which hold the value.
-    fn with_value(&mut self, value: Value, is_constant: bool) -> Result<Slot, Refusal> {
-        let known: Option<Vec<Constant>> =
+    fn with_value(&mut self, value: CompiledValue, is_constant: bool) -> Result<Slot, Refusal> {
+        let known: Option<Vec<CodeConstant>> =
             value.slots.iter().map(|&slot| self.builder.constants[slot as usize]).collect();
         match known.filter(|_| is_constant) {
             Some(values) => self.builder.allocate_constants(&values),
@@ -147,7 +154,7 @@ impl Compiler {
     }
 
     /// What stands behind `=` in a declaration.
-    pub(super) fn initial_value(&mut self, value: &Expression, kind: &Type) -> Result<Value, Refusal> {
+    pub(super) fn initial_value(&mut self, value: &Expression, kind: &Type) -> Result<CompiledValue, Refusal> {
         if let ExpressionKind::List(elements) = &value.kind {
             return self.list(elements, kind);
         }
@@ -164,7 +171,7 @@ impl Compiler {
     }
 
     /// `{ … }` as a value of this type.
-    fn list(&mut self, elements: &[Expression], kind: &Type) -> Result<Value, Refusal> {
+    fn list(&mut self, elements: &[Expression], kind: &Type) -> Result<CompiledValue, Refusal> {
         let kinds: Vec<Type> = match kind {
             Type::Struct(structure) => structure.members.iter().map(|(_, kind)| kind.clone()).collect(),
             other => match other.element() {
@@ -187,7 +194,7 @@ impl Compiler {
             (Type::Array(..), Some(element)) => element.array(Some(elements.len())),
             _ => kind.clone(),
         };
-        Ok(Value { kind, slots })
+        Ok(CompiledValue { kind, slots })
     }
 
     /// The number of a function, which is new or was declared before.
@@ -197,9 +204,9 @@ impl Compiler {
         for parameter in &function.parameters {
             let kind = self.type_of(&parameter.kind)?;
             let direction = match parameter.storage {
-                Storage::Output => Direction::Out,
-                Storage::InputOutput => Direction::InOut,
-                _ => Direction::In,
+                StorageQualifier::Output => ParameterDirection::Out,
+                StorageQualifier::InputOutput => ParameterDirection::InOut,
+                _ => ParameterDirection::In,
             };
             parameters.push((direction, self.arrays_of(kind, &parameter.lengths)?));
         }
@@ -211,7 +218,7 @@ impl Compiler {
         }
         let slots: Result<Vec<Slot>, Refusal> =
             signature.parameters.iter().map(|(_, kind)| self.allocate(kind)).collect();
-        let declared = Declared {
+        let declared = DeclaredFunction {
             name: Name::clone(&function.name),
             parameters: slots?,
             result: self.allocate(&signature.result)?,

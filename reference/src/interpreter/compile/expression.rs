@@ -2,30 +2,30 @@
 
 use super::place::components;
 use super::scope::UNSIZED;
-use super::{Compiler, Value};
+use super::{CompiledValue, Compiler};
 use crate::interpreter::Refusal;
-use crate::interpreter::code::{Class, Node, Operation};
+use crate::interpreter::code::{ArithmeticClass, Node, Operation};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::trace::What;
 use crate::interpreter::types::{Scalar, Type};
 
 impl Compiler {
     /// The value of an expression as it is computed.
-    pub(super) fn computed(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+    pub(super) fn computed(&mut self, expression: &Expression) -> Result<CompiledValue, Refusal> {
         self.builder.line = expression.line;
         match &expression.kind {
             ExpressionKind::Integer(value, unsigned) => {
                 let kind = if *unsigned { Type::UINT } else { Type::INT };
-                Ok(Value { kind, slots: vec![self.builder.whole(*value)] })
+                Ok(CompiledValue { kind, slots: vec![self.builder.whole(*value)] })
             }
             ExpressionKind::Floating(value, true) => {
-                Ok(Value { kind: Type::DOUBLE, slots: vec![self.builder.whole(*value)] })
+                Ok(CompiledValue { kind: Type::DOUBLE, slots: vec![self.builder.whole(*value)] })
             }
             ExpressionKind::Floating(value, false) => {
-                Ok(Value { kind: Type::FLOAT, slots: vec![self.builder.float(*value)] })
+                Ok(CompiledValue { kind: Type::FLOAT, slots: vec![self.builder.float(*value)] })
             }
             ExpressionKind::Bool(value) => {
-                Ok(Value { kind: Type::BOOL, slots: vec![self.builder.whole(f64::from(u8::from(*value)))] })
+                Ok(CompiledValue { kind: Type::BOOL, slots: vec![self.builder.whole(f64::from(u8::from(*value)))] })
             }
             ExpressionKind::Unary(operator, operand) => {
                 let operand = self.value(operand)?;
@@ -37,7 +37,7 @@ impl Compiler {
             ExpressionKind::Assign(operator, to, from) => self.assign(*operator, to, from, expression.line),
             ExpressionKind::Conditional(condition, yes, no) => self.conditional(condition, yes, no),
             ExpressionKind::Comma(all) => {
-                let mut last = Value { kind: Type::Void, slots: Vec::new() };
+                let mut last = CompiledValue { kind: Type::Void, slots: Vec::new() };
                 for one in all {
                     last = self.value(one)?;
                 }
@@ -65,7 +65,7 @@ impl Compiler {
     }
 
     /// Values of expressions from left to right: a later one does not change an earlier one any more.
-    pub(super) fn values(&mut self, expressions: &[Expression]) -> Result<Vec<Value>, Refusal> {
+    pub(super) fn values(&mut self, expressions: &[Expression]) -> Result<Vec<CompiledValue>, Refusal> {
         let mut values = Vec::new();
         for (index, expression) in expressions.iter().enumerate() {
             let mut value = self.value(expression)?;
@@ -78,7 +78,7 @@ impl Compiler {
     }
 
     /// A part of a value that no variable holds.
-    fn part(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+    fn part(&mut self, expression: &Expression) -> Result<CompiledValue, Refusal> {
         match &expression.kind {
             ExpressionKind::Member(of, name) => {
                 let value = self.value(of)?;
@@ -89,7 +89,7 @@ impl Compiler {
                         let size = kind.slots().unwrap_or(0);
                         if **member == **name {
                             let slots = value.slots[first..first + size].to_vec();
-                            return Ok(Value { kind: kind.clone(), slots });
+                            return Ok(CompiledValue { kind: kind.clone(), slots });
                         }
                         first += size;
                     }
@@ -100,7 +100,7 @@ impl Compiler {
                 let chosen = components(name, count);
                 let chosen = chosen.ok_or_else(|| self.invalid(format!("there is no component `{name}`")))?;
                 let slots: Vec<_> = chosen.iter().map(|&index| value.slots[index as usize]).collect();
-                Ok(Value { kind: Type::Vector(scalar, slots.len() as u8), slots })
+                Ok(CompiledValue { kind: Type::Vector(scalar, slots.len() as u8), slots })
             }
             ExpressionKind::Index(of, index) => {
                 let mut value = self.value(of)?;
@@ -117,7 +117,7 @@ impl Compiler {
         }
     }
 
-    fn length(&mut self, of: &Expression) -> Result<Value, Refusal> {
+    fn length(&mut self, of: &Expression) -> Result<CompiledValue, Refusal> {
         let kind = match self.place(of)? {
             Some(place) => place.kind,
             None => self.value(of)?.kind,
@@ -125,10 +125,10 @@ impl Compiler {
         let element = kind.element();
         let (_, length) = element.ok_or_else(|| self.invalid(format!("{kind} has no length")))?;
         let length = self.builder.whole(length.unwrap_or(UNSIZED) as f64);
-        Ok(Value { kind: Type::INT, slots: vec![length] })
+        Ok(CompiledValue { kind: Type::INT, slots: vec![length] })
     }
 
-    fn unary(&mut self, operator: Unary, operand: Value) -> Result<Value, Refusal> {
+    fn unary(&mut self, operator: Unary, operand: CompiledValue) -> Result<CompiledValue, Refusal> {
         let scalar = operand.kind.scalar().ok_or_else(|| self.invalid("this has no sign"))?;
         let operation = match (operator, scalar) {
             (Unary::Plus, _) => return Ok(operand),
@@ -140,10 +140,10 @@ impl Compiler {
             (Unary::Complement, _) => Operation::BitNot,
         };
         let slots = self.builder.each1(operation, super::class(scalar), &operand.slots);
-        Ok(Value { kind: operand.kind, slots })
+        Ok(CompiledValue { kind: operand.kind, slots })
     }
 
-    fn step(&mut self, adds: bool, after: bool, operand: &Expression) -> Result<Value, Refusal> {
+    fn step(&mut self, adds: bool, after: bool, operand: &Expression) -> Result<CompiledValue, Refusal> {
         let place = self.place(operand)?.ok_or_else(|| self.invalid("this cannot be changed"))?;
         let mut before = self.read(&place)?;
         before.slots = self.builder.copies(&before.slots);
@@ -152,12 +152,12 @@ impl Compiler {
         let one = self.builder.number(class, 1.0);
         let operation = if adds { Operation::Add } else { Operation::Subtract };
         let slots = self.builder.each2(operation, class, &before.slots, &[one]);
-        let changed = Value { kind: before.kind.clone(), slots };
+        let changed = CompiledValue { kind: before.kind.clone(), slots };
         self.write(&place, &changed)?;
         Ok(if after { before } else { changed })
     }
 
-    fn chain(&mut self, first: &Expression, others: &[(Binary, u32, Expression)]) -> Result<Value, Refusal> {
+    fn chain(&mut self, first: &Expression, others: &[(Binary, u32, Expression)]) -> Result<CompiledValue, Refusal> {
         let mut left = self.value(first)?;
         let last = others.len().saturating_sub(1);
         for (number, (operator, line, right)) in others.iter().enumerate() {
@@ -181,7 +181,12 @@ impl Compiler {
     }
 
     /// `&&` and `||` whose right operand changes something.
-    fn short_circuit(&mut self, operator: Binary, left: Value, right: &Expression) -> Result<Value, Refusal> {
+    fn short_circuit(
+        &mut self,
+        operator: Binary,
+        left: CompiledValue,
+        right: &Expression,
+    ) -> Result<CompiledValue, Refusal> {
         let result = self.builder.allocate(1)?;
         self.store(result, &left.slots);
         let line = self.builder.line;
@@ -193,7 +198,7 @@ impl Compiler {
         let (yes, no) = if operator == Binary::And { (nodes, Vec::new()) } else { (Vec::new(), nodes) };
         self.builder.push(Node::If { condition: result, yes, no, line });
         let slots = self.builder.copies(&[result]);
-        Ok(Value { kind: Type::BOOL, slots })
+        Ok(CompiledValue { kind: Type::BOOL, slots })
     }
 
     fn assign(
@@ -202,7 +207,7 @@ impl Compiler {
         to: &Expression,
         from: &Expression,
         line: u32,
-    ) -> Result<Value, Refusal> {
+    ) -> Result<CompiledValue, Refusal> {
         let place = self.place(to)?.ok_or_else(|| self.invalid("this cannot be assigned to"))?;
         let value = match operator {
             None => self.value(from)?,
@@ -223,7 +228,12 @@ impl Compiler {
         Ok(value)
     }
 
-    fn conditional(&mut self, condition: &Expression, yes: &Expression, no: &Expression) -> Result<Value, Refusal> {
+    fn conditional(
+        &mut self,
+        condition: &Expression,
+        yes: &Expression,
+        no: &Expression,
+    ) -> Result<CompiledValue, Refusal> {
         let line = self.builder.line;
         let mut condition = self.value(condition)?;
         let condition_slot = *condition.slots.first().ok_or_else(|| self.invalid("a condition is expected"))?;
@@ -241,11 +251,11 @@ impl Compiler {
                     }
                 }
                 None => {
-                    let class = yes.kind.scalar().map_or(Class::Double, super::class);
+                    let class = yes.kind.scalar().map_or(ArithmeticClass::Double, super::class);
                     self.builder.each3(Operation::Select, class, [&[condition_slot], &yes.slots, &no.slots])
                 }
             };
-            return Ok(Value { kind: yes.kind, slots });
+            return Ok(CompiledValue { kind: yes.kind, slots });
         }
         condition.slots = self.builder.copies(&condition.slots);
         let (mut on_yes, yes) = self.nodes(|compiler| compiler.value(yes))?;
@@ -267,11 +277,11 @@ impl Compiler {
         let condition = condition.slots[0];
         self.builder.push(Node::If { condition, yes: on_yes, no: on_no, line });
         let slots: Vec<_> = (result..).take(kind.slots().unwrap_or(0)).collect();
-        Ok(Value { slots: self.builder.copies(&slots), kind })
+        Ok(CompiledValue { slots: self.builder.copies(&slots), kind })
     }
 
     /// Two values as one type, as `?:` needs them.
-    fn alike(&mut self, a: Value, b: Value) -> Result<(Value, Value), Refusal> {
+    fn alike(&mut self, a: CompiledValue, b: CompiledValue) -> Result<(CompiledValue, CompiledValue), Refusal> {
         if a.kind == b.kind {
             return Ok((a, b));
         }

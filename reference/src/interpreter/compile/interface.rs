@@ -2,9 +2,9 @@
 
 use super::scope::Symbol;
 use super::{Compiler, scope};
-use crate::interpreter::code::{Interpolation, Slot, Variable};
+use crate::interpreter::code::{Interpolation, ProgramVariable, Slot};
 use crate::interpreter::run::Undefined;
-use crate::interpreter::syntax::{Base, Declaration, InterfaceBlock, Name, Qualifiers, Storage};
+use crate::interpreter::syntax::{BaseType, Declaration, InterfaceBlock, Name, Qualifiers, StorageQualifier};
 use crate::interpreter::types::{Struct, Type};
 use crate::interpreter::{Refusal, Stage, builtin};
 use std::sync::Arc;
@@ -18,8 +18,8 @@ impl Compiler {
         self.builder.line = declaration.line;
         let storage = self.storage(declaration.qualifiers.storage);
         match storage {
-            Storage::Plain | Storage::Constant => return self.plain_variables(declaration),
-            Storage::Shared => {
+            StorageQualifier::Plain | StorageQualifier::Constant => return self.plain_variables(declaration),
+            StorageQualifier::Shared => {
                 for variable in &declaration.variables {
                     self.scopes.declare(Name::clone(&variable.name), Symbol::Unsupported("shared memory"));
                 }
@@ -27,7 +27,7 @@ impl Compiler {
             }
             _ => {}
         }
-        if storage == Storage::Uniform && is_opaque(declaration) {
+        if storage == StorageQualifier::Uniform && is_opaque(declaration) {
             for variable in &declaration.variables {
                 self.scopes.declare(Name::clone(&variable.name), Symbol::Unsupported("this kind of texture or image"));
             }
@@ -58,36 +58,43 @@ impl Compiler {
         Ok(())
     }
 
-    fn storage(&self, storage: Storage) -> Storage {
+    fn storage(&self, storage: StorageQualifier) -> StorageQualifier {
         match (storage, self.stage) {
-            (Storage::Varying, Stage::Vertex) => Storage::Output,
-            (Storage::Varying, Stage::Fragment) => Storage::Input,
+            (StorageQualifier::Varying, Stage::Vertex) => StorageQualifier::Output,
+            (StorageQualifier::Varying, Stage::Fragment) => StorageQualifier::Input,
             (other, _) => other,
         }
     }
 
-    fn outside(&self, name: &str, kind: &Type, slot: Slot) -> Variable {
+    fn outside(&self, name: &str, kind: &Type, slot: Slot) -> ProgramVariable {
         let (interpolation, location) = (Interpolation::Smooth, None);
-        Variable { name: name.to_owned(), kind: kind.clone(), slot, line: self.builder.line, interpolation, location }
+        ProgramVariable {
+            name: name.to_owned(),
+            kind: kind.clone(),
+            slot,
+            line: self.builder.line,
+            interpolation,
+            location,
+        }
     }
 
     /// Tells the host of a variable.
-    fn exchange(&mut self, storage: Storage, name: &str, kind: &Type, slot: Slot) -> Result<(), Refusal> {
+    fn exchange(&mut self, storage: StorageQualifier, name: &str, kind: &Type, slot: Slot) -> Result<(), Refusal> {
         let variable = self.outside(name, kind, slot);
         match storage {
-            Storage::Input => self.inputs.push(variable),
-            Storage::Output => self.outputs.push(variable),
-            Storage::Uniform => self.leaves(name, kind, slot)?,
+            StorageQualifier::Input => self.inputs.push(variable),
+            StorageQualifier::Output => self.outputs.push(variable),
+            StorageQualifier::Uniform => self.leaves(name, kind, slot)?,
             _ => {}
         }
         Ok(())
     }
 
     /// Notes how the last input or output is interpolated, and where the program wants it.
-    fn qualify(&mut self, storage: Storage, interpolation: Interpolation, location: Option<u32>) {
+    fn qualify(&mut self, storage: StorageQualifier, interpolation: Interpolation, location: Option<u32>) {
         let all = match storage {
-            Storage::Input => &mut self.inputs,
-            Storage::Output => &mut self.outputs,
+            StorageQualifier::Input => &mut self.inputs,
+            StorageQualifier::Output => &mut self.outputs,
             _ => return,
         };
         if let Some(last) = all.last_mut() {
@@ -126,7 +133,7 @@ impl Compiler {
     pub(super) fn interface_block(&mut self, block: &InterfaceBlock) -> Result<(), Refusal> {
         self.builder.line = block.line;
         let storage = self.storage(block.storage);
-        if storage == Storage::Shared {
+        if storage == StorageQualifier::Shared {
             return self.storage_buffer(block);
         }
         let members = self.member_types(&block.members)?;
@@ -150,7 +157,7 @@ impl Compiler {
         let one = Type::Struct(Arc::new(structure));
         let kind = self.arrays_of(one.clone(), lengths)?;
         let slot = self.allocate(&kind)?;
-        if storage == Storage::Uniform {
+        if storage == StorageQualifier::Uniform {
             self.leaves(&block.name, &kind, slot)?;
         } else if let Type::Struct(structure) = &kind {
             let mut slot = slot;
@@ -189,7 +196,7 @@ impl Compiler {
     /// Declares a built-in variable where the program uses it.
     pub(super) fn declare_built_in(&mut self, name: &Name) -> Result<(), Refusal> {
         if let Some(value) = builtin::constant(name, self.version) {
-            let value = crate::interpreter::code::Constant { value: f64::from(value), is_float: false };
+            let value = crate::interpreter::code::CodeConstant { value: f64::from(value), is_float: false };
             let slot = self.builder.allocate_constants(&[value])?;
             self.scopes.declare_globally(Name::clone(name), Symbol::variable(Type::INT, slot));
             return Ok(());
@@ -199,7 +206,7 @@ impl Compiler {
         self.built_in(name, storage, kind)
     }
 
-    fn built_in(&mut self, name: &Name, storage: Storage, kind: Type) -> Result<(), Refusal> {
+    fn built_in(&mut self, name: &Name, storage: StorageQualifier, kind: Type) -> Result<(), Refusal> {
         let slot = self.allocate(&kind)?;
         self.exchange(storage, name, &kind, slot)?;
         // As long as a host says nothing else, the depth range is that of OpenGL's initial state.
@@ -220,7 +227,7 @@ impl Compiler {
 
 /// Whether a uniform is of a kind that this interpreter does not know: it may be declared, and not used.
 fn is_opaque(declaration: &Declaration) -> bool {
-    let Base::Named(name) = &declaration.kind.base else { return false };
+    let BaseType::Named(name) = &declaration.kind.base else { return false };
     let is_named = ["sampler", "image", "atomic_uint", "texture"].iter().any(|word| name.contains(word));
     is_named && Type::named(name).is_none()
 }

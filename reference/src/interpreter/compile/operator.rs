@@ -1,8 +1,8 @@
 //! Operators between two values.
 
-use super::{Compiler, Value, class};
+use super::{CompiledValue, Compiler, class};
 use crate::interpreter::Refusal;
-use crate::interpreter::code::{Class, Operation, Slot};
+use crate::interpreter::code::{ArithmeticClass, Operation, Slot};
 use crate::interpreter::syntax::Binary;
 use crate::interpreter::types::{Scalar, Type};
 
@@ -23,7 +23,12 @@ impl Compiler {
         }
     }
 
-    pub(super) fn binary(&mut self, operator: Binary, a: Value, b: Value) -> Result<Value, Refusal> {
+    pub(super) fn binary(
+        &mut self,
+        operator: Binary,
+        a: CompiledValue,
+        b: CompiledValue,
+    ) -> Result<CompiledValue, Refusal> {
         match operator {
             Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Remainder => {
                 self.arithmetic(operator, a, b)
@@ -42,7 +47,7 @@ impl Compiler {
                 let operation = if left { Operation::ShiftLeft } else { Operation::ShiftRight };
                 let scalar = a.kind.scalar().ok_or_else(|| self.invalid("only integers are shifted"))?;
                 let slots = self.builder.each2(operation, class(scalar), &a.slots, &b.slots);
-                Ok(Value { kind: a.kind, slots })
+                Ok(CompiledValue { kind: a.kind, slots })
             }
             Binary::Less | Binary::LessEqual | Binary::Greater | Binary::GreaterEqual => {
                 let (a, b, scalar) = self.same_scalar(a, b)?;
@@ -50,7 +55,7 @@ impl Compiler {
                 let or_equal = matches!(operator, Binary::LessEqual | Binary::GreaterEqual);
                 let operation = if or_equal { Operation::LessEqual } else { Operation::Less };
                 let slots = self.builder.each2(operation, class(scalar), &a.slots, &b.slots);
-                Ok(Value { kind: Type::BOOL, slots })
+                Ok(CompiledValue { kind: Type::BOOL, slots })
             }
             Binary::Equal | Binary::NotEqual => self.equality(operator == Binary::Equal, a, b),
             Binary::And | Binary::Or | Binary::Xor => {
@@ -62,23 +67,30 @@ impl Compiler {
                 if a.kind != Type::BOOL || b.kind != Type::BOOL {
                     return Err(self.invalid("this operator is for truth values"));
                 }
-                Ok(Value { kind: Type::BOOL, slots: self.builder.each2(operation, Class::Uint, &a.slots, &b.slots) })
+                Ok(CompiledValue {
+                    kind: Type::BOOL,
+                    slots: self.builder.each2(operation, ArithmeticClass::Uint, &a.slots, &b.slots),
+                })
             }
         }
     }
 
     /// Both operands with components of one type.
-    fn same_scalar(&mut self, mut a: Value, mut b: Value) -> Result<(Value, Value, Scalar), Refusal> {
+    fn same_scalar(
+        &mut self,
+        mut a: CompiledValue,
+        mut b: CompiledValue,
+    ) -> Result<(CompiledValue, CompiledValue, Scalar), Refusal> {
         let (Some(of_a), Some(of_b)) = (a.kind.scalar(), b.kind.scalar()) else {
             return Err(self.invalid(format!("{} and {} have no such operator", a.kind, b.kind)));
         };
         let scalar = self.common_scalar(of_a, of_b)?;
-        a = Value { kind: a.kind.with_scalar(scalar), slots: self.converted(&a.slots, of_a, scalar) };
-        b = Value { kind: b.kind.with_scalar(scalar), slots: self.converted(&b.slots, of_b, scalar) };
+        a = CompiledValue { kind: a.kind.with_scalar(scalar), slots: self.converted(&a.slots, of_a, scalar) };
+        b = CompiledValue { kind: b.kind.with_scalar(scalar), slots: self.converted(&b.slots, of_b, scalar) };
         Ok((a, b, scalar))
     }
 
-    fn arithmetic(&mut self, operator: Binary, a: Value, b: Value) -> Result<Value, Refusal> {
+    fn arithmetic(&mut self, operator: Binary, a: CompiledValue, b: CompiledValue) -> Result<CompiledValue, Refusal> {
         let (a, b, scalar) = self.same_scalar(a, b)?;
         if scalar == Scalar::Bool {
             return Err(self.invalid("truth values have no arithmetic"));
@@ -90,7 +102,7 @@ impl Compiler {
             Binary::Remainder if scalar.is_integer() => Operation::Remainder,
             Binary::Remainder => return Err(self.invalid("% is for integers")),
             _ => {
-                let is_matrix = |value: &Value| matches!(value.kind, Type::Matrix(..));
+                let is_matrix = |value: &CompiledValue| matches!(value.kind, Type::Matrix(..));
                 if (is_matrix(&a) && !b.kind.is_scalar()) || (is_matrix(&b) && !a.kind.is_scalar()) {
                     return self.product(&a, &b, class(scalar));
                 }
@@ -101,16 +113,27 @@ impl Compiler {
     }
 
     /// Component by component; a scalar goes with each of them.
-    fn componentwise(&mut self, operation: Operation, scalar: Scalar, a: Value, b: Value) -> Result<Value, Refusal> {
+    fn componentwise(
+        &mut self,
+        operation: Operation,
+        scalar: Scalar,
+        a: CompiledValue,
+        b: CompiledValue,
+    ) -> Result<CompiledValue, Refusal> {
         if a.kind != b.kind && !a.kind.is_scalar() && !b.kind.is_scalar() {
             return Err(self.invalid(format!("{} and {} do not go together", a.kind, b.kind)));
         }
         let slots = self.builder.each2(operation, class(scalar), &a.slots, &b.slots);
-        Ok(Value { kind: if a.kind.is_scalar() { b.kind } else { a.kind }, slots })
+        Ok(CompiledValue { kind: if a.kind.is_scalar() { b.kind } else { a.kind }, slots })
     }
 
     /// The product of linear algebra. A vector is a column on the right and a row on the left.
-    fn product(&mut self, a: &Value, b: &Value, class: Class) -> Result<Value, Refusal> {
+    fn product(
+        &mut self,
+        a: &CompiledValue,
+        b: &CompiledValue,
+        class: ArithmeticClass,
+    ) -> Result<CompiledValue, Refusal> {
         let shape = |kind: &Type, on_the_left: bool| match *kind {
             Type::Matrix(scalar, columns, rows) => Some((scalar, usize::from(columns), usize::from(rows))),
             Type::Vector(scalar, count) if on_the_left => Some((scalar, usize::from(count), 1)),
@@ -133,11 +156,11 @@ impl Compiler {
             (_, Type::Vector(..)) => Type::Vector(scalar, rows as u8),
             _ => Type::Matrix(scalar, columns as u8, rows as u8),
         };
-        Ok(Value { kind, slots })
+        Ok(CompiledValue { kind, slots })
     }
 
     /// Whether all scalars are equal, or any is not.
-    fn equality(&mut self, equal: bool, a: Value, b: Value) -> Result<Value, Refusal> {
+    fn equality(&mut self, equal: bool, a: CompiledValue, b: CompiledValue) -> Result<CompiledValue, Refusal> {
         let (a, b) = match (a.kind.scalar(), b.kind.scalar()) {
             (Some(_), Some(_)) => {
                 let (a, b, _) = self.same_scalar(a, b)?;
@@ -155,10 +178,10 @@ impl Compiler {
             let one = self.builder.emit(operation, class(scalar), &[a, b]);
             result = Some(match result {
                 None => one,
-                Some(before) => self.builder.emit(joined, Class::Uint, &[before, one]),
+                Some(before) => self.builder.emit(joined, ArithmeticClass::Uint, &[before, one]),
             });
         }
         let slot = result.unwrap_or_else(|| self.builder.whole(f64::from(u8::from(equal))));
-        Ok(Value { kind: Type::BOOL, slots: vec![slot] })
+        Ok(CompiledValue { kind: Type::BOOL, slots: vec![slot] })
     }
 }

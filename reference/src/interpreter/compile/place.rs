@@ -1,7 +1,7 @@
 //! Places: what can be written to, and read a part at a time.
 
 use super::scope::{Symbol, UNSIZED};
-use super::{Compiler, Value};
+use super::{CompiledValue, Compiler};
 use crate::interpreter::Refusal;
 use crate::interpreter::code::{Indexed, Node, Slot};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Name};
@@ -60,13 +60,13 @@ impl Compiler {
     }
 
     /// Slots of a value in a row, so that they can be indexed.
-    pub(super) fn laid_out(&mut self, value: Value) -> Result<LValue, Refusal> {
+    pub(super) fn laid_out(&mut self, value: CompiledValue) -> Result<LValue, Refusal> {
         let base = self.builder.allocate(value.slots.len())?;
         self.store(base, &value.slots);
         Ok(LValue { kind: value.kind, base, offset: None, components: None })
     }
 
-    pub(super) fn element(&mut self, place: LValue, index: &Value) -> Result<LValue, Refusal> {
+    pub(super) fn element(&mut self, place: LValue, index: &CompiledValue) -> Result<LValue, Refusal> {
         let element = place.kind.element();
         let (kind, count) = element.ok_or_else(|| self.invalid(format!("{} has no elements", place.kind)))?;
         let count = count.unwrap_or(UNSIZED);
@@ -120,7 +120,7 @@ impl Compiler {
     }
 
     /// The value at a place: a variable's own slots where that is possible.
-    pub(super) fn read(&mut self, place: &LValue) -> Result<Value, Refusal> {
+    pub(super) fn read(&mut self, place: &LValue) -> Result<CompiledValue, Refusal> {
         let mut slots = self.slots_of(place)?;
         if let Some(offset) = place.offset {
             for slot in &mut slots {
@@ -129,11 +129,11 @@ impl Compiler {
                 *slot = to;
             }
         }
-        Ok(Value { kind: place.kind.clone(), slots })
+        Ok(CompiledValue { kind: place.kind.clone(), slots })
     }
 
     /// Writes a value, which has the place's type.
-    pub(super) fn write(&mut self, place: &LValue, value: &Value) -> Result<(), Refusal> {
+    pub(super) fn write(&mut self, place: &LValue, value: &CompiledValue) -> Result<(), Refusal> {
         let slots = self.slots_of(place)?;
         if slots.iter().any(|&slot| self.builder.known(slot).is_some()) {
             return Err(self.invalid("a constant is written"));

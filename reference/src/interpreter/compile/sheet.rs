@@ -2,11 +2,12 @@
 
 use super::Compiler;
 use super::scope::Symbol;
-use crate::interpreter::change::{self, Change, FREE, Operator, Scope, written};
-use crate::interpreter::code::{Node, Slot, Variable as Outside};
-use crate::interpreter::sheet::{Cell, Formula, Sheet, Stored};
+use crate::interpreter::change::{self, Change, FREE, NameScope, Operator, written};
+use crate::interpreter::code::{Node, ProgramVariable as Outside, Slot};
+use crate::interpreter::sheet::{Cell, Formula, Sheet, StoredOutput};
 use crate::interpreter::syntax::{
-    Declaration, Expression, ExpressionKind, Function, Item, Name, Statement, StatementKind, Storage, Variable,
+    Declaration, DeclaredVariable, Expression, ExpressionKind, Function, Item, Name, Statement, StatementKind,
+    StorageQualifier,
 };
 use crate::interpreter::texture::Texture;
 use crate::interpreter::types::Type;
@@ -25,7 +26,7 @@ pub struct Draft {
     formulas: Vec<Formula>,
     /// What the formulas are, as they are written.
     expressions: Vec<Expression>,
-    stored: Vec<Stored>,
+    stored: Vec<StoredOutput>,
     /// How many inputs the file declares.
     declared: usize,
     /// What outside of `main` keeps it from being computed a part at a time.
@@ -37,7 +38,7 @@ pub struct Draft {
 }
 
 /// A definition by a slip.
-pub struct Slip {
+pub struct DefinitionSlip {
     /// Of which kind it is.
     pub operator: Operator,
     /// The name that is concerned, where it is a single one.
@@ -122,7 +123,10 @@ impl Draft {
                     main = Some(function);
                 }
                 Item::Declaration(declaration)
-                    if matches!(declaration.qualifiers.storage, Storage::Plain | Storage::Constant) =>
+                    if matches!(
+                        declaration.qualifiers.storage,
+                        StorageQualifier::Plain | StorageQualifier::Constant
+                    ) =>
                 {
                     draft.global(&declaration, open)?;
                 }
@@ -134,7 +138,7 @@ impl Draft {
 
     /// Variables outside of functions, which should be constant and known.
     fn global(&mut self, declaration: &Declaration, open: &[&str]) -> Result<(), Refusal> {
-        let is_constant = declaration.qualifiers.storage == Storage::Constant;
+        let is_constant = declaration.qualifiers.storage == StorageQualifier::Constant;
         let compiler = &mut self.compiler;
         let mark = compiler.builder.mark();
         compiler.builder.line = declaration.line;
@@ -187,7 +191,7 @@ impl Draft {
         match &statement.kind {
             StatementKind::Empty => Ok(()),
             StatementKind::Declaration(declaration)
-                if matches!(declaration.qualifiers.storage, Storage::Plain | Storage::Constant) =>
+                if matches!(declaration.qualifiers.storage, StorageQualifier::Plain | StorageQualifier::Constant) =>
             {
                 declaration.variables.iter().try_for_each(|variable| self.define(declaration, variable))
             }
@@ -198,7 +202,7 @@ impl Draft {
         }
     }
 
-    fn define(&mut self, declaration: &Declaration, variable: &Variable) -> Result<(), Refusal> {
+    fn define(&mut self, declaration: &Declaration, variable: &DeclaredVariable) -> Result<(), Refusal> {
         let name = &variable.name;
         let refused = |what: String| Err(Refusal::invalid(variable.line, what));
         let Some(value) = &variable.value else {
@@ -246,7 +250,7 @@ impl Draft {
                 cell
             }
         };
-        self.stored.push(Stored { output: output.to_string(), cell, line });
+        self.stored.push(StoredOutput { output: output.to_string(), cell, line });
         Ok(())
     }
 
@@ -273,7 +277,7 @@ impl Draft {
     }
 
     /// The slips of a definition, as far as they have its type and use what is there before it.
-    pub fn slips(&mut self, definition: usize) -> Vec<Slip> {
+    pub fn slips(&mut self, definition: usize) -> Vec<DefinitionSlip> {
         let cell = self.formulas[definition].cell();
         let root = self.expressions[definition].clone();
         let named = self.cells[..cell].iter().filter(|cell| !cell.name.is_empty());
@@ -290,7 +294,7 @@ impl Draft {
             compiler.end_statement(mark).ok()?;
             Some(value.ok()?.1.kind)
         };
-        let mut scope = Scope { names: &names, constants: &constants, kind: &mut kind, free: true };
+        let mut scope = NameScope { names: &names, constants: &constants, kind: &mut kind, free: true };
         let changes = change::changes(&root, &mut scope);
         self.compiler.scopes.push();
         if let Some(last) = self.cells.last() {
@@ -302,12 +306,12 @@ impl Draft {
         slips
     }
 
-    fn slip(&mut self, cell: usize, free: usize, change: &Change) -> Option<Slip> {
+    fn slip(&mut self, cell: usize, free: usize, change: &Change) -> Option<DefinitionSlip> {
         let Cell { kind, slots, .. } = self.cells[cell].clone();
         let (nodes, _) = self.compiled(&change.expression, &kind, Some(slots.start)).ok()?;
         let formula = self.formula(cell, nodes, 1).ok()?;
         let is_known = formula.uses().iter().all(|used| *used < cell || *used == free);
-        is_known.then(|| Slip {
+        is_known.then(|| DefinitionSlip {
             operator: change.operator,
             about: change.about.as_ref().map(|name| name.to_string()),
             text: written(&change.expression),
@@ -355,7 +359,7 @@ impl Draft {
     }
 
     /// What the outputs are given.
-    pub fn stored(&self) -> &[Stored] {
+    pub fn stored(&self) -> &[StoredOutput] {
         &self.stored
     }
 

@@ -1,10 +1,10 @@
 //! A program whose values are looked at: each has a site, and stands in slots of its own, so that it can be changed.
 
 use super::place::LValue;
-use super::{Compiler, Value};
+use super::{CompiledValue, Compiler};
 use crate::interpreter::Refusal;
-use crate::interpreter::code::{Node, Record, Slot};
-use crate::interpreter::syntax::{Expression, ExpressionKind, Name, Unary, Variable};
+use crate::interpreter::code::{Node, ObservedValue, Slot};
+use crate::interpreter::syntax::{DeclaredVariable, Expression, ExpressionKind, Name, Unary};
 use crate::interpreter::trace::{Site, What};
 
 /// The sites of the program that is being compiled.
@@ -36,7 +36,7 @@ impl Compiler {
     }
 
     /// The value of an expression.
-    pub(super) fn value(&mut self, expression: &Expression) -> Result<Value, Refusal> {
+    pub(super) fn value(&mut self, expression: &Expression) -> Result<CompiledValue, Refusal> {
         if !self.is_traced() {
             return self.computed(expression);
         }
@@ -51,7 +51,7 @@ impl Compiler {
     }
 
     /// The number of an element: one that is written is no value that anybody looks at.
-    pub(super) fn index(&mut self, index: &Expression) -> Result<Value, Refusal> {
+    pub(super) fn index(&mut self, index: &Expression) -> Result<CompiledValue, Refusal> {
         match index.kind {
             ExpressionKind::Integer(..) => self.untraced(|compiler| compiler.value(index)),
             _ => self.value(index),
@@ -59,7 +59,7 @@ impl Compiler {
     }
 
     /// A value in slots of its own, as that of a site whose operands were recorded since a mark.
-    fn record(&mut self, what: What, value: Value, mark: usize) -> Value {
+    fn record(&mut self, what: What, value: CompiledValue, mark: usize) -> CompiledValue {
         if value.slots.is_empty() {
             return value;
         }
@@ -69,11 +69,11 @@ impl Compiler {
         let slots = if is_own { value.slots.clone() } else { self.own_copies(&value.slots) };
         let site = self.site(what, &value, mark);
         let sources = std::mem::take(&mut self.tracing.sources);
-        self.builder.push(Node::Record(Box::new(Record { site, slots: slots.clone(), sources })));
-        Value { slots, ..value }
+        self.builder.push(Node::Record(Box::new(ObservedValue { site, slots: slots.clone(), sources })));
+        CompiledValue { slots, ..value }
     }
 
-    fn site(&mut self, what: What, value: &Value, mark: usize) -> usize {
+    fn site(&mut self, what: What, value: &CompiledValue, mark: usize) -> usize {
         let operands = self.tracing.operands.split_off(mark.min(self.tracing.operands.len()));
         let number = self.tracing.sites.len();
         let (line, function) = (self.builder.line, self.tracing.function.clone());
@@ -89,7 +89,7 @@ impl Compiler {
     }
 
     /// One step of a chain of operators, whose two operands were recorded last.
-    pub(super) fn recorded_step(&mut self, what: What, value: Value) -> Value {
+    pub(super) fn recorded_step(&mut self, what: What, value: CompiledValue) -> CompiledValue {
         if !self.is_traced() {
             return value;
         }
@@ -98,7 +98,12 @@ impl Compiler {
     }
 
     /// What is assigned to a place.
-    pub(super) fn recorded_assignment(&mut self, to: &Expression, is_whole: bool, value: Value) -> Value {
+    pub(super) fn recorded_assignment(
+        &mut self,
+        to: &Expression,
+        is_whole: bool,
+        value: CompiledValue,
+    ) -> CompiledValue {
         if !self.is_traced() {
             return value;
         }
@@ -119,12 +124,12 @@ impl Compiler {
     }
 
     /// Slots were given a value: that of the site which was recorded last.
-    pub(super) fn handed(&mut self, base: Slot, value: &Value) {
+    pub(super) fn handed(&mut self, base: Slot, value: &CompiledValue) {
         self.passed(0, 1, base, value);
     }
 
     /// A parameter is given one of so many arguments, which were recorded last.
-    pub(super) fn passed(&mut self, number: usize, count: usize, base: Slot, value: &Value) {
+    pub(super) fn passed(&mut self, number: usize, count: usize, base: Slot, value: &CompiledValue) {
         let operands = &self.tracing.operands;
         let site = operands.len().checked_sub(count).and_then(|first| operands.get(first + number)).copied();
         if let Some(site) = site.filter(|_| self.is_traced()) {
@@ -169,11 +174,11 @@ impl Compiler {
     /// The first value of a variable. That of a constant stays known, as the length of an array needs it.
     pub(super) fn first_value(
         &mut self,
-        variable: &Variable,
+        variable: &DeclaredVariable,
         value: &Expression,
         kind: &crate::interpreter::types::Type,
         is_constant: bool,
-    ) -> Result<Value, Refusal> {
+    ) -> Result<CompiledValue, Refusal> {
         if !self.is_traced() {
             return self.initial_value(value, kind);
         }
@@ -191,7 +196,7 @@ impl Compiler {
     }
 
     /// A variable has its first value.
-    pub(super) fn gave(&mut self, name: &Name, value: &Value, base: Slot) {
+    pub(super) fn gave(&mut self, name: &Name, value: &CompiledValue, base: Slot) {
         if !self.is_traced() {
             return;
         }
@@ -201,7 +206,7 @@ impl Compiler {
             let mark = self.tracing.operands.len();
             let what = What::Assign { name: name.to_string(), is_part: false };
             let site = self.site(what, value, mark);
-            self.builder.push(Node::Record(Box::new(Record { site, slots, sources: Vec::new() })));
+            self.builder.push(Node::Record(Box::new(ObservedValue { site, slots, sources: Vec::new() })));
         }
         if let Some(&site) = self.tracing.operands.last() {
             self.builder.push(Node::Wrote { site, base, count });

@@ -4,7 +4,8 @@ use super::Parser;
 use crate::interpreter::Refusal;
 use crate::interpreter::code::Interpolation;
 use crate::interpreter::syntax::{
-    Base, Declaration, Function, InterfaceBlock, Item, Name, Parameter, Qualifiers, Storage, TypeName, Variable,
+    BaseType, Declaration, DeclaredVariable, Function, InterfaceBlock, Item, Name, Parameter, Qualifiers,
+    StorageQualifier, TypeName,
 };
 
 /// Words before a type that do not change what it means here.
@@ -54,13 +55,13 @@ impl Parser<'_> {
         loop {
             let word = self.text(0);
             let storage = match word {
-                "const" if qualifiers.storage == Storage::Plain => Storage::Constant,
-                "in" | "attribute" => Storage::Input,
-                "out" => Storage::Output,
-                "inout" => Storage::InputOutput,
-                "uniform" => Storage::Uniform,
-                "varying" => Storage::Varying,
-                "shared" | "buffer" if self.is_name(1) => Storage::Shared,
+                "const" if qualifiers.storage == StorageQualifier::Plain => StorageQualifier::Constant,
+                "in" | "attribute" => StorageQualifier::Input,
+                "out" => StorageQualifier::Output,
+                "inout" => StorageQualifier::InputOutput,
+                "uniform" => StorageQualifier::Uniform,
+                "varying" => StorageQualifier::Varying,
+                "shared" | "buffer" if self.is_name(1) => StorageQualifier::Shared,
                 "layout" if self.text(1) == "(" => {
                     qualifiers.location = self.layout()?.or(qualifiers.location);
                     continue;
@@ -128,7 +129,7 @@ impl Parser<'_> {
         }
         let name = if self.is_name(0) { self.name()? } else { Name::from("") };
         let members = self.nested(Self::members)?;
-        Ok(TypeName { line, base: Base::Struct(name, members), lengths: self.lengths()? })
+        Ok(TypeName { line, base: BaseType::Struct(name, members), lengths: self.lengths()? })
     }
 
     fn members(&mut self) -> Result<Vec<Declaration>, Refusal> {
@@ -151,7 +152,7 @@ impl Parser<'_> {
         Ok(Declaration { line, qualifiers, kind, variables })
     }
 
-    fn variables(&mut self) -> Result<Vec<Variable>, Refusal> {
+    fn variables(&mut self) -> Result<Vec<DeclaredVariable>, Refusal> {
         let mut variables = Vec::new();
         loop {
             variables.push(self.variable()?);
@@ -165,15 +166,15 @@ impl Parser<'_> {
     }
 
     /// Name, lengths and first value.
-    pub(super) fn variable(&mut self) -> Result<Variable, Refusal> {
+    pub(super) fn variable(&mut self) -> Result<DeclaredVariable, Refusal> {
         let line = self.line();
         let name = self.name()?;
         let lengths = self.lengths()?;
         let value = if self.takes("=") { Some(self.initialiser()?) } else { None };
-        Ok(Variable { line, name, lengths, value })
+        Ok(DeclaredVariable { line, name, lengths, value })
     }
 
-    fn block_of(&mut self, storage: Storage, line: u32) -> Result<InterfaceBlock, Refusal> {
+    fn block_of(&mut self, storage: StorageQualifier, line: u32) -> Result<InterfaceBlock, Refusal> {
         let name = self.name()?;
         let members = self.members()?;
         let instance = if self.is_name(0) { Some((self.name()?, self.lengths()?)) } else { None };

@@ -3,7 +3,7 @@
 use super::Parser;
 use super::literal::literal;
 use crate::interpreter::Refusal;
-use crate::interpreter::syntax::{Base, Binary, Expression, ExpressionKind, TypeName, Unary};
+use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, TypeName, Unary};
 use crate::interpreter::text::TokenKind;
 use crate::interpreter::types::Type;
 
@@ -239,7 +239,7 @@ impl Parser<'_> {
     /// A type's name and the lengths behind it.
     pub(super) fn type_name(&mut self) -> Result<TypeName, Refusal> {
         let line = self.line();
-        let base = Base::Named(self.name()?);
+        let base = BaseType::Named(self.name()?);
         Ok(TypeName { line, base, lengths: self.lengths()? })
     }
 

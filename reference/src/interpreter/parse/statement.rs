@@ -2,7 +2,7 @@
 
 use super::Parser;
 use crate::interpreter::Refusal;
-use crate::interpreter::syntax::{Condition, Declaration, Statement, StatementKind};
+use crate::interpreter::syntax::{Declaration, LoopCondition, Statement, StatementKind};
 
 impl Parser<'_> {
     /// `{ … }`
@@ -106,15 +106,15 @@ impl Parser<'_> {
         Ok(StatementKind::Loop(first, condition, step, self.boxed()?))
     }
 
-    fn condition(&mut self) -> Result<Condition, Refusal> {
+    fn condition(&mut self) -> Result<LoopCondition, Refusal> {
         if !self.is_declaration() {
-            return Ok(Condition::Expression(self.expression()?));
+            return Ok(LoopCondition::Expression(self.expression()?));
         }
         let line = self.line();
         let qualifiers = self.qualifiers()?;
         let kind = self.declared_type()?;
         let variables = vec![self.variable()?];
-        Ok(Condition::Declaration(Declaration { line, qualifiers, kind, variables }))
+        Ok(LoopCondition::Declaration(Declaration { line, qualifiers, kind, variables }))
     }
 
     /// A declaration or an expression, and `;`.

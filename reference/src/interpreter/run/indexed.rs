@@ -1,7 +1,7 @@
 //! Reading and writing what an index selects.
 
 use super::machine::Machine;
-use super::memory::{Cause, CauseNumber};
+use super::memory::{CauseNumber, UndefinedCause};
 use super::undefined::Undefined;
 use crate::interpreter::code::{Indexed, Slot};
 
@@ -22,7 +22,7 @@ impl Machine<'_> {
                 if before == 0 { self.memory.cause(index, lane) } else { before }
             })
             .collect();
-        let outside = self.memory.number(Cause { what: Undefined::Index, line });
+        let outside = self.memory.number(UndefinedCause { what: Undefined::Index, line });
         self.memory.column_mut(to).copy_from_slice(&offsets);
         if causes.iter().any(|&cause| cause != 0) || offsets.iter().any(|offset| offset.is_nan()) {
             self.memory.causes_mut(to).copy_from_slice(&causes);

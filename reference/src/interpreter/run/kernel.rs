@@ -1,6 +1,6 @@
 //! The scalar operations, over columns.
 
-use crate::interpreter::code::{Class, Operation};
+use crate::interpreter::code::{ArithmeticClass, Operation};
 use crate::interpreter::run::{bits, undefined};
 
 /// How values of type `float` are rounded.
@@ -36,9 +36,9 @@ trait Rounding {
 }
 
 struct Exact;
-struct Single;
+struct SinglePrecision;
 struct Noisy<const WAY: u8>;
-struct Double;
+struct DoublePrecision;
 
 impl Rounding for Exact {
     #[inline(always)]
@@ -47,7 +47,7 @@ impl Rounding for Exact {
     }
 }
 
-impl Rounding for Single {
+impl Rounding for SinglePrecision {
     #[inline(always)]
     fn round(x: f64) -> f64 {
         f64::from(x as f32)
@@ -88,7 +88,7 @@ pub fn is_subnormal(x: f64) -> bool {
     x.abs() < f64::from(f32::MIN_POSITIVE)
 }
 
-impl Rounding for Double {
+impl Rounding for DoublePrecision {
     #[inline(always)]
     fn round(x: f64) -> f64 {
         x
@@ -96,37 +96,37 @@ impl Rounding for Double {
 }
 
 /// Does one operation for all lanes of the columns, which have one length.
-pub fn run(operation: Operation, class: Class, precision: Precision, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
+pub fn run(operation: Operation, class: ArithmeticClass, precision: Precision, to: &mut [f64], [a, b, c]: [&[f64]; 3]) {
     match (class, precision) {
         // A driver need not round a large whole number to a float before it is an integer again.
-        (Class::Int | Class::Uint, Precision::Noisy(_)) if operation == Operation::Truncate => {
+        (ArithmeticClass::Int | ArithmeticClass::Uint, Precision::Noisy(_)) if operation == Operation::Truncate => {
             run(Operation::TruncateDouble, class, Precision::Exact, to, [a, b, c]);
         }
-        (Class::Float, Precision::Noisy(_)) if operation == Operation::Narrow => {
+        (ArithmeticClass::Float, Precision::Noisy(_)) if operation == Operation::Narrow => {
             each1(to, a, |a| if a.trunc() == a { a } else { f64::from(a as f32) });
         }
-        (Class::Int, _) => integer(operation, to, [a, b, c], |x| f64::from(x as i32)),
-        (Class::Uint, _) => integer(operation, to, [a, b, c], |x| f64::from(x as u32)),
-        (Class::Double, _) => floating::<Double>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Exact) => floating::<Exact>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Noisy(0)) => floating::<Noisy<0>>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Noisy(1)) => floating::<Noisy<1>>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Noisy(2)) => floating::<Noisy<2>>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Noisy(_)) => floating::<Noisy<3>>(operation, to, [a, b, c]),
-        (Class::Float, Precision::Single) => floating::<Single>(operation, to, [a, b, c]),
+        (ArithmeticClass::Int, _) => integer(operation, to, [a, b, c], |x| f64::from(x as i32)),
+        (ArithmeticClass::Uint, _) => integer(operation, to, [a, b, c], |x| f64::from(x as u32)),
+        (ArithmeticClass::Double, _) => floating::<DoublePrecision>(operation, to, [a, b, c]),
+        (ArithmeticClass::Float, Precision::Exact) => floating::<Exact>(operation, to, [a, b, c]),
+        (ArithmeticClass::Float, Precision::Noisy(0)) => floating::<Noisy<0>>(operation, to, [a, b, c]),
+        (ArithmeticClass::Float, Precision::Noisy(1)) => floating::<Noisy<1>>(operation, to, [a, b, c]),
+        (ArithmeticClass::Float, Precision::Noisy(2)) => floating::<Noisy<2>>(operation, to, [a, b, c]),
+        (ArithmeticClass::Float, Precision::Noisy(_)) => floating::<Noisy<3>>(operation, to, [a, b, c]),
+        (ArithmeticClass::Float, Precision::Single) => floating::<SinglePrecision>(operation, to, [a, b, c]),
     }
 }
 
 /// One operation on three numbers.
 #[inline(always)]
-pub fn scalar(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
+pub fn scalar(operation: Operation, class: ArithmeticClass, [a, b, c]: [f64; 3]) -> f64 {
     let mut to = [0.0];
     let of: [&[f64]; 3] = [&[a], &[b], &[c]];
     match class {
-        Class::Int => integer(operation, &mut to, of, |x| f64::from(x as i32)),
-        Class::Uint => integer(operation, &mut to, of, |x| f64::from(x as u32)),
-        Class::Double => floating::<Double>(operation, &mut to, of),
-        Class::Float => floating::<Exact>(operation, &mut to, of),
+        ArithmeticClass::Int => integer(operation, &mut to, of, |x| f64::from(x as i32)),
+        ArithmeticClass::Uint => integer(operation, &mut to, of, |x| f64::from(x as u32)),
+        ArithmeticClass::Double => floating::<DoublePrecision>(operation, &mut to, of),
+        ArithmeticClass::Float => floating::<Exact>(operation, &mut to, of),
     }
     to[0]
 }
@@ -134,14 +134,14 @@ pub fn scalar(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
 /// One operation on three numbers, where what GLSL leaves undefined is not a number, and so is what is computed from it.
 /// What no float holds stays a number: how large it is tells more than that it is infinite.
 #[inline(always)]
-pub fn defined(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
+pub fn defined(operation: Operation, class: ArithmeticClass, [a, b, c]: [f64; 3]) -> f64 {
     match operation {
         // What is not a number stays that by itself.
-        Operation::Add if class == Class::Float => a + b,
-        Operation::Subtract if class == Class::Float => a - b,
-        Operation::Multiply if class == Class::Float => a * b,
-        Operation::Divide if class == Class::Float => a / b,
-        Operation::MultiplyAdd if class == Class::Float => a * b + c,
+        Operation::Add if class == ArithmeticClass::Float => a + b,
+        Operation::Subtract if class == ArithmeticClass::Float => a - b,
+        Operation::Multiply if class == ArithmeticClass::Float => a * b,
+        Operation::Divide if class == ArithmeticClass::Float => a / b,
+        Operation::MultiplyAdd if class == ArithmeticClass::Float => a * b + c,
         // The operand that is not chosen, or does not decide, does not count.
         Operation::Select => match a {
             _ if a.is_nan() => a,
@@ -151,7 +151,9 @@ pub fn defined(operation: Operation, class: Class, [a, b, c]: [f64; 3]) -> f64 {
         Operation::And if a == 0.0 => 0.0,
         Operation::Or if a != 0.0 && !a.is_nan() => 1.0,
         _ if a.is_nan() || b.is_nan() || c.is_nan() || undefined::is(operation, class, [a, b, c]) => f64::NAN,
-        _ => scalar(operation, if class == Class::Float { Class::Double } else { class }, [a, b, c]),
+        _ => {
+            scalar(operation, if class == ArithmeticClass::Float { ArithmeticClass::Double } else { class }, [a, b, c])
+        }
     }
 }
 

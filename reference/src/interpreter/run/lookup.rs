@@ -2,10 +2,10 @@
 
 use super::NotedLookup;
 use super::machine::Machine;
-use super::memory::{Cause, CauseNumber};
+use super::memory::{CauseNumber, UndefinedCause};
 use super::undefined::Undefined;
-use crate::interpreter::code::{Direction, Slot};
-use crate::interpreter::texture::{Lookup, Mode, Query, Texture};
+use crate::interpreter::code::{DerivativeAxis, Slot};
+use crate::interpreter::texture::{Lookup, LookupMode, Query, Texture};
 
 /// So many lookups are noted.
 const MOST_NOTED: usize = 1_000;
@@ -15,16 +15,16 @@ const INCOMPLETE: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 impl Machine<'_> {
     /// The lanes of a pixel and of its neighbour, in the 2 × 2 pixels that stand row by row, the lower one first.
-    fn neighbours(lane: usize, direction: Direction, coarse: bool) -> (usize, usize) {
+    fn neighbours(lane: usize, direction: DerivativeAxis, coarse: bool) -> (usize, usize) {
         let quad = lane / 4 * 4;
         let own = if coarse { 0 } else { lane % 4 };
         match direction {
-            Direction::X => (quad + (own & 2), quad + (own & 2) + 1),
-            Direction::Y => (quad + (own & 1), quad + (own & 1) + 2),
+            DerivativeAxis::X => (quad + (own & 2), quad + (own & 2) + 1),
+            DerivativeAxis::Y => (quad + (own & 1), quad + (own & 1) + 2),
         }
     }
 
-    fn difference(&self, of: Slot, lane: usize, direction: Direction, coarse: bool) -> f64 {
+    fn difference(&self, of: Slot, lane: usize, direction: DerivativeAxis, coarse: bool) -> f64 {
         let (low, high) = Self::neighbours(lane, direction, coarse);
         let column = self.memory.column(of);
         match (column.get(low), column.get(high)) {
@@ -39,7 +39,7 @@ impl Machine<'_> {
         quad + 4 <= self.lanes && (quad..quad + 4).all(|lane| self.active.has(lane))
     }
 
-    pub(super) fn derivative(&mut self, to: Slot, of: Slot, direction: Direction, coarse: bool, line: u32) {
+    pub(super) fn derivative(&mut self, to: Slot, of: Slot, direction: DerivativeAxis, coarse: bool, line: u32) {
         let values: Vec<f64> = (0..self.lanes).map(|lane| self.difference(of, lane, direction, coarse)).collect();
         let inherited = |lane: usize| {
             let (low, high) = Self::neighbours(lane, direction, coarse);
@@ -53,14 +53,14 @@ impl Machine<'_> {
             self.memory.causes_mut(to).copy_from_slice(&causes);
         }
         if outside.contains(&true) {
-            let cause = self.memory.number(Cause { what: Undefined::Derivative, line });
+            let cause = self.memory.number(UndefinedCause { what: Undefined::Derivative, line });
             self.memory.mark(to, cause, |lane| outside[lane]);
         }
     }
 
     /// Notes where each lane looks, where lookups are noted.
     fn note(&mut self, query: &Query) {
-        let is_place = !matches!(query.mode, Mode::Size(_) | Mode::Levels) && query.coordinates.len() >= 2;
+        let is_place = !matches!(query.mode, LookupMode::Size(_) | LookupMode::Levels) && query.coordinates.len() >= 2;
         let Some(mut noted) = self.lookups.take() else { return };
         for lane in (0..self.lanes).filter(|lane| is_place && self.active.has(*lane)) {
             let value = |slot: &Slot| self.memory.column(*slot)[lane];
@@ -69,7 +69,7 @@ impl Machine<'_> {
             let at = [0, 1].map(|axis| {
                 let size = texture.levels[0].size[axis] as f64;
                 let own = value(&query.coordinates[axis]);
-                let own = if matches!(query.mode, Mode::Fetch(_)) { (own + 0.5) / size } else { own };
+                let own = if matches!(query.mode, LookupMode::Fetch(_)) { (own + 0.5) / size } else { own };
                 own + query.offset.get(axis).map_or(0.0, value) / size
             });
             let reference = query.reference.as_ref().map(value);
@@ -104,7 +104,7 @@ impl Machine<'_> {
             }
             for what in [Undefined::Texture, Undefined::Derivative] {
                 if open.contains(&Some(what)) {
-                    let cause = self.memory.number(Cause { what, line: query.line });
+                    let cause = self.memory.number(UndefinedCause { what, line: query.line });
                     self.memory.mark(to, cause, |lane| open[lane] == Some(what));
                 }
             }
@@ -118,7 +118,7 @@ impl Machine<'_> {
         let number = numbers[lanes().next()?];
         let texture = self.textures.get(number as usize).filter(|_| number >= 0.0)?;
         let is_plain = texture.is_plain() && texture.fits(query.sampler);
-        let takes_one = matches!(query.mode, Mode::Implicit(_) | Mode::Level(_));
+        let takes_one = matches!(query.mode, LookupMode::Implicit(_) | LookupMode::Level(_));
         (is_plain && takes_one && lanes().all(|lane| numbers[lane] == number)).then_some(texture)
     }
 
@@ -144,7 +144,7 @@ pub(super) fn look_up(
     textures: &[Texture],
     query: &Query,
     value: &dyn Fn(Slot) -> f64,
-    difference: &dyn Fn(Slot, Direction) -> Option<f64>,
+    difference: &dyn Fn(Slot, DerivativeAxis) -> Option<f64>,
 ) -> ([f64; 4], Option<Undefined>) {
     let number = value(query.texture);
     let bound = textures.get(number as usize).filter(|_| number >= 0.0);
@@ -163,7 +163,7 @@ pub(super) fn look_up(
     let is_number = lookup.coordinates.iter().chain(&lookup.reference).all(|coordinate| coordinate.is_finite());
     let mut open = (!is_number).then_some(Undefined::Texture);
     let result = match &query.mode {
-        Mode::Implicit(bias) => {
+        LookupMode::Implicit(bias) => {
             if texture.levels.len() > 1 && texture.mipmap.is_some() || texture.magnify != texture.minify {
                 let along = |direction| {
                     let of = |axis: usize| {
@@ -171,7 +171,7 @@ pub(super) fn look_up(
                     };
                     Some([of(0)?, of(1)?, of(2)?])
                 };
-                match (along(Direction::X), along(Direction::Y)) {
+                match (along(DerivativeAxis::X), along(DerivativeAxis::Y)) {
                     (Some(x), Some(y)) => lookup.gradient = Some([x, y]),
                     _ => open = open.or(Some(Undefined::Derivative)),
                 }
@@ -179,28 +179,28 @@ pub(super) fn look_up(
             lookup.level = bias.map_or(0.0, value);
             texture.sample(&lookup)
         }
-        Mode::Level(level) => {
+        LookupMode::Level(level) => {
             lookup.level = value(*level);
             texture.sample(&lookup)
         }
-        Mode::Gradient(x, y) => {
+        LookupMode::Gradient(x, y) => {
             let along = |slots: &[Slot]| std::array::from_fn(|axis| slots.get(axis).map_or(0.0, |&slot| value(slot)));
             lookup.gradient = Some([along(x), along(y)]);
             texture.sample(&lookup)
         }
-        Mode::Fetch(level) => {
+        LookupMode::Fetch(level) => {
             lookup.level = value(*level);
             texture.fetch(&lookup).unwrap_or_else(|| {
                 open = Some(Undefined::Texture);
                 [0.0; 4]
             })
         }
-        Mode::Gather(component) => texture.gather(&lookup, (value(*component).clamp(0.0, 3.0)) as usize),
-        Mode::Size(level) => size(texture, value(*level)).unwrap_or_else(|| {
+        LookupMode::Gather(component) => texture.gather(&lookup, (value(*component).clamp(0.0, 3.0)) as usize),
+        LookupMode::Size(level) => size(texture, value(*level)).unwrap_or_else(|| {
             open = Some(Undefined::Texture);
             [0.0; 4]
         }),
-        Mode::Levels => [texture.levels.len() as f64; 4],
+        LookupMode::Levels => [texture.levels.len() as f64; 4],
     };
     (result, open)
 }

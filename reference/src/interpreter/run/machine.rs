@@ -2,7 +2,7 @@
 
 use super::kernel::Precision;
 use super::mask::Mask;
-use super::memory::{Cause, CauseNumber, Memory};
+use super::memory::{CauseNumber, Memory, UndefinedCause};
 use super::undefined::Undefined;
 use super::{NotedLookup, Stopped};
 use crate::interpreter::code::{Code, Node, Slot};
@@ -63,7 +63,7 @@ impl<'a> Machine<'a> {
         self.strayed = vec![0; lanes];
         for output in &self.code.outputs {
             let count = output.kind.slots().unwrap_or(0) as u32;
-            let cause = Cause { what: Undefined::Unwritten, line: output.line };
+            let cause = UndefinedCause { what: Undefined::Unwritten, line: output.line };
             self.memory.undefine(output.slot, count, cause, &self.active);
         }
     }
@@ -108,7 +108,7 @@ impl<'a> Machine<'a> {
             }
             Node::Undefine { base, count, what, line } => {
                 self.burn_many(u64::from(*count), *line)?;
-                let cause = Cause { what: *what, line: *line };
+                let cause = UndefinedCause { what: *what, line: *line };
                 self.memory.undefine(*base, *count, cause, &self.active);
             }
             Node::Offset { to, before, index, count, stride, line } => {

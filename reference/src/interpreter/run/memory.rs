@@ -6,11 +6,11 @@
 use super::kernel::{self, Precision};
 use super::mask::Mask;
 use super::undefined::{self, Undefined};
-use crate::interpreter::code::{Constant, Instruction, Operation, Slot};
+use crate::interpreter::code::{CodeConstant, Instruction, Operation, Slot};
 
 /// Why a value is undefined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Cause {
+pub struct UndefinedCause {
     /// What is left open.
     pub what: Undefined,
     /// The line that does it.
@@ -27,13 +27,13 @@ pub(super) struct Memory {
     /// Whether a slot is undefined in any lane; its causes are valid only then.
     undefined: Vec<bool>,
     causes: Vec<Vec<CauseNumber>>,
-    known: Vec<Cause>,
+    known: Vec<UndefinedCause>,
     precision: Precision,
 }
 
 impl Memory {
-    pub fn new(constants: &[Option<Constant>], lanes: usize, precision: Precision) -> Self {
-        let column = |constant: &Option<Constant>| {
+    pub fn new(constants: &[Option<CodeConstant>], lanes: usize, precision: Precision) -> Self {
+        let column = |constant: &Option<CodeConstant>| {
             let value = match constant {
                 Some(constant) if constant.is_float && precision != Precision::Exact => {
                     let value = f64::from(constant.value as f32);
@@ -66,7 +66,7 @@ impl Memory {
     }
 
     /// Gives constants their values again.
-    pub fn restore(&mut self, constants: &[Option<Constant>]) {
+    pub fn restore(&mut self, constants: &[Option<CodeConstant>]) {
         for (column, constant) in self.columns.iter_mut().zip(constants) {
             constant.iter().for_each(|constant| column.fill(constant.value));
         }
@@ -90,11 +90,11 @@ impl Memory {
         self.undefined[slot as usize]
     }
 
-    pub fn known(&self, number: CauseNumber) -> Option<Cause> {
+    pub fn known(&self, number: CauseNumber) -> Option<UndefinedCause> {
         self.known.get(usize::from(number).checked_sub(1)?).copied()
     }
 
-    pub fn number(&mut self, cause: Cause) -> CauseNumber {
+    pub fn number(&mut self, cause: UndefinedCause) -> CauseNumber {
         let index = self.known.iter().position(|known| *known == cause).unwrap_or_else(|| {
             self.known.push(cause);
             self.known.len() - 1
@@ -138,7 +138,7 @@ impl Memory {
             self.inherit(operation, to, of);
         }
         if let Some((what, lanes)) = found {
-            let cause = self.number(Cause { what, line });
+            let cause = self.number(UndefinedCause { what, line });
             self.mark(to, cause, |lane| lanes[lane]);
         }
     }
@@ -190,7 +190,7 @@ impl Memory {
     }
 
     /// Leaves slots without a value in the lanes of the mask.
-    pub fn undefine(&mut self, base: Slot, count: u32, cause: Cause, mask: &Mask) {
+    pub fn undefine(&mut self, base: Slot, count: u32, cause: UndefinedCause, mask: &Mask) {
         let cause = self.number(cause);
         for slot in base..base + count {
             let column = &mut self.columns[slot as usize];

@@ -1,10 +1,10 @@
 //! A program that is run again and again, with its values looked at or changed.
 
 use super::machine::Machine;
-use super::{Column, Mismatch, Outputs, Precision, Stopped, Variable, leaves, slots};
-use crate::interpreter::code::{Code, Record, Slot};
+use super::{Column, Mismatch, Outputs, Precision, ProgramVariable, Stopped, leaves, slots};
+use crate::interpreter::code::{Code, ObservedValue, Slot};
 use crate::interpreter::texture::Texture;
-use crate::interpreter::trace::{Change, Trace};
+use crate::interpreter::trace::{Trace, ValueChange};
 use crate::interpreter::types::Scalar;
 use std::fmt;
 use std::ops::Range;
@@ -61,7 +61,7 @@ impl Prepared<'_> {
         self.machine.recorder.iter_mut().for_each(|recorder| recorder.most = Some(most));
     }
 
-    pub(crate) fn again(&mut self, is_recording: bool, changes: &[Change]) -> Result<Outputs, Stopped> {
+    pub(crate) fn again(&mut self, is_recording: bool, changes: &[ValueChange]) -> Result<Outputs, Stopped> {
         let Self { machine, samples, inputs, fuel, most } = self;
         machine.fuel = (*fuel).min(*most);
         let given = machine.fuel;
@@ -78,7 +78,7 @@ impl Prepared<'_> {
         }
         machine.memory.restore(&machine.code.constants);
         ran?;
-        let column = |variable: &Variable| {
+        let column = |variable: &ProgramVariable| {
             let count = variable.kind.slots().unwrap_or(0);
             let mut column = Column {
                 name: variable.name.clone(),
@@ -109,7 +109,7 @@ impl Prepared<'_> {
 }
 
 impl Machine<'_> {
-    pub(super) fn record(&mut self, record: &Record) {
+    pub(super) fn record(&mut self, record: &ObservedValue) {
         let Some(recorder) = self.recorder.as_mut() else { return };
         if let Some(values) = recorder.change(record.site) {
             for (slot, values) in record.slots.iter().zip(values) {

@@ -9,7 +9,7 @@ use crate::interpreter::texture::Texture;
 const FUEL: u32 = 1_000_000;
 
 /// Registers, and what may be called.
-pub struct Single<'a> {
+pub struct SingleSample<'a> {
     functions: &'a [Vec<Node>],
     textures: &'a [Texture],
     registers: &'a mut [f64],
@@ -29,7 +29,7 @@ enum Next {
 #[derive(Debug)]
 pub struct Astray;
 
-impl<'a> Single<'a> {
+impl<'a> SingleSample<'a> {
     /// Ready to run.
     pub fn new(functions: &'a [Vec<Node>], textures: &'a [Texture], registers: &'a mut [f64]) -> Self {
         Self { functions, textures, registers, fuel: FUEL }

@@ -1,6 +1,6 @@
 //! Where GLSL leaves the result of an operation open.
 
-use crate::interpreter::code::{Class, Operation};
+use crate::interpreter::code::{ArithmeticClass, Operation};
 use std::fmt;
 
 /// Why a value may be anything.
@@ -66,13 +66,13 @@ impl fmt::Display for Undefined {
 
 /// Whether the operation's result is undefined for these operands.
 #[inline(always)]
-pub fn is(operation: Operation, class: Class, operands: [f64; 3]) -> bool {
-    table(operation, class, One(operands))
+pub fn is(operation: Operation, class: ArithmeticClass, operands: [f64; 3]) -> bool {
+    table(operation, class, SingleOperands(operands))
 }
 
 /// In which lanes the operation's result is undefined, and why; none where it is defined in all of them.
-pub fn lanes(operation: Operation, class: Class, operands: [&[f64]; 3]) -> Option<(Undefined, Vec<bool>)> {
-    table(operation, class, Lanes(operands))
+pub fn lanes(operation: Operation, class: ArithmeticClass, operands: [&[f64]; 3]) -> Option<(Undefined, Vec<bool>)> {
+    table(operation, class, LaneOperands(operands))
 }
 
 /// What is asked where an operation may be undefined.
@@ -83,10 +83,10 @@ trait Ask {
     fn found(self, why: Undefined, is_undefined: impl Fn(f64, f64, f64) -> bool) -> Self::Answer;
 }
 
-struct One([f64; 3]);
-struct Lanes<'a>([&'a [f64]; 3]);
+struct SingleOperands([f64; 3]);
+struct LaneOperands<'a>([&'a [f64]; 3]);
 
-impl Ask for One {
+impl Ask for SingleOperands {
     type Answer = bool;
     const NONE: bool = false;
 
@@ -97,7 +97,7 @@ impl Ask for One {
     }
 }
 
-impl Ask for Lanes<'_> {
+impl Ask for LaneOperands<'_> {
     type Answer = Option<(Undefined, Vec<bool>)>;
     const NONE: Self::Answer = None;
 
@@ -112,8 +112,8 @@ impl Ask for Lanes<'_> {
 
 /// When which operation is undefined.
 #[inline(always)]
-fn table<A: Ask>(operation: Operation, class: Class, ask: A) -> A::Answer {
-    let floating = matches!(class, Class::Float | Class::Double);
+fn table<A: Ask>(operation: Operation, class: ArithmeticClass, ask: A) -> A::Answer {
+    let floating = matches!(class, ArithmeticClass::Float | ArithmeticClass::Double);
     match operation {
         Operation::Less | Operation::LessEqual | Operation::Equal | Operation::NotEqual if floating => {
             ask.found(Undefined::NotANumber, |a, b, _| a.is_nan() | b.is_nan())
@@ -141,7 +141,7 @@ fn table<A: Ask>(operation: Operation, class: Class, ask: A) -> A::Answer {
         Operation::Round => ask.found(Undefined::Half, |a, _, _| (a - a.trunc()).abs() == 0.5),
         Operation::LoadExponent => ask.found(Undefined::Domain, |_, b, _| b > 128.0),
         Operation::Significand | Operation::Exponent => ask.found(Undefined::Domain, |a, _, _| !a.is_finite()),
-        Operation::Truncate | Operation::TruncateDouble if class == Class::Int => {
+        Operation::Truncate | Operation::TruncateDouble if class == ArithmeticClass::Int => {
             // 2^31 is the first that does not fit; anything above −2^31 − 1 is cut off to fit.
             ask.found(Undefined::Conversion, |a, _, _| !((a < 2_147_483_648.0) & (a > -2_147_483_649.0)))
         }

@@ -1,15 +1,15 @@
 //! Formulas without branches and calls: their instructions in a row.
 
-use crate::interpreter::code::{Class, Instruction, Node, Operation, Slot};
+use crate::interpreter::code::{ArithmeticClass, Instruction, Node, Operation, Slot};
 use crate::interpreter::run::defined;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// The same instruction on as many scalars as a vector has, which lie in a row; an operand may be one for all of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
+pub(super) struct VectorInstruction {
     operation: Operation,
-    class: Class,
+    class: ArithmeticClass,
     count: u8,
     /// How far each operand goes on from scalar to scalar: 0 or 1.
     strides: [u8; 3],
@@ -17,7 +17,7 @@ pub(super) struct Step {
     of: [Slot; 3],
 }
 
-impl Step {
+impl VectorInstruction {
     /// Does it.
     #[inline]
     pub(super) fn run(&self, registers: &mut [f64]) {
@@ -25,8 +25,8 @@ impl Step {
         macro_rules! quick {
             ($($operation:ident $operands:literal),*) => {
                 match (self.operation, self.class) {
-                    $((Operation::$operation, Class::Float) => {
-                        self.each::<$operands>(registers, |of| defined(Operation::$operation, Class::Float, of));
+                    $((Operation::$operation, ArithmeticClass::Float) => {
+                        self.each::<$operands>(registers, |of| defined(Operation::$operation, ArithmeticClass::Float, of));
                     })*
                     (Operation::Copy, _) => self.each::<1>(registers, |[a, _, _]| a),
                     (operation, class) => self.each::<3>(registers, |of| defined(operation, class, of)),
@@ -75,15 +75,15 @@ impl Step {
 
 /// The nodes as steps one after the other, without those that `target` does not need; none where they branch.
 /// `temporaries`: where values may be kept on the way.
-pub(super) fn steps(nodes: &[Node], target: Range<Slot>, temporaries: Range<Slot>) -> Option<Vec<Step>> {
+pub(super) fn steps(nodes: &[Node], target: Range<Slot>, temporaries: Range<Slot>) -> Option<Vec<VectorInstruction>> {
     let mut instructions = in_a_row(nodes, &target)?;
     keep_needed(&mut instructions, target.clone());
     move_together(&mut instructions, &target, temporaries);
-    let mut steps: Vec<Step> = Vec::with_capacity(instructions.len());
+    let mut steps: Vec<VectorInstruction> = Vec::with_capacity(instructions.len());
     for one in &instructions {
         if !steps.last_mut().is_some_and(|last| last.goes_on_with(one)) {
             let Instruction { operation, class, to, of, .. } = *one;
-            steps.push(Step { operation, class, count: 1, strides: [0; 3], to, of });
+            steps.push(VectorInstruction { operation, class, count: 1, strides: [0; 3], to, of });
         }
     }
     Some(steps)
@@ -112,7 +112,7 @@ fn in_a_row(nodes: &[Node], target: &Range<Slot>) -> Option<Vec<Instruction>> {
 }
 
 fn copy(to: Slot, from: Slot) -> Instruction {
-    Instruction { operation: Operation::Copy, class: Class::Double, to, of: [from; 3], line: 0 }
+    Instruction { operation: Operation::Copy, class: ArithmeticClass::Double, to, of: [from; 3], line: 0 }
 }
 
 fn keep_needed(instructions: &mut Vec<Instruction>, target: Range<Slot>) {

@@ -110,7 +110,7 @@ fn built_in_variables_are_inputs_and_outputs() {
     let program = fragment(
         "out vec4 result; void main() { result = vec4(gl_FragCoord.xy, gl_FrontFacing ? 1.0 : 0.0, gl_PointCoord.x); gl_FragDepth = gl_FragCoord.z; }",
     );
-    let names = |all: &[super::super::Variable]| all.iter().map(|one| one.name.clone()).collect::<Vec<_>>();
+    let names = |all: &[super::super::ProgramVariable]| all.iter().map(|one| one.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(program.inputs()), ["gl_FragCoord", "gl_FrontFacing", "gl_PointCoord"]);
     assert_eq!(names(program.outputs()), ["result", "gl_FragDepth"]);
     let text = "out vec4 y; void main() { y = vec4(gl_VertexID, gl_InstanceID, gl_MaxVertexAttribs, gl_DepthRange.far); gl_Position = y; }";

@@ -1,6 +1,6 @@
 //! What is recorded of a program, and what a changed value becomes.
 
-use crate::interpreter::trace::{Change, Trace, What};
+use crate::interpreter::trace::{Trace, ValueChange, What};
 use crate::interpreter::{Outputs, Program, Stage};
 
 const FUEL: u64 = 1_000_000;
@@ -69,7 +69,7 @@ fn a_changed_value_changes_what_is_made_of_it_and_only_in_that_run() {
         program.sites().iter().position(|site| is_it(&site.what)).expect("the variable")
     };
     let mut with = |site: usize, number: f64| {
-        let change = Change { site, values: vec![vec![vec![number]]] };
+        let change = ValueChange { site, values: vec![vec![vec![number]]] };
         prepared.outputs(&[change]).unwrap().get("y").unwrap().values[0][0]
     };
     assert_eq!(with(site("a"), 10.0), 12.0);
@@ -123,14 +123,15 @@ fn each_turn_of_a_loop_has_its_value_and_its_change() {
     assert_eq!(outputs.get("y").unwrap().values, [[8.0, 16.0]]);
     assert_eq!(given(&program, &trace, "a"), [(8, vec![3.0, 6.0]), (8, vec![5.0, 10.0])]);
     let site = trace.events.iter().find(|event| event.values == [[5.0, 10.0]]).unwrap().site;
-    let change = Change { site, values: vec![vec![vec![1.0; 2]], vec![vec![2.0; 2]]] };
+    let change = ValueChange { site, values: vec![vec![vec![1.0; 2]], vec![vec![2.0; 2]]] };
     assert_eq!(prepared.outputs(&[change]).unwrap().get("y").unwrap().values, [[3.0, 3.0]]);
     let is_bound = |site: &usize| {
         let events = trace.events.iter().filter(|event| event.site == *site);
         program.sites()[*site].what == What::Literal && events.into_iter().any(|event| event.values == [[2.0; 2]])
     };
     let bound = (0..program.sites().len()).find(is_bound).unwrap();
-    let mut with = |site: usize, number: f64| prepared.outputs(&[Change { site, values: vec![vec![vec![number; 2]]] }]);
+    let mut with =
+        |site: usize, number: f64| prepared.outputs(&[ValueChange { site, values: vec![vec![vec![number; 2]]] }]);
     assert_eq!(with(bound, 1.0).unwrap().get("y").unwrap().values, [[3.0, 6.0]]);
     // A counter that never comes to its end does not take the steps of the runs after it.
     let counter = program.sites().iter().position(|site| site.what == What::Read("i".into())).unwrap();

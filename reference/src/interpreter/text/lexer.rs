@@ -16,11 +16,11 @@ pub fn tokens(text: &str) -> Vec<Token> {
 }
 
 /// A character, its line, and the byte of the file at which it stands.
-type Placed = (char, u32, u32);
+type PlacedCharacter = (char, u32, u32);
 
 /// The characters with their places. Every kind of line end is `\n`; those behind a `\` are gone.
-fn joined(text: &str) -> Vec<Placed> {
-    let mut characters: Vec<Placed> = Vec::with_capacity(text.len() + 1);
+fn joined(text: &str) -> Vec<PlacedCharacter> {
+    let mut characters: Vec<PlacedCharacter> = Vec::with_capacity(text.len() + 1);
     let mut line = 1;
     let mut rest = text.char_indices().peekable();
     while let Some((at, character)) = rest.next() {
@@ -43,7 +43,7 @@ fn joined(text: &str) -> Vec<Placed> {
 }
 
 struct Lexer {
-    characters: Vec<Placed>,
+    characters: Vec<PlacedCharacter>,
     at: usize,
     /// Where the last token ended.
     end: usize,

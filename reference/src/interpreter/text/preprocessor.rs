@@ -54,7 +54,7 @@ pub fn preprocess(text: &str) -> Result<Preprocessed, Refusal> {
     Ok(Preprocessed { tokens: preprocessor.output, version: preprocessor.macros.version })
 }
 
-struct Condition {
+struct ConditionalGroup {
     line: u32,
     /// Whether the text between this directive and the next is read.
     active: bool,
@@ -64,7 +64,7 @@ struct Condition {
 
 struct Preprocessor {
     macros: Macros,
-    conditions: Vec<Condition>,
+    conditions: Vec<ConditionalGroup>,
     /// Read, and not expanded yet: a macro's arguments may stand on several lines.
     pending: Vec<Token>,
     output: Vec<Token>,
@@ -121,12 +121,12 @@ impl Preprocessor {
     }
 
     fn conditional(&mut self, name: &str, rest: &[Token], line: u32) -> Result<(), Refusal> {
-        let outer = |conditions: &[Condition]| conditions.len() < 2 || conditions[conditions.len() - 2].active;
+        let outer = |conditions: &[ConditionalGroup]| conditions.len() < 2 || conditions[conditions.len() - 2].active;
         match name {
             "if" | "ifdef" | "ifndef" => {
                 let is_read = self.is_active();
                 let active = is_read && self.condition(name, rest, line)?;
-                self.conditions.push(Condition { line, active, taken: active || !is_read });
+                self.conditions.push(ConditionalGroup { line, active, taken: active || !is_read });
             }
             "elif" | "else" => {
                 let is_read = outer(&self.conditions);

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 /// What draws a map: its texels row by row, the lowest row first.
-type Draw = dyn Fn() -> Vec<f32> + Send + Sync;
+type DrawDepths = dyn Fn() -> Vec<f32> + Send + Sync;
 
 /// The depths of a texture: one number a texel, or their moments, which are two.
 #[derive(Clone)]
@@ -13,7 +13,7 @@ pub struct Depths(Arc<Later>);
 struct Later {
     count: usize,
     each: usize,
-    draw: OnceLock<Box<Draw>>,
+    draw: OnceLock<Box<DrawDepths>>,
     drawn: OnceLock<Vec<f32>>,
 }
 

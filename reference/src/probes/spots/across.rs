@@ -1,8 +1,8 @@
 //! Rows of fragments across edges, in equal steps: what a right answer may show there in many ways is judged by its course.
 
-use super::{Candidate, Taken};
+use super::{FragmentCandidate, FragmentChoice};
 use crate::Assignment;
-use crate::probes::{Group, Probe, ProbeSet, Random};
+use crate::probes::{Probe, ProbeGroup, ProbeSet, Random};
 use crate::scene::Vertex;
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use rand_chacha::ChaCha8Rng;
@@ -51,7 +51,7 @@ pub struct Crossings {
 
 /// What is wrong with the way of an answer over edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Course {
+pub enum EdgeDefect {
     /// It shows the one or the other, and nothing between.
     Abrupt,
     /// It goes back on its way.
@@ -66,7 +66,7 @@ impl Crossings {
     }
 
     /// How an answer goes over the edges, where something is wrong with that; none where it shows no difference there either.
-    pub fn course(&self, colours: &[[f64; 3]]) -> Option<Course> {
+    pub fn course(&self, colours: &[[f64; 3]]) -> Option<EdgeDefect> {
         let ways: Vec<Vec<f64>> = self.edges.iter().filter_map(|edge| way(colours.get(edge.clone())?)).collect();
         let few = |count: usize| count * FEW < ways.len();
         let gradual =
@@ -74,8 +74,8 @@ impl Crossings {
         let uneven = ways.iter().filter(|way| is_uneven(way)).count();
         match () {
             () if ways.is_empty() => None,
-            () if few(gradual) => Some(Course::Abrupt),
-            () => (!few(uneven)).then_some(Course::Uneven),
+            () if few(gradual) => Some(EdgeDefect::Abrupt),
+            () => (!few(uneven)).then_some(EdgeDefect::Uneven),
         }
     }
 }
@@ -130,7 +130,7 @@ impl Assignment {
     }
 
     /// A row, and the places in it of its crossings; none without one.
-    fn row(&self, random: &mut Random, group: usize, drawn: &Group) -> Option<(Vec<Probe>, Vec<Range<usize>>)> {
+    fn row(&self, random: &mut Random, group: usize, drawn: &ProbeGroup) -> Option<(Vec<Probe>, Vec<Range<usize>>)> {
         let (corners, weights, cull) = self.triangle(random);
         let place: DVec4 = corners.iter().zip(weights).map(|(corner, weight)| corner.position * weight).sum();
         let [view, projection] = drawn.pass;
@@ -140,11 +140,11 @@ impl Assignment {
         let w = (projection * to_pass * place).w;
         let whole = 2.0 * w * LENGTH / projection.col(axis)[axis];
         let across = to_pass.inverse().transform_vector3(DVec3::AXES[axis] * whole);
-        let candidate = |step: usize| -> Candidate {
+        let candidate = |step: usize| -> FragmentCandidate {
             let by = across * (step as f64 / (STEPS - 1) as f64 - 0.5);
             (corners.map(|corner| moved(corner, by)), weights, cull)
         };
-        let located = self.located(drawn, (0..STEPS).map(candidate).collect(), Taken::FrontInPlace)?;
+        let located = self.located(drawn, (0..STEPS).map(candidate).collect(), FragmentChoice::FrontInPlace)?;
         if located.spots.len() < STEPS {
             return None;
         }
@@ -187,10 +187,10 @@ mod tests {
     #[test]
     fn a_step_is_abrupt_and_a_way_back_uneven() {
         let row = crossings(std::iter::once(0..6).collect());
-        assert_eq!(row.course(&greys(&[0.0, 0.0, 0.0, 1.0, 1.0, 1.0])), Some(Course::Abrupt));
+        assert_eq!(row.course(&greys(&[0.0, 0.0, 0.0, 1.0, 1.0, 1.0])), Some(EdgeDefect::Abrupt));
         assert_eq!(row.course(&greys(&[0.0, 0.0, 0.5, 1.0, 1.0, 1.0])), None);
         assert_eq!(row.course(&greys(&[0.0, 0.25, 0.5, 0.25, 0.75, 1.0])), None);
-        assert_eq!(row.course(&greys(&[0.0, 0.5, 1.0, 0.0, 0.5, 1.0])), Some(Course::Uneven));
+        assert_eq!(row.course(&greys(&[0.0, 0.5, 1.0, 0.0, 0.5, 1.0])), Some(EdgeDefect::Uneven));
         // Where nothing differs nothing can be said.
         assert_eq!(row.course(&greys(&[1.0; 6])), None);
     }
@@ -201,6 +201,6 @@ mod tests {
         let mut shares = vec![0.0, 0.5, 1.0, 0.0, 0.5, 1.0, 0.0, 1.0, 1.0];
         assert_eq!(rows.course(&greys(&shares)), None);
         (shares[1], shares[4]) = (1.0, 1.0);
-        assert_eq!(rows.course(&greys(&shares)), Some(Course::Abrupt));
+        assert_eq!(rows.course(&greys(&shares)), Some(EdgeDefect::Abrupt));
     }
 }

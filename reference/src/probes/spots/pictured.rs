@@ -1,8 +1,8 @@
 //! Probes at places of a picture, so that what is run there is what a person sees there.
 
-use super::Taken;
+use super::FragmentChoice;
 use crate::frames::VertexStage;
-use crate::probes::{Group, Probe};
+use crate::probes::{Probe, ProbeGroup};
 use crate::scene::{Cull, Pose};
 use crate::{Assignment, Value};
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -71,8 +71,8 @@ impl Assignment {
             let weights = self.weights_at(ends, middle)?;
             let uniforms = shape.uniforms.clone();
             let pass = [DMat4::IDENTITY; 2];
-            let drawn = Group { matrices: pose.matrices, t: pose.t, uniforms: uniforms.clone(), pass };
-            let located = self.located(&drawn, vec![(corners, weights, Cull::None)], Taken::AnySide)?;
+            let drawn = ProbeGroup { matrices: pose.matrices, t: pose.t, uniforms: uniforms.clone(), pass };
+            let located = self.located(&drawn, vec![(corners, weights, Cull::None)], FragmentChoice::AnySide)?;
             let probe = self.shown_in_place(0, &drawn, located, std::iter::once(DVec3::ZERO)).pop()?;
             let at = [(f64::from(pixel[0]) + 0.5) / f64::from(width), (f64::from(pixel[1]) + 0.5) / f64::from(height)];
             Some(Pictured { probe, uniforms, at, pixel: Some(*pixel) })

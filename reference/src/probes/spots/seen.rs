@@ -1,6 +1,6 @@
 //! Where in the window a fragment of a triangle lies.
 
-use super::Taken;
+use super::FragmentChoice;
 use crate::Assignment;
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
@@ -21,7 +21,7 @@ impl Assignment {
         &self,
         ends: [DVec4; 3],
         weights: [f64; 3],
-        taken: Taken,
+        taken: FragmentChoice,
     ) -> Option<([f64; 3], [f64; 4], bool)> {
         if !ends.iter().all(|end| end.is_finite() && end.w > 1e-3) {
             return None;
@@ -32,7 +32,7 @@ impl Assignment {
         let middle = window(at(weights)).floor() + 0.5;
         let within = self
             .weights_at(ends, middle.to_array())
-            .filter(|weights| taken != Taken::FrontInPlace && weights.iter().all(|share| *share >= 0.0));
+            .filter(|weights| taken != FragmentChoice::FrontInPlace && weights.iter().all(|share| *share >= 0.0));
         let place = within.map_or_else(|| window(at(weights)), |_| middle);
         let weights = within.unwrap_or(weights);
         let p = at(weights);

@@ -4,7 +4,7 @@ use super::Spot;
 use crate::equation::DISCARDED;
 use crate::interpreter::{Interpolation, Program, Scalar};
 use crate::pipeline::{Pipeline, positions, scalars, slices};
-use crate::probes::{Group, Probe, ProbeSet};
+use crate::probes::{Probe, ProbeGroup, ProbeSet};
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
 use glam::{DVec3, DVec4};
@@ -18,10 +18,10 @@ const MOVED: f64 = 1e-5;
 const SUDDEN: f64 = 2e-3;
 
 /// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
-pub(super) type Handed = Vec<Vec<Vec<f64>>>;
+pub(super) type FragmentInputs = Vec<Vec<Vec<f64>>>;
 
 /// The same there, at the pixels to the right, and at those above; nothing of the last two where nobody looks at them.
-pub(super) type HandedAround = [Handed; 3];
+pub(super) type HandedAround = [FragmentInputs; 3];
 
 /// A run of the fragment stage at a spot.
 #[derive(Clone, Copy)]
@@ -56,7 +56,7 @@ const QUAD: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
 
 /// What a program shows at a probe.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown {
+pub struct ProbeOutput {
     /// The colour, clamped; [`DISCARDED`] where the fragment is thrown away, no number where it is undefined.
     pub colour: DVec3,
     /// The position of the first corner in clip space; the origin's where no vertex stage is handed in.
@@ -72,7 +72,7 @@ impl Assignment {
         program: &Program,
         uniforms: &[Value],
         vertices: &[Vertex],
-    ) -> Option<(Vec<DVec4>, Handed)> {
+    ) -> Option<(Vec<DVec4>, FragmentInputs)> {
         let outputs = self.run_vertices(program, uniforms, vertices)?;
         let written = (0..program.outputs().len()).map(|place| scalars(&outputs, place)).collect();
         Some((positions(&outputs, vertices.len()), written))
@@ -182,12 +182,12 @@ impl Assignment {
     }
 
     /// What another program shows at each probe, and whether that is steady; none where it cannot be run.
-    pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
+    pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<ProbeOutput>> {
         self.shown(pipeline, probes, WAYS)
     }
 
     /// The same where nobody asks whether it is steady.
-    pub(crate) fn shown_once(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<Shown>> {
+    pub(crate) fn shown_once(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<ProbeOutput>> {
         self.shown(pipeline, probes, 1)
     }
 
@@ -197,18 +197,25 @@ impl Assignment {
         pipeline: &Pipeline,
         uniforms: &[Value],
         probes: &[Probe],
-    ) -> Option<Vec<Shown>> {
+    ) -> Option<Vec<ProbeOutput>> {
         self.shown_in(pipeline, uniforms, probes, 1)
     }
 
-    fn shown(&self, pipeline: &Pipeline, probes: &ProbeSet, ways: usize) -> Option<Vec<Shown>> {
-        let of_group =
-            |(group, drawn): (usize, &Group)| self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group), ways);
+    fn shown(&self, pipeline: &Pipeline, probes: &ProbeSet, ways: usize) -> Option<Vec<ProbeOutput>> {
+        let of_group = |(group, drawn): (usize, &ProbeGroup)| {
+            self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group), ways)
+        };
         let groups = probes.groups.iter().enumerate().map(of_group).collect::<Option<Vec<_>>>()?;
         Some(groups.into_iter().flatten().collect())
     }
 
-    fn shown_in(&self, pipeline: &Pipeline, uniforms: &[Value], probes: &[Probe], ways: usize) -> Option<Vec<Shown>> {
+    fn shown_in(
+        &self,
+        pipeline: &Pipeline,
+        uniforms: &[Value],
+        probes: &[Probe],
+        ways: usize,
+    ) -> Option<Vec<ProbeOutput>> {
         let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
@@ -218,13 +225,13 @@ impl Assignment {
         };
         let beside = |pixel: usize| match pipeline.has_derivatives() {
             true => mixed(&|spot| spot.weights_beside[pixel]),
-            false => Handed::new(),
+            false => FragmentInputs::new(),
         };
         let handed = [mixed(&|spot| spot.weights), beside(0), beside(1)];
         let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
             let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
-            Shown { colour, position, is_steady }
+            ProbeOutput { colour, position, is_steady }
         };
         Some(colours.into_iter().enumerate().map(shown).collect())
     }
@@ -234,17 +241,17 @@ impl Assignment {
 /// says. `positions` are those of the corners, in clip space.
 pub(super) fn mixed(
     pipeline: &Pipeline,
-    written: &Handed,
+    written: &FragmentInputs,
     positions: &[DVec4],
     shares: &[(usize, [f64; 3])],
-) -> Handed {
+) -> FragmentInputs {
     let linear: Vec<_> = shares
         .iter()
         .map(|(triangle, weights)| {
             (*triangle, linear(*weights, std::array::from_fn(|corner| positions[3 * triangle + corner].w)))
         })
         .collect();
-    let output = |((place, output), columns): ((usize, &crate::interpreter::Variable), &Vec<Vec<f64>>)| {
+    let output = |((place, output), columns): ((usize, &crate::interpreter::ProgramVariable), &Vec<Vec<f64>>)| {
         let read = pipeline.varyings.iter().find(|varying| varying.output == place);
         let interpolation = match output.kind.scalar() {
             Some(Scalar::Float | Scalar::Double) | None => read.map_or(output.interpolation, |read| read.interpolation),

@@ -1,6 +1,6 @@
 //! The parts of a solution's `main` that can be taken out: summands, calls that are added up, colours that are mixed in.
 
-use super::Change;
+use super::TextChange;
 use crate::interpreter::outline::{self, StatementText, Word};
 use crate::interpreter::{Scalar, Type, is_builtin};
 use crate::proposal::source::SolutionFile;
@@ -8,7 +8,7 @@ use std::collections::HashSet;
 
 /// The parts of a file: locals that are summed up, and statements that change what there is already. Each with its name, the
 /// change that takes it out, and the words that it is computed from.
-pub(super) fn terms_of(source: &SolutionFile) -> Vec<(String, Change, HashSet<String>)> {
+pub(super) fn terms_of(source: &SolutionFile) -> Vec<(String, TextChange, HashSet<String>)> {
     let functions = outline::functions(&source.text);
     let Some(main) = functions.iter().find(|function| function.name.text == source.entry) else { return Vec::new() };
     let own: Vec<&str> = functions.iter().map(|function| function.name.text.as_str()).collect();
@@ -20,7 +20,7 @@ pub(super) fn terms_of(source: &SolutionFile) -> Vec<(String, Change, HashSet<St
     for statement in &main.statements {
         let text = &source.text[statement.range()];
         if statement.words[0].text == "discard" {
-            let change = Change { from: text.to_owned(), to: ";".to_owned() };
+            let change = TextChange { from: text.to_owned(), to: ";".to_owned() };
             terms.push(("discard".to_owned(), change, HashSet::new()));
             continue;
         }
@@ -41,11 +41,11 @@ pub(super) fn terms_of(source: &SolutionFile) -> Vec<(String, Change, HashSet<St
                 };
                 let from = &source.text[left[0].range.start..right[right.len() - 1].range.end];
                 let to = format!("{} = {nothing}", &source.text[left[0].range.start..left[left.len() - 1].range.end]);
-                terms.push((name, Change { from: from.to_owned(), to }, uses));
+                terms.push((name, TextChange { from: from.to_owned(), to }, uses));
             }
             None if statement.words[at].text != "=" || uses.contains(&target.text) => {
                 let Some(name) = named_after(right, &target.text, &own) else { continue };
-                let change = Change { from: text.to_owned(), to: ";".to_owned() };
+                let change = TextChange { from: text.to_owned(), to: ";".to_owned() };
                 terms.push((name, change, uses));
             }
             _ => {}
@@ -133,7 +133,11 @@ fn start_of_factor(words: &[Word], end: usize) -> usize {
 }
 
 /// `mix(a, b, t)` without one of the two: without what is not computed in the file.
-fn mixed(source: &SolutionFile, words: &[Word], uses: &HashSet<String>) -> Option<(String, Change, HashSet<String>)> {
+fn mixed(
+    source: &SolutionFile,
+    words: &[Word],
+    uses: &HashSet<String>,
+) -> Option<(String, TextChange, HashSet<String>)> {
     let at = words.iter().position(|word| word.text == "mix")?;
     let mut depth = 0_i32;
     let mut borders = vec![at + 1];
@@ -160,7 +164,7 @@ fn mixed(source: &SolutionFile, words: &[Word], uses: &HashSet<String>) -> Optio
     let name =
         ends.iter().find_map(|end| name.strip_suffix(end)).filter(|rest| !rest.is_empty()).unwrap_or(&name).to_owned();
     let text = |words: &[Word]| Some(source.text[words.first()?.range.start..words.last()?.range.end].to_owned());
-    Some((name, Change { from: text(&words[at..=close])?, to: text(kept)? }, uses.clone()))
+    Some((name, TextChange { from: text(&words[at..=close])?, to: text(kept)? }, uses.clone()))
 }
 
 /// The value that adds nothing.

@@ -1,6 +1,6 @@
 //! Declarations of what stands between two stages, and a fragment stage that shows it.
 
-use crate::interpreter::{Interpolation, Scalar, Type, Variable};
+use crate::interpreter::{Interpolation, ProgramVariable, Scalar, Type};
 use crate::proposal::names::NameWords;
 use crate::proposal::source::SolutionFile;
 
@@ -17,7 +17,7 @@ fn instance(block: &str) -> String {
 }
 
 /// Declarations of variables between the stages, members of blocks together.
-pub(super) fn declared(variables: &[&Variable], storage: &str, version: u32) -> Vec<String> {
+pub(super) fn declared(variables: &[&ProgramVariable], storage: &str, version: u32) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut blocks: Vec<(&str, Vec<String>)> = Vec::new();
     for variable in variables {
@@ -48,8 +48,8 @@ pub(super) fn declared(variables: &[&Variable], storage: &str, version: u32) -> 
 /// A fragment stage that shows all that a vertex solution writes.
 pub(super) fn fragment_of(source: &SolutionFile) -> String {
     let own = source.program.outputs().iter().filter(|output| !output.name.starts_with("gl_"));
-    let own: Vec<&Variable> = own.collect();
-    let name = |output: &Variable| path_of_output(&output.name);
+    let own: Vec<&ProgramVariable> = own.collect();
+    let name = |output: &ProgramVariable| path_of_output(&output.name);
     let colour = match &own[..] {
         [] => "vec4(0.9, 0.6, 0.3, 1.0)".to_owned(),
         [one] if one.kind == Type::VEC4 => name(one),
@@ -70,7 +70,7 @@ pub(super) fn fragment_of(source: &SolutionFile) -> String {
 }
 
 /// An output as a `vec3` of colours.
-fn shown(path: &str, output: &Variable) -> Option<String> {
+fn shown(path: &str, output: &ProgramVariable) -> Option<String> {
     let name = NameWords::of(&output.name);
     let kind = &output.kind;
     let three = match kind {

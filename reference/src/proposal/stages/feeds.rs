@@ -1,6 +1,6 @@
 //! What a vertex stage reads, and the expressions that it hands over.
 
-use super::meaning::{KnownPoint, Meaning};
+use super::meaning::{InputMeaning, KnownPoint};
 use crate::interpreter::Type;
 use crate::proposal::names::Space;
 use crate::proposal::source::SolutionFile;
@@ -80,49 +80,51 @@ impl Feeds<'_> {
     }
 
     /// A `vec3` or less, as text.
-    pub fn value(&mut self, meaning: Meaning, kind: &Type) -> String {
+    pub fn value(&mut self, meaning: InputMeaning, kind: &Type) -> String {
         let count = kind.slots().unwrap_or(0);
         let of_three = |text: String, w: &str| match count {
             4 => format!("vec4({text}, {w})"),
             _ => text,
         };
         match meaning {
-            Meaning::Position(space) => {
+            InputMeaning::Position(space) => {
                 let own = self.in_space(space);
                 if count == 4 { own } else { format!("{own}.xyz") }
             }
-            Meaning::Normal(space) => of_three(self.normal(space), "0.0"),
-            Meaning::Tangent(space) => {
+            InputMeaning::Normal(space) => of_three(self.normal(space), "0.0"),
+            InputMeaning::Tangent(space) => {
                 self.attribute("tangent");
                 of_three(self.direction("mesh_tangent.xyz", space), "mesh_tangent.w")
             }
-            Meaning::Bitangent(space) => of_three(self.bitangent(space), "0.0"),
-            Meaning::Frame(space) => {
+            InputMeaning::Bitangent(space) => of_three(self.bitangent(space), "0.0"),
+            InputMeaning::Frame(space) => {
                 self.attribute("tangent");
                 let (along, across) = (self.direction("mesh_tangent.xyz", space), self.bitangent(space));
                 format!("mat3({along}, {across}, {})", self.normal(space))
             }
-            Meaning::ToEye(Space::World) => {
+            InputMeaning::ToEye(Space::World) => {
                 let (at, view) = (self.in_space(Space::World), self.matrix("view", "mat4", "view"));
                 of_three(format!("inverse({view})[3].xyz - {at}.xyz"), "0.0")
             }
-            Meaning::ToEye(Space::Eye) => of_three(format!("-{}.xyz", self.in_space(Space::Eye)), "0.0"),
-            Meaning::ToLight => of_three(format!("vec3(1.5, 2.0, 2.0) - {}.xyz", self.in_space(Space::World)), "0.0"),
-            Meaning::KnownPoint(place, is_framed) => {
+            InputMeaning::ToEye(Space::Eye) => of_three(format!("-{}.xyz", self.in_space(Space::Eye)), "0.0"),
+            InputMeaning::ToLight => {
+                of_three(format!("vec3(1.5, 2.0, 2.0) - {}.xyz", self.in_space(Space::World)), "0.0")
+            }
+            InputMeaning::KnownPoint(place, is_framed) => {
                 let at = match place {
                     KnownPoint::Fragment => format!("{}.xyz", self.in_space(Space::World)),
                     KnownPoint::Eye => format!("inverse({})[3].xyz", self.matrix("view", "mat4", "view")),
                     KnownPoint::Light => "vec3(1.5, 2.0, 2.0)".to_owned(),
                 };
-                let frame = self.value(Meaning::Frame(Space::World), kind);
+                let frame = self.value(InputMeaning::Frame(Space::World), kind);
                 of_three(if is_framed { format!("transpose({frame}) * ({at})") } else { at }, "1.0")
             }
-            Meaning::Clip => {
+            InputMeaning::Clip => {
                 let (view, projection) = (self.in_space(Space::Eye), self.matrix("projection", "mat4", "projection"));
                 let own = format!("{projection} * {view}");
                 if count == 4 { own } else { format!("({own}).xyz") }
             }
-            Meaning::Coordinates => {
+            InputMeaning::Coordinates => {
                 let uv = self.attribute("texture-coordinates");
                 match count {
                     2 => uv.to_owned(),
@@ -130,13 +132,13 @@ impl Feeds<'_> {
                     _ => format!("vec4({uv}, 0.0, 1.0)"),
                 }
             }
-            Meaning::Colour => {
+            InputMeaning::Colour => {
                 let position = self.attribute("position");
                 of_three(format!("0.5 + 0.4 * {position}"), "1.0")
             }
-            Meaning::Depth => format!("-{}.z", self.in_space(Space::Eye)),
-            Meaning::Height => format!("{}.y", self.in_space(Space::World)),
-            Meaning::Nothing => format!("{kind}(1)"),
+            InputMeaning::Depth => format!("-{}.z", self.in_space(Space::Eye)),
+            InputMeaning::Height => format!("{}.y", self.in_space(Space::World)),
+            InputMeaning::Nothing => format!("{kind}(1)"),
         }
     }
 }

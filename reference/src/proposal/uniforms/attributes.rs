@@ -3,7 +3,7 @@
 use super::{AttributeEntry, numbers};
 use crate::assignment::AssignmentError;
 use crate::interpreter::{Scalar, Type};
-use crate::proposal::Plan;
+use crate::proposal::FolderPlan;
 use crate::proposal::guess::guess;
 use crate::proposal::names::{self, NameWords};
 use crate::proposal::shader_test::ShaderTest;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 /// The attributes of a vertex solution.
 pub(super) fn attributes(
-    plan: &mut Plan,
+    plan: &mut FolderPlan,
     at: usize,
     test: Option<&ShaderTest>,
 ) -> Result<Vec<AttributeEntry>, AssignmentError> {

@@ -13,15 +13,15 @@ pub(in crate::proposal) struct TextureEntry {
 
 /// The textures so far: no two have one name.
 #[derive(Default)]
-pub(super) struct Textures {
+pub(super) struct ProposedTextures {
     names: Vec<String>,
     colourful: usize,
 }
 
 /// Words, the lines of the entry, and what it is taken for.
-type Row = (&'static [&'static str], &'static [&'static str], (&'static str, &'static str));
+type TextureGuess = (&'static [&'static str], &'static [&'static str], (&'static str, &'static str));
 
-const GREY: &[Row] = &[
+const GREY: &[TextureGuess] = &[
     (
         &["normal", "normals", "bump", "bumpmap"],
         &["generate = { normal-map = { of = { bumps = { count = [4, 4] } }, height = 0.08 } }", "size = [128, 128]"],
@@ -82,7 +82,7 @@ const COLOURFUL: [&[&str]; 3] = [
     ],
 ];
 
-impl Textures {
+impl ProposedTextures {
     /// A texture for the sampler at a path.
     pub fn of(&mut self, path: &str, is_cube: bool) -> TextureEntry {
         let name = self.name(path);

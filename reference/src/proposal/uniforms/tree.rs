@@ -4,7 +4,7 @@ use super::{TextureEntry, UniformEntry};
 
 /// Where the value of one scalar, vector, matrix or sampler comes from.
 #[derive(Clone, Debug)]
-pub(super) enum Said {
+pub(super) enum ProposedValue {
     Line(String),
     Value { value: String, probe: Option<String>, what: (&'static str, &'static str) },
     Texture(TextureEntry),
@@ -13,7 +13,7 @@ pub(super) enum Said {
 /// The parts of a uniform.
 #[derive(Clone, Debug)]
 pub(super) enum Tree {
-    Leaf(Said),
+    Leaf(ProposedValue),
     Members(Vec<(String, Tree)>),
     Elements(Vec<Tree>),
 }
@@ -41,7 +41,7 @@ pub(super) fn empty(path: &str) -> Tree {
     }
 }
 
-pub(super) fn insert(tree: &mut Tree, path: &str, said: Said) {
+pub(super) fn insert(tree: &mut Tree, path: &str, said: ProposedValue) {
     let Some((first, rest)) = step(path) else {
         *tree = Tree::Leaf(said);
         return;
@@ -81,12 +81,14 @@ pub(super) fn write(name: &str, tree: &Tree, entries: &mut Vec<UniformEntry>) {
     let entry = |lines: Vec<String>, note, texture| UniformEntry { name: name.to_owned(), lines, note, texture };
     let note = |what: (&str, &str)| Some((what.0.to_owned(), what.1.to_owned()));
     match tree {
-        Tree::Leaf(Said::Line(line)) => entries.push(entry(line.lines().map(str::to_owned).collect(), None, None)),
-        Tree::Leaf(Said::Texture(texture)) => {
+        Tree::Leaf(ProposedValue::Line(line)) => {
+            entries.push(entry(line.lines().map(str::to_owned).collect(), None, None))
+        }
+        Tree::Leaf(ProposedValue::Texture(texture)) => {
             let (en, ja) = texture.what;
             entries.push(entry(vec![format!("texture = \"{}\"", texture.name)], note((en, ja)), Some(texture.clone())));
         }
-        Tree::Leaf(Said::Value { value, probe, what }) => {
+        Tree::Leaf(ProposedValue::Value { value, probe, what }) => {
             let mut lines = vec![format!("value = {value}")];
             lines.extend(probe.iter().map(|probe| format!("probe = {probe}")));
             entries.push(entry(lines, note(*what), None));
@@ -115,7 +117,7 @@ pub(super) fn write(name: &str, tree: &Tree, entries: &mut Vec<UniformEntry>) {
 /// The values of all parts, where they have values.
 fn value_of(tree: &Tree, depth: usize) -> Option<String> {
     match tree {
-        Tree::Leaf(Said::Value { value, .. }) => Some(value.clone()),
+        Tree::Leaf(ProposedValue::Value { value, .. }) => Some(value.clone()),
         Tree::Leaf(_) => None,
         Tree::Members(members) => {
             let each = members.iter().map(|(name, tree)| Some(format!("{name} = {}", value_of(tree, depth + 1)?)));
@@ -134,7 +136,7 @@ fn value_of(tree: &Tree, depth: usize) -> Option<String> {
 /// What probes may draw for the parts; of an array it is said once.
 fn probe_of(tree: &Tree) -> Option<String> {
     match tree {
-        Tree::Leaf(Said::Value { probe, .. }) => probe.clone(),
+        Tree::Leaf(ProposedValue::Value { probe, .. }) => probe.clone(),
         Tree::Leaf(_) => None,
         Tree::Elements(elements) => elements.first().and_then(probe_of),
         Tree::Members(members) => {

@@ -2,7 +2,7 @@
 
 use super::exported::{GAP, text};
 use super::{LANGUAGES, body};
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::language::Language;
 use crate::report::labels::Labels;
@@ -43,7 +43,7 @@ const REASONS: [&str; 10] = [
 
 impl Former {
     /// What tells the comments on this student.
-    pub fn of(entry: &Entry, class: &Class) -> Self {
+    pub fn of(entry: &ClassEntry, class: &Class) -> Self {
         let verdicts = [Standing::Correct, Standing::Wrong, Standing::Rejected, Standing::Stopped];
         let beginning = |language| {
             verdicts.map(|standing| format!("{} — {} ", standing.word(language), Labels::of(language).score))

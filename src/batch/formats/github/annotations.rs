@@ -1,6 +1,6 @@
 //! Annotations: `::error file=…,line=…::message`.
 
-use crate::batch::class::{Class, Entry, FileLocation};
+use crate::batch::class::{Class, ClassEntry, FileLocation};
 use crate::batch::formats::untrusted::{one_line, visible};
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
@@ -19,7 +19,7 @@ const LEVELS: [&str; 3] = ["error", "warning", "notice"];
 /// One annotation.
 struct Annotation<'a> {
     level: &'static str,
-    entry: &'a Entry,
+    entry: &'a ClassEntry,
     place: Option<&'a FileLocation>,
     line: Option<u32>,
     columns: Option<(u32, u32)>,
@@ -75,7 +75,7 @@ fn in_turns<'a>(annotations: impl Iterator<Item = &'a Annotation<'a>>) -> Vec<&'
     fair
 }
 
-fn of_entry(entry: &Entry, language: Language) -> Vec<Annotation<'_>> {
+fn of_entry(entry: &ClassEntry, language: Language) -> Vec<Annotation<'_>> {
     let standing = Standing::of(&entry.outcome);
     let Some(report) = entry.report() else {
         let message = wording::fault(entry, language).unwrap_or_else(|| wording::explanation(entry, language));
@@ -96,7 +96,7 @@ fn of_entry(entry: &Entry, language: Language) -> Vec<Annotation<'_>> {
     lost.chain(report.diagnostics.iter().map(|diagnostic| of_diagnostic(entry, report, diagnostic, language))).collect()
 }
 
-fn of_rubric<'a>(entry: &'a Entry, line: &RubricLine, language: Language) -> Annotation<'a> {
+fn of_rubric<'a>(entry: &'a ClassEntry, line: &RubricLine, language: Language) -> Annotation<'a> {
     Annotation {
         level: "warning",
         entry,
@@ -108,7 +108,12 @@ fn of_rubric<'a>(entry: &'a Entry, line: &RubricLine, language: Language) -> Ann
     }
 }
 
-fn of_diagnostic<'a>(entry: &'a Entry, report: &Report, diagnostic: &Diagnostic, language: Language) -> Annotation<'a> {
+fn of_diagnostic<'a>(
+    entry: &'a ClassEntry,
+    report: &Report,
+    diagnostic: &Diagnostic,
+    language: Language,
+) -> Annotation<'a> {
     let level = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -125,7 +130,7 @@ fn of_diagnostic<'a>(entry: &'a Entry, report: &Report, diagnostic: &Diagnostic,
     }
 }
 
-fn title(entry: &Entry, what: &str) -> String {
+fn title(entry: &ClassEntry, what: &str) -> String {
     one_line(&format!("{}: {what}", entry.student.name))
 }
 
@@ -172,7 +177,7 @@ mod tests {
     use crate::batch::formats::nasty;
     use crate::report::samples;
 
-    fn class(entries: Vec<Entry>) -> Class {
+    fn class(entries: Vec<ClassEntry>) -> Class {
         Class { entries, ..nasty::class() }
     }
 

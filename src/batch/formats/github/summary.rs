@@ -1,12 +1,12 @@
 //! The job's summary: Markdown for the file that `$GITHUB_STEP_SUMMARY` names.
 
-use crate::batch::class::{Class, Entry};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::formats::untrusted::one_line;
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
 use crate::diagnostic::Severity;
 use crate::language::{Language, Text};
-use crate::report::html::rich::{Piece, pieces};
+use crate::report::html::rich::{MessagePiece, pieces};
 use crate::report::labels::mistake_title;
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ const CLOSING: usize = 400;
 /// picture, then what was left out of the input. Rows that do not fit are counted.
 pub fn summary(class: &Class, limit: usize) -> String {
     let language = class.language;
-    let mut rows = Rows { out: String::new(), limit: limit.saturating_sub(CLOSING), left_out: 0 };
+    let mut rows = MarkdownRows { out: String::new(), limit: limit.saturating_sub(CLOSING), left_out: 0 };
     rows.push(&format!("## ggrade: {}\n\n", markdown(&class.title)));
     if let [entry] = &class.entries[..] {
         rows.push(&single(entry, language));
@@ -40,13 +40,13 @@ pub fn summary(class: &Class, limit: usize) -> String {
 }
 
 /// Markdown that grows row by row up to its limit.
-struct Rows {
+struct MarkdownRows {
     out: String,
     limit: usize,
     left_out: usize,
 }
 
-impl Rows {
+impl MarkdownRows {
     /// Takes the row whole or not at all, and none after the first that does not fit.
     fn push(&mut self, row: &str) {
         if self.left_out > 0 || self.out.len() + row.len() > self.limit {
@@ -86,7 +86,7 @@ fn heading(language: Language) -> &'static str {
     }
 }
 
-fn row(entry: &Entry, class: &Class) -> String {
+fn row(entry: &ClassEntry, class: &Class) -> String {
     let language = class.language;
     let report = entry.report();
     let score = report.map(wording::result).unwrap_or_default();
@@ -112,7 +112,7 @@ fn row(entry: &Entry, class: &Class) -> String {
 }
 
 /// The rubric and the diagnostics of the only student.
-fn single(entry: &Entry, language: Language) -> String {
+fn single(entry: &ClassEntry, language: Language) -> String {
     let mut out = format!("**{}**", Standing::of(&entry.outcome).word(language));
     if let Some(report) = entry.report() {
         let _ = write!(out, " {}", wording::result(report));
@@ -149,7 +149,7 @@ fn markdown(text: &str) -> String {
 
 /// A message in one line, its `code` in a typewriter's letters.
 fn rich(message: &str) -> String {
-    let piece = |piece: Piece| if piece.code { code(&piece.text) } else { markdown(&piece.text) };
+    let piece = |piece: MessagePiece| if piece.code { code(&piece.text) } else { markdown(&piece.text) };
     pieces(message).into_iter().map(piece).collect()
 }
 

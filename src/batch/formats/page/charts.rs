@@ -1,7 +1,7 @@
 //! How many students: by verdict, by score, by mistake.
 
-use super::words::Words;
-use crate::batch::class::{Class, Entry};
+use super::words::PageWords;
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::batch::statistics::{self, BINS};
 use crate::language::Language;
@@ -10,7 +10,7 @@ use crate::report::text::number;
 use std::collections::HashMap;
 
 /// Students with one verdict.
-pub(super) struct Tally {
+pub(super) struct VerdictCount {
     pub id: &'static str,
     pub sign: &'static str,
     pub word: &'static str,
@@ -19,10 +19,10 @@ pub(super) struct Tally {
 }
 
 /// The verdicts that occur, from right to wrong.
-pub(super) fn tallies(class: &Class, language: Language) -> Vec<Tally> {
+pub(super) fn tallies(class: &Class, language: Language) -> Vec<VerdictCount> {
     let counts = Standing::count(&class.entries);
     let count = |status: Standing| counts[status as usize];
-    let tally = |status: Standing| Tally {
+    let tally = |status: Standing| VerdictCount {
         id: status.id(),
         sign: sign(status, 1.0),
         word: status.word(language),
@@ -57,7 +57,7 @@ pub(super) struct Bin {
 const HIGHEST: f64 = 76.0;
 
 /// The scores of everyone who was graded.
-pub(super) fn bins(class: &Class, max_score: f64, words: &Words) -> Vec<Bin> {
+pub(super) fn bins(class: &Class, max_score: f64, words: &PageWords) -> Vec<Bin> {
     let counts = statistics::histogram(class);
     let most = counts.iter().copied().max().unwrap_or(0).max(1) as f64;
     let from = |id: usize| number(max_score * id as f64 / BINS as f64);
@@ -77,7 +77,7 @@ pub(super) fn bins(class: &Class, max_score: f64, words: &Words) -> Vec<Bin> {
 }
 
 /// Students with one mistake.
-pub(super) struct Mistake {
+pub(super) struct MistakeCount {
     pub id: String,
     pub title: String,
     pub label: String,
@@ -89,9 +89,9 @@ pub(super) struct Mistake {
 const MOST_LABELS: usize = 2;
 
 /// The mistakes that occur, the most frequent first; the label names the rubric lines that they cost points in.
-pub(super) fn mistakes(class: &Class, language: Language) -> Vec<Mistake> {
+pub(super) fn mistakes(class: &Class, language: Language) -> Vec<MistakeCount> {
     let mut labels: HashMap<&str, Vec<&str>> = HashMap::new();
-    for line in class.entries.iter().filter_map(Entry::report).flat_map(|report| &report.rubric) {
+    for line in class.entries.iter().filter_map(ClassEntry::report).flat_map(|report| &report.rubric) {
         if let Some(id) = &line.mistake {
             let (labels, label) = (labels.entry(id).or_default(), line.label.get(language));
             if !labels.contains(&label) {
@@ -101,7 +101,7 @@ pub(super) fn mistakes(class: &Class, language: Language) -> Vec<Mistake> {
     }
     let found = statistics::mistakes(class);
     let most = found.first().map_or(1, |(_, count)| *count) as f64;
-    let of = |(id, count): (&str, usize)| Mistake {
+    let of = |(id, count): (&str, usize)| MistakeCount {
         id: id.to_owned(),
         title: mistake_title(&class.assignment, id, language).to_owned(),
         label: labels.get(id).filter(|labels| labels.len() <= MOST_LABELS).map_or(String::new(), |l| l.join(" · ")),

@@ -7,13 +7,13 @@ use std::collections::HashMap;
 use std::fmt::Write as _;
 
 /// The pictures of a page as style rules. The expected one has the class `e`, the others `p0`, `p1` and so on.
-pub(super) struct Portraits<'a> {
+pub(super) struct PortraitStyles<'a> {
     classes: HashMap<&'a [u8], String>,
     /// The rules, in the order of the class.
     pub style: String,
 }
 
-impl<'a> Portraits<'a> {
+impl<'a> PortraitStyles<'a> {
     pub fn of(class: &'a Class) -> Self {
         let (width, height) = size(&class.expected_portrait).unwrap_or((4, 3));
         let mut portraits =

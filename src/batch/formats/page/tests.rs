@@ -1,5 +1,5 @@
 use super::*;
-use crate::batch::class::Alike;
+use crate::batch::class::AlikeStudent;
 use crate::batch::formats::samples;
 use crate::language::Language;
 use scraper::{Html, Selector};
@@ -139,7 +139,7 @@ fn a_mistake_is_labelled_by_the_lines_that_it_costs_points_in() {
 fn who_shares_an_answer_is_listed_once() {
     let mut class = samples::class(Language::En);
     for (one, others) in [(0, vec!["s1004", "s1006"]), (3, vec!["s1001", "s1006"]), (5, vec!["s1001", "s1004"])] {
-        let alike = |key: &str| Alike { key: key.to_owned(), percent: 100, is_same: true, is_earlier: false };
+        let alike = |key: &str| AlikeStudent { key: key.to_owned(), percent: 100, is_same: true, is_earlier: false };
         class.entries[one].alike = others.into_iter().map(alike).collect();
     }
     let page = Html::parse_document(&html(&class));

@@ -4,7 +4,7 @@ use crate::language::Language;
 
 /// The words of one language.
 #[derive(Debug)]
-pub(super) struct Words {
+pub(super) struct PageWords {
     pub report: &'static str,
     pub verdicts: &'static str,
     pub verdict: &'static str,
@@ -51,7 +51,7 @@ pub(super) struct Words {
     is_japanese: bool,
 }
 
-const EN: Words = Words {
+const EN: PageWords = PageWords {
     report: "Class report",
     verdicts: "Verdicts",
     verdict: "Verdict",
@@ -99,7 +99,7 @@ const EN: Words = Words {
     is_japanese: false,
 };
 
-const JA: Words = Words {
+const JA: PageWords = PageWords {
     report: "クラスの採点結果",
     verdicts: "判定",
     verdict: "判定",
@@ -147,7 +147,7 @@ const JA: Words = Words {
     is_japanese: true,
 };
 
-impl Words {
+impl PageWords {
     pub fn of(language: Language) -> &'static Self {
         match language {
             Language::En => &EN,

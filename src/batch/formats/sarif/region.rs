@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 /// The lines of a file.
-pub(super) struct Lines<'a>(Vec<&'a str>);
+pub(super) struct FileLines<'a>(Vec<&'a str>);
 
-impl<'a> Lines<'a> {
+impl<'a> FileLines<'a> {
     /// Of a text whose lines end in `\r\n`, `\n` or `\r`.
     pub fn of(text: &'a str) -> Self {
         let mut lines = Vec::new();
@@ -55,7 +55,7 @@ mod tests {
     #[test]
     fn columns_count_utf_16_code_units() {
         // 😀 (U+1F600) is one character and two code units; 式 is one of each.
-        let lines = Lines::of("a\n式😀 Max(x)\n");
+        let lines = FileLines::of("a\n式😀 Max(x)\n");
         // `Max`: characters 4 to 6, units 5 to 7, so it ends before unit 8.
         let expected = json!({ "startLine": 2, "startColumn": 5, "endLine": 2, "endColumn": 8 });
         assert_eq!(lines.span(2, 4, 3), Some(expected));
@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn a_place_behind_the_line_has_no_width() {
-        let lines = Lines::of("ab");
+        let lines = FileLines::of("ab");
         let end = json!({ "startLine": 1, "startColumn": 3, "endLine": 1, "endColumn": 3 });
         assert_eq!(lines.span(1, 3, 1), Some(end.clone()));
         assert_eq!(lines.span(1, 99, u32::MAX), Some(end));
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn every_line_end_ends_one_line() {
-        assert_eq!(Lines::of("a\r\nb\rc\n\nd").0, ["a", "b", "c", "", "d"]);
-        assert!(Lines::of("").0.is_empty());
+        assert_eq!(FileLines::of("a\r\nb\rc\n\nd").0, ["a", "b", "c", "", "d"]);
+        assert!(FileLines::of("").0.is_empty());
     }
 }

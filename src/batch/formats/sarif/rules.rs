@@ -2,7 +2,7 @@
 
 use crate::batch::class::Class;
 use crate::batch::formats::untrusted::one_line;
-use crate::diagnostic::Stage;
+use crate::diagnostic::DiagnosticStage;
 use crate::language::{Language, Text};
 use crate::report::labels::{Labels, mistake_title};
 use reference::mistake::Mistake;
@@ -13,13 +13,13 @@ use std::collections::HashMap;
 pub(super) const UNEXPLAINED: &str = "unexplained";
 
 /// The rule of what a stage says.
-pub(super) fn stage(stage: Stage) -> &'static str {
+pub(super) fn stage(stage: DiagnosticStage) -> &'static str {
     match stage {
-        Stage::Source => "source",
-        Stage::Compile => "compile",
-        Stage::Link => "link",
-        Stage::Interface => "interface",
-        Stage::Run => "run",
+        DiagnosticStage::Source => "source",
+        DiagnosticStage::Compile => "compile",
+        DiagnosticStage::Link => "link",
+        DiagnosticStage::Interface => "interface",
+        DiagnosticStage::Run => "run",
     }
 }
 
@@ -34,7 +34,13 @@ impl RuleTable {
     pub fn of(class: &Class) -> Self {
         let mut rules = Self { values: Vec::new(), indices: HashMap::new() };
         let language = class.language;
-        for stage_of in [Stage::Source, Stage::Compile, Stage::Link, Stage::Interface, Stage::Run] {
+        for stage_of in [
+            DiagnosticStage::Source,
+            DiagnosticStage::Compile,
+            DiagnosticStage::Link,
+            DiagnosticStage::Interface,
+            DiagnosticStage::Run,
+        ] {
             let id = stage(stage_of);
             let (short, full) = (Labels::of(language).stage(stage_of), about(stage_of));
             let help = Text::new(
@@ -86,22 +92,24 @@ impl RuleTable {
 }
 
 /// What a finding of the stage means.
-fn about(stage: Stage) -> Text {
+fn about(stage: DiagnosticStage) -> Text {
     match stage {
-        Stage::Source => Text::new("The file cannot be read as a shader.", "ファイルをシェーダとして読み込めません。"),
-        Stage::Compile => Text::new(
+        DiagnosticStage::Source => {
+            Text::new("The file cannot be read as a shader.", "ファイルをシェーダとして読み込めません。")
+        }
+        DiagnosticStage::Compile => Text::new(
             "The compiler does not take the shader, or warns about it.",
             "コンパイラがシェーダを受け付けないか、警告しています。",
         ),
-        Stage::Link => Text::new(
+        DiagnosticStage::Link => Text::new(
             "The shader does not go together with the fixed fragment shader.",
             "シェーダを固定のフラグメントシェーダとリンクできません。",
         ),
-        Stage::Interface => Text::new(
+        DiagnosticStage::Interface => Text::new(
             "The inputs, uniforms or outputs are not those of the assignment.",
             "入力変数、uniform 変数、出力変数が課題の指定と異なります。",
         ),
-        Stage::Run => Text::new("The shader was stopped while it ran.", "シェーダの実行を中断しました。"),
+        DiagnosticStage::Run => Text::new("The shader was stopped while it ran.", "シェーダの実行を中断しました。"),
     }
 }
 

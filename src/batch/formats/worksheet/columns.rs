@@ -5,7 +5,7 @@ use crate::language::Text;
 
 /// Where the columns stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Columns {
+pub(super) struct WorksheetColumns {
     pub identifier: usize,
     pub grade: usize,
     pub maximum: usize,
@@ -24,7 +24,7 @@ const STATUS: [&str; 3] = ["status", "ステータス", "状態"];
 const GROUP: [&str; 2] = ["group", "グループ"];
 const SCALE: [&str; 4] = ["scale", "尺度", "評価尺度", "評定尺度"];
 
-impl Columns {
+impl WorksheetColumns {
     /// The columns of a header. `cells` gives what stands in a column, blank cells left out: an identifier column is
     /// known by that where its name is not.
     pub fn find(header: &[String], cells: impl Fn(usize) -> Vec<String>) -> Result<Self, Fault> {
@@ -135,12 +135,12 @@ fn scale() -> Fault {
 mod tests {
     use super::*;
 
-    fn find(header: &str) -> Result<Columns, Fault> {
+    fn find(header: &str) -> Result<WorksheetColumns, Fault> {
         let header: Vec<String> = header.split(',').map(str::to_owned).collect();
-        Columns::find(&header, |column| vec![if column == 0 { "参加者 1" } else { "x" }.to_owned()])
+        WorksheetColumns::find(&header, |column| vec![if column == 0 { "参加者 1" } else { "x" }.to_owned()])
     }
 
-    const EXPECTED: Columns = Columns {
+    const EXPECTED: WorksheetColumns = WorksheetColumns {
         identifier: 0,
         grade: 3,
         maximum: 4,

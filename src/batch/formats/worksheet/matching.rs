@@ -5,8 +5,8 @@
 //! a column with their group. There the name of the group is what both have. Up to Moodle 4.0 such a download has
 //! `GROUP-NAME` and the participant's number: then number, group and name must agree.
 
-use super::sheet::{Person, Sheet};
-use crate::batch::class::{Class, Entry, Participant};
+use super::sheet::{Worksheet, WorksheetPerson};
+use crate::batch::class::{Class, ClassEntry, Participant};
 use crate::batch::formats::feedback::Recipient;
 use std::collections::{BTreeSet, HashMap};
 use unicode_normalization::UnicodeNormalization;
@@ -18,16 +18,16 @@ const BLIND: [&str; 2] = ["Participant", "参加者"];
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Match<'a> {
     /// The only submission that can be this person's.
-    Of(&'a Entry),
+    Of(&'a ClassEntry),
     /// Submissions among which nothing tells which one is.
-    Several(Vec<&'a Entry>),
+    Several(Vec<&'a ClassEntry>),
     Nobody,
 }
 
 /// The submissions of a class by what a worksheet knows of them.
 #[derive(Debug)]
 pub(super) struct Matching<'a> {
-    by_number: HashMap<u64, Vec<&'a Entry>>,
+    by_number: HashMap<u64, Vec<&'a ClassEntry>>,
     /// Only where groups hand in.
     groups: Option<Groups<'a>>,
     /// Whether the download is one of groups and the worksheet is not.
@@ -37,15 +37,15 @@ pub(super) struct Matching<'a> {
 /// Groups by their names as a download has them.
 #[derive(Debug)]
 struct Groups<'a> {
-    submissions: HashMap<String, Vec<&'a Entry>>,
+    submissions: HashMap<String, Vec<&'a ClassEntry>>,
     /// The names in the worksheet that become this one.
     names: HashMap<String, BTreeSet<String>>,
 }
 
 impl<'a> Matching<'a> {
-    pub fn new(class: &'a Class, sheet: &Sheet) -> Self {
-        let mut by_number: HashMap<u64, Vec<&Entry>> = HashMap::new();
-        let mut submissions: HashMap<String, Vec<&Entry>> = HashMap::new();
+    pub fn new(class: &'a Class, sheet: &Worksheet) -> Self {
+        let mut by_number: HashMap<u64, Vec<&ClassEntry>> = HashMap::new();
+        let mut submissions: HashMap<String, Vec<&ClassEntry>> = HashMap::new();
         let mut has_default_group = false;
         for entry in &class.entries {
             let Some(Participant { name, number }) = &entry.student.moodle else { continue };
@@ -68,16 +68,16 @@ impl<'a> Matching<'a> {
     }
 
     /// Whose submission stands for this person.
-    pub fn of(&self, person: &Person) -> Match<'a> {
+    pub fn of(&self, person: &WorksheetPerson) -> Match<'a> {
         let by_number = self.by_number.get(&person.number).map(Vec::as_slice).unwrap_or_default();
         let Some(groups) = &self.groups else { return only(by_number) };
         let group = person.group.as_deref().unwrap_or_default();
         let names = person.name.iter().map(String::as_str).chain(BLIND);
         let own: Vec<String> = names.map(|name| as_in_archive(&format!("{group}-{name}"))).collect();
-        let is_own = |entry: &&&Entry| {
+        let is_own = |entry: &&&ClassEntry| {
             entry.student.moodle.as_ref().is_some_and(|moodle| own.contains(&as_in_archive(&moodle.name)))
         };
-        let agreeing: Vec<&Entry> = by_number.iter().filter(is_own).copied().collect();
+        let agreeing: Vec<&ClassEntry> = by_number.iter().filter(is_own).copied().collect();
         if !agreeing.is_empty() {
             return only(&agreeing);
         }
@@ -95,7 +95,7 @@ impl<'a> Matching<'a> {
     }
 }
 
-fn only<'a>(entries: &[&'a Entry]) -> Match<'a> {
+fn only<'a>(entries: &[&'a ClassEntry]) -> Match<'a> {
     match entries {
         [] => Match::Nobody,
         [entry] => Match::Of(entry),

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 /// Where a cell stands in the file, its quotes included, the separator not.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Cell {
+pub(super) struct CsvCell {
     pub span: Range<usize>,
     pub is_quoted: bool,
 }
 
-impl Cell {
+impl CsvCell {
     /// Its bytes without the quotes around it, doubled quotes undone.
     pub fn content(&self, bytes: &[u8]) -> Vec<u8> {
         let raw = &bytes[self.span.clone()];
@@ -34,7 +34,7 @@ impl Cell {
 ///
 /// All bytes that matter are below 0x40, which no second byte of Shift_JIS and no part of a UTF-8 sequence is, so this
 /// needs no encoding. The error is the line, from 1, of a quote that is never closed.
-pub(super) fn records(bytes: &[u8], start: usize, separator: u8) -> Result<Vec<Vec<Cell>>, usize> {
+pub(super) fn records(bytes: &[u8], start: usize, separator: u8) -> Result<Vec<Vec<CsvCell>>, usize> {
     let mut records = Vec::new();
     let mut record = Vec::new();
     let mut at = start;
@@ -46,7 +46,7 @@ pub(super) fn records(bytes: &[u8], start: usize, separator: u8) -> Result<Vec<V
             Some(&byte) if byte == separator => {
                 at += 1;
                 if at == bytes.len() {
-                    record.push(Cell { span: at..at, is_quoted: false });
+                    record.push(CsvCell { span: at..at, is_quoted: false });
                 }
             }
             Some(b'\r') if bytes.get(at + 1) == Some(&b'\n') => {
@@ -66,7 +66,7 @@ pub(super) fn records(bytes: &[u8], start: usize, separator: u8) -> Result<Vec<V
     Ok(records)
 }
 
-fn cell(bytes: &[u8], start: usize, separator: u8) -> Result<Cell, usize> {
+fn cell(bytes: &[u8], start: usize, separator: u8) -> Result<CsvCell, usize> {
     let is_quoted = bytes[start] == b'"';
     let mut at = start + usize::from(is_quoted);
     let mut inside = is_quoted;
@@ -80,7 +80,7 @@ fn cell(bytes: &[u8], start: usize, separator: u8) -> Result<Cell, usize> {
         }
         at += 1;
     }
-    if inside { Err(line_of(bytes, start)) } else { Ok(Cell { span: start..at, is_quoted }) }
+    if inside { Err(line_of(bytes, start)) } else { Ok(CsvCell { span: start..at, is_quoted }) }
 }
 
 /// The line, from 1, in which a byte stands.
@@ -111,7 +111,7 @@ mod tests {
 
     fn contents(text: &str, separator: u8) -> Vec<Vec<String>> {
         let bytes = text.as_bytes();
-        let text = |cell: &Cell| String::from_utf8(cell.content(bytes)).expect("UTF-8");
+        let text = |cell: &CsvCell| String::from_utf8(cell.content(bytes)).expect("UTF-8");
         records(bytes, 0, separator).expect("records").iter().map(|record| record.iter().map(text).collect()).collect()
     }
 
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn spans_and_what_stands_between_them_are_the_whole_file() {
         let bytes = b"\"a\",b,\r\n\r\n\"c\nd\",,e\r";
-        let cells: Vec<Cell> = records(bytes, 0, b',').expect("records").concat();
+        let cells: Vec<CsvCell> = records(bytes, 0, b',').expect("records").concat();
         let between: Vec<u8> = (0..bytes.len())
             .filter(|at| !cells.iter().any(|cell| cell.span.contains(at)))
             .map(|at| bytes[at])

@@ -1,14 +1,14 @@
 //! The file that Moodle made, read.
 
-use super::columns::{Columns, participant};
-use super::raw::{Cell, records};
+use super::columns::{WorksheetColumns, participant};
+use super::raw::{CsvCell, records};
 use crate::fault::Fault;
 use crate::language::Text;
 use encoding_rs::{Encoding, SHIFT_JIS, UTF_8};
 
 /// Whom a row is of.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Person {
+pub(super) struct WorksheetPerson {
     /// `Participant 1234`.
     pub identifier: String,
     pub number: u64,
@@ -19,15 +19,15 @@ pub(super) struct Person {
 }
 
 /// A worksheet that was read.
-pub(super) struct Sheet<'a> {
+pub(super) struct Worksheet<'a> {
     pub bytes: &'a [u8],
     encoding: &'static Encoding,
     pub separator: u8,
-    pub columns: Columns,
-    pub rows: Vec<Vec<Cell>>,
+    pub columns: WorksheetColumns,
+    pub rows: Vec<Vec<CsvCell>>,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> Worksheet<'a> {
     /// Reads a file, and finds its columns.
     pub fn read(bytes: &'a [u8]) -> Result<Self, Fault> {
         let encoding = encoding(bytes)?;
@@ -37,33 +37,33 @@ impl<'a> Sheet<'a> {
         if rows.is_empty() {
             return Err(unreadable("it is empty", "空のファイルです"));
         }
-        let text = |cell: &Cell| decode(encoding, &cell.content(bytes));
+        let text = |cell: &CsvCell| decode(encoding, &cell.content(bytes));
         let header: Vec<String> = rows.remove(0).iter().map(text).collect();
         let cells = |column: usize| {
             let cells = rows.iter().filter_map(|row| row.get(column)).map(text);
             cells.filter(|text| !text.trim().is_empty()).collect()
         };
-        let columns = Columns::find(&header, cells)?;
+        let columns = WorksheetColumns::find(&header, cells)?;
         Ok(Self { bytes, encoding, separator, columns, rows })
     }
 
     /// The content of the cell in a column of a row.
-    pub fn text(&self, row: &[Cell], column: usize) -> Option<String> {
+    pub fn text(&self, row: &[CsvCell], column: usize) -> Option<String> {
         row.get(column).map(|cell| self.decode(cell))
     }
 
     /// The content of a cell.
-    pub fn decode(&self, cell: &Cell) -> String {
+    pub fn decode(&self, cell: &CsvCell) -> String {
         decode(self.encoding, &cell.content(self.bytes))
     }
 
     /// Who the row is of; the error is the identifier that has no number. None for a row without one.
-    pub fn person(&self, row: &[Cell]) -> Option<Result<Person, String>> {
+    pub fn person(&self, row: &[CsvCell]) -> Option<Result<WorksheetPerson, String>> {
         let text = |column: Option<usize>| self.text(row, column?).map(|text| text.trim().to_owned());
         let identifier = text(Some(self.columns.identifier)).filter(|identifier| !identifier.is_empty())?;
         let Some(number) = participant(&identifier) else { return Some(Err(identifier)) };
         let (name, group) = (text(self.columns.full_name), text(self.columns.group));
-        Some(Ok(Person { identifier, number, name, group }))
+        Some(Ok(WorksheetPerson { identifier, number, name, group }))
     }
 
     /// `text` as bytes of this file; what its encoding does not have becomes a character reference, as HTML takes it.

@@ -3,8 +3,8 @@
 //! One damaged record costs that record only, so the central directory is read here and not by a library that gives up
 //! the archive. Where there is no directory, because the file was cut off, the members are found one behind the other.
 
-use super::record::{self, CENTRAL_SIGNATURE, LOCAL, LOCAL_SIGNATURE, Record, u16_at, u32_at, u64_at};
-use super::storage::Storage;
+use super::record::{self, ArchiveRecord, CENTRAL_SIGNATURE, LOCAL, LOCAL_SIGNATURE, u16_at, u32_at, u64_at};
+use super::storage::ArchiveStorage;
 
 const END: usize = 22;
 const END_SIGNATURE: [u8; 4] = *b"PK\x05\x06";
@@ -20,7 +20,7 @@ const MAX_DIRECTORY: u64 = 64 << 20;
 /// What an archive has, in the order of its directory.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Directory {
-    pub records: Vec<Record>,
+    pub records: Vec<ArchiveRecord>,
     /// Records that cannot be read.
     pub damaged: usize,
     /// Whether the directory is missing, and the members were found without it.
@@ -28,7 +28,7 @@ pub(super) struct Directory {
 }
 
 /// Reads the directory; none where the bytes are no archive at all. At most `most` members are listed.
-pub(super) fn read(storage: &Storage, most: u64) -> Option<Directory> {
+pub(super) fn read(storage: &ArchiveStorage, most: u64) -> Option<Directory> {
     let most = usize::try_from(most).unwrap_or(usize::MAX);
     let mut directory = match central(storage) {
         Some((bytes, shift)) => listed(&bytes, shift, most),
@@ -43,7 +43,7 @@ pub(super) fn read(storage: &Storage, most: u64) -> Option<Directory> {
 }
 
 /// The bytes of the central directory, and how far the archive's data lie behind where it says they do.
-fn central(storage: &Storage) -> Option<(Vec<u8>, u64)> {
+fn central(storage: &ArchiveStorage) -> Option<(Vec<u8>, u64)> {
     let length = usize::try_from(storage.len()).unwrap_or(usize::MAX).min(END + MAX_COMMENT);
     let tail_start = storage.len() - length as u64;
     let tail = storage.bytes(tail_start, length)?;
@@ -59,7 +59,7 @@ fn central(storage: &Storage) -> Option<(Vec<u8>, u64)> {
 }
 
 /// The directory that the end record `end`, which stands at `position`, tells of.
-fn at_end(storage: &Storage, end: &[u8], position: u64) -> Option<(Vec<u8>, u64)> {
+fn at_end(storage: &ArchiveStorage, end: &[u8], position: u64) -> Option<(Vec<u8>, u64)> {
     let mut stated = (u64::from(u32_at(end, 12)), u64::from(u32_at(end, 16)));
     let mut directory_end = position;
     if let Some((end64, bytes)) = end64(storage, position) {
@@ -80,7 +80,7 @@ fn at_end(storage: &Storage, end: &[u8], position: u64) -> Option<(Vec<u8>, u64)
 }
 
 /// The ZIP64 end record of the end record at `position`, and where it stands.
-fn end64(storage: &Storage, position: u64) -> Option<(u64, Vec<u8>)> {
+fn end64(storage: &ArchiveStorage, position: u64) -> Option<(u64, Vec<u8>)> {
     let locator_at = position.checked_sub(LOCATOR as u64)?;
     let locator = storage.bytes(locator_at, LOCATOR).filter(|bytes| bytes.starts_with(&LOCATOR_SIGNATURE))?;
     [Some(u64_at(&locator, 8)), locator_at.checked_sub(END64 as u64)].into_iter().flatten().find_map(|at| {
@@ -109,14 +109,14 @@ fn listed(mut bytes: &[u8], shift: u64, most: usize) -> Directory {
 }
 
 /// The members of an archive whose end is missing.
-fn recovered(storage: &Storage, most: usize) -> Option<Directory> {
+fn recovered(storage: &ArchiveStorage, most: usize) -> Option<Directory> {
     let mut directory = Directory { is_recovered: true, ..Directory::default() };
     let mut at = 0;
     while directory.records.len() < most {
         let available = usize::try_from(storage.len().saturating_sub(at)).unwrap_or(usize::MAX);
         let Some(header) = storage.bytes(at, available.min(LOCAL + 2 * MAX_COMMENT)) else { break };
         let Some(found) = record::local(&header) else { break };
-        let mut record = Record { start: at, ..found.record };
+        let mut record = ArchiveRecord { start: at, ..found.record };
         let data = at + found.length;
         let is_sized = record.flags & record::SIZES_BEHIND == 0 || record.compressed != 0;
         let end = if is_sized { data.checked_add(record.compressed) } else { sized_behind(storage, data, &mut record) };
@@ -130,7 +130,7 @@ fn recovered(storage: &Storage, most: usize) -> Option<Directory> {
 }
 
 /// Finds the sizes that stand behind the data at `data`: where a descriptor tells just the length that lies before it.
-fn sized_behind(storage: &Storage, data: u64, record: &mut Record) -> Option<u64> {
+fn sized_behind(storage: &ArchiveStorage, data: u64, record: &mut ArchiveRecord) -> Option<u64> {
     const STEP: usize = 1 << 16;
     const DESCRIPTOR: usize = 24;
     let mut at = data;
@@ -156,7 +156,7 @@ fn sized_behind(storage: &Storage, data: u64, record: &mut Record) -> Option<u64
 }
 
 /// Where the next local header may be: behind the data, and a descriptor that some archivers write all the same.
-fn past_descriptor(storage: &Storage, end: u64) -> Option<u64> {
+fn past_descriptor(storage: &ArchiveStorage, end: u64) -> Option<u64> {
     [0, 12, 16, 20, 24]
         .into_iter()
         .map(|length| end.saturating_add(length))

@@ -1,19 +1,19 @@
 //! What is wrong with members before their data are looked at.
 
 use super::name;
-use super::record::Record;
+use super::record::ArchiveRecord;
 use crate::language::Text;
 use std::collections::HashMap;
 
 /// For each record why it is refused, if it is.
-pub(super) fn find(records: &[Record]) -> Vec<Option<Text>> {
+pub(super) fn find(records: &[ArchiveRecord]) -> Vec<Option<Text>> {
     let mut flaws: Vec<Option<Text>> = records.iter().map(of_one).collect();
     mark_duplicates(records, &mut flaws);
     mark_overlaps(records, &mut flaws);
     flaws
 }
 
-fn of_one(record: &Record) -> Option<Text> {
+fn of_one(record: &ArchiveRecord) -> Option<Text> {
     const TYPE: u32 = 0o170_000;
     const LINK: u32 = 0o120_000;
     const ORDINARY: [u32; 3] = [0, 0o100_000, 0o040_000];
@@ -33,7 +33,7 @@ fn of_one(record: &Record) -> Option<Text> {
 }
 
 /// Two members of one name: nobody can tell which of them is meant, unless they are the same.
-fn mark_duplicates(records: &[Record], flaws: &mut [Option<Text>]) {
+fn mark_duplicates(records: &[ArchiveRecord], flaws: &mut [Option<Text>]) {
     let mut first_of: HashMap<Vec<String>, usize> = HashMap::new();
     for (at, record) in records.iter().enumerate().filter(|(_, record)| !record.is_folder()) {
         let Ok(path) = name::path(&record.name) else { continue };
@@ -50,8 +50,8 @@ fn mark_duplicates(records: &[Record], flaws: &mut [Option<Text>]) {
 }
 
 /// Members that share bytes of the archive: no archiver makes them, and a small archive becomes endless by them.
-fn mark_overlaps(records: &[Record], flaws: &mut [Option<Text>]) {
-    let end = |record: &Record| {
+fn mark_overlaps(records: &[ArchiveRecord], flaws: &mut [Option<Text>]) {
+    let end = |record: &ArchiveRecord| {
         let header = super::record::LOCAL as u64 + record.raw_name.len() as u64;
         record.start.saturating_add(header).saturating_add(record.compressed)
     };

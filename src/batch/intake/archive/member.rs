@@ -1,8 +1,8 @@
 //! The content of one member, as far as it is wanted.
 
-use super::record::{self, LOCAL, LOCAL_SIGNATURE, Record};
-use super::storage::Storage;
-use crate::batch::intake::Limits;
+use super::record::{self, ArchiveRecord, LOCAL, LOCAL_SIGNATURE};
+use super::storage::ArchiveStorage;
+use crate::batch::intake::IntakeLimits;
 use crate::language::Text;
 use std::io::Read;
 
@@ -11,9 +11,9 @@ const METHODS: [u16; 5] = [0, 8, 9, 12, 93];
 
 /// Unpacks a member. One of more than `limit` bytes is cut there where `is_cut_at_limit`, and refused where not.
 pub(super) fn unpack(
-    storage: &Storage,
-    record: &Record,
-    limits: &Limits,
+    storage: &ArchiveStorage,
+    record: &ArchiveRecord,
+    limits: &IntakeLimits,
     limit: u64,
     is_cut_at_limit: bool,
 ) -> Result<Vec<u8>, Text> {
@@ -55,7 +55,7 @@ pub(super) fn unpack(
 }
 
 /// A header for the data alone: what it says has been checked, and no name or extra field goes to the library.
-fn header(record: &Record, compressed: u32, size: u32) -> Vec<u8> {
+fn header(record: &ArchiveRecord, compressed: u32, size: u32) -> Vec<u8> {
     let mut header = LOCAL_SIGNATURE.to_vec();
     for field in [20, 0, record.method, 0, 0] {
         header.extend(field.to_le_bytes());
@@ -68,7 +68,7 @@ fn header(record: &Record, compressed: u32, size: u32) -> Vec<u8> {
 }
 
 /// Where a member's data begin, if the header before them agrees with the directory.
-fn data_start(storage: &Storage, record: &Record) -> Result<u64, Text> {
+fn data_start(storage: &ArchiveStorage, record: &ArchiveRecord) -> Result<u64, Text> {
     let lengths = storage.bytes(record.start, LOCAL).ok_or_else(cut_off)?;
     let length = LOCAL + usize::from(record::u16_at(&lengths, 26)) + usize::from(record::u16_at(&lengths, 28));
     let bytes = storage.bytes(record.start, length).ok_or_else(cut_off)?;
@@ -100,7 +100,7 @@ fn broken(detail: &str) -> Text {
     )
 }
 
-fn bomb(record: &Record) -> Text {
+fn bomb(record: &ArchiveRecord) -> Text {
     let mib = record.size.div_ceil(1 << 20);
     Text::new(
         format!("It would unpack from {} bytes to {mib} MiB: no text does that.", record.compressed),

@@ -18,7 +18,7 @@ const UTF8: u16 = 1 << 11;
 
 /// A member of an archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Record {
+pub(super) struct ArchiveRecord {
     /// Its name as stored.
     pub raw_name: Vec<u8>,
     /// Its name as text; the encoding is settled for the archive as a whole.
@@ -37,12 +37,12 @@ pub(super) struct Record {
 /// What stands before the data of a member.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct LocalHeader {
-    pub record: Record,
+    pub record: ArchiveRecord,
     /// Bytes from the start of the header to the data.
     pub length: u64,
 }
 
-impl Record {
+impl ArchiveRecord {
     pub fn is_encrypted(&self) -> bool {
         const AES: u16 = 99;
         self.flags & ENCRYPTED != 0 || self.method == AES
@@ -67,14 +67,14 @@ pub(super) fn u64_at(bytes: &[u8], at: usize) -> u64 {
 }
 
 /// The first record of the central directory in `bytes` and its length; none where there is none, or it is cut off.
-pub(super) fn central(bytes: &[u8]) -> Option<(Record, usize)> {
+pub(super) fn central(bytes: &[u8]) -> Option<(ArchiveRecord, usize)> {
     let fixed = bytes.get(..CENTRAL).filter(|fixed| fixed.starts_with(&CENTRAL_SIGNATURE))?;
     let [name, extra, comment] = [28, 30, 32].map(|at| usize::from(u16_at(fixed, at)));
     let length = CENTRAL + name + extra + comment;
     let variable = bytes.get(CENTRAL..length)?;
     let raw_name = variable[..name].to_vec();
     let extra = &variable[name..name + extra];
-    let mut record = Record {
+    let mut record = ArchiveRecord {
         flags: u16_at(fixed, 8),
         method: u16_at(fixed, 10),
         crc: u32_at(fixed, 16),
@@ -95,7 +95,7 @@ pub(super) fn local(bytes: &[u8]) -> Option<LocalHeader> {
     let fixed = bytes.get(..LOCAL).filter(|fixed| fixed.starts_with(&LOCAL_SIGNATURE))?;
     let [name, extra] = [26, 28].map(|at| usize::from(u16_at(fixed, at)));
     let variable = bytes.get(LOCAL..LOCAL + name + extra)?;
-    let mut record = Record {
+    let mut record = ArchiveRecord {
         flags: u16_at(fixed, 6),
         method: u16_at(fixed, 8),
         crc: u32_at(fixed, 14),
@@ -122,7 +122,7 @@ fn extras(mut extra: &[u8]) -> impl Iterator<Item = (u16, &[u8])> {
 }
 
 /// Takes the sizes that do not fit 32 bits from the ZIP64 extra field: those that are all ones, in this order.
-fn widen(record: &mut Record, extra: &[u8], has_start: bool) {
+fn widen(record: &mut ArchiveRecord, extra: &[u8], has_start: bool) {
     const ZIP64: u16 = 1;
     let Some((_, content)) = extras(extra).find(|(id, _)| *id == ZIP64) else { return };
     let mut values = content.chunks_exact(8).map(|bytes| u64_at(bytes, 0));
@@ -134,7 +134,7 @@ fn widen(record: &mut Record, extra: &[u8], has_start: bool) {
 }
 
 /// The name as text, where the member says how it is to be read; else it stays empty.
-fn settle_name(record: &mut Record, extra: &[u8]) {
+fn settle_name(record: &mut ArchiveRecord, extra: &[u8]) {
     const UNICODE_PATH: u16 = 0x7075;
     let is_current = |content: &&[u8]| {
         content.len() > 5 && content[0] == 1 && u32_at(content, 1) == crc32fast::hash(&record.raw_name)

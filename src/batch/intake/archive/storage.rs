@@ -6,14 +6,14 @@ use std::os::unix::fs::FileExt;
 
 /// Where an archive's bytes are.
 #[derive(Debug)]
-pub(super) enum Storage {
+pub(super) enum ArchiveStorage {
     /// A file, and its length when it was opened.
     File(File, u64),
     /// An archive that was unpacked from another.
     Memory(Vec<u8>),
 }
 
-impl Storage {
+impl ArchiveStorage {
     pub fn file(file: File) -> io::Result<Self> {
         let length = file.metadata()?.len();
         Ok(Self::File(file, length))
@@ -54,15 +54,15 @@ impl Storage {
 /// A reader over a part of an archive.
 #[derive(Debug)]
 pub(super) struct Section<'a> {
-    storage: &'a Storage,
+    storage: &'a ArchiveStorage,
     offset: u64,
 }
 
 impl Read for Section<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = match self.storage {
-            Storage::File(file, _) => file.read_at(buffer, self.offset)?,
-            Storage::Memory(bytes) => {
+            ArchiveStorage::File(file, _) => file.read_at(buffer, self.offset)?,
+            ArchiveStorage::Memory(bytes) => {
                 let start = usize::try_from(self.offset).unwrap_or(usize::MAX).min(bytes.len());
                 let count = buffer.len().min(bytes.len() - start);
                 buffer[..count].copy_from_slice(&bytes[start..start + count]);

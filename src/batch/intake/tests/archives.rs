@@ -1,15 +1,15 @@
 //! Archives as the tools of students and teachers make them.
 
-use super::builder::{Member, archive};
+use super::builder::{ZipMember, archive};
 use super::*;
 use std::process::Command;
 
 #[test]
 fn a_moodle_download_is_read() {
     let intake = take_archive(&archive(&[
-        Member::deflated("山田 太郎_12_assignsubmission_file_/ggsample06.vert", b"1").utf8(),
-        Member::stored("Ann Lee_3_assignsubmission_file_/answer.vert", "2"),
-        Member::stored("Ann Lee_3_assignsubmission_onlinetext_/onlinetext.html", "<p>"),
+        ZipMember::deflated("山田 太郎_12_assignsubmission_file_/ggsample06.vert", b"1").utf8(),
+        ZipMember::stored("Ann Lee_3_assignsubmission_file_/answer.vert", "2"),
+        ZipMember::stored("Ann Lee_3_assignsubmission_onlinetext_/onlinetext.html", "<p>"),
     ]));
     assert_eq!(everyone(&intake), [("山田 太郎", Ok("1")), ("Ann Lee", Ok("2"))]);
     assert_eq!(intake.title, "class");
@@ -23,8 +23,8 @@ fn a_moodle_download_is_read() {
 fn names_in_shift_jis_are_read() {
     // 山田 is 8E 52 93 63 in Shift_JIS, 表 is 95 5C: a backslash in ASCII.
     let intake = take_archive(&archive(&[
-        Member::stored(b"\x8e\x52\x93\x63_12_assignsubmission_file_/\x95\x5c.vert", "1"),
-        Member::stored(b"\x95\x5c_13_assignsubmission_file_/ggsample06.vert", "2"),
+        ZipMember::stored(b"\x8e\x52\x93\x63_12_assignsubmission_file_/\x95\x5c.vert", "1"),
+        ZipMember::stored(b"\x95\x5c_13_assignsubmission_file_/ggsample06.vert", "2"),
     ]));
     assert_eq!(everyone(&intake), [("山田", Ok("1")), ("表", Ok("2"))]);
     assert!(intake.hand_ins[0].path().unwrap().ends_with("/表.vert"));
@@ -40,18 +40,18 @@ fn the_unicode_path_field_counts_where_it_is_current() {
         extra.extend(path);
         extra
     };
-    let current = Member { extra: field(crc32fast::hash(b"xx/a.vert")), ..Member::stored("xx/a.vert", "1") };
-    let outdated = Member { extra: field(crc32fast::hash(b"before")), ..Member::stored("yy/a.vert", "2") };
+    let current = ZipMember { extra: field(crc32fast::hash(b"xx/a.vert")), ..ZipMember::stored("xx/a.vert", "1") };
+    let outdated = ZipMember { extra: field(crc32fast::hash(b"before")), ..ZipMember::stored("yy/a.vert", "2") };
     assert_eq!(everyone(&take_archive(&archive(&[current, outdated]))), [("山田", Ok("1")), ("yy", Ok("2"))]);
 }
 
 #[test]
 fn names_from_macos_are_composed_and_its_litter_left_out() {
     let intake = take_archive(&archive(&[
-        Member::stored("か\u{3099}く/ggsample06.vert", "1"),
-        Member::stored("__MACOSX/か\u{3099}く/._ggsample06.vert", "\0"),
-        Member::stored("bob/ggsample06.vert", "2"),
-        Member::stored(".DS_Store", ""),
+        ZipMember::stored("か\u{3099}く/ggsample06.vert", "1"),
+        ZipMember::stored("__MACOSX/か\u{3099}く/._ggsample06.vert", "\0"),
+        ZipMember::stored("bob/ggsample06.vert", "2"),
+        ZipMember::stored(".DS_Store", ""),
     ]));
     assert_eq!(everyone(&intake), [("がく", Ok("1")), ("bob", Ok("2"))]);
     assert_eq!(intake.refused, []);
@@ -61,13 +61,13 @@ fn names_from_macos_are_composed_and_its_litter_left_out() {
 fn names_that_begin_with_a_dot_are_in_an_archive_too() {
     let double = b"\0\x05\x16\x07\0\x02\0\0";
     let intake = take_archive(&archive(&[
-        Member::stored(".太郎_31_assignsubmission_file/ggsample06.vert", "1").utf8(),
-        Member::deflated("Bob_32_assignsubmission_file/ggsample06.vert", b"2"),
-        Member::stored("Bob_32_assignsubmission_file/._ggsample06.vert", "beside"),
-        Member::deflated("Bob_32_assignsubmission_file/._other.docx", double),
-        Member::stored("Bob_32_assignsubmission_file/.DS_Store", ""),
-        Member::stored("__MACOSX/._Bob_32_assignsubmission_file", ""),
-        Member::stored(".unknown", ""),
+        ZipMember::stored(".太郎_31_assignsubmission_file/ggsample06.vert", "1").utf8(),
+        ZipMember::deflated("Bob_32_assignsubmission_file/ggsample06.vert", b"2"),
+        ZipMember::stored("Bob_32_assignsubmission_file/._ggsample06.vert", "beside"),
+        ZipMember::deflated("Bob_32_assignsubmission_file/._other.docx", double),
+        ZipMember::stored("Bob_32_assignsubmission_file/.DS_Store", ""),
+        ZipMember::stored("__MACOSX/._Bob_32_assignsubmission_file", ""),
+        ZipMember::stored(".unknown", ""),
     ]));
     assert_eq!(everyone(&intake), [(".太郎", Ok("1")), ("Bob", Ok("2"))]);
     assert_eq!(refused(&intake).len(), 1);
@@ -77,10 +77,10 @@ fn names_that_begin_with_a_dot_are_in_an_archive_too() {
 #[test]
 fn an_archive_that_may_be_two_students_is_nobodys() {
     // Among loose files, Ann hands in an archive that is called as if it were Bob's.
-    let own = archive(&[Member::stored("ggsample06.vert", "ann")]);
+    let own = archive(&[ZipMember::stored("ggsample06.vert", "ann")]);
     let intake = take_archive(&archive(&[
-        Member::stored("Ann_9_assignsubmission_file_Bob_10_assignsubmission_file.zip", own.clone()),
-        Member::stored("Cy_11_assignsubmission_file_work.zip", own),
+        ZipMember::stored("Ann_9_assignsubmission_file_Bob_10_assignsubmission_file.zip", own.clone()),
+        ZipMember::stored("Cy_11_assignsubmission_file_work.zip", own),
     ]));
     assert_eq!(everyone(&intake), [("Cy", Ok("ann"))]);
     assert!(reason(&intake, "Bob_10_assignsubmission_file.zip").unwrap().contains("not graded for any of them"));
@@ -88,28 +88,28 @@ fn an_archive_that_may_be_two_students_is_nobodys() {
 
 #[test]
 fn archives_in_archives_are_opened() {
-    let alice = archive(&[Member::stored("ggsample06/ggsample06.vert", "a")]);
-    let bob = archive(&[Member::stored("ggsample06.vert", "b")]);
-    let class = [Member::stored("alice.zip", alice), Member::deflated("bob.ZIP", &bob)];
+    let alice = archive(&[ZipMember::stored("ggsample06/ggsample06.vert", "a")]);
+    let bob = archive(&[ZipMember::stored("ggsample06.vert", "b")]);
+    let class = [ZipMember::stored("alice.zip", alice), ZipMember::deflated("bob.ZIP", &bob)];
     let intake = take_archive(&archive(&class));
     assert_eq!(everyone(&intake), [("alice", Ok("a")), ("bob", Ok("b"))]);
     assert_eq!(intake.hand_ins[0].path().as_deref(), Some("alice.zip/ggsample06/ggsample06.vert"));
 
     let year = archive(&[
-        Member::stored("A.zip", archive(&class)),
-        Member::stored("B.zip", archive(&[Member::stored("C_5_assignsubmission_file_x.vert", "c")])),
+        ZipMember::stored("A.zip", archive(&class)),
+        ZipMember::stored("B.zip", archive(&[ZipMember::stored("C_5_assignsubmission_file_x.vert", "c")])),
     ]);
     assert_eq!(everyone(&take_archive(&year)), [("alice", Ok("a")), ("bob", Ok("b")), ("C", Ok("c"))]);
 }
 
 #[test]
 fn archives_in_archives_end_at_a_depth() {
-    let mut bytes = archive(&[Member::stored("ggsample06.vert", "x")]);
-    for _ in 1..Limits::default().archive_depth {
-        bytes = archive(&[Member::stored("a.zip", bytes)]);
+    let mut bytes = archive(&[ZipMember::stored("ggsample06.vert", "x")]);
+    for _ in 1..IntakeLimits::default().archive_depth {
+        bytes = archive(&[ZipMember::stored("a.zip", bytes)]);
     }
     assert_eq!(everyone(&take_archive(&bytes)).last().unwrap().1, Ok("x"));
-    let intake = take_archive(&archive(&[Member::stored("a.zip", bytes)]));
+    let intake = take_archive(&archive(&[ZipMember::stored("a.zip", bytes)]));
     assert!(intake.refused[0].reason.en.contains("deep"), "{intake:?}");
     assert!(everyone(&intake).iter().all(|(_, content)| content.is_err()));
 }
@@ -117,7 +117,7 @@ fn archives_in_archives_end_at_a_depth() {
 #[test]
 fn an_archive_behind_a_program_is_read() {
     let mut bytes = b"MZ this program unpacks itself".to_vec();
-    bytes.extend(archive(&[Member::stored("alice/ggsample06.vert", "a")]));
+    bytes.extend(archive(&[ZipMember::stored("alice/ggsample06.vert", "a")]));
     assert_eq!(everyone(&take_archive(&bytes)), [("alice", Ok("a"))]);
 }
 
@@ -168,11 +168,11 @@ with open('python-stream.zip', 'wb') as f, zipfile.ZipFile(Stream(f), 'w', zipfi
 
 #[test]
 fn a_students_archive_among_loose_files_is_theirs() {
-    let project = archive(&[Member::stored("ggsample06/ggsample06.vert", "a")]);
+    let project = archive(&[ZipMember::stored("ggsample06/ggsample06.vert", "a")]);
     let intake = take_archive(&archive(&[
-        Member::stored("Ann Lee_3_assignsubmission_file_hw.zip", project),
-        Member::stored("Bob_4_assignsubmission_file_hw.zip", "no archive"),
-        Member::stored("Carol_5_assignsubmission_file_x.vert", "c"),
+        ZipMember::stored("Ann Lee_3_assignsubmission_file_hw.zip", project),
+        ZipMember::stored("Bob_4_assignsubmission_file_hw.zip", "no archive"),
+        ZipMember::stored("Carol_5_assignsubmission_file_x.vert", "c"),
     ]));
     let found = everyone(&intake);
     assert_eq!((found[0], found[2]), (("Ann Lee", Ok("a")), ("Carol", Ok("c"))));
@@ -182,8 +182,9 @@ fn a_students_archive_among_loose_files_is_theirs() {
 
 #[test]
 fn a_student_whose_archive_is_broken_is_a_student() {
-    let alice = archive(&[Member::stored("ggsample06.vert", "a")]);
-    let intake = take_archive(&archive(&[Member::stored("alice.zip", alice), Member::stored("bob.zip", "broken")]));
+    let alice = archive(&[ZipMember::stored("ggsample06.vert", "a")]);
+    let intake =
+        take_archive(&archive(&[ZipMember::stored("alice.zip", alice), ZipMember::stored("bob.zip", "broken")]));
     let found = everyone(&intake);
     assert_eq!(found[0], ("alice", Ok("a")));
     assert_eq!(found[1].0, "bob");
@@ -195,7 +196,7 @@ fn archives_named_one_by_one_are_one_student_each() {
     let folder = tempfile::tempdir().unwrap();
     let inputs = ["alice.zip", "bob.zip"].map(|name| folder.path().join(name));
     for (input, content) in inputs.iter().zip(["a", "b"]) {
-        fs::write(input, archive(&[Member::stored("ggsample06/ggsample06.vert", content)])).unwrap();
+        fs::write(input, archive(&[ZipMember::stored("ggsample06/ggsample06.vert", content)])).unwrap();
     }
     assert_eq!(everyone(&take(&inputs)), [("alice", Ok("a")), ("bob", Ok("b"))]);
     assert_eq!(everyone(&take(&inputs[..1])), [("alice", Ok("a"))]);

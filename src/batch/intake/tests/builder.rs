@@ -4,7 +4,7 @@ use std::io::Write;
 
 /// A member; the fields are what is written, whatever the data are.
 #[derive(Clone, Debug)]
-pub struct Member {
+pub struct ZipMember {
     pub name: Vec<u8>,
     /// The name in the local header, where it is another.
     pub local_name: Option<Vec<u8>>,
@@ -20,7 +20,7 @@ pub struct Member {
     pub start: Option<u32>,
 }
 
-impl Member {
+impl ZipMember {
     /// A member that is stored as it is.
     pub fn stored(name: impl AsRef<[u8]>, data: impl AsRef<[u8]>) -> Self {
         let (name, data) = (name.as_ref().to_vec(), data.as_ref().to_vec());
@@ -61,7 +61,7 @@ impl Member {
 }
 
 /// An archive of these members.
-pub fn archive(members: &[Member]) -> Vec<u8> {
+pub fn archive(members: &[ZipMember]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut directory = Vec::new();
     for member in members {

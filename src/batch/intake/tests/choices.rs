@@ -9,8 +9,8 @@ fn graded(files: &[(&str, &str)]) -> Result<String, String> {
     let mut intake = take_folder(&[&files[..], &[("zoe/ggsample06.vert", "z")]].concat());
     assert_eq!(names(&intake), ["alice", "zoe"]);
     match intake.hand_ins.remove(0).content {
-        Content::Files { hand_in, .. } => Ok(hand_in.names()),
-        Content::Nothing(reason) => {
+        HandInContent::Files { hand_in, .. } => Ok(hand_in.names()),
+        HandInContent::Nothing(reason) => {
             assert!(!reason.ja.is_empty());
             Err(reason.en)
         }
@@ -62,7 +62,7 @@ fn what_is_there_instead_is_said() {
 #[test]
 fn a_long_file_is_cut_above_what_the_source_stage_takes() {
     let intake = take_folder(&[("alice/ggsample06.vert", &"x".repeat(3 << 20))]);
-    let Content::Files { hand_in, .. } = &intake.hand_ins[0].content else { panic!("{intake:?}") };
+    let HandInContent::Files { hand_in, .. } = &intake.hand_ins[0].content else { panic!("{intake:?}") };
     let length = hand_in.files[0].bytes.len();
     assert_eq!(length, 1 << 20);
     assert!(length > crate::source::MAX_BYTES);

@@ -235,7 +235,7 @@ fn groups_and_those_in_none_are_read() {
 fn more_files_than_the_limit_are_named_once() {
     let folder = folder(&[("a.vert", ""), ("b.vert", ""), ("c.vert", ""), ("d.vert", "")]);
     let limits = within(1 << 20, 2);
-    let intake = read(&[folder.path().join("class")], &Options { limits, ..options() }).unwrap();
+    let intake = read(&[folder.path().join("class")], &IntakeOptions { limits, ..options() }).unwrap();
     assert_eq!(names(&intake), ["a", "b"]);
     assert_eq!(intake.refused.len(), 1);
 }

@@ -1,6 +1,6 @@
 //! Whatever is done to an archive's bytes, reading it ends, within the limits.
 
-use super::builder::{Member, archive};
+use super::builder::{ZipMember, archive};
 use super::*;
 
 /// A generator of numbers, so that a failure can be repeated (Numerical Recipes' linear congruence).
@@ -15,12 +15,12 @@ impl Numbers {
 
 fn sample() -> Vec<u8> {
     let text = "void main() { gl_Position = mc * pv; }\n".repeat(20);
-    let inner = archive(&[Member::deflated("x/ggsample06.vert", text.as_bytes()), Member::stored("y.txt", "y")]);
+    let inner = archive(&[ZipMember::deflated("x/ggsample06.vert", text.as_bytes()), ZipMember::stored("y.txt", "y")]);
     archive(&[
-        Member::deflated("山田 太郎_12_assignsubmission_file_/ggsample06.vert", text.as_bytes()).utf8(),
-        Member::stored(b"\x8e\x52\x93\x63_13_assignsubmission_file_/\x95\x5c.vert", &text),
-        Member::stored("Ann_14_assignsubmission_file_/hw.zip", inner),
-        Member::stored("Ann_15_assignsubmission_file_x.vert", "x"),
+        ZipMember::deflated("山田 太郎_12_assignsubmission_file_/ggsample06.vert", text.as_bytes()).utf8(),
+        ZipMember::stored(b"\x8e\x52\x93\x63_13_assignsubmission_file_/\x95\x5c.vert", &text),
+        ZipMember::stored("Ann_14_assignsubmission_file_/hw.zip", inner),
+        ZipMember::stored("Ann_15_assignsubmission_file_x.vert", "x"),
     ])
 }
 
@@ -31,8 +31,8 @@ fn holds(bytes: &[u8], seed: u64) {
         .hand_ins
         .iter()
         .map(|hand_in| match &hand_in.content {
-            Content::Files { hand_in, .. } => hand_in.concatenated().len(),
-            Content::Nothing(_) => 0,
+            HandInContent::Files { hand_in, .. } => hand_in.concatenated().len(),
+            HandInContent::Nothing(_) => 0,
         })
         .sum();
     assert!(kept as u64 <= limits.total.bytes, "seed {seed}");

@@ -6,8 +6,8 @@ use crate::slots::tests::both;
 const VERTEX: &str = "void main() { gl_Position = pv; }";
 const FRAGMENT: &str = "out vec4 fc; void main() { fc = vec4(1.0); }";
 
-fn options() -> Options {
-    Options { slots: both(), limits: Limits::default() }
+fn options() -> IntakeOptions {
+    IntakeOptions { slots: both(), limits: IntakeLimits::default() }
 }
 
 fn take(files: &[(&str, &str)]) -> Intake {
@@ -17,12 +17,12 @@ fn take(files: &[(&str, &str)]) -> Intake {
 
 /// Everyone with the names and contents of their files, or the reason why there are none.
 fn sets(intake: &Intake) -> Vec<(&str, String)> {
-    let set = |content: &Content| match content {
-        Content::Files { hand_in, .. } => {
+    let set = |content: &HandInContent| match content {
+        HandInContent::Files { hand_in, .. } => {
             let file = |file: &HandedInFile| format!("{}={}", file.name, String::from_utf8_lossy(&file.bytes));
             hand_in.files.iter().map(file).collect::<Vec<_>>().join(" ")
         }
-        Content::Nothing(why) => why.en.clone(),
+        HandInContent::Nothing(why) => why.en.clone(),
     };
     intake.hand_ins.iter().map(|work| (work.student.name.as_str(), set(&work.content))).collect()
 }
@@ -57,7 +57,7 @@ fn each_student_has_a_file_for_each_slot_or_is_told_which_is_missing() {
     );
     assert_eq!(found[4], ("erin", format!("two.txt={VERTEX} one.txt={FRAGMENT}")));
     assert_eq!(found[5], ("frank", format!("ggsample11.vert={VERTEX} ggsample11.frag={FRAGMENT}")));
-    let Content::Files { places, .. } = &intake.hand_ins[0].content else { panic!("{intake:?}") };
+    let HandInContent::Files { places, .. } = &intake.hand_ins[0].content else { panic!("{intake:?}") };
     let paths: Vec<_> = places.iter().map(|place| place.path.as_str()).collect();
     assert_eq!(paths, ["alice/ggsample11.vert", "alice/src/ggsample11.frag"]);
 }
@@ -109,9 +109,9 @@ fn given(files: &[(&str, &[u8])]) -> Vec<HandInPart> {
 
 #[test]
 fn one_hand_in_comes_as_files_as_a_folder_or_as_an_archive() {
-    let names = |content: Content| match content {
-        Content::Files { hand_in, .. } => hand_in.names(),
-        Content::Nothing(why) => why.en,
+    let names = |content: HandInContent| match content {
+        HandInContent::Files { hand_in, .. } => hand_in.names(),
+        HandInContent::Nothing(why) => why.en,
     };
     let right = "ggsample11.vert, ggsample11.frag";
     let files: [(&str, &[u8]); 2] = [("ggsample11.frag", b"2"), ("ggsample11.vert", b"1")];
@@ -119,7 +119,7 @@ fn one_hand_in_comes_as_files_as_a_folder_or_as_an_archive() {
     let folder = folder(&[("ggsample11.vert", "1"), ("deep/ggsample11.frag", "2"), ("notes.md", "")]);
     assert_eq!(names(one(vec![HandInPart::Path(folder.path().join("class"))], &options())), right);
     let members =
-        [builder::Member::stored("x/ggsample11.vert", "1"), builder::Member::stored("x/ggsample11.frag", "2")];
+        [builder::ZipMember::stored("x/ggsample11.vert", "1"), builder::ZipMember::stored("x/ggsample11.frag", "2")];
     let archive = builder::archive(&members);
     assert_eq!(names(one(given(&[("mine.zip", &archive)]), &options())), right);
     assert!(names(one(given(&[("mine.vert", &archive)]), &options())).starts_with("There is no `ggsample11.frag`"));

@@ -1,12 +1,12 @@
 //! Whether the machine's OpenGL driver draws of the solution what the interpreter computes.
 
-use super::Said;
+use super::CheckWording;
 use crate::language::Text;
 use crate::opengl::{Agreement, FrameAgreement, REFERENCE_TOLERANCE};
 use std::process::{Command, Stdio};
 
 /// Says it, and whether they agree. Where there is no driver nothing is held against it, which is no error of the homework.
-pub(super) fn say(said: Said, assignment: &str) -> bool {
+pub(super) fn say(said: CheckWording, assignment: &str) -> bool {
     match asked(assignment) {
         Err(why) => {
             said.note(&Text::new(
@@ -29,7 +29,7 @@ pub(super) fn say(said: Said, assignment: &str) -> bool {
     }
 }
 
-fn say_frames(said: Said, renderer: &str, frames: &[FrameAgreement]) -> bool {
+fn say_frames(said: CheckWording, renderer: &str, frames: &[FrameAgreement]) -> bool {
     if let Some((index, frame)) = frames.iter().enumerate().find(|(_, frame)| !frame.agrees()) {
         let FrameAgreement { judged, unlike, .. } = frame;
         let text = Text::new(

@@ -1,6 +1,6 @@
 //! Where the features of the rubric and the mistakes of a folder show.
 
-use super::{Album, Said};
+use super::{Album, CheckWording};
 use crate::compare::PIXEL_TOLERANCE;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -12,7 +12,7 @@ use reference::probes::ProbeSet;
 use reference::rasteriser::{Coverage, Frame};
 
 /// Says it all; whether every mistake shows something of its own.
-pub(super) fn say(said: Said, assignment: &Assignment, album: &Album<'_>) -> Result<bool, Fault> {
+pub(super) fn say(said: CheckWording, assignment: &Assignment, album: &Album<'_>) -> Result<bool, Fault> {
     let probes = assignment.judging_probes();
     let alternatives = fit::Alternatives::new(assignment, &probes);
     let right = assignment.frames();
@@ -25,7 +25,7 @@ pub(super) fn say(said: Said, assignment: &Assignment, album: &Album<'_>) -> Res
 
 /// Says where each line's feature shows, and which cannot be judged, as a term of a sum that always has another.
 fn say_features(
-    said: Said,
+    said: CheckWording,
     assignment: &Assignment,
     alternatives: &fit::Alternatives<'_>,
     probes: &ProbeSet,
@@ -58,7 +58,7 @@ fn say_features(
 
 /// Says where a mistake shows in the first way in which it is written, and draws each.
 fn say_mistake(
-    said: Said,
+    said: CheckWording,
     assignment: &Assignment,
     mistake: &Mistake,
     probes: &ProbeSet,
@@ -116,7 +116,7 @@ fn is_seen(own: &Frame, right: &Frame) -> bool {
 }
 
 /// Names the mistakes that show nothing of their own.
-fn say_alike(said: Said, alternatives: &fit::Alternatives<'_>) -> bool {
+fn say_alike(said: CheckWording, alternatives: &fit::Alternatives<'_>) -> bool {
     let alike = fit::alike(alternatives, fit::TOLERANCE);
     for (variant, other) in &alike {
         let text = match other {

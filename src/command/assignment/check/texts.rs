@@ -1,12 +1,12 @@
 //! Texts that were not translated, and placeholders in them that nothing fills.
 
-use super::Said;
+use super::CheckWording;
 use crate::language;
 use reference::{Assignment, Text};
 use std::collections::{BTreeSet, HashSet};
 
 /// Names the texts that are the same in both languages, or empty in one.
-pub(super) fn say(said: Said, assignment: &Assignment) {
+pub(super) fn say(said: CheckWording, assignment: &Assignment) {
     let mut texts: Vec<(String, &Text)> = vec![("title".to_owned(), &assignment.title)];
     if let Some(task) = &assignment.task {
         texts.extend([("task, text".to_owned(), &task.text), ("task, picture".to_owned(), &task.picture)]);
@@ -37,7 +37,7 @@ pub(super) fn say(said: Said, assignment: &Assignment) {
 const GENERAL: [&str; 7] = ["line", "name", "found", "expected", "frames", "probes", "cases"];
 
 /// Whether each placeholder that stands outside of ⟨ ⟩ can be filled: students would read `{l}` else.
-pub(super) fn say_unfilled(said: Said, assignment: &Assignment) -> bool {
+pub(super) fn say_unfilled(said: CheckWording, assignment: &Assignment) -> bool {
     let interface = &assignment.interface;
     let definitions = assignment.equation.definitions().iter().map(|definition| definition.name.as_str());
     let constants = assignment.constants.iter().map(|constant| constant.name.as_str());

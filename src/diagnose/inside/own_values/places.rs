@@ -14,7 +14,7 @@ const MOST_WRONG: usize = 3;
 const APART: f64 = 0.03;
 
 /// A place that is shown.
-pub(super) struct Shown<'p> {
+pub(super) struct ShownPlace<'p> {
     pub place: Place<'p>,
     pub at: Option<[f64; 2]>,
     pub pixel: Option<[u32; 2]>,
@@ -22,7 +22,7 @@ pub(super) struct Shown<'p> {
 }
 
 /// The places of a picture where the answer is furthest from what is right, and one where it is right.
-pub(super) fn shown_in<'p>(evidence: &Evidence<'_>, pictured: &'p [Pictured]) -> Vec<Shown<'p>> {
+pub(super) fn shown_in<'p>(evidence: &Evidence<'_>, pictured: &'p [Pictured]) -> Vec<ShownPlace<'p>> {
     let places: Vec<Place<'p>> =
         pictured.iter().map(|one| Place { probe: &one.probe, uniforms: &one.uniforms }).collect();
     let Some(apart) = apart(evidence, &places) else { return Vec::new() };
@@ -40,7 +40,7 @@ pub(super) fn shown_in<'p>(evidence: &Evidence<'_>, pictured: &'p [Pictured]) ->
         }
     }
     chosen.extend((0..pictured.len()).find(is_right));
-    let shown = |at: usize| Shown {
+    let shown = |at: usize| ShownPlace {
         place: places[at],
         at: Some(pictured[at].at),
         pixel: pictured[at].pixel,
@@ -71,11 +71,11 @@ fn apart(evidence: &Evidence<'_>, places: &[Place<'_>]) -> Option<Vec<f64>> {
 }
 
 /// Some of the probes that are wrong, and one that is right.
-pub(super) fn shown_of_probes<'e>(evidence: &Evidence<'e>) -> Option<Vec<Shown<'e>>> {
+pub(super) fn shown_of_probes<'e>(evidence: &Evidence<'e>) -> Option<Vec<ShownPlace<'e>>> {
     let chosen = chosen(evidence);
     let places: Vec<Place<'e>> = chosen.iter().map(|at| place(evidence, *at)).collect();
     let apart = apart(evidence, &places)?;
-    let shown = |at: usize| Shown { place: places[at], at: None, pixel: None, is_right: apart[at] <= 0.0 };
+    let shown = |at: usize| ShownPlace { place: places[at], at: None, pixel: None, is_right: apart[at] <= 0.0 };
     let mut order: Vec<usize> = (0..places.len()).filter(|at| apart[*at] > 0.0).collect();
     order.sort_by(|a, b| apart[*b].total_cmp(&apart[*a]).then(a.cmp(b)));
     order.truncate(MOST_WRONG);

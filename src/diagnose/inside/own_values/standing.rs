@@ -1,7 +1,7 @@
 //! Whether a statement computes what it should, and what that is.
 
 use super::variable;
-use crate::diagnose::columns::{Columns, fits as fits_shape, is_colour, is_number, is_same, shaped};
+use crate::diagnose::columns::{ScalarColumns, fits as fits_shape, is_colour, is_number, is_same, shaped};
 use crate::diagnose::inside::Stage;
 use crate::diagnose::inside::search::{Mend, Search};
 use crate::diagnose::inside::walk::Suspect;
@@ -18,7 +18,7 @@ const LEAST_GAINED: usize = 2;
 
 /// A right answer's value in the place of a statement's, one for each time that the statement runs.
 pub(super) struct Counterpart {
-    pub values: Vec<Columns>,
+    pub values: Vec<ScalarColumns>,
     pub means: Option<Text>,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Trial {
 }
 
 /// What is known of a statement.
-pub(super) enum Standing {
+pub(super) enum StatementStanding {
     Unknown,
     /// It computes something that a right answer computes.
     Right(Option<Text>),
@@ -57,16 +57,16 @@ impl Search<'_, '_> {
         events: &[usize],
         is_said: bool,
         trial: &mut Trial,
-    ) -> Standing {
+    ) -> StatementStanding {
         let own = &self.theirs.stage(stage).sites()[site];
         let name = variable(own).0.to_owned();
         if own.kind.scalar() != Some(Scalar::Float) {
-            return Standing::Unknown;
+            return StatementStanding::Unknown;
         }
         let named = self.namesakes(stage, site, events, &name, is_said);
         let equal = named.iter().find(|one| one.is_equal).map(|one| one.number);
         if let Some(number) = equal.filter(|_| !is_said) {
-            return Standing::Right(self.means(number));
+            return StatementStanding::Right(self.means(number));
         }
         let unnamed = self.unnamed(stage, events);
         for one in named.iter().filter(|one| !one.is_equal) {
@@ -89,13 +89,13 @@ impl Search<'_, '_> {
                     // What is wrong beside it shows where this is right.
                     self.base[stage as usize].push(mend.change());
                 }
-                return Standing::Wrong(Counterpart { values: mend.values, means: self.means(one.number) });
+                return StatementStanding::Wrong(Counterpart { values: mend.values, means: self.means(one.number) });
             }
         }
         match equal {
-            Some(number) => Standing::Right(self.means(number)),
-            None if unnamed.is_some() => Standing::Right(None),
-            None => Standing::Unknown,
+            Some(number) => StatementStanding::Right(self.means(number)),
+            None if unnamed.is_some() => StatementStanding::Right(None),
+            None => StatementStanding::Unknown,
         }
     }
 
@@ -180,6 +180,6 @@ impl Search<'_, '_> {
 }
 
 /// Whether a value that is the same everywhere is too many numbers to be equal to another by chance.
-fn is_telling(columns: &Columns) -> bool {
+fn is_telling(columns: &ScalarColumns) -> bool {
     columns.len() > 2 && columns.iter().any(|column| !is_number(column[0], columns[0][0]))
 }

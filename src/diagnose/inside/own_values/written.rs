@@ -1,8 +1,8 @@
 //! A statement with its values, as a report keeps them.
 
-use super::standing::{Counterpart, Standing};
+use super::standing::{Counterpart, StatementStanding};
 use super::variable;
-use crate::diagnose::columns::Columns;
+use crate::diagnose::columns::ScalarColumns;
 use crate::diagnose::inside::Stage;
 use crate::diagnose::inside::search::Search;
 use crate::report::{ValueAt, ValueLine};
@@ -18,7 +18,7 @@ impl Search<'_, '_> {
         stage: Stage,
         site: usize,
         events: &[usize],
-        standing: &Standing,
+        standing: &StatementStanding,
         first: usize,
     ) -> Option<ValueLine> {
         let trace: &Trace = self.trace(stage)?;
@@ -33,12 +33,12 @@ impl Search<'_, '_> {
             let (turn, event) = reached(place).next_back()?;
             let event = &trace.events[*event];
             let lane = self.lane(stage, event, place);
-            let at = |columns: &Columns| -> Vec<f64> { columns.iter().map(|column| column[lane]).collect() };
+            let at = |columns: &ScalarColumns| -> Vec<f64> { columns.iter().map(|column| column[lane]).collect() };
             let value = at(&event.values);
             let right = match standing {
-                Standing::Unknown => None,
-                Standing::Right(_) => Some(value.clone()),
-                Standing::Wrong(counterpart) => Some(at(&counterpart.values[turn])),
+                StatementStanding::Unknown => None,
+                StatementStanding::Right(_) => Some(value.clone()),
+                StatementStanding::Wrong(counterpart) => Some(at(&counterpart.values[turn])),
             };
             let agrees = right.as_ref().map(|right| looks_same(&value, right));
             Some(ValueAt { value: numbers(&value), right: right.map(|right| numbers(&right)), agrees })
@@ -53,8 +53,8 @@ impl Search<'_, '_> {
             function: own.function.clone().filter(|function| function != "main"),
             times: times as u32,
             means: match standing {
-                Standing::Unknown => None,
-                Standing::Right(means) | Standing::Wrong(Counterpart { means, .. }) => means.clone(),
+                StatementStanding::Unknown => None,
+                StatementStanding::Right(means) | StatementStanding::Wrong(Counterpart { means, .. }) => means.clone(),
             },
             values,
         })

@@ -3,8 +3,8 @@
 
 use super::members::{class, members, student};
 use super::written::{disk, page, zip_into};
-use super::{Pick, Steps, Whose};
-use crate::batch::class::{Class, Entry, Outcome};
+use super::{DownloadSelection, Pick, Steps};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::formats::plain::cell;
 use crate::batch::formats::{grades, page as class_page};
 use crate::fault::Fault;
@@ -34,7 +34,7 @@ struct Index {
     tag: &'static str,
     style: &'static str,
     at: String,
-    homeworks: Vec<Homework>,
+    homeworks: Vec<ArchivedHomework>,
 }
 
 impl Index {
@@ -47,14 +47,14 @@ impl Index {
 }
 
 /// A homework in the archive.
-struct Homework {
+struct ArchivedHomework {
     id: String,
     title: String,
-    students: Vec<Listed>,
+    students: Vec<ArchivedStudent>,
 }
 
 /// A student of a homework.
-struct Listed {
+struct ArchivedStudent {
     key: String,
     name: String,
     points: String,
@@ -97,12 +97,17 @@ pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) 
 }
 
 /// Writes one homework into its folder.
-async fn homework(state: &State, root: &Path, language: Language, steps: &Arc<Steps>) -> Result<Homework, Problem> {
+async fn homework(
+    state: &State,
+    root: &Path,
+    language: Language,
+    steps: &Arc<Steps>,
+) -> Result<ArchivedHomework, Problem> {
     let id = state.assignment.id.clone();
     let folder = root.join(&id);
     let failed = |error: std::io::Error| Problem::of_fault(&disk(&error));
     std::fs::create_dir_all(folder.join("students")).map_err(failed)?;
-    let (title, refused, members) = members(state, Whose::Students(Pick::Counted)).await?;
+    let (title, refused, members) = members(state, DownloadSelection::Students(Pick::Counted)).await?;
     let submissions: Vec<_> =
         members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
     steps.expect(2 * submissions.iter().flatten().count());
@@ -145,8 +150,8 @@ async fn homework(state: &State, root: &Path, language: Language, steps: &Arc<St
             }
         }
         let entry = class.entries.iter().find(|entry| entry.student.key == student.key);
-        listed.push(Listed {
-            points: entry.and_then(Entry::report).map(|it| points(it.total(), it.max_score)).unwrap_or_default(),
+        listed.push(ArchivedStudent {
+            points: entry.and_then(ClassEntry::report).map(|it| points(it.total(), it.max_score)).unwrap_or_default(),
             has_page: entry.is_some_and(|entry| entry.page.is_some()),
             key: student.key,
             name: student.name,
@@ -157,7 +162,7 @@ async fn homework(state: &State, root: &Path, language: Language, steps: &Arc<St
     let title = state.assignment.title.clone();
     let written = blocking(state, move |_| written(&class, &folder));
     written.await?;
-    Ok(Homework { id, title: language.of(&title).to_owned(), students: listed })
+    Ok(ArchivedHomework { id, title: language.of(&title).to_owned(), students: listed })
 }
 
 fn points(total: f64, most: f64) -> String {
@@ -179,7 +184,7 @@ fn written(class: &Class, folder: &Path) -> Result<(), Fault> {
 }
 
 /// A student's line of `grades.json`.
-fn line(entry: &Entry) -> Value {
+fn line(entry: &ClassEntry) -> Value {
     let report = entry.report();
     let lines = report.map(|report| {
         let line = |line: &crate::report::RubricLine| {

@@ -1,8 +1,8 @@
 //! Who is in a download, and what stands for each.
 
-use super::{Pick, Whose};
+use super::{DownloadSelection, Pick};
 use crate::batch::class::{Class, FileLocation, Outcome, Participant, Refused, Student};
-use crate::batch::intake::{Content, StudentWork};
+use crate::batch::intake::{HandInContent, StudentWork};
 use crate::batch::run;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
@@ -10,38 +10,47 @@ use crate::language::{Language, Text};
 use crate::service::State;
 use crate::service::classes::people::{Person, people};
 use crate::service::errors::Problem;
-use crate::service::store::{ClassRow, Stored};
+use crate::service::store::{ClassRow, StoredSubmission};
 use std::collections::HashSet;
 use std::sync::Arc;
 
 /// One student of a class, with what stands for them.
-pub(super) struct Member {
+pub(super) struct ClassMember {
     pub(super) student: Student,
     pub(super) path: Option<String>,
-    pub(super) stored: Option<Stored>,
+    pub(super) stored: Option<StoredSubmission>,
     pub(super) hand_in: HandIn,
     pub(super) note: Option<Text>,
 }
 
-pub(super) async fn members(state: &State, whose: Whose) -> Result<(String, Vec<Refused>, Vec<Member>), Problem> {
+pub(super) async fn members(
+    state: &State,
+    whose: DownloadSelection,
+) -> Result<(String, Vec<Refused>, Vec<ClassMember>), Problem> {
     match whose {
-        Whose::Batch(batch) => {
+        DownloadSelection::Batch(batch) => {
             let mut members = Vec::new();
             for entry in state.store.batch_entries(&batch.id).await? {
                 let (stored, hand_in) = with_files(state, entry.submission_id.as_deref()).await?;
-                members.push(Member { student: entry.student, path: entry.path, stored, hand_in, note: entry.note });
+                members.push(ClassMember {
+                    student: entry.student,
+                    path: entry.path,
+                    stored,
+                    hand_in,
+                    note: entry.note,
+                });
             }
             Ok((batch.title, batch.refused, members))
         }
-        Whose::Students(pick) => {
-            let mut members: Vec<Member> = Vec::new();
+        DownloadSelection::Students(pick) => {
+            let mut members: Vec<ClassMember> = Vec::new();
             let mut keys = HashSet::new();
             for person in people(state).await?.class {
                 let chosen = chosen(&person, pick).or(person.rows.first());
                 let (stored, hand_in) = with_files(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
                 let path = stored.as_ref().map(|stored| stored.submission.name.clone());
                 let student = student(person.number, person.name, person.moodle, &person.key, &mut keys);
-                members.push(Member { student, path, stored, hand_in, note: person.note });
+                members.push(ClassMember { student, path, stored, hand_in, note: person.note });
             }
             members.sort_by(|a, b| a.student.key.cmp(&b.student.key));
             Ok((state.assignment.id.clone(), Vec::new(), members))
@@ -78,7 +87,7 @@ pub(super) fn chosen(person: &Person, pick: Pick) -> Option<&ClassRow> {
     }
 }
 
-pub(super) async fn with_files(state: &State, id: Option<&str>) -> Result<(Option<Stored>, HandIn), Problem> {
+pub(super) async fn with_files(state: &State, id: Option<&str>) -> Result<(Option<StoredSubmission>, HandIn), Problem> {
     let Some(id) = id else { return Ok((None, HandIn::default())) };
     let Some(stored) = state.store.stored(id).await? else { return Ok((None, HandIn::default())) };
     let hand_in = state.store.hand_in(id).await?.unwrap_or_default();
@@ -89,7 +98,7 @@ pub(super) fn class(
     state: &State,
     title: String,
     refused: Vec<Refused>,
-    members: Vec<Member>,
+    members: Vec<ClassMember>,
     portraits: Vec<Option<Vec<u8>>>,
     language: Language,
 ) -> Result<Class, Fault> {
@@ -97,10 +106,10 @@ pub(super) fn class(
     let mut outcomes = Vec::new();
     let mut hand_ins = Vec::new();
     for member in members {
-        let Member { student, path, stored, hand_in, note } = member;
+        let ClassMember { student, path, stored, hand_in, note } = member;
         let content = match &stored {
-            Some(_) => Content::Files { places: places(path, &hand_in), hand_in },
-            None => Content::Nothing(note.unwrap_or_else(nobody)),
+            Some(_) => HandInContent::Files { places: places(path, &hand_in), hand_in },
+            None => HandInContent::Nothing(note.unwrap_or_else(nobody)),
         };
         outcomes.push(stored.map(outcome));
         hand_ins.push(StudentWork { student, content });
@@ -143,7 +152,7 @@ pub(super) fn split<'a>(joined: &'a str, names: &[&str]) -> Option<Vec<&'a str>>
     })
 }
 
-pub(super) fn outcome(stored: Stored) -> Outcome {
+pub(super) fn outcome(stored: StoredSubmission) -> Outcome {
     match (stored.report, stored.submission.fault) {
         (Some(report), _) => Outcome::Graded(Box::new(report)),
         (None, Some(fault)) => Outcome::Fault(fault),

@@ -1,12 +1,12 @@
 //! What a download consists of, written to files.
 
 use super::Download;
-use crate::batch::class::{Class, Entry};
-use crate::batch::folder::{Folder, NotOpened};
-use crate::batch::formats::{Format, KEY};
+use crate::batch::class::{Class, ClassEntry};
+use crate::batch::folder::{NotOpened, OutputFolder};
+use crate::batch::formats::{ClassFormat, KEY};
 use crate::batch::output;
 use crate::batch::page::Pages;
-use crate::batch::summary::Written;
+use crate::batch::summary::WrittenFiles;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Report;
@@ -38,18 +38,23 @@ pub(super) async fn page(
 }
 
 /// Writes a format into a folder, and takes its file from there, or all its files as a ZIP.
-pub(super) fn written(class: &Class, format: Format, sheet: Option<&[u8]>, path: &Path) -> Result<Download, Fault> {
-    let folder = match Folder::open(path) {
+pub(super) fn written(
+    class: &Class,
+    format: ClassFormat,
+    sheet: Option<&[u8]>,
+    path: &Path,
+) -> Result<Download, Fault> {
+    let folder = match OutputFolder::open(path) {
         Ok(folder) => folder,
         Err(NotOpened::Fault(fault)) => return Err(fault),
         Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
     };
-    let (Written { notes, .. }, fault) = output::write(class, &[format], sheet, None, &folder);
+    let (WrittenFiles { notes, .. }, fault) = output::write(class, &[format], sheet, None, &folder);
     if let Some(fault) = fault {
         return Err(fault);
     }
-    let pages: Vec<&Entry> = class.entries.iter().filter(|entry| entry.page.is_some()).collect();
-    if format == Format::Html && !pages.is_empty() {
+    let pages: Vec<&ClassEntry> = class.entries.iter().filter(|entry| entry.page.is_some()).collect();
+    if format == ClassFormat::Html && !pages.is_empty() {
         // Where the class page links to.
         let folder = path.join("students");
         std::fs::create_dir_all(&folder).map_err(|error| disk(&error))?;

@@ -1,7 +1,7 @@
 //! The log of what teachers did, for lecturers to read.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use super::table::Pager;
@@ -17,16 +17,16 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/acts.html")]
 struct ActsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    acts: Vec<Line>,
+    acts: Vec<ActLine>,
     pager: Pager,
 }
 
 /// A line of the log.
-struct Line {
-    at: Moment,
+struct ActLine {
+    at: TimeElement,
     who: String,
     act: String,
     homework: String,
@@ -37,12 +37,12 @@ struct Line {
 /// Which page.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Wished {
+pub(in crate::service::pages) struct LogPageQuery {
     page: String,
 }
 
 /// What an act is called; one without a name by its own word.
-fn named(frame: &Frame, act: &str) -> String {
+fn named(frame: &PageFrame, act: &str) -> String {
     let known = match act {
         "login" => frame.say("Logged in", "ログイン"),
         "logout" => frame.say("Logged out", "ログアウト"),
@@ -76,7 +76,7 @@ fn named(frame: &Frame, act: &str) -> String {
     known.to_owned()
 }
 
-fn who(frame: &Frame, act: &NamedAct) -> String {
+fn who(frame: &PageFrame, act: &NamedAct) -> String {
     match (&act.login, act.act.way.as_str()) {
         (Some(login), "token") => format!("{login} ({})", frame.say("by a token", "トークン")),
         (Some(login), _) => login.clone(),
@@ -89,13 +89,13 @@ fn who(frame: &Frame, act: &NamedAct) -> String {
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    Query(Wished { page }): Query<Wished>,
-    frame: Frame,
+    Query(LogPageQuery { page }): Query<LogPageQuery>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let total = service.store.count_acts(teacher.homework()).await?;
     let pager = Pager::new(total, &page, |page| format!("?page={page}"));
     let acts = service.store.acts(teacher.homework(), pager.from, pager.to - pager.from).await?;
-    let line = |act: NamedAct| Line {
+    let line = |act: NamedAct| ActLine {
         at: frame.exact_moment(act.act.at),
         who: who(&frame, &act),
         act: named(&frame, &act.act.act),

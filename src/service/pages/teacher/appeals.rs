@@ -1,6 +1,6 @@
 //! What students of a homework ask to be looked at again, and who is handling it.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::judgement::ShownAppeal;
 use super::super::shown;
 use super::Tab;
@@ -16,14 +16,14 @@ use axum::response::Response;
 #[derive(Template)]
 #[template(path = "service/pages/templates/appeals.html")]
 struct AppealsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    rows: Vec<Row>,
+    rows: Vec<AppealLine>,
 }
 
 /// What one student asks.
-struct Row {
+struct AppealLine {
     href: String,
     number: String,
     name: String,
@@ -34,10 +34,10 @@ struct Row {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let shown_name = |name: &Option<String>| name.clone().filter(|_| teacher.sees_names()).unwrap_or_default();
-    let row = |appeal: Appeal| Row {
+    let row = |appeal: Appeal| AppealLine {
         href: at(&format!("/r/{}#judgement", appeal.submission_id)),
         number: match teacher.sees_names() {
             true => appeal.number.clone().unwrap_or_default(),

@@ -1,19 +1,19 @@
 //! Whole classes as archives: one is uploaded and graded in the background, and comes back in every format.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::shown;
-use super::downloads::{Offer, begun, formats};
-use super::table::{Filter, Table};
+use super::downloads::{DownloadOffer, begun, formats};
+use super::table::{StudentTable, TableFilter};
 use super::{Tab, refused};
-use crate::batch::formats::Format;
+use crate::batch::formats::ClassFormat;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::acts::Detail;
-use crate::service::api::archive::Archive;
+use crate::service::api::archive::UploadedArchive;
 use crate::service::api::batches::named;
 use crate::service::api::body::other;
-use crate::service::classes::{self, Person, Wanted, Whose, of_batch};
+use crate::service::classes::{self, DownloadOptions, DownloadSelection, Person, of_batch};
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, TeacherPage};
@@ -27,39 +27,39 @@ use axum::response::{IntoResponse, Redirect, Response};
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/batches.html")]
-struct List {
-    frame: Frame,
+struct BatchesPage {
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     /// What is wrong with the archive that was sent.
     problem: Option<String>,
     archive_mib: u64,
-    batches: Vec<Line>,
-    regradings: Vec<Line>,
+    batches: Vec<BatchLine>,
+    regradings: Vec<BatchLine>,
 }
 
 /// One archive, or one regrading, in its list.
-struct Line {
+struct BatchLine {
     id: String,
     title: String,
-    at: Moment,
+    at: TimeElement,
     progress: Progress,
 }
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/batch.html")]
-struct One {
-    frame: Frame,
+struct BatchPage {
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     title: String,
-    at: Moment,
+    at: TimeElement,
     events: String,
     progress: Progress,
-    table: Table,
+    table: StudentTable,
     refused: Vec<(String, String)>,
     id: String,
-    formats: Vec<Offer>,
+    formats: Vec<DownloadOffer>,
     /// Where the files of the formats are, and the batch that they are of.
     files: String,
     of_batch: String,
@@ -72,7 +72,7 @@ struct One {
 pub(in crate::service::pages) async fn list(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     view_list(&state, &teacher, frame, None).await
 }
@@ -80,14 +80,14 @@ pub(in crate::service::pages) async fn list(
 async fn view_list(
     state: &State,
     teacher: &Teacher,
-    frame: Frame,
+    frame: PageFrame,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
     let mut batches = Vec::new();
     for batch in state.store.batches(&state.assignment.id).await? {
         let progress = state.store.progress(&batch.id).await?;
         let at = frame.moment(batch.created_at);
-        batches.push(Line { id: batch.id, title: batch.title, at, progress });
+        batches.push(BatchLine { id: batch.id, title: batch.title, at, progress });
     }
     let mut regradings = Vec::new();
     for regrading in state.store.regradings(&state.assignment.id).await? {
@@ -97,10 +97,10 @@ async fn view_list(
             Some(_) => frame.say("adopted", "採用済み"),
             None => frame.say("not adopted", "未採用"),
         };
-        regradings.push(Line { id: regrading.id, title: title.to_owned(), at, progress });
+        regradings.push(BatchLine { id: regrading.id, title: title.to_owned(), at, progress });
     }
     let (csrf, archive_mib) = (teacher.csrf(state), state.config.archive_mib);
-    shown(List { frame, place: Tab::Batches, csrf, problem, archive_mib, batches, regradings }.render())
+    shown(BatchesPage { frame, place: Tab::Batches, csrf, problem, archive_mib, batches, regradings }.render())
 }
 
 /// `POST /teacher/batches`: stores an archive. One that cannot be read leads back to the form.
@@ -109,7 +109,7 @@ pub(in crate::service::pages) async fn upload(
     LecturerPage(teacher): LecturerPage,
     client: Client,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
     request: Request,
 ) -> Result<Response, Problem> {
     match stored(&state, &teacher, (&headers, &client), request).await {
@@ -131,7 +131,7 @@ async fn stored(
     (headers, client): (&HeaderMap, &Client),
     request: Request,
 ) -> Result<Batch, Problem> {
-    let archive = Archive::read(request, state).await?;
+    let archive = UploadedArchive::read(request, state).await?;
     teacher.check_csrf(state, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
     let key = archive.key(&state.assignment.id, headers, client)?;
     classes::submit(state, archive.path.to_path_buf(), &archive.title(), key).await
@@ -148,8 +148,8 @@ pub(in crate::service::pages) async fn one(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
-    Query(filter): Query<Filter>,
-    frame: Frame,
+    Query(filter): Query<TableFilter>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let batch = found(&state, &id).await?;
     view_one(&state, &teacher, frame, batch, &filter, None).await
@@ -158,22 +158,22 @@ pub(in crate::service::pages) async fn one(
 async fn view_one(
     state: &State,
     teacher: &Teacher,
-    frame: Frame,
+    frame: PageFrame,
     batch: Batch,
-    filter: &Filter,
+    filter: &TableFilter,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
     let people = of_batch(state, &batch.id).await?;
     let everyone: Vec<&Person> = people.iter().collect();
     let said = |text: &crate::language::Text| text.get(frame.language).replace('`', "");
     shown(
-        One {
+        BatchPage {
             place: Tab::Batches,
             csrf: teacher.csrf(state),
             at: frame.moment(batch.created_at),
             events: at(&format!("/api/v1/batches/{}/events", batch.id)),
             progress: state.store.progress(&batch.id).await?,
-            table: Table::of(&frame, &everyone, filter),
+            table: StudentTable::of(&frame, &everyone, filter),
             refused: batch.refused.iter().map(|refused| (refused.path.clone(), said(&refused.reason))).collect(),
             formats: formats(&frame),
             files: at(&format!("/api/v1/batches/{}/files", batch.id)),
@@ -194,14 +194,14 @@ pub(in crate::service::pages) async fn worksheet(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     let batch = found(&state, &id).await?;
     match filled(&state, &teacher, batch.clone(), frame.course.language, form).await {
         Err(problem) if problem.status.is_client_error() => {
             let detail = problem.detail.get(frame.language).replace('`', "");
-            let page = view_one(&state, &teacher, frame, batch, &Filter::default(), Some(detail)).await?;
+            let page = view_one(&state, &teacher, frame, batch, &TableFilter::default(), Some(detail)).await?;
             Ok(refused(page, problem.status))
         }
         answer => answer,
@@ -216,7 +216,7 @@ async fn filled(
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     let mut form = form.map_err(other)?;
-    let (mut csrf, mut sheet, mut format) = (String::new(), Vec::new(), Format::MoodleWorksheet);
+    let (mut csrf, mut sheet, mut format) = (String::new(), Vec::new(), ClassFormat::MoodleWorksheet);
     while let Some(field) = form.next_field().await.map_err(other)? {
         match field.name().unwrap_or_default() {
             "format" => format = named(&field.text().await.map_err(other)?)?,
@@ -226,8 +226,8 @@ async fn filled(
         }
     }
     teacher.check_csrf(state, &csrf)?;
-    let wanted = Wanted { format, sheet: Some(sheet), language, with_pages: false };
+    let wanted = DownloadOptions { format, sheet: Some(sheet), language, with_pages: false };
     wanted.check()?;
     let back = format!("{}/teacher/batches/{}", state.base(), batch.id);
-    Ok(begun(state, Whose::Batch(batch), wanted, back))
+    Ok(begun(state, DownloadSelection::Batch(batch), wanted, back))
 }

@@ -1,6 +1,6 @@
 //! Charts as numbers that a template draws: scores, and mistakes over time.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use crate::service::classes::Person;
 use crate::service::clock::Millis;
 use std::collections::HashMap;
@@ -65,7 +65,7 @@ fn share(person: &Person) -> Option<f64> {
 }
 
 /// Every submission by its time and its score.
-pub(super) struct Course {
+pub(super) struct SubmissionChart {
     pub dots: Vec<Dot>,
     /// The mean of everyone's best score so far, as the points of a line.
     pub line: String,
@@ -81,18 +81,18 @@ pub(super) struct Dot {
 }
 
 /// The course of the scores; none where fewer than two files were graded.
-pub(super) fn course(people: &[&Person]) -> Option<Course> {
-    struct Event<'a> {
+pub(super) fn course(people: &[&Person]) -> Option<SubmissionChart> {
+    struct ScoreEvent<'a> {
         at: Millis,
         who: &'a str,
         share: f64,
     }
-    let mut events: Vec<Event<'_>> = Vec::new();
+    let mut events: Vec<ScoreEvent<'_>> = Vec::new();
     for person in people {
         for row in &person.rows {
             let (Some(score), Some(most)) = (row.row.score, row.row.max_score) else { continue };
             if most > 0.0 {
-                events.push(Event { at: row.row.submission.received_at, who: &person.key, share: score / most });
+                events.push(ScoreEvent { at: row.row.submission.received_at, who: &person.key, share: score / most });
             }
         }
     }
@@ -111,7 +111,7 @@ pub(super) fn course(people: &[&Person]) -> Option<Course> {
         let mean = best.values().sum::<f64>() / best.len() as f64;
         line.push(format!("{:.1},{:.1}", x(event.at), y(mean)));
     }
-    let dot = |event: &Event<'_>| Dot {
+    let dot = |event: &ScoreEvent<'_>| Dot {
         x: x(event.at),
         y: y(event.share),
         kind: if event.share >= 1.0 {
@@ -122,7 +122,7 @@ pub(super) fn course(people: &[&Person]) -> Option<Course> {
             "none"
         },
     };
-    Some(Course { dots: events.iter().map(dot).collect(), line: line.join(" "), from, to })
+    Some(SubmissionChart { dots: events.iter().map(dot).collect(), line: line.join(" "), from, to })
 }
 
 /// A mistake: how many people's attempt that counts has it, and how often it was handed in over time.
@@ -137,7 +137,7 @@ pub(super) struct Trend {
 }
 
 /// The mistakes, the most frequent first.
-pub(super) fn trends(frame: &Frame, people: &[&Person]) -> Vec<Trend> {
+pub(super) fn trends(frame: &PageFrame, people: &[&Person]) -> Vec<Trend> {
     let mut standing: HashMap<&str, usize> = HashMap::new();
     for best in people.iter().filter_map(|person| person.counted()) {
         for mistake in &best.mistakes {
@@ -226,7 +226,7 @@ mod tests {
     fn a_mistake_counts_by_people_and_its_history_by_files() {
         let people =
             [person("a", &[(0, 10.0, "gamma"), (10, 20.0, "unchanged")]), person("b", &[(20, 20.0, "unchanged")])];
-        let frame = Frame::new(
+        let frame = PageFrame::new(
             Language::En,
             Course::default(),
             Uri::from_static("/"),

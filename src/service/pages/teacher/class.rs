@@ -1,10 +1,10 @@
 //! The class: everyone's picture and result, filters, charts.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::{attempts, internal, shown, student};
-use super::charts::{self, Course, HEIGHT, Histogram, SPARK, Trend, WIDTH};
-use super::downloads::{Offer, formats};
-use super::table::{Filter, Table, titled};
+use super::charts::{self, HEIGHT, Histogram, SPARK, SubmissionChart, Trend, WIDTH};
+use super::downloads::{DownloadOffer, formats};
+use super::table::{StudentTable, TableFilter, titled};
 use super::{Tab, word};
 use crate::service::State;
 use crate::service::classes::{People, Person, PersonStanding, people};
@@ -20,14 +20,14 @@ use base64::engine::general_purpose::STANDARD;
 #[derive(Template)]
 #[template(path = "service/pages/templates/class.html")]
 struct ClassPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     title: String,
     file: String,
-    filter: Filter,
+    filter: TableFilter,
     notice: Option<&'static str>,
-    tallies: Vec<Tally>,
+    tallies: Vec<StandingCount>,
     expected: String,
     everyone: usize,
     handed_in: usize,
@@ -39,12 +39,12 @@ struct ClassPage {
     appeals: u64,
     has_roster: bool,
     histogram: Histogram,
-    course: Option<(Course, String, String)>,
+    course: Option<(SubmissionChart, String, String)>,
     trends: Vec<Trend>,
     /// Title and id of those to filter by.
     mistakes: Vec<(String, String)>,
-    table: Table,
-    formats: Vec<Offer>,
+    table: StudentTable,
+    formats: Vec<DownloadOffer>,
     /// Where the files of the formats are, and the batch that they are of: none, for the class.
     files: String,
     of_batch: &'static str,
@@ -55,7 +55,7 @@ struct ClassPage {
 }
 
 /// How many stand in one way.
-struct Tally {
+struct StandingCount {
     id: &'static str,
     word: &'static str,
     mark: Option<&'static str>,
@@ -68,8 +68,8 @@ struct Tally {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    Query(mut filter): Query<Filter>,
-    frame: Frame,
+    Query(mut filter): Query<TableFilter>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     if !teacher.sees_names() {
         filter.anonymous = "on".to_owned();
@@ -116,7 +116,7 @@ pub(in crate::service::pages) async fn page(
             course,
             trends: charts::trends(&frame, &everyone),
             mistakes,
-            table: Table::of(&frame, listed, &filter),
+            table: StudentTable::of(&frame, listed, &filter),
             formats: formats(&frame),
             files: at("/api/v1/class/files"),
             of_batch: "",
@@ -130,7 +130,7 @@ pub(in crate::service::pages) async fn page(
     )
 }
 
-fn tallies(frame: &Frame, all: &[&Person]) -> Vec<Tally> {
+fn tallies(frame: &PageFrame, all: &[&Person]) -> Vec<StandingCount> {
     let total = all.len().max(1) as f64;
     let mut x = 0.0;
     let tally = |standing: PersonStanding| {
@@ -140,7 +140,7 @@ fn tallies(frame: &Frame, all: &[&Person]) -> Vec<Tally> {
             PersonStanding::Graded(verdict) => Some(attempts::mark(verdict, Some(1.0)).id()),
             _ => None,
         };
-        let tally = Tally { id: standing.id(), word: word(frame, standing), mark, count, x, width };
+        let tally = StandingCount { id: standing.id(), word: word(frame, standing), mark, count, x, width };
         x += width;
         tally
     };

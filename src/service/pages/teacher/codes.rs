@@ -1,6 +1,6 @@
 //! The students' personal codes: to be handed out, and replaced where one is lost.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use crate::batch::formats::plain::cell;
@@ -10,7 +10,7 @@ use crate::service::courses::public_address;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, course_secret, personal_code};
-use crate::service::store::Student;
+use crate::service::store::StudentRecord;
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
@@ -21,11 +21,11 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/codes.html")]
 struct CodesPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     has_roster: bool,
-    students: Vec<(Student, String)>,
+    students: Vec<(StudentRecord, String)>,
     /// Number of the student whose code was replaced.
     renewed: String,
 }
@@ -33,7 +33,7 @@ struct CodesPage {
 /// A code that is to be replaced.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Lost {
+pub(in crate::service::pages) struct LostCodeForm {
     csrf: String,
     student: String,
 }
@@ -41,7 +41,7 @@ pub(in crate::service::pages) struct Lost {
 /// What has just been done.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Done {
+pub(in crate::service::pages) struct CodesQuery {
     renewed: String,
 }
 
@@ -49,12 +49,12 @@ pub(in crate::service::pages) struct Done {
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    Query(Done { renewed }): Query<Done>,
-    frame: Frame,
+    Query(CodesQuery { renewed }): Query<CodesQuery>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     let (has_roster, students) = (service.store.has_roster().await?, service.store.with_codes().await?);
-    let with_code = |student: Student| {
+    let with_code = |student: StudentRecord| {
         let code = personal_code(&service, &student);
         (student, code)
     };
@@ -67,7 +67,7 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) async fn renew(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    Form(lost): Form<Lost>,
+    Form(lost): Form<LostCodeForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &lost.csrf)?;
     teacher.check_course()?;
@@ -82,7 +82,7 @@ pub(in crate::service::pages) async fn file(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     let join = format!("{}/join/{}", public_address(&service, &headers), course_secret(&service).await?);
@@ -90,7 +90,7 @@ pub(in crate::service::pages) async fn file(
         "ja" => ["学籍番号", "氏名", "個人コード", "リンク"],
         _ => ["Student number", "Name", "Personal code", "Link"],
     };
-    let row = |student: Student| {
+    let row = |student: StudentRecord| {
         let code = personal_code(&service, &student);
         let link = format!("{join}?number={}&code={code}", student.number);
         [cell(&student.number), cell(&student.name), code, link]

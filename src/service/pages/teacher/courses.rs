@@ -1,7 +1,7 @@
 //! The courses of the service: those that somebody may see; an administrator makes, copies and archives them.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{refused, said_of};
 use crate::service::Service;
@@ -9,7 +9,7 @@ use crate::service::acts::Detail;
 use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, TeacherPage};
-use crate::service::store::Role;
+use crate::service::store::StaffRole;
 use askama::Template;
 use axum::Form;
 use axum::extract::State as Shared;
@@ -20,11 +20,11 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/courses.html")]
 struct CoursesPage {
-    frame: Frame,
+    frame: PageFrame,
     csrf: String,
     /// Of the course by which they log out: what its addresses begin with, and the token of its forms.
     way_out: (String, String),
-    courses: Vec<Line>,
+    courses: Vec<CourseLine>,
     /// Whether it is an administrator, who makes courses.
     may_make: bool,
     typed: CourseForm,
@@ -32,13 +32,13 @@ struct CoursesPage {
 }
 
 /// A course.
-struct Line {
+struct CourseLine {
     /// Id; empty of the first one.
     id: String,
     root: String,
     title: String,
     homeworks: usize,
-    archived: Option<Moment>,
+    archived: Option<TimeElement>,
 }
 
 /// The forms of the page: `wish` is `make`, `copy`, `archive` or `open`.
@@ -56,11 +56,11 @@ pub(in crate::service::pages) struct CourseForm {
 }
 
 /// The course as its teachers know it.
-async fn line(frame: &Frame, service: &Service) -> Result<Line, Problem> {
+async fn line(frame: &PageFrame, service: &Service) -> Result<CourseLine, Problem> {
     let id = service.course_id().unwrap_or_default().to_owned();
     let title = service.store.course().await?.title;
     let untitled = if id.is_empty() { frame.say("The first course", "最初の授業").to_owned() } else { id.clone() };
-    Ok(Line {
+    Ok(CourseLine {
         title: if title.is_empty() { untitled } else { title },
         root: service.root().to_owned(),
         homeworks: service.ids().len(),
@@ -71,7 +71,7 @@ async fn line(frame: &Frame, service: &Service) -> Result<Line, Problem> {
 
 async fn view(
     service: &Service,
-    frame: Frame,
+    frame: PageFrame,
     headers: &HeaderMap,
     typed: CourseForm,
     problem: Option<String>,
@@ -86,7 +86,7 @@ async fn view(
     let Some(way_out) = way_out else { return Ok(Redirect::to("/teacher/login").into_response()) };
     let own = Teacher::of(service, headers).await?;
     let csrf = own.as_ref().map(|teacher| teacher.csrf(service)).unwrap_or_default();
-    let may_make = own.is_some_and(|teacher| teacher.role() == Role::Administrator && teacher.has_course());
+    let may_make = own.is_some_and(|teacher| teacher.role() == StaffRole::Administrator && teacher.has_course());
     shown(CoursesPage { frame, csrf, way_out, courses: lines, may_make, typed, problem }.render())
 }
 
@@ -94,7 +94,7 @@ async fn view(
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     view(&service, frame, &headers, CourseForm::default(), None).await
 }
@@ -104,12 +104,12 @@ pub(in crate::service::pages) async fn change(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
     Form(form): Form<CourseForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &form.csrf)?;
     teacher.check_course()?;
-    teacher.check_role(Role::Administrator)?;
+    teacher.check_role(StaffRole::Administrator)?;
     let detail = Detail::of(format!("{} {} {}", form.wish, form.of, form.id));
     match done(&service, &form).await {
         Ok(page) => Ok(detail.on(Redirect::to(&page).into_response())),

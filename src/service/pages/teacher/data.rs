@@ -1,6 +1,6 @@
 //! What is kept of people: the same words that they read, pseudonyms for assistants, and everything of one student as a file.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use crate::service::Service;
@@ -19,7 +19,7 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/data.html")]
 struct DataPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     days: u32,
@@ -31,7 +31,7 @@ struct DataPage {
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     shown(
@@ -50,7 +50,7 @@ pub(in crate::service::pages) async fn page(
 /// The form that sets whether assistants read names.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Pseudonyms {
+pub(in crate::service::pages) struct PseudonymsForm {
     csrf: String,
     pseudonyms: String,
 }
@@ -59,7 +59,7 @@ pub(in crate::service::pages) struct Pseudonyms {
 pub(in crate::service::pages) async fn set(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    Form(form): Form<Pseudonyms>,
+    Form(form): Form<PseudonymsForm>,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     teacher.check_csrf(&service, &form.csrf)?;
@@ -72,7 +72,7 @@ pub(in crate::service::pages) async fn set(
 /// The form that has the archive made.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Archive {
+pub(in crate::service::pages) struct ArchiveRequestForm {
     csrf: String,
 }
 
@@ -80,7 +80,7 @@ pub(in crate::service::pages) struct Archive {
 pub(in crate::service::pages) async fn archive(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    Form(form): Form<Archive>,
+    Form(form): Form<ArchiveRequestForm>,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     teacher.check_csrf(&service, &form.csrf)?;
@@ -94,7 +94,7 @@ pub(in crate::service::pages) async fn archive(
 /// Whose data.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Whose {
+pub(in crate::service::pages) struct PersonDataForm {
     csrf: String,
     number: String,
 }
@@ -103,7 +103,7 @@ pub(in crate::service::pages) struct Whose {
 pub(in crate::service::pages) async fn export(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    Form(whose): Form<Whose>,
+    Form(whose): Form<PersonDataForm>,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     teacher.check_csrf(&service, &whose.csrf)?;

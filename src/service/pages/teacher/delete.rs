@@ -1,6 +1,6 @@
 //! Deleting, after a page that says what goes.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, batches};
 use crate::service::State;
@@ -19,10 +19,10 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/delete.html")]
 struct DeletePage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    chosen: Chosen,
+    chosen: DeletionForm,
     heading: &'static str,
     /// What it is, as the teacher knows it.
     name: String,
@@ -33,7 +33,7 @@ struct DeletePage {
 /// What is to be deleted: one of the three.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Chosen {
+pub(in crate::service::pages) struct DeletionForm {
     csrf: String,
     submission: String,
     batch: String,
@@ -51,7 +51,7 @@ struct FoundTarget {
     is_on_roster: bool,
 }
 
-async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<FoundTarget, Problem> {
+async fn found(state: &State, frame: &PageFrame, chosen: &DeletionForm) -> Result<FoundTarget, Problem> {
     if !chosen.submission.is_empty() {
         return found_submission(state, frame, &chosen.submission).await;
     }
@@ -92,7 +92,7 @@ async fn found(state: &State, frame: &Frame, chosen: &Chosen) -> Result<FoundTar
 }
 
 /// One file: also where a file is all that is known of somebody.
-async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<FoundTarget, Problem> {
+async fn found_submission(state: &State, frame: &PageFrame, id: &str) -> Result<FoundTarget, Problem> {
     let of_this = |submission: &Submission| submission.assignment == state.assignment.id;
     let submission = state.store.submission(id).await?.filter(of_this).ok_or_else(Problem::not_found)?;
     Ok(FoundTarget {
@@ -108,8 +108,8 @@ async fn found_submission(state: &State, frame: &Frame, id: &str) -> Result<Foun
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    Query(chosen): Query<Chosen>,
-    frame: Frame,
+    Query(chosen): Query<DeletionForm>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let found = found(&state, &frame, &chosen).await?;
     teacher.may_delete(&found.target)?;
@@ -126,8 +126,8 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) async fn delete(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
-    Form(chosen): Form<Chosen>,
+    frame: PageFrame,
+    Form(chosen): Form<DeletionForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &chosen.csrf)?;
     let found = found(&state, &frame, &chosen).await?;

@@ -1,13 +1,13 @@
 //! Downloads of a class: a link where the file is there at once, a page with progress where it takes seconds.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, batches};
-use crate::batch::formats::Format;
+use crate::batch::formats::ClassFormat;
 use crate::language::Text;
 use crate::service::State;
-use crate::service::api::batches::{Job as Watched, named, progress, saved};
-use crate::service::classes::{self, Download, Job, Pick, Wanted, Whose, is_slow};
+use crate::service::api::batches::{WatchedJob as Watched, named, progress, saved};
+use crate::service::classes::{self, Download, DownloadJob, DownloadOptions, DownloadSelection, Pick, is_slow};
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
 use crate::service::store::Progress;
@@ -21,21 +21,21 @@ use serde::Deserialize;
 use std::sync::Arc;
 
 /// A format to download.
-pub(super) struct Offer {
+pub(super) struct DownloadOffer {
     pub id: &'static str,
     pub what: String,
     pub is_slow: bool,
 }
 
 /// The formats that need a file of Moodle's first.
-const BY_WORKSHEET: [Format; 2] = [Format::MoodleWorksheet, Format::MoodleFeedback];
+const BY_WORKSHEET: [ClassFormat; 2] = [ClassFormat::MoodleWorksheet, ClassFormat::MoodleFeedback];
 
 /// The formats that need none.
-pub(super) fn formats(frame: &Frame) -> Vec<Offer> {
-    let here = Format::value_variants().iter().filter(|format| !BY_WORKSHEET.contains(format));
-    let offer = |format: &Format| {
+pub(super) fn formats(frame: &PageFrame) -> Vec<DownloadOffer> {
+    let here = ClassFormat::value_variants().iter().filter(|format| !BY_WORKSHEET.contains(format));
+    let offer = |format: &ClassFormat| {
         let what = format.description().get(frame.language).replace('`', "");
-        Offer { id: format.id(), what, is_slow: is_slow(*format) }
+        DownloadOffer { id: format.id(), what, is_slow: is_slow(*format) }
     };
     here.map(offer).collect()
 }
@@ -43,7 +43,7 @@ pub(super) fn formats(frame: &Frame) -> Vec<Offer> {
 #[derive(Template)]
 #[template(path = "service/pages/templates/download.html")]
 struct DownloadsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     format: String,
@@ -60,7 +60,7 @@ struct DownloadsPage {
 /// The form of a download.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Wish {
+pub(in crate::service::pages) struct DownloadForm {
     csrf: String,
     /// Id of a batch; the class where it is empty.
     batch: String,
@@ -71,30 +71,30 @@ pub(in crate::service::pages) struct Wish {
 pub(in crate::service::pages) async fn start(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
-    Form(wish): Form<Wish>,
+    frame: PageFrame,
+    Form(wish): Form<DownloadForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &wish.csrf)?;
     let format = named(&wish.format)?;
     let (whose, back) = match wish.batch.as_str() {
-        "" => (Whose::Students(Pick::Counted), frame.teacher()),
+        "" => (DownloadSelection::Students(Pick::Counted), frame.teacher()),
         id => {
             let batch = batches::found(&state, id).await?;
-            (Whose::Batch(batch), format!("{}/batches/{id}", frame.teacher()))
+            (DownloadSelection::Batch(batch), format!("{}/batches/{id}", frame.teacher()))
         }
     };
     let language = classes::language(&state, format, None, frame.language).await?;
-    Ok(begun(&state, whose, Wanted { format, sheet: None, language, with_pages: true }, back))
+    Ok(begun(&state, whose, DownloadOptions { format, sheet: None, language, with_pages: true }, back))
 }
 
 /// Begins to make it, and leads to its page.
-pub(super) fn begun(state: &State, whose: Whose, wanted: Wanted, back: String) -> Response {
+pub(super) fn begun(state: &State, whose: DownloadSelection, wanted: DownloadOptions, back: String) -> Response {
     let job = state.downloads.start(state, whose, wanted, back);
     Redirect::to(&format!("{}/teacher/downloads/{}", state.base(), job.id)).into_response()
 }
 
-fn found(state: &State, id: &str) -> Result<Arc<Job>, Problem> {
-    let of_this = |job: &Arc<Job>| job.assignment == state.assignment.id;
+fn found(state: &State, id: &str) -> Result<Arc<DownloadJob>, Problem> {
+    let of_this = |job: &Arc<DownloadJob>| job.assignment == state.assignment.id;
     state.downloads.get(id).filter(of_this).ok_or_else(Problem::not_found)
 }
 
@@ -103,7 +103,7 @@ pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let job = found(&state, &id)?;
     let said = |text: &Text| text.get(frame.language).replace('`', "");

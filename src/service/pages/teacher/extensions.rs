@@ -1,7 +1,7 @@
 //! Deadlines of students and groups: all of them on one page, and the form of one student's own.
 
-use super::super::datetime::{self, Moment};
-use super::super::frame::Frame;
+use super::super::datetime::{self, TimeElement};
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::person::{self, Whom};
 use super::{Tab, refused, said_of};
@@ -21,12 +21,12 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/extensions.html")]
 struct ExtensionsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     /// The deadline of the class; none where there is none that could be put off.
-    of_class: Option<Moment>,
-    rows: Vec<Row>,
+    of_class: Option<TimeElement>,
+    rows: Vec<ExtensionLine>,
     /// Groups and numbers to choose from.
     known: Vec<String>,
     typed: ExtensionForm,
@@ -34,11 +34,11 @@ struct ExtensionsPage {
 }
 
 /// One deadline.
-struct Row {
+struct ExtensionLine {
     whose: String,
     name: String,
     is_group: bool,
-    until: Moment,
+    until: TimeElement,
     reason: String,
 }
 
@@ -57,7 +57,7 @@ pub(in crate::service::pages) struct ExtensionForm {
 
 impl ExtensionForm {
     /// The date that was typed.
-    fn date(&self, frame: &Frame) -> Result<Option<i64>, Problem> {
+    fn date(&self, frame: &PageFrame) -> Result<Option<i64>, Problem> {
         datetime::parse(&self.closes, frame.course.zone()).map_err(|_| {
             Problem::unprocessable(
                 "A date has the form 2026-12-31T23:59.",
@@ -67,7 +67,7 @@ impl ExtensionForm {
     }
 
     /// Does what the form asks for; what the log says of it.
-    async fn carry_out(&self, state: &State, frame: &Frame, to: &Beneficiary) -> Result<Detail, Problem> {
+    async fn carry_out(&self, state: &State, frame: &PageFrame, to: &Beneficiary) -> Result<Detail, Problem> {
         let closes_at = self.date(frame)?;
         let reason = grant(state, to, closes_at, &self.reason).await?;
         let until = if closes_at.is_some() { self.closes.as_str() } else { "–" };
@@ -82,7 +82,7 @@ impl ExtensionForm {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     view(&state, &teacher, frame, ExtensionForm::default(), None).await
 }
@@ -91,7 +91,7 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) async fn set(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
     Form(asked): Form<ExtensionForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &asked.csrf)?;
@@ -112,7 +112,7 @@ pub(in crate::service::pages) async fn set(
 pub(in crate::service::pages) async fn of_student(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
     Form(asked): Form<ExtensionForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &asked.csrf)?;
@@ -134,7 +134,7 @@ pub(in crate::service::pages) async fn of_student(
 async fn view(
     state: &State,
     teacher: &Teacher,
-    frame: Frame,
+    frame: PageFrame,
     typed: ExtensionForm,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
@@ -142,7 +142,7 @@ async fn view(
     let of_class = state.store.assignment(id).await?.closes_at.map(|at| frame.deadline(at));
     let mut rows = Vec::new();
     for extension in state.store.extensions(id).await? {
-        rows.push(Row {
+        rows.push(ExtensionLine {
             is_group: extension.number.is_none(),
             whose: extension.number.unwrap_or(extension.key),
             name: extension.name,

@@ -1,14 +1,14 @@
 //! The homeworks' folders: uploaded, looked at, published, taken out of service.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::{shown, student};
 use super::{Tab, refused};
 use crate::report::Report;
-use crate::report::html::rich::{Piece, pieces};
+use crate::report::html::rich::{MessagePiece, pieces};
 use crate::report::text::number;
 use crate::service::acts::Detail;
-use crate::service::api::archive::Archive;
+use crate::service::api::archive::UploadedArchive;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::folders::{self, Publication};
@@ -25,17 +25,17 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/folders.html")]
 struct FoldersPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     problem: Option<String>,
     archive_mib: u64,
-    homeworks: Vec<Homework>,
-    folders: Vec<Line>,
+    homeworks: Vec<ServedHomework>,
+    folders: Vec<FolderLine>,
 }
 
 /// A homework that is served.
-struct Homework {
+struct ServedHomework {
     title: String,
     id: String,
     href: String,
@@ -44,11 +44,11 @@ struct Homework {
 }
 
 /// An uploaded folder.
-struct Line {
+struct FolderLine {
     id: String,
     homework: String,
     digest: String,
-    at: Moment,
+    at: TimeElement,
     uploader: String,
     standing: &'static str,
 }
@@ -56,17 +56,17 @@ struct Line {
 #[derive(Template)]
 #[template(path = "service/pages/templates/folder.html")]
 struct FolderPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     problem: Option<String>,
-    line: Line,
+    line: FolderLine,
     title: String,
     files: String,
-    task: Vec<Piece>,
+    task: Vec<MessagePiece>,
     goal: String,
-    solution: Earned,
-    handed_out: Earned,
+    solution: FileResult,
+    handed_out: FileResult,
     rubric: Vec<RubricRow>,
     is_served: bool,
     /// Whether it may be removed.
@@ -78,7 +78,7 @@ struct FolderPage {
 }
 
 /// What one of the folder's own files got.
-struct Earned {
+struct FileResult {
     score: String,
     max_score: String,
     took: String,
@@ -89,13 +89,13 @@ struct RubricRow {
     label: String,
     points: String,
     max_points: String,
-    message: Vec<Piece>,
+    message: Vec<MessagePiece>,
 }
 
 /// A form of a folder's page. `wish` says which.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Wish {
+pub(in crate::service::pages) struct FolderAction {
     csrf: String,
     wish: String,
 }
@@ -103,13 +103,13 @@ pub(in crate::service::pages) struct Wish {
 /// Digits of a digest that tell versions apart.
 const DIGITS: usize = 8;
 
-fn line(service: &Service, frame: &Frame, folder: &UploadedFolder) -> Line {
+fn line(service: &Service, frame: &PageFrame, folder: &UploadedFolder) -> FolderLine {
     let standing = match folder.published_at {
         _ if folders::is_served(service, folder) => frame.say("published", "公開中"),
         Some(_) => frame.say("replaced", "差し替え済み"),
         None => frame.say("not published", "未公開"),
     };
-    Line {
+    FolderLine {
         id: folder.id.clone(),
         homework: folder.assignment.clone(),
         digest: folder.digest.chars().take(DIGITS).collect(),
@@ -122,11 +122,11 @@ fn line(service: &Service, frame: &Frame, folder: &UploadedFolder) -> Line {
 async fn view_list(
     service: &Service,
     teacher: &Teacher,
-    frame: Frame,
+    frame: PageFrame,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
     let uploaded = service.store.folders().await?;
-    let homework = |state: crate::service::State| Homework {
+    let homework = |state: crate::service::State| ServedHomework {
         title: student::title(&state.assignment, frame.language),
         id: state.assignment.id.clone(),
         href: format!("{}/teacher", state.base()),
@@ -142,7 +142,7 @@ async fn view_list(
 pub(in crate::service::pages) async fn list(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     view_list(&service, &teacher, frame, None).await
@@ -152,11 +152,11 @@ pub(in crate::service::pages) async fn list(
 pub(in crate::service::pages) async fn upload(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
     request: Request,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
-    let archive = Archive::read(request, &service).await?;
+    let archive = UploadedArchive::read(request, &service).await?;
     teacher.check_csrf(&service, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
     let staff = teacher.staff().map(|member| member.id.as_str());
     match folders::upload(&service, &archive.path, staff).await {
@@ -180,7 +180,7 @@ fn detail(folder: &UploadedFolder, act: &str) -> Detail {
 async fn view_one(
     service: &Service,
     teacher: &Teacher,
-    frame: Frame,
+    frame: PageFrame,
     folder: &UploadedFolder,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
@@ -192,7 +192,7 @@ async fn view_one(
         let open = by_this.find(|one| one.folder.as_deref() == Some(&folder.id) && one.adopted_at.is_none());
         regrading = open.map(|one| format!("{}/teacher/regradings/{}", state.base(), one.id));
     }
-    let earned = |report: &Report| Earned {
+    let earned = |report: &Report| FileResult {
         score: number(report.score),
         max_score: number(report.max_score),
         took: format!("{:.2}", report.elapsed_ms / 1e3),
@@ -231,7 +231,7 @@ pub(in crate::service::pages) async fn one(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
     Path(id): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     let folder = folders::found(&service, &id).await?;
@@ -256,8 +256,8 @@ pub(in crate::service::pages) async fn change(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
     Path(id): Path<String>,
-    frame: Frame,
-    Form(wish): Form<Wish>,
+    frame: PageFrame,
+    Form(wish): Form<FolderAction>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &wish.csrf)?;
     teacher.check_course()?;

@@ -1,6 +1,6 @@
 //! The gradebook of the course, as a page and as a file.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use crate::service::Service;
@@ -14,17 +14,17 @@ use axum::response::Response;
 #[derive(Template)]
 #[template(path = "service/pages/templates/gradebook.html")]
 struct GradebookPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     /// Title and most points of each homework.
     homeworks: Vec<(String, String)>,
     most: String,
-    lines: Vec<Line>,
+    lines: Vec<GradebookLine>,
 }
 
 /// One person, with points as they are shown.
-struct Line {
+struct GradebookLine {
     number: String,
     name: String,
     points: Vec<String>,
@@ -35,11 +35,11 @@ struct Line {
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     let book = Gradebook::of(&service, frame.language).await?;
-    let line = |line: &crate::service::gradebook::Line| Line {
+    let line = |line: &crate::service::gradebook::GradebookPerson| GradebookLine {
         number: line.number.clone(),
         name: line.name.clone(),
         points: line.points.iter().map(|points| points.map_or_else(|| "–".to_owned(), rounded)).collect(),
@@ -62,7 +62,7 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) async fn file(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     let book = Gradebook::of(&service, frame.language).await?;

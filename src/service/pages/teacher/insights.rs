@@ -1,6 +1,6 @@
 //! What a homework shows of its class: attempts until a right answer, mistakes over time, and what came after each message.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use crate::language::{Language, Text};
@@ -25,14 +25,14 @@ const SMALL: (f64, f64) = (300.0, 40.0);
 #[derive(Template)]
 #[template(path = "service/pages/templates/insights.html")]
 struct InsightsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    attempts: Vec<Bar>,
-    mistakes: Vec<Course>,
+    attempts: Vec<LabelledBar>,
+    mistakes: Vec<MistakeChart>,
     /// The parts of the time, with how often each mistake was handed in.
     times: Vec<Time>,
-    messages: Vec<Row>,
+    messages: Vec<MessageLine>,
     size: (f64, f64),
     small: (f64, f64),
     /// By which an address of the API says which homework it is about.
@@ -47,7 +47,7 @@ struct Time {
 }
 
 /// A bar with what it stands for.
-struct Bar {
+struct LabelledBar {
     label: String,
     count: usize,
     is_right: bool,
@@ -58,14 +58,14 @@ struct Bar {
 }
 
 /// A mistake over time.
-struct Course {
+struct MistakeChart {
     title: String,
     total: usize,
-    bars: Vec<Bar>,
+    bars: Vec<LabelledBar>,
 }
 
 /// A message, with what came after it as parts of a bar.
-struct Row {
+struct MessageLine {
     text: String,
     said: usize,
     students: usize,
@@ -78,7 +78,7 @@ struct Row {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let insights = insights::of(&state).await?;
     let time = |at| frame.moment(at).text;
@@ -108,7 +108,7 @@ pub(in crate::service::pages) async fn page(
 }
 
 /// A bar for each number of attempts, and one for those who have no right answer yet.
-fn attempts(frame: &Frame, insights: &Insights) -> Vec<Bar> {
+fn attempts(frame: &PageFrame, insights: &Insights) -> Vec<LabelledBar> {
     let mut counts = [0; BARS];
     for (attempts, students) in &insights.right_at {
         counts[(attempts - 1).min(BARS - 1)] += students;
@@ -120,24 +120,24 @@ fn attempts(frame: &Frame, insights: &Insights) -> Vec<Bar> {
 }
 
 /// Bars side by side, the highest as high as the drawing.
-fn laid_out(counts: Vec<(String, usize)>, (width, height): (f64, f64), gap: f64) -> Vec<Bar> {
+fn laid_out(counts: Vec<(String, usize)>, (width, height): (f64, f64), gap: f64) -> Vec<LabelledBar> {
     let most = counts.iter().map(|(_, count)| *count).max().unwrap_or(0).max(1);
     let step = width / counts.len().max(1) as f64;
     let last = counts.len().saturating_sub(1);
     let bar = |(at, (label, count)): (usize, (String, usize))| {
         let high = height * count as f64 / most as f64;
         let (x, y, width) = (at as f64 * step + gap / 2.0, height - high, step - gap);
-        Bar { label, count, is_right: at < last, x, y, width, height: high }
+        LabelledBar { label, count, is_right: at < last, x, y, width, height: high }
     };
     counts.into_iter().enumerate().map(bar).collect()
 }
 
-fn courses(insights: &Insights, language: Language) -> Vec<Course> {
+fn courses(insights: &Insights, language: Language) -> Vec<MistakeChart> {
     let course = |(id, title): &(String, Text)| {
         let counts: Vec<usize> =
             insights.stretches.iter().map(|stretch| stretch.mistakes.get(id).copied().unwrap_or(0)).collect();
         let bars = laid_out(counts.iter().map(|count| (String::new(), *count)).collect(), SMALL, 2.0);
-        Course { title: title.get(language).to_owned(), total: counts.iter().sum(), bars }
+        MistakeChart { title: title.get(language).to_owned(), total: counts.iter().sum(), bars }
     };
     drawn(insights).map(course).collect()
 }
@@ -147,7 +147,7 @@ fn drawn(insights: &Insights) -> impl Iterator<Item = &(String, Text)> {
     insights.mistakes.iter().take(DRAWN)
 }
 
-fn row(message: &insights::Message, language: Language) -> Row {
+fn row(message: &insights::MessageInsight, language: Language) -> MessageLine {
     let counts = [message.right, message.gone, message.again, message.last];
     let mut x = 0.0;
     let parts = counts.map(|count| {
@@ -155,5 +155,11 @@ fn row(message: &insights::Message, language: Language) -> Row {
         x += width;
         (x - width, width)
     });
-    Row { text: message.text.get(language).to_owned(), said: message.said, students: message.students, counts, parts }
+    MessageLine {
+        text: message.text.get(language).to_owned(),
+        said: message.said,
+        students: message.students,
+        counts,
+        parts,
+    }
 }

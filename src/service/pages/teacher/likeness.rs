@@ -1,6 +1,6 @@
 //! Answers of the class that are alike, and two of them side by side.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use crate::likeness::{Comparison, Pair};
@@ -8,7 +8,7 @@ use crate::service::State;
 use crate::service::classes::people;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, TeacherPage};
-use crate::service::likeness::{self, Member};
+use crate::service::likeness::{self, AlikePerson};
 use askama::Template;
 use axum::extract::{Query, State as Shared};
 use axum::response::Response;
@@ -18,26 +18,26 @@ use std::collections::HashMap;
 #[derive(Template)]
 #[template(path = "service/pages/templates/likeness.html")]
 struct LikenessPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     class: usize,
     others: usize,
     left_out: usize,
-    rows: Vec<Row>,
+    rows: Vec<AlikePairLine>,
 }
 
 /// Two that are alike.
-struct Row {
+struct AlikePairLine {
     pair: Pair,
-    members: [Member; 2],
+    members: [AlikePerson; 2],
     href: String,
 }
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/side_by_side.html")]
 struct SideBySidePage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     comparison: Comparison,
@@ -48,15 +48,15 @@ struct SideBySidePage {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let found = likeness::find(&state).await?;
     let hidden = hidden(&state, &teacher, &frame).await?;
-    let row = |(pair, members): (Pair, [Member; 2])| {
+    let row = |(pair, members): (Pair, [AlikePerson; 2])| {
         let members = members.map(|member| hidden.shown(member));
         let [one, other] = &members;
         let href = format!("{}/likeness/pair?one={}&other={}", frame.teacher(), one.submission, other.submission);
-        Row { pair, members, href }
+        AlikePairLine { pair, members, href }
     };
     shown(
         LikenessPage {
@@ -84,7 +84,7 @@ pub(in crate::service::pages) async fn side_by_side(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Query(Two { one, other }): Query<Two>,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let hidden = hidden(&state, &teacher, &frame).await?;
     let members = [likeness::member_of(&state, &one).await?, likeness::member_of(&state, &other).await?];
@@ -97,26 +97,26 @@ pub(in crate::service::pages) async fn side_by_side(
 }
 
 /// The names of a class as the one who looks reads them.
-struct Names(Option<HashMap<String, String>>);
+struct ClassNames(Option<HashMap<String, String>>);
 
-impl Names {
-    fn shown(&self, member: Member) -> Member {
+impl ClassNames {
+    fn shown(&self, member: AlikePerson) -> AlikePerson {
         match &self.0 {
             None => member,
             Some(pseudonyms) => {
                 let number = pseudonyms.get(&member.key).cloned().unwrap_or_default();
-                Member { number, name: String::new(), ..member }
+                AlikePerson { number, name: String::new(), ..member }
             }
         }
     }
 }
 
 /// With pseudonyms, everybody is called as in the table of the class.
-async fn hidden(state: &State, teacher: &Teacher, frame: &Frame) -> Result<Names, Problem> {
+async fn hidden(state: &State, teacher: &Teacher, frame: &PageFrame) -> Result<ClassNames, Problem> {
     if teacher.sees_names() {
-        return Ok(Names(None));
+        return Ok(ClassNames(None));
     }
     let mut keys: Vec<String> = people(state).await?.class.into_iter().map(|person| person.key).collect();
     keys.sort();
-    Ok(Names(Some(keys.into_iter().enumerate().map(|(place, key)| (key, frame.pseudonym(place))).collect())))
+    Ok(ClassNames(Some(keys.into_iter().enumerate().map(|(place, key)| (key, frame.pseudonym(place))).collect())))
 }

@@ -1,6 +1,6 @@
 //! The way in, and out.
 
-use super::super::frame::{Frame, SignInLink};
+use super::super::frame::{PageFrame, SignInLink};
 use super::super::shown;
 use crate::service::Service;
 use crate::service::errors::Problem;
@@ -16,7 +16,7 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/login.html")]
 struct LoginPage {
-    frame: Frame,
+    frame: PageFrame,
     csrf: String,
     problem: Option<String>,
     /// Whether there are accounts to log in with.
@@ -27,7 +27,7 @@ struct LoginPage {
 
 async fn view(
     service: &Service,
-    frame: Frame,
+    frame: PageFrame,
     visitor: &Visitor,
     login: String,
     problem: Option<String>,
@@ -40,7 +40,7 @@ async fn view(
 /// `GET /teacher/login`.
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
-    frame: Frame,
+    frame: PageFrame,
     visitor: Visitor,
     teacher: Option<Teacher>,
     proxied: Option<Extension<ProxiedName>>,
@@ -59,7 +59,7 @@ pub(in crate::service::pages) async fn page(
 /// `POST /teacher/login`.
 pub(in crate::service::pages) async fn login(
     Shared(service): Shared<Service>,
-    frame: Frame,
+    frame: PageFrame,
     visitor: Visitor,
     client: Client,
     Form(form): Form<LoginForm>,

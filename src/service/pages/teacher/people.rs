@@ -1,6 +1,6 @@
 //! Who teaches: accounts, what they may do, and links by which they choose a password.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, refused, said_of};
 use crate::service::Service;
@@ -8,7 +8,7 @@ use crate::service::acts::Detail;
 use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher, check_may_manage};
-use crate::service::store::{Role, StaffMember};
+use crate::service::store::{StaffMember, StaffRole};
 use askama::Template;
 use axum::Form;
 use axum::extract::{Path, State as Shared};
@@ -19,10 +19,10 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/people.html")]
 struct PeoplePage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    people: Vec<Line>,
+    people: Vec<MemberLine>,
     /// The roles that this teacher may give.
     roles: Vec<(&'static str, &'static str)>,
     /// Whether nobody has an account yet.
@@ -36,7 +36,7 @@ struct PeoplePage {
 }
 
 /// Somebody of the list.
-struct Line {
+struct MemberLine {
     member: StaffMember,
     role: &'static str,
     standing: &'static str,
@@ -57,34 +57,34 @@ pub(in crate::service::pages) struct NewMember {
 /// A change of an account: `link`, `close`, `open`, or the name of a role.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Change {
+pub(in crate::service::pages) struct AccountChange {
     csrf: String,
     change: String,
 }
 
 /// The role of a word in a form.
-fn role(word: &str) -> Option<Role> {
-    [Role::Administrator, Role::Lecturer, Role::Assistant].into_iter().find(|role| id(*role) == word)
+fn role(word: &str) -> Option<StaffRole> {
+    [StaffRole::Administrator, StaffRole::Lecturer, StaffRole::Assistant].into_iter().find(|role| id(*role) == word)
 }
 
-fn id(role: Role) -> &'static str {
+fn id(role: StaffRole) -> &'static str {
     match role {
-        Role::Administrator => "administrator",
-        Role::Lecturer => "lecturer",
-        Role::Assistant => "assistant",
+        StaffRole::Administrator => "administrator",
+        StaffRole::Lecturer => "lecturer",
+        StaffRole::Assistant => "assistant",
     }
 }
 
 /// What a role is called.
-pub(super) fn role_name(frame: &Frame, role: Role) -> &'static str {
+pub(super) fn role_name(frame: &PageFrame, role: StaffRole) -> &'static str {
     match role {
-        Role::Administrator => frame.say("Administrator", "管理者"),
-        Role::Lecturer => frame.say("Lecturer", "担当教員"),
-        Role::Assistant => frame.say("Assistant", "アシスタント"),
+        StaffRole::Administrator => frame.say("Administrator", "管理者"),
+        StaffRole::Lecturer => frame.say("Lecturer", "担当教員"),
+        StaffRole::Assistant => frame.say("Assistant", "アシスタント"),
     }
 }
 
-fn standing(frame: &Frame, member: &StaffMember) -> &'static str {
+fn standing(frame: &PageFrame, member: &StaffMember) -> &'static str {
     match (member.is_active, member.has_password) {
         (false, _) => frame.say("closed", "停止中"),
         (true, true) => frame.say("active", "有効"),
@@ -94,18 +94,18 @@ fn standing(frame: &Frame, member: &StaffMember) -> &'static str {
 
 /// What the page says of a form that was sent.
 #[derive(Default)]
-struct Said {
+struct PeopleNotice {
     typed: NewMember,
     problem: Option<String>,
     link: Option<(String, String)>,
 }
 
-async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) -> Result<Response, Problem> {
+async fn view(service: &Service, frame: PageFrame, teacher: &Teacher, said: PeopleNotice) -> Result<Response, Problem> {
     teacher.check_course()?;
     let people = identity::people(service).await?;
-    let may = |role: Role| check_may_manage(teacher, role).is_ok();
-    let offered = [Role::Assistant, Role::Lecturer, Role::Administrator].into_iter();
-    let offered = offered.filter(|role| may(*role) && !(service.is_beside() && *role == Role::Administrator));
+    let may = |role: StaffRole| check_may_manage(teacher, role).is_ok();
+    let offered = [StaffRole::Assistant, StaffRole::Lecturer, StaffRole::Administrator].into_iter();
+    let offered = offered.filter(|role| may(*role) && !(service.is_beside() && *role == StaffRole::Administrator));
     let may_invite = identity::check_may_invite(service, teacher).await.is_ok();
     let is_first = !service.accounts().has_administrator().await?;
     shown(
@@ -113,12 +113,12 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
             place: Tab::People,
             csrf: teacher.csrf(service),
             roles: offered
-                .filter(|role| !is_first || *role == Role::Administrator)
+                .filter(|role| !is_first || *role == StaffRole::Administrator)
                 .map(|role| (id(role), role_name(&frame, role)))
                 .collect(),
             people: people
                 .into_iter()
-                .map(|member| Line {
+                .map(|member| MemberLine {
                     role: role_name(&frame, member.role),
                     standing: standing(&frame, &member),
                     may_change: may(member.role),
@@ -140,9 +140,9 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
-    view(&service, frame, &teacher, Said::default()).await
+    view(&service, frame, &teacher, PeopleNotice::default()).await
 }
 
 /// `POST /teacher/people`: a new account. The first one's owner goes on to choose a password; of another one the page shows
@@ -151,11 +151,11 @@ pub(in crate::service::pages) async fn add(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
     Form(typed): Form<NewMember>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &typed.csrf)?;
-    let role = role(&typed.role).unwrap_or(Role::Assistant);
+    let role = role(&typed.role).unwrap_or(StaffRole::Assistant);
     check_may_manage(&teacher, role)?;
     let is_first = !service.accounts().has_administrator().await?;
     match identity::let_in(&service, &teacher, (&typed.login, &typed.name), role).await {
@@ -168,10 +168,10 @@ pub(in crate::service::pages) async fn add(
                 return Ok(detail.on(Redirect::to(&format!("/teacher/welcome/{secret}")).into_response()));
             }
             let link = Some((member.login, welcome(&service, &headers, &secret)));
-            Ok(detail.on(view(&service, frame, &teacher, Said { link, ..Said::default() }).await?))
+            Ok(detail.on(view(&service, frame, &teacher, PeopleNotice { link, ..PeopleNotice::default() }).await?))
         }
         Err(problem) => {
-            let said = Said { typed, problem: Some(said_of(problem, &frame)?), link: None };
+            let said = PeopleNotice { typed, problem: Some(said_of(problem, &frame)?), link: None };
             Ok(refused(view(&service, frame, &teacher, said).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }
@@ -188,8 +188,8 @@ pub(in crate::service::pages) async fn change(
     LecturerPage(teacher): LecturerPage,
     Path(member): Path<String>,
     headers: HeaderMap,
-    frame: Frame,
-    Form(change): Form<Change>,
+    frame: PageFrame,
+    Form(change): Form<AccountChange>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &change.csrf)?;
     let member = service.store.course_member(&member).await?.ok_or_else(Problem::not_found)?;
@@ -200,7 +200,7 @@ pub(in crate::service::pages) async fn change(
             identity::check_may_invite(&service, &teacher).await?;
             let secret = identity::invite(&service, &member).await?;
             let link = Some((member.login, welcome(&service, &headers, &secret)));
-            let page = view(&service, frame, &teacher, Said { link, ..Said::default() }).await?;
+            let page = view(&service, frame, &teacher, PeopleNotice { link, ..PeopleNotice::default() }).await?;
             return Ok(detail.on(page));
         }
         ("close", _) => identity::set_staff(&service, &member, member.role, false).await,
@@ -215,7 +215,8 @@ pub(in crate::service::pages) async fn change(
         Ok(()) => Ok(detail.on(Redirect::to("/teacher/people").into_response())),
         Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
             let detail = Some(problem.detail.get(frame.language).to_owned());
-            let page = view(&service, frame, &teacher, Said { problem: detail, ..Said::default() }).await?;
+            let page =
+                view(&service, frame, &teacher, PeopleNotice { problem: detail, ..PeopleNotice::default() }).await?;
             Ok(refused(page, problem.status))
         }
         Err(problem) => Err(problem),

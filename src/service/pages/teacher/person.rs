@@ -1,8 +1,8 @@
 //! What one student has handed in.
 
-use super::super::attempts::{Attempt, Choice};
-use super::super::datetime::{self, Moment};
-use super::super::frame::Frame;
+use super::super::attempts::{Attempt, CountingChoice};
+use super::super::datetime::{self, TimeElement};
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use super::extensions::ExtensionForm;
@@ -40,7 +40,7 @@ impl Whom {
 #[derive(Template)]
 #[template(path = "service/pages/templates/person.html")]
 struct PersonPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     number: String,
@@ -57,7 +57,7 @@ struct PersonPage {
 
 /// The deadline of the homework, and a student's own as its form takes it.
 struct Deadline {
-    of_class: Moment,
+    of_class: TimeElement,
     /// Id of the student.
     student: String,
     own: String,
@@ -70,7 +70,7 @@ pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Query(whom): Query<Whom>,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     view(&state, &teacher, &whom, frame, None).await
 }
@@ -78,7 +78,7 @@ pub(in crate::service::pages) async fn page(
 /// The form by which an attempt is chosen.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Chosen {
+pub(in crate::service::pages) struct CountedAttemptForm {
     csrf: String,
     submission: String,
 }
@@ -87,8 +87,8 @@ pub(in crate::service::pages) struct Chosen {
 pub(in crate::service::pages) async fn choose(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
-    Form(chosen): Form<Chosen>,
+    frame: PageFrame,
+    Form(chosen): Form<CountedAttemptForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &chosen.csrf)?;
     let (_, submission) = state.submission(&chosen.submission).await?;
@@ -103,7 +103,7 @@ pub(in crate::service::pages) async fn choose(
 /// The deadline of somebody who is a student, with what was typed and is wrong.
 async fn deadline(
     state: &State,
-    frame: &Frame,
+    frame: &PageFrame,
     key: &str,
     typed: Option<(ExtensionForm, String)>,
 ) -> Result<Option<Deadline>, Problem> {
@@ -125,7 +125,7 @@ pub(super) async fn view(
     state: &State,
     teacher: &Teacher,
     whom: &Whom,
-    frame: Frame,
+    frame: PageFrame,
     typed: Option<(ExtensionForm, String)>,
 ) -> Result<Response, Problem> {
     let people = people(state).await?;
@@ -133,7 +133,7 @@ pub(super) async fn view(
     let counted = person.counted().map(|row| row.row.submission.id.as_str());
     let hidden = whom.anonymous == "on" || !teacher.sees_names();
     let group = state.store.student_by_id(&person.key).await?.map(|student| student.group_name).unwrap_or_default();
-    let choice = Choice { counting: person.counting, counted, may_choose: frame.is_lecturers() && !hidden };
+    let choice = CountingChoice { counting: person.counting, counted, may_choose: frame.is_lecturers() && !hidden };
     shown(
         PersonPage {
             place: Tab::Class,
@@ -154,7 +154,7 @@ pub(super) async fn view(
     )
 }
 
-fn attempt(frame: &Frame, row: &ClassRow, choice: Choice<'_>, hidden: bool) -> Attempt {
+fn attempt(frame: &PageFrame, row: &ClassRow, choice: CountingChoice<'_>, hidden: bool) -> Attempt {
     Attempt {
         mistakes: titled(frame, &row.mistakes),
         is_disputed: row.differs,

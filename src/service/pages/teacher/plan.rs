@@ -1,7 +1,7 @@
 //! The homeworks of a course: which it has, in which order, what each counts, and from when on students see it.
 
 use super::super::datetime;
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, refused};
 use crate::report::text::number;
@@ -10,7 +10,7 @@ use crate::service::acts::Detail;
 use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher};
-use crate::service::store::Place;
+use crate::service::store::CoursePlace;
 use crate::service::{Service, State};
 use askama::Template;
 use axum::Form;
@@ -22,17 +22,17 @@ use std::collections::HashMap;
 #[derive(Template)]
 #[template(path = "service/pages/templates/plan.html")]
 struct PlanPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     problem: Option<String>,
-    lines: Vec<Line>,
+    lines: Vec<HomeworkLine>,
     /// Id and title of what the course can have as well.
     others: Vec<(String, String)>,
 }
 
 /// A homework of the course.
-struct Line {
+struct HomeworkLine {
     id: String,
     title: String,
     href: String,
@@ -57,7 +57,14 @@ fn field<'a>(fields: &'a Fields, name: &str, id: &str) -> Option<&'a str> {
     fields.get(&format!("{name}.{id}")).map(|text| text.trim())
 }
 
-fn line(service: &Service, frame: &Frame, state: &State, index: usize, place: Option<&Place>, typed: &Fields) -> Line {
+fn line(
+    service: &Service,
+    frame: &PageFrame,
+    state: &State,
+    index: usize,
+    place: Option<&CoursePlace>,
+    typed: &Fields,
+) -> HomeworkLine {
     let id = state.assignment.id.clone();
     let given = |name: &str, stands: String| field(typed, name, &id).map_or(stands, str::to_owned);
     let shown_from = place.and_then(|place| place.shown_from);
@@ -66,7 +73,7 @@ fn line(service: &Service, frame: &Frame, state: &State, index: usize, place: Op
         _ if shown_from.is_some() => "from",
         _ => "shown",
     };
-    Line {
+    HomeworkLine {
         title: frame.language.of(&state.assignment.title).to_owned(),
         href: format!("{}/teacher", state.base()),
         position: given("position", (index + 1).to_string()),
@@ -81,7 +88,7 @@ fn line(service: &Service, frame: &Frame, state: &State, index: usize, place: Op
 
 async fn view(
     service: &Service,
-    frame: Frame,
+    frame: PageFrame,
     teacher: &Teacher,
     typed: &Fields,
     problem: Option<String>,
@@ -89,7 +96,7 @@ async fn view(
     let places = service.store.places().await?;
     let place = |state: &State| places.iter().find(|place| place.id == state.assignment.id);
     let lines = service.homeworks().enumerate();
-    let lines: Vec<Line> =
+    let lines: Vec<HomeworkLine> =
         lines.map(|(index, state)| line(service, &frame, &state, index, place(&state), typed)).collect();
     let offered = if service.is_beside() { service.offered() } else { &[] };
     let others = offered.iter().filter(|one| lines.iter().all(|line| line.id != one.id));
@@ -101,7 +108,7 @@ async fn view(
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     view(&service, frame, &teacher, &Fields::new(), None).await
@@ -111,7 +118,7 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) async fn save(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
     Form(fields): Form<Fields>,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
@@ -144,10 +151,10 @@ pub(in crate::service::pages) async fn save(
 /// What the form makes of the course's homeworks: those that it has in their new order, and then those that were added.
 async fn places(
     service: &Service,
-    frame: &Frame,
+    frame: &PageFrame,
     fields: &Fields,
     added: &[String],
-) -> Result<Result<Vec<Place>, String>, Problem> {
+) -> Result<Result<Vec<CoursePlace>, String>, Problem> {
     let known = service.store.places().await?;
     let find = |id: &str| known.iter().find(|place| place.id == *id).cloned();
     let mut ordered = Vec::new();
@@ -161,8 +168,8 @@ async fn places(
     }
     // Two with one number stay in the order in which they stand.
     ordered.sort_by(|(one, _), (other, _)| f64::total_cmp(one, other));
-    let mut places: Vec<Place> = ordered.into_iter().map(|(_, place)| place).collect();
-    places.extend(added.iter().filter_map(|id| Some(Place { is_chosen: 1, ..find(id)? })));
+    let mut places: Vec<CoursePlace> = ordered.into_iter().map(|(_, place)| place).collect();
+    places.extend(added.iter().filter_map(|id| Some(CoursePlace { is_chosen: 1, ..find(id)? })));
     for (place, position) in places.iter_mut().zip(0..) {
         place.position = Some(position);
         let leaves = service.is_beside() && field(fields, "leave", &place.id).is_some();
@@ -175,7 +182,7 @@ async fn places(
 }
 
 /// What the form says of one homework.
-fn read(frame: &Frame, fields: &Fields, place: Place) -> Result<Place, &'static str> {
+fn read(frame: &PageFrame, fields: &Fields, place: CoursePlace) -> Result<CoursePlace, &'static str> {
     let points = match field(fields, "points", &place.id) {
         None => place.points,
         Some("") => None,
@@ -200,5 +207,5 @@ fn read(frame: &Frame, fields: &Fields, place: Place) -> Result<Place, &'static 
         (Some(_), _) => (0, None),
         (None, _) => (place.is_hidden, place.shown_from),
     };
-    Ok(Place { points, is_hidden, shown_from, ..place })
+    Ok(CoursePlace { points, is_hidden, shown_from, ..place })
 }

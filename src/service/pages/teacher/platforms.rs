@@ -1,6 +1,6 @@
 //! Learning platforms: which ones launch homeworks here, and their rosters.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, refused};
 use crate::service::Service;
@@ -8,7 +8,7 @@ use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, new_id};
 use crate::service::lti::{self, contexts, memberships, registration};
-use crate::service::store::{Deployment, Link, Platform, PlatformCourse, Role};
+use crate::service::store::{Deployment, Link, Platform, PlatformCourse, StaffRole};
 use askama::Template;
 use axum::Form;
 use axum::extract::State as Shared;
@@ -18,10 +18,10 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/platforms.html")]
 struct PlatformsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    platforms: Vec<Line>,
+    platforms: Vec<PlatformLine>,
     /// Whether this teacher may add and change platforms.
     may_change: bool,
     /// A registration link that was just made.
@@ -32,11 +32,11 @@ struct PlatformsPage {
     here: Vec<(String, String)>,
     /// The address of this service.
     own: String,
-    typed: Wish,
+    typed: PlatformForm,
 }
 
 /// A platform of the list.
-struct Line {
+struct PlatformLine {
     platform: Platform,
     deployments: Vec<Deployment>,
     /// Whether it is registered with the first course, and some of its courses are connected with this one.
@@ -52,7 +52,7 @@ struct Line {
 /// A form of the page. `wish` says which.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Wish {
+pub(in crate::service::pages) struct PlatformForm {
     csrf: String,
     wish: String,
     platform: String,
@@ -73,7 +73,7 @@ pub(in crate::service::pages) struct Wish {
 const NO_COURSE: &str = "-";
 
 /// The courses with which a platform's course can be connected: this one, and the others where it is the first.
-async fn here(service: &Service, frame: &Frame) -> Result<Vec<(String, String)>, Problem> {
+async fn here(service: &Service, frame: &PageFrame) -> Result<Vec<(String, String)>, Problem> {
     let mut here = Vec::new();
     for course in service.everywhere() {
         let is_own = course.root() == service.root();
@@ -87,14 +87,19 @@ async fn here(service: &Service, frame: &Frame) -> Result<Vec<(String, String)>,
 
 /// What the page says of a form that was sent.
 #[derive(Default)]
-struct Said {
+struct PlatformsNotice {
     link: Option<String>,
     problem: Option<String>,
     notice: Option<String>,
-    typed: Wish,
+    typed: PlatformForm,
 }
 
-async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) -> Result<Response, Problem> {
+async fn view(
+    service: &Service,
+    frame: PageFrame,
+    teacher: &Teacher,
+    said: PlatformsNotice,
+) -> Result<Response, Problem> {
     teacher.check_course()?;
     let (deployments, links) = (service.store.deployments().await?, service.store.links().await?);
     let stuck = service.store.stuck_scores().await?;
@@ -106,7 +111,7 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
                 rosters.push(link.clone());
             }
         }
-        Line {
+        PlatformLine {
             is_elsewheres,
             courses: courses.iter().filter(|known| known.platform_id == platform.id).cloned().collect(),
             deployments: deployments.iter().filter(|found| found.platform_id == platform.id).cloned().collect(),
@@ -129,7 +134,7 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
             place: Tab::Platforms,
             csrf: teacher.csrf(service),
             platforms,
-            may_change: teacher.role() == Role::Administrator,
+            may_change: teacher.role() == StaffRole::Administrator,
             link: said.link,
             problem: said.problem,
             notice: said.notice,
@@ -146,17 +151,17 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
-    view(&service, frame, &teacher, Said::default()).await
+    view(&service, frame, &teacher, PlatformsNotice::default()).await
 }
 
 /// `POST /teacher/platforms`.
 pub(in crate::service::pages) async fn change(
     Shared(service): Shared<Service>,
     LecturerPage(teacher): LecturerPage,
-    frame: Frame,
-    Form(wish): Form<Wish>,
+    frame: PageFrame,
+    Form(wish): Form<PlatformForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &wish.csrf)?;
     teacher.check_course()?;
@@ -167,7 +172,13 @@ pub(in crate::service::pages) async fn change(
         Ok(None) => Ok(detail.on(Redirect::to("/teacher/platforms").into_response())),
         Err(problem) if problem.status.is_client_error() && problem.kind != "role" => {
             let said = Some(problem.detail.get(frame.language).replace('`', ""));
-            let page = view(&service, frame, &teacher, Said { problem: said, typed: wish, ..Said::default() }).await?;
+            let page = view(
+                &service,
+                frame,
+                &teacher,
+                PlatformsNotice { problem: said, typed: wish, ..PlatformsNotice::default() },
+            )
+            .await?;
             Ok(refused(page, problem.status))
         }
         Err(problem) => Err(problem),
@@ -177,9 +188,9 @@ pub(in crate::service::pages) async fn change(
 async fn carried_out(
     service: &Service,
     teacher: &Teacher,
-    wish: &Wish,
-    frame: &Frame,
-) -> Result<Option<Said>, Problem> {
+    wish: &PlatformForm,
+    frame: &PageFrame,
+) -> Result<Option<PlatformsNotice>, Problem> {
     let platform = async || service.store.platform(&wish.platform).await?.ok_or_else(Problem::not_found);
     if wish.wish == "roster" {
         let platform = platform().await?;
@@ -190,9 +201,9 @@ async fn carried_out(
             "ja" => format!("学生 {count} 人を名簿に取り込みました。"),
             _ => format!("{count} students are on the roster now."),
         };
-        return Ok(Some(Said { notice: Some(notice), ..Said::default() }));
+        return Ok(Some(PlatformsNotice { notice: Some(notice), ..PlatformsNotice::default() }));
     }
-    teacher.check_role(Role::Administrator)?;
+    teacher.check_role(StaffRole::Administrator)?;
     // What is registered with the first course is changed there.
     if contexts::is_elsewheres(service, &wish.platform).await? {
         return Err(Problem::not_found());
@@ -200,7 +211,7 @@ async fn carried_out(
     match wish.wish.as_str() {
         "link" => {
             let link = format!("{}/lti/register/{}", lti::address(service), registration::new_link(service).await?);
-            return Ok(Some(Said { link: Some(link), ..Said::default() }));
+            return Ok(Some(PlatformsNotice { link: Some(link), ..PlatformsNotice::default() }));
         }
         "approve" => service.store.note_deployment(&platform().await?.id, &wish.deployment, true).await?,
         "off" => contexts::set_active(service, &platform().await?, false).await?,

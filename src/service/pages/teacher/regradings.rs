@@ -1,7 +1,7 @@
 //! Grading everything again, and what that would change.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::{attempts, report_fragment, shown};
 use super::Tab;
 use super::login::CsrfForm;
@@ -9,7 +9,7 @@ use super::table::{Pager, titled};
 use crate::report::labels::rubric_label;
 use crate::report::text::number;
 use crate::service::State;
-use crate::service::api::batches::{Job, progress};
+use crate::service::api::batches::{WatchedJob, progress};
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, TeacherPage};
@@ -25,10 +25,10 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/regrading.html")]
 struct RegradingsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    at: Moment,
+    at: TimeElement,
     id: String,
     seed: u64,
     events: String,
@@ -38,7 +38,7 @@ struct RegradingsPage {
     losses: usize,
     otherwise: usize,
     same: usize,
-    rows: Vec<Row>,
+    rows: Vec<RegradedLine>,
     pager: Pager,
     /// Lines that somebody overrode, and that are graded otherwise now.
     overridden: Vec<OverriddenLine>,
@@ -57,17 +57,17 @@ struct OverriddenLine {
 }
 
 /// One submission that changed.
-struct Row {
+struct RegradedLine {
     href: String,
     number: String,
     name: String,
-    before: Earned,
-    after: Option<Earned>,
+    before: SubmissionResult,
+    after: Option<SubmissionResult>,
     change: String,
 }
 
 /// What a submission got.
-struct Earned {
+struct SubmissionResult {
     mark: &'static str,
     word: &'static str,
     score: String,
@@ -77,7 +77,7 @@ struct Earned {
 
 /// The form of the button.
 #[derive(Debug, Default, Deserialize)]
-pub(in crate::service::pages) struct Wish {
+pub(in crate::service::pages) struct RegradingForm {
     #[serde(default)]
     csrf: String,
     #[serde(default)]
@@ -87,7 +87,7 @@ pub(in crate::service::pages) struct Wish {
 /// The page of the table.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Wished {
+pub(in crate::service::pages) struct RegradingQuery {
     page: String,
 }
 
@@ -95,7 +95,7 @@ pub(in crate::service::pages) struct Wished {
 pub(in crate::service::pages) async fn start(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    Form(wish): Form<Wish>,
+    Form(wish): Form<RegradingForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &wish.csrf)?;
     let regrading = regrade::start(&state, wish.new_seed == "on", None).await?;
@@ -121,7 +121,7 @@ pub(in crate::service::pages) async fn events(
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
     regrade::found(&state, &id).await?;
-    Ok(Sse::new(progress(state.service(), Job::Regrading(id))).keep_alive(KeepAlive::default()).into_response())
+    Ok(Sse::new(progress(state.service(), WatchedJob::Regrading(id))).keep_alive(KeepAlive::default()).into_response())
 }
 
 /// `GET /teacher/regradings/{id}`.
@@ -129,8 +129,8 @@ pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
     Path(id): Path<String>,
-    Query(Wished { page }): Query<Wished>,
-    frame: Frame,
+    Query(RegradingQuery { page }): Query<RegradingQuery>,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let regrading = regrade::found(&state, &id).await?;
     let compared = state.store.compared(&id).await?;
@@ -171,14 +171,14 @@ pub(in crate::service::pages) async fn page(
     )
 }
 
-fn line(frame: &Frame, row: &Compared) -> Row {
-    let got = |(verdict, score, mistakes): &regrade::Earned| Earned {
+fn line(frame: &PageFrame, row: &Compared) -> RegradedLine {
+    let got = |(verdict, score, mistakes): &regrade::Earned| SubmissionResult {
         mark: attempts::mark(*verdict, Some(*score)).id(),
         word: report_fragment::verdict(frame, *verdict),
         score: number(*score),
         mistakes: titled(frame, mistakes),
     };
-    Row {
+    RegradedLine {
         href: at(&format!("/r/{}", row.submission.id)),
         number: row.number.clone().unwrap_or_else(|| row.submission.name.clone()),
         name: row.student_name.clone().unwrap_or_default(),
@@ -189,7 +189,7 @@ fn line(frame: &Frame, row: &Compared) -> Row {
 }
 
 /// A line that somebody overrode, and what it gets now.
-fn overridden(state: &State, frame: &Frame, compared: &[Compared], line: OverriddenAgain) -> OverriddenLine {
+fn overridden(state: &State, frame: &PageFrame, compared: &[Compared], line: OverriddenAgain) -> OverriddenLine {
     let OverriddenAgain { overridden, graded_again } = line;
     let row = compared.iter().find(|row| row.submission.id == overridden.submission_id);
     let number_of = |row: &Compared| row.number.clone().unwrap_or_else(|| row.submission.name.clone());

@@ -1,8 +1,8 @@
 //! The roster, imported from a file.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::refused;
-use super::settings::{self, Said, Typed};
+use super::settings::{self, SettingsNotice, Typed};
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::api::body::other;
@@ -19,7 +19,7 @@ pub(in crate::service::pages) async fn take(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     match import(&state, &teacher, form).await {
@@ -28,7 +28,10 @@ pub(in crate::service::pages) async fn take(
             Ok(Detail::of(students.to_string()).on(answer))
         }
         Err(problem) if problem.status.is_client_error() => {
-            let said = Said { roster: Some(problem.detail.get(frame.language).to_owned()), ..Said::default() };
+            let said = SettingsNotice {
+                roster: Some(problem.detail.get(frame.language).to_owned()),
+                ..SettingsNotice::default()
+            };
             let page = settings::view(&state, frame, &headers, &teacher, Typed::default(), said).await?;
             Ok(refused(page, problem.status))
         }

@@ -2,8 +2,8 @@
 
 mod rules;
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use super::login::CsrfForm;
@@ -20,24 +20,24 @@ use axum::Form;
 use axum::extract::{Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Redirect, Response};
-use rules::Rules;
+use rules::RulesForm;
 use serde::Deserialize;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/settings.html")]
 struct SettingsPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
-    said: Said,
-    rules: Rules,
+    said: SettingsNotice,
+    rules: RulesForm,
     /// Whether the teacher may change what belongs to the whole course: all that follows.
     has_course: bool,
     course: CourseFields,
     zones: Vec<String>,
     link: String,
     students: usize,
-    deletions: Vec<(Moment, String)>,
+    deletions: Vec<(TimeElement, String)>,
 }
 
 /// The form of the course.
@@ -52,7 +52,7 @@ pub(in crate::service::pages) struct CourseFields {
 
 /// What the page says of a form that was sent.
 #[derive(Debug, Default)]
-pub(super) struct Said {
+pub(super) struct SettingsNotice {
     /// What was done.
     pub notice: Option<String>,
     /// What is wrong with the rules,
@@ -66,14 +66,14 @@ pub(super) struct Said {
 /// What has just been done.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Done {
+pub(in crate::service::pages) struct SettingsQuery {
     done: String,
 }
 
 /// What was typed, where that could not be taken.
 #[derive(Debug, Default)]
 pub(super) struct Typed {
-    rules: Option<Rules>,
+    rules: Option<RulesForm>,
     course: Option<CourseFields>,
 }
 
@@ -81,9 +81,9 @@ pub(super) struct Typed {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    Query(Done { done }): Query<Done>,
+    Query(SettingsQuery { done }): Query<SettingsQuery>,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
     let notice = match done.as_str() {
         "saved" => Some(frame.say("Saved.", "保存しました。")),
@@ -91,18 +91,18 @@ pub(in crate::service::pages) async fn page(
         "roster" => Some(frame.say("The roster is imported.", "名簿を取り込みました。")),
         _ => None,
     };
-    let said = Said { notice: notice.map(str::to_owned), ..Said::default() };
+    let said = SettingsNotice { notice: notice.map(str::to_owned), ..SettingsNotice::default() };
     view(&state, frame, &headers, &teacher, Typed::default(), said).await
 }
 
 /// The page, with what was typed and what is to be said of it.
 pub(super) async fn view(
     state: &State,
-    frame: Frame,
+    frame: PageFrame,
     headers: &HeaderMap,
     teacher: &Teacher,
     typed: Typed,
-    said: Said,
+    said: SettingsNotice,
 ) -> Result<Response, Problem> {
     let settings = state.store.assignment(&state.assignment.id).await?;
     let deletions = state.store.deletions().await?;
@@ -111,7 +111,7 @@ pub(super) async fn view(
             place: Tab::Settings,
             csrf: teacher.csrf(state),
             said,
-            rules: typed.rules.unwrap_or_else(|| Rules::of(&settings, &frame.course)),
+            rules: typed.rules.unwrap_or_else(|| RulesForm::of(&settings, &frame.course)),
             has_course: teacher.has_course(),
             course: typed.course.unwrap_or_else(|| CourseFields::of(&frame.course)),
             zones: zone_names(),
@@ -131,7 +131,7 @@ impl CourseFields {
         Self { csrf: String::new(), title, zone: course.zone_name().to_owned(), language: language.to_owned() }
     }
 
-    fn read(&self, frame: &Frame) -> Result<Course, String> {
+    fn read(&self, frame: &PageFrame) -> Result<Course, String> {
         let language = if self.language == "en" { Language::En } else { Language::Ja };
         let course = Course::new(&self.zone, language).map(|course| course.titled(&self.title));
         course.ok_or_else(|| {
@@ -151,12 +151,12 @@ pub(in crate::service::pages) async fn save(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
-    frame: Frame,
-    Form(rules): Form<Rules>,
+    frame: PageFrame,
+    Form(rules): Form<RulesForm>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &rules.csrf)?;
     let before = state.store.assignment(&state.assignment.id).await?;
-    let was = Rules::of(&before, &frame.course);
+    let was = RulesForm::of(&before, &frame.course);
     match rules.read(&frame, before) {
         Ok(settings) => {
             state.store.set_assignment(&settings).await?;
@@ -164,7 +164,7 @@ pub(in crate::service::pages) async fn save(
             Ok(Detail::of(rules.changes_from(&was)).on(answer))
         }
         Err(wrong) => {
-            let said = Said { rules: Some(wrong), ..Said::default() };
+            let said = SettingsNotice { rules: Some(wrong), ..SettingsNotice::default() };
             let typed = Typed { rules: Some(rules), ..Typed::default() };
             let page = view(&state, frame, &headers, &teacher, typed, said).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
@@ -177,7 +177,7 @@ pub(in crate::service::pages) async fn save_course(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
     headers: HeaderMap,
-    frame: Frame,
+    frame: PageFrame,
     Form(fields): Form<CourseFields>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &fields.csrf)?;
@@ -189,7 +189,7 @@ pub(in crate::service::pages) async fn save_course(
             Ok(Detail::of(format!("{}, {}", fields.zone, fields.language)).on(answer))
         }
         Err(wrong) => {
-            let said = Said { course: Some(wrong), ..Said::default() };
+            let said = SettingsNotice { course: Some(wrong), ..SettingsNotice::default() };
             let typed = Typed { course: Some(fields), ..Typed::default() };
             let page = view(&state, frame, &headers, &teacher, typed, said).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))

@@ -1,7 +1,7 @@
 //! The table of people: filtered, sorted by a column, in pages. All of it is in the address, so that it needs no script.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::{attempts, report_fragment};
 use super::word;
 use crate::report::text::number;
@@ -16,7 +16,7 @@ pub(super) const PAGE: usize = 50;
 /// What to show, as an address says it.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Filter {
+pub(in crate::service::pages) struct TableFilter {
     pub verdict: String,
     pub mistake: String,
     pub q: String,
@@ -32,7 +32,7 @@ pub(in crate::service::pages) struct Filter {
     pub done: String,
 }
 
-impl Filter {
+impl TableFilter {
     pub fn is_anonymous(&self) -> bool {
         self.anonymous == "on"
     }
@@ -77,7 +77,7 @@ impl Filter {
 
 /// The columns that the table can be sorted by, with what stands first when one is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Column {
+enum SortColumn {
     Student,
     Verdict,
     Score,
@@ -86,7 +86,7 @@ enum Column {
     Last,
 }
 
-impl Column {
+impl SortColumn {
     const ALL: [Self; 6] = [Self::Student, Self::Verdict, Self::Score, Self::Mistakes, Self::Attempts, Self::Last];
 
     fn id(self) -> &'static str {
@@ -100,7 +100,7 @@ impl Column {
         }
     }
 
-    fn label(self, frame: &Frame) -> &'static str {
+    fn label(self, frame: &PageFrame) -> &'static str {
         match self {
             Self::Student => frame.say("Student", "学生"),
             Self::Verdict => frame.say("Verdict", "判定"),
@@ -143,7 +143,7 @@ fn by_number(a: &Person, b: &Person) -> std::cmp::Ordering {
 }
 
 /// A column's heading, which leads to the table sorted by it.
-pub(super) struct Header {
+pub(super) struct ColumnHeading {
     pub label: &'static str,
     pub href: String,
     /// For `aria-sort`, where the table is sorted by it.
@@ -181,14 +181,14 @@ impl Pager {
 }
 
 /// The table as a page shows it.
-pub(super) struct Table {
-    pub headers: Vec<Header>,
-    pub rows: Vec<Row>,
+pub(super) struct StudentTable {
+    pub headers: Vec<ColumnHeading>,
+    pub rows: Vec<StudentLine>,
     pub pager: Pager,
 }
 
 /// One line of the table.
-pub(super) struct Row {
+pub(super) struct StudentLine {
     pub href: String,
     pub number: String,
     pub name: String,
@@ -204,36 +204,36 @@ pub(super) struct Row {
     pub note: String,
     pub is_disputed: bool,
     pub attempts: usize,
-    pub at: Option<Moment>,
+    pub at: Option<TimeElement>,
 }
 
-impl Table {
+impl StudentTable {
     /// The people that a filter takes, the one page of them that it asks for. `people` stand in an order that says nothing
     /// of their names: pseudonyms are numbered by it.
-    pub fn of(frame: &Frame, people: &[&Person], filter: &Filter) -> Self {
+    pub fn of(frame: &PageFrame, people: &[&Person], filter: &TableFilter) -> Self {
         let mut chosen: Vec<(usize, &Person)> =
             people.iter().copied().enumerate().filter(|(_, person)| filter.takes(person)).collect();
         let (falls, id) = match filter.sort.strip_prefix('-') {
             Some(id) => (true, id),
             None => (false, filter.sort.as_str()),
         };
-        let sorted = Column::ALL.into_iter().find(|column| column.id() == id);
+        let sorted = SortColumn::ALL.into_iter().find(|column| column.id() == id);
         if !filter.is_anonymous() {
             chosen.sort_by(|(_, a), (_, b)| by_number(a, b));
         }
         match sorted {
             // An order by names would undo the pseudonyms.
-            Some(Column::Student) if filter.is_anonymous() => {}
+            Some(SortColumn::Student) if filter.is_anonymous() => {}
             Some(column) if falls => chosen.sort_by(|(_, a), (_, b)| column.compare(b, a)),
             Some(column) => chosen.sort_by(|(_, a), (_, b)| column.compare(a, b)),
             // What a teacher must look at comes first.
             None => chosen.sort_by_key(|(_, person)| Reverse(person.standing().is_trouble())),
         }
-        let header = |column: Column| {
+        let header = |column: SortColumn| {
             let is_sorted = sorted == Some(column);
             let next = if is_sorted { !falls } else { column.falls_first() };
             let order = if next { format!("-{}", column.id()) } else { column.id().to_owned() };
-            Header {
+            ColumnHeading {
                 label: column.label(frame),
                 href: filter.with("sort", &order),
                 sorted: is_sorted.then_some(if falls { "descending" } else { "ascending" }),
@@ -242,23 +242,23 @@ impl Table {
         };
         let pager = Pager::new(chosen.len(), &filter.page, |page| filter.with("page", page));
         let rows = pager.of(&chosen).iter().map(|(index, person)| row(frame, filter, *index, person));
-        Self { headers: Column::ALL.map(header).into(), rows: rows.collect(), pager }
+        Self { headers: SortColumn::ALL.map(header).into(), rows: rows.collect(), pager }
     }
 }
 
 /// Titles and ids of mistakes, in the reader's language.
-pub(super) fn titled(frame: &Frame, ids: &[String]) -> Vec<(String, String)> {
+pub(super) fn titled(frame: &PageFrame, ids: &[String]) -> Vec<(String, String)> {
     ids.iter().map(|id| (frame.mistake_title(id).to_owned(), id.clone())).collect()
 }
 
-fn row(frame: &Frame, filter: &Filter, index: usize, person: &Person) -> Row {
+fn row(frame: &PageFrame, filter: &TableFilter, index: usize, person: &Person) -> StudentLine {
     let counted = person.counted();
     let shown = counted.or(person.rows.first());
     let anonymous = filter.is_anonymous();
     let portrait = counted.filter(|row| attempts::draws(row.row.verdict));
     let key = utf8_percent_encode(&person.key, NON_ALPHANUMERIC);
     let note = person.note.as_ref().filter(|_| shown.is_none());
-    Row {
+    StudentLine {
         href: format!("{}/person?key={key}{}", frame.teacher(), if anonymous { "&anonymous=on" } else { "" }),
         number: if anonymous { frame.pseudonym(index) } else { person.number.clone() },
         name: if anonymous { String::new() } else { person.name.clone() },
@@ -286,8 +286,8 @@ mod tests {
     use crate::service::course::Course;
     use axum::http::Uri;
 
-    fn frame() -> Frame {
-        Frame::new(
+    fn frame() -> PageFrame {
+        PageFrame::new(
             Language::Ja,
             Course::default(),
             Uri::from_static("/teacher"),
@@ -295,13 +295,13 @@ mod tests {
         )
     }
 
-    fn shown(people: &[Person], filter: &Filter) -> Vec<String> {
+    fn shown(people: &[Person], filter: &TableFilter) -> Vec<String> {
         let people: Vec<&Person> = people.iter().collect();
-        Table::of(&frame(), &people, filter).rows.into_iter().map(|row| row.number).collect()
+        StudentTable::of(&frame(), &people, filter).rows.into_iter().map(|row| row.number).collect()
     }
 
-    fn sorted(sort: &str) -> Filter {
-        Filter { sort: sort.to_owned(), ..Filter::default() }
+    fn sorted(sort: &str) -> TableFilter {
+        TableFilter { sort: sort.to_owned(), ..TableFilter::default() }
     }
 
     fn class() -> Vec<Person> {
@@ -317,7 +317,7 @@ mod tests {
 
     #[test]
     fn what_could_not_be_graded_stands_first() {
-        assert_eq!(shown(&class(), &Filter::default()), ["s3", "s1", "s2", "s4"]);
+        assert_eq!(shown(&class(), &TableFilter::default()), ["s3", "s1", "s2", "s4"]);
     }
 
     #[test]
@@ -336,8 +336,8 @@ mod tests {
         }
         let people = class();
         let people: Vec<&Person> = people.iter().collect();
-        let filter = Filter { q: "s&1".into(), ..sorted("score") };
-        let headers = Table::of(&frame(), &people, &filter).headers;
+        let filter = TableFilter { q: "s&1".into(), ..sorted("score") };
+        let headers = StudentTable::of(&frame(), &people, &filter).headers;
         let score = headers.iter().find(|header| header.sorted.is_some()).expect("the sorted column");
         assert_eq!((score.sorted, score.href.as_str()), (Some("ascending"), "?q=s%261&sort=%2Dscore"));
     }
@@ -345,7 +345,7 @@ mod tests {
     #[test]
     fn fifty_rows_are_a_page() {
         let people: Vec<Person> = (0..120).map(|n| person(&format!("s{n:03}"), &[])).collect();
-        let page = |page: &str| shown(&people, &Filter { page: page.into(), ..Filter::default() });
+        let page = |page: &str| shown(&people, &TableFilter { page: page.into(), ..TableFilter::default() });
         assert_eq!((page("").len(), page("3").len()), (PAGE, 20));
         assert_eq!((page("2")[0].as_str(), page("9")[0].as_str(), page("x")[0].as_str()), ("s050", "s100", "s000"));
         let pager = Pager::new(120, "2", |page| format!("?page={page}"));
@@ -355,9 +355,9 @@ mod tests {
 
     #[test]
     fn pseudonyms_stay_and_no_order_gives_them_away() {
-        let anonymous = Filter { anonymous: "on".into(), ..sorted("student") };
+        let anonymous = TableFilter { anonymous: "on".into(), ..sorted("student") };
         assert_eq!(shown(&class(), &anonymous), ["学生 1", "学生 2", "学生 3", "学生 4"]);
-        let by_score = Filter { anonymous: "on".into(), ..sorted("-score") };
+        let by_score = TableFilter { anonymous: "on".into(), ..sorted("-score") };
         assert_eq!(shown(&class(), &by_score), ["学生 1", "学生 4", "学生 3", "学生 2"]);
     }
 }

@@ -1,7 +1,7 @@
 //! Tokens for programs: one's own, and for administrators everybody's.
 
-use super::super::datetime::Moment;
-use super::super::frame::Frame;
+use super::super::datetime::TimeElement;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, refused, said_of};
 use crate::service::Service;
@@ -22,7 +22,7 @@ const USUAL_DAYS: u32 = 180;
 #[derive(Template)]
 #[template(path = "service/pages/templates/tokens.html")]
 struct TokensPage {
-    frame: Frame,
+    frame: PageFrame,
     place: Tab,
     csrf: String,
     /// Whether this is somebody with an account, who may make one.
@@ -30,7 +30,7 @@ struct TokensPage {
     scopes: Vec<(&'static str, &'static str)>,
     homeworks: Vec<String>,
     longest: u32,
-    tokens: Vec<Line>,
+    tokens: Vec<TokenLine>,
     typed: NewToken,
     problem: Option<String>,
     /// A token that was just made: its name, and its secret.
@@ -38,14 +38,14 @@ struct TokensPage {
 }
 
 /// A token of the list.
-struct Line {
+struct TokenLine {
     id: String,
     name: String,
     owner: String,
     scope: &'static str,
     homework: String,
-    until: Moment,
-    used: Option<Moment>,
+    until: TimeElement,
+    used: Option<TimeElement>,
 }
 
 /// The form of a new token.
@@ -83,7 +83,7 @@ fn word(scope: TokenScope) -> &'static str {
     }
 }
 
-fn scope_name(frame: &Frame, scope: TokenScope) -> &'static str {
+fn scope_name(frame: &PageFrame, scope: TokenScope) -> &'static str {
     match scope {
         TokenScope::Read => frame.say("read", "閲覧"),
         TokenScope::Submit => frame.say("read, and hand in for students", "閲覧と、学生の代わりの提出"),
@@ -104,8 +104,8 @@ impl NewToken {
     }
 }
 
-fn line(frame: &Frame, OwnedToken { token, login }: OwnedToken) -> Line {
-    Line {
+fn line(frame: &PageFrame, OwnedToken { token, login }: OwnedToken) -> TokenLine {
+    TokenLine {
         scope: scope_name(frame, token.scope),
         homework: token.assignment.unwrap_or_default(),
         until: frame.moment(token.expires_at),
@@ -118,13 +118,13 @@ fn line(frame: &Frame, OwnedToken { token, login }: OwnedToken) -> Line {
 
 /// What the page says of a form that was sent.
 #[derive(Default)]
-struct Said {
+struct TokensNotice {
     typed: NewToken,
     problem: Option<String>,
     made: Option<(String, String)>,
 }
 
-async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) -> Result<Response, Problem> {
+async fn view(service: &Service, frame: PageFrame, teacher: &Teacher, said: TokensNotice) -> Result<Response, Problem> {
     let tokens = tokens_for(service, teacher).await?;
     shown(
         TokensPage {
@@ -148,16 +148,16 @@ async fn view(service: &Service, frame: Frame, teacher: &Teacher, said: Said) ->
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
 ) -> Result<Response, Problem> {
-    view(&service, frame, &teacher, Said::default()).await
+    view(&service, frame, &teacher, TokensNotice::default()).await
 }
 
 /// `POST /teacher/tokens`: makes one; the answer is the only page that shows it.
 pub(in crate::service::pages) async fn make(
     Shared(service): Shared<Service>,
     TeacherPage(teacher): TeacherPage,
-    frame: Frame,
+    frame: PageFrame,
     Form(typed): Form<NewToken>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &typed.csrf)?;
@@ -165,11 +165,11 @@ pub(in crate::service::pages) async fn make(
         Ok((token, secret)) => {
             let detail = Detail::of(format!("+ {} ({})", token.name, word(token.scope)));
             let detail = Detail { assignment: token.assignment, ..detail };
-            let said = Said { made: Some((token.name, secret)), ..Said::default() };
+            let said = TokensNotice { made: Some((token.name, secret)), ..TokensNotice::default() };
             Ok(detail.on(view(&service, frame, &teacher, said).await?))
         }
         Err(problem) => {
-            let said = Said { typed, problem: Some(said_of(problem, &frame)?), made: None };
+            let said = TokensNotice { typed, problem: Some(said_of(problem, &frame)?), made: None };
             Ok(refused(view(&service, frame, &teacher, said).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }

@@ -1,6 +1,6 @@
 //! Where somebody who was let in chooses a password.
 
-use super::super::frame::Frame;
+use super::super::frame::PageFrame;
 use super::super::shown;
 use super::people::role_name;
 use super::refused;
@@ -19,7 +19,7 @@ use serde::Deserialize;
 #[derive(Template)]
 #[template(path = "service/pages/templates/welcome.html")]
 struct WelcomePage {
-    frame: Frame,
+    frame: PageFrame,
     csrf: String,
     action: String,
     login: String,
@@ -31,14 +31,14 @@ struct WelcomePage {
 /// The form of the page.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Chosen {
+pub(in crate::service::pages) struct PasswordForm {
     csrf: String,
     password: String,
 }
 
 async fn view(
     service: &Service,
-    frame: Frame,
+    frame: PageFrame,
     visitor: &Visitor,
     secret: &str,
     problem: Option<String>,
@@ -64,7 +64,7 @@ async fn view(
 pub(in crate::service::pages) async fn page(
     Shared(service): Shared<Service>,
     Path(secret): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
     visitor: Visitor,
 ) -> Result<Response, Problem> {
     view(&service, frame, &visitor, &secret, None).await
@@ -74,10 +74,10 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) async fn choose(
     Shared(service): Shared<Service>,
     Path(secret): Path<String>,
-    frame: Frame,
+    frame: PageFrame,
     visitor: Visitor,
     client: Client,
-    Form(chosen): Form<Chosen>,
+    Form(chosen): Form<PasswordForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &chosen.csrf)?;
     service.limits.login(&client)?;

@@ -1,9 +1,9 @@
 //! What the compiler refuses.
 
-use super::{Case, broken, check, diagnostics};
+use super::{HintCase, broken, check, diagnostics};
 use crate::diagnostic::Severity;
 
-const NAMES: &[Case] = &[
+const NAMES: &[HintCase] = &[
     ("max(dot", "§Max(dot", "no function `Max`|`max`", "`Max` という関数はありません|`max`"),
     ("max(dot(n, h), 0.0)", "§Max(dot(n, h),\n  0.0)", "`max`", "`max`"),
     ("normalize(light", "§normalise(light", "`normalize`", "`normalize`"),
@@ -32,7 +32,7 @@ const NAMES: &[Case] = &[
     ("float cosine", "float §v", "twice|line 22", "2 回|22 行目"),
 ];
 
-const SYNTAX: &[Case] = &[
+const SYNTAX: &[HintCase] = &[
     ("shine = 80.0;", "shine = 80.0§", "`;`|after `80.0`|line 8", "`;`|8 行目"),
     ("out vec4 colour;", "out vec4 colour§\n// 光\n", "`;`", "`;`"),
     ("0.0);\n  // 合計", "0.0)§  // 光\n  // 合計", "`;`|`colour` on line 27", "`;`|27 行目"),
@@ -61,7 +61,7 @@ const SYNTAX: &[Case] = &[
     ("  vec3 h", "  vec3 §twice(vec3 a) { return 2.0 * a; }\n  vec3 h", "inside another function", "関数の中"),
 ];
 
-const TYPES: &[Case] = &[
+const TYPES: &[HintCase] = &[
     ("vec3 h =", "vec4 h §=", "type vec3|type vec4", "vec3|vec4 型"),
     ("colour = light", "colour §= n; colour = light", "vec3|vec4(…, 1.0)", "vec3|vec4(…, 1.0)"),
     ("float cosine = max(dot(n, h), 0.0)", "float cosine §= lightAmbient", "4 components", "4 つの成分"),
@@ -84,7 +84,7 @@ const TYPES: &[Case] = &[
     ("p.xyz / p.w", "p.xyz / p§[4]", "index 4", "添字 4"),
 ];
 
-const RULES: &[Case] = &[
+const RULES: &[HintCase] = &[
     ("  // 合計", "  §nv.w = 0.0;", "input of the shader|line 9", "入力変数|9 行目"),
     ("  // 合計", "  §mv = mvp;", "a uniform|line 10", "uniform 変数"),
     ("  // 合計", "  §shine *= 2.0;", "a constant|line 6", "定数"),
@@ -100,7 +100,7 @@ const RULES: &[Case] = &[
     ("out vec4 colour", "in vec4 §colour", "`out`|`out vec4 colour;`", "`out`|`out vec4 colour;`"),
 ];
 
-const DIRECTIVES: &[Case] = &[
+const DIRECTIVES: &[HintCase] = &[
     ("  // 合計", "§#if\n#endif", "not complete", "書き方が正しくありません"),
     ("#version 410 core\n", "§#version 411 core\n", "no GLSL of this version|#version 410 core", "この番号"),
     ("#version 410 core\n", "§#verson 410 core\n", "`#version`", "`#version`"),
@@ -140,7 +140,7 @@ fn preprocessor_lines_and_comments() {
     cases(DIRECTIVES);
 }
 
-fn cases(all: &[Case]) {
+fn cases(all: &[HintCase]) {
     for case in all {
         check(case);
     }

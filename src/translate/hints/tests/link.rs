@@ -1,9 +1,9 @@
 //! What the linker refuses, and what it should.
 
-use super::{Case, RIGHT, broken, check, diagnostics};
-use crate::diagnostic::Stage;
+use super::{HintCase, RIGHT, broken, check, diagnostics};
+use crate::diagnostic::DiagnosticStage;
 
-const CASES: &[Case] = &[
+const CASES: &[HintCase] = &[
     ("out vec4 colour", "vec4 §colour", "not declared as an output", "出力変数 (`out`)"),
     ("void main", "void §Main", "no function `main`|`Main`", "`main`|`Main`"),
     ("  return normalize(a.xyz);", "  return §unit(a);", "calls itself|recursion", "再帰"),
@@ -24,7 +24,7 @@ fn points_at_the_declaration() {
 fn an_output_of_another_name_is_found() {
     for name in ["color", "Colour", "vertexColour", "vc"] {
         let all = diagnostics(&RIGHT.replace("colour", name));
-        assert_eq!((all[0].stage, all[0].line, all[0].column), (Stage::Link, Some(12), Some(10)), "{name}");
+        assert_eq!((all[0].stage, all[0].line, all[0].column), (DiagnosticStage::Link, Some(12), Some(10)), "{name}");
         let hint = all[0].hint.as_ref().map(|hint| hint.en.clone()).unwrap_or_default();
         assert!(all[0].message.en.contains(&format!("`{name}`")) && hint.contains("out vec4 colour;"), "{hint}");
     }
@@ -39,7 +39,7 @@ fn an_output_of_another_type_is_found() {
             part => text.replace("lightAmbient + pow(cosine, shine)", &format!("lightAmbient{part}")),
         };
         let all = diagnostics(&text);
-        assert_eq!((all[0].stage, all[0].line), (Stage::Link, Some(12)), "{ty}");
+        assert_eq!((all[0].stage, all[0].line), (DiagnosticStage::Link, Some(12)), "{ty}");
         assert!(all[0].message.en.contains(ty), "{}", all[0].message.en);
     }
 }
@@ -48,7 +48,7 @@ fn an_output_of_another_type_is_found() {
 fn an_output_that_is_nowhere_is_said_to_be_needed() {
     let (text, _) = broken("out vec4 colour;\n", "");
     let all = diagnostics(&text.replace("  colour = lightAmbient + pow(cosine, shine);\n", ""));
-    assert_eq!((all[0].stage, all[0].line), (Stage::Link, None));
+    assert_eq!((all[0].stage, all[0].line), (DiagnosticStage::Link, None));
     assert!(all[0].hint.as_ref().is_some_and(|hint| hint.ja.contains("out vec4 colour;")));
 }
 

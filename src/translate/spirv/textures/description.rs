@@ -77,14 +77,14 @@ fn describe(texture: &Texture, level: &Level, first: u32) -> Description {
 /// What all textures of a homework have in common, where that is everything but their texels. Lookups need not read it then, and the
 /// driver leaves out what no texture needs: measured, a lookup in a map of depths takes a fraction of the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Alike {
+pub struct CommonTexture {
     /// The description of the first.
     first: Description,
     /// By how many words the texels of the next one stand behind.
     stride: u32,
 }
 
-impl Alike {
+impl CommonTexture {
     /// None where they differ, or where there is none.
     pub fn of(textures: &[Texture]) -> Option<Self> {
         let all = descriptions(textures);
@@ -127,11 +127,11 @@ mod tests {
     #[test]
     fn textures_of_one_size_and_kind_are_alike() {
         let texture = |side: usize| Texture::two_dimensional(side, side, vec![[0_u8; 4]; side * side]);
-        let alike = Alike::of(&[texture(4), texture(4), texture(4)]).expect("alike");
+        let alike = CommonTexture::of(&[texture(4), texture(4), texture(4)]).expect("alike");
         // Behind the number of textures and three descriptions of 16 words.
         assert_eq!((alike.first[FIRST], alike.stride), (49, 16));
-        assert_eq!(Alike::of(&[texture(4), texture(8)]), None);
-        assert_eq!(Alike::of(&[texture(4), Texture { wrap: [Wrap::ClampToEdge; 3], ..texture(4) }]), None);
-        assert_eq!(Alike::of(&[]), None);
+        assert_eq!(CommonTexture::of(&[texture(4), texture(8)]), None);
+        assert_eq!(CommonTexture::of(&[texture(4), Texture { wrap: [Wrap::ClampToEdge; 3], ..texture(4) }]), None);
+        assert_eq!(CommonTexture::of(&[]), None);
     }
 }

@@ -1,6 +1,6 @@
 //! What samplers and images are, and how the texels of each are counted.
 
-use crate::translate::spirv::code::Code;
+use crate::translate::spirv::code::SpirvCode;
 use crate::translate::spirv::op::{self, storage};
 use std::collections::HashMap;
 
@@ -58,16 +58,16 @@ impl ImageType {
 
 /// The types that were samplers and images, by id.
 #[derive(Clone, Debug, Default)]
-pub struct Samplers(pub(super) HashMap<u32, ImageType>);
+pub struct SamplerTypes(pub(super) HashMap<u32, ImageType>);
 
-impl Samplers {
+impl SamplerTypes {
     /// The name of the type, where it is one of these.
     pub fn name(&self, ty: u32) -> Option<String> {
         self.0.get(&ty).map(|kind| kind.name())
     }
 
     /// Makes numbers of them. Buffers, and what has several samples, are none.
-    pub fn take(code: &mut Code) -> Self {
+    pub fn take(code: &mut SpirvCode) -> Self {
         let mut found: HashMap<u32, ImageType> = HashMap::new();
         let scalars: HashMap<u32, Texel> = code
             .globals

@@ -1,19 +1,19 @@
 //! The functions that look-ups become: what the compiler makes of `textures.glsl`, put into a module.
 
-use super::{Alike, OURS, TEXTURES};
-use crate::ffi::glslang::{Reached, Request, Rules, Stage, StageText, compile};
-use crate::translate::spirv::code::{Code, Instruction};
+use super::{CommonTexture, OURS, TEXTURES};
+use crate::ffi::glslang::{GlslangRequest, GlslangRules, Reached, Stage, StageText, compile};
+use crate::translate::spirv::code::{SpirvCode, SpirvInstruction};
 use crate::translate::spirv::op::{self, decoration, storage};
 use std::collections::HashMap;
 use std::ffi::CString;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What the compiler makes of `textures.glsl` for textures that are alike in this way, or in none.
-type Library = (Option<Alike>, Option<Arc<Code>>);
+type TextureLibrary = (Option<CommonTexture>, Option<Arc<SpirvCode>>);
 
 /// What the compiler makes of `textures.glsl`, once a process for each homework.
-pub(super) fn library(alike: Option<Alike>) -> Option<Arc<Code>> {
-    static LIBRARIES: Mutex<Vec<Library>> = Mutex::new(Vec::new());
+pub(super) fn library(alike: Option<CommonTexture>) -> Option<Arc<SpirvCode>> {
+    static LIBRARIES: Mutex<Vec<TextureLibrary>> = Mutex::new(Vec::new());
     let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, known)) = libraries.iter().find(|(known, _)| *known == alike) {
         return known.clone();
@@ -23,19 +23,23 @@ pub(super) fn library(alike: Option<Alike>) -> Option<Arc<Code>> {
     made
 }
 
-fn compiled(alike: Option<Alike>) -> Option<Code> {
+fn compiled(alike: Option<CommonTexture>) -> Option<SpirvCode> {
     let (version, text) = include_str!("textures.glsl").split_once('\n')?;
     let preamble = alike.map_or_else(String::new, |alike| alike.preamble());
     let text = CString::new(format!("{version}\n{preamble}{text}")).ok()?;
     let stages = [StageText::plain(Stage::Fragment, &text)];
-    let outcome = compile(&Request { stages: &stages, rules: Rules::SpirV, emit: Stage::Fragment });
-    let code = (outcome.reached == Reached::Done).then(|| Code::parse(&outcome.spirv)).flatten();
+    let outcome = compile(&GlslangRequest { stages: &stages, rules: GlslangRules::SpirV, emit: Stage::Fragment });
+    let code = (outcome.reached == Reached::Done).then(|| SpirvCode::parse(&outcome.spirv)).flatten();
     debug_assert!(code.is_some(), "{}{}", outcome.log(Stage::Fragment), outcome.link_log);
     code
 }
 
 /// Adds the functions of the library; gives their ids and the types of their results, by name.
-pub(super) fn splice(code: &mut Code, is_fragment: bool, alike: Option<Alike>) -> Option<HashMap<String, (u32, u32)>> {
+pub(super) fn splice(
+    code: &mut SpirvCode,
+    is_fragment: bool,
+    alike: Option<CommonTexture>,
+) -> Option<HashMap<String, (u32, u32)>> {
     let library = library(alike)?;
     let names = library.names();
     let name = |id: u32| names.get(&id).and_then(|name| name.split('(').next()).unwrap_or_default();
@@ -43,7 +47,7 @@ pub(super) fn splice(code: &mut Code, is_fragment: bool, alike: Option<Alike>) -
     let first = code.bound();
     code.reserve(library.bound());
     // naga knows one type without a value.
-    let void = |code: &Code| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
+    let void = |code: &SpirvCode| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
     let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(&library)?, void(code)?);
     let moved = |id: u32| match id {
         id if id == own_set => set,
@@ -76,14 +80,14 @@ pub(super) fn splice(code: &mut Code, is_fragment: bool, alike: Option<Alike>) -
             }
         }
         if is_kept {
-            code.functions.push(Instruction { line: None, ..renumbered(instruction, &moved) });
+            code.functions.push(SpirvInstruction { line: None, ..renumbered(instruction, &moved) });
         }
     }
     Some(functions)
 }
 
 /// The instruction with other ids. Which operands are ids, the specification says.
-pub(super) fn renumbered(instruction: &Instruction, moved: &dyn Fn(u32) -> u32) -> Instruction {
+pub(super) fn renumbered(instruction: &SpirvInstruction, moved: &dyn Fn(u32) -> u32) -> SpirvInstruction {
     let leading = match instruction.opcode {
         op::DECORATE | op::MEMBER_DECORATE | op::TYPE_INT | op::TYPE_FLOAT | op::SELECTION_MERGE => 1,
         op::CONSTANT | op::TYPE_VECTOR | op::TYPE_MATRIX | op::VARIABLE | op::LOOP_MERGE => 2,
@@ -99,5 +103,5 @@ pub(super) fn renumbered(instruction: &Instruction, moved: &dyn Fn(u32) -> u32) 
     };
     let operands = instruction.operands.iter().enumerate();
     let operands = operands.map(|(at, &word)| if is_literal(at) { word } else { moved(word) }).collect();
-    Instruction { opcode: instruction.opcode, operands, line: instruction.line }
+    SpirvInstruction { opcode: instruction.opcode, operands, line: instruction.line }
 }

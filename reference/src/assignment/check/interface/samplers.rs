@@ -1,6 +1,6 @@
 //! Which texture each sampler reads.
 
-use super::super::Checked;
+use super::super::CheckResult;
 use super::super::solution;
 use super::super::stages::Compiled;
 use super::super::textures::place;
@@ -13,7 +13,7 @@ use crate::manifest;
 
 /// The textures of a folder, for samplers.
 #[derive(Clone, Copy)]
-pub(super) struct Samplers<'a> {
+pub(super) struct FolderSamplers<'a> {
     /// What the manifest says of them.
     pub entries: &'a [manifest::Texture],
     /// Themselves, in the same order.
@@ -21,7 +21,7 @@ pub(super) struct Samplers<'a> {
     pub place_at: &'a dyn Fn(usize) -> String,
 }
 
-impl Samplers<'_> {
+impl FolderSamplers<'_> {
     /// The texture that a uniform's sampler reads. `rest`: the path from the entry's name to the sampler.
     pub fn feed(&self, entry: &manifest::Uniform, rest: &str, sampler: Sampler) -> Result<Feed, Text> {
         let kind = Type::Sampler(sampler);
@@ -73,7 +73,7 @@ impl Samplers<'_> {
     }
 
     /// Every sampler of a stage has a texture, and every texture a sampler.
-    pub fn are_all_fed(&self, programs: &[Compiled], uniforms: &[Uniform]) -> Checked<()> {
+    pub fn are_all_fed(&self, programs: &[Compiled], uniforms: &[Uniform]) -> CheckResult<()> {
         for Compiled { name, program, .. } in programs {
             let mut samplers = program.uniforms().iter().filter(|uniform| matches!(uniform.kind, Type::Sampler(_)));
             let lacking = samplers.find(|sampler| uniforms.iter().all(|uniform| uniform.path != sampler.name));

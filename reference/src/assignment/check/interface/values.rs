@@ -7,26 +7,26 @@ use crate::value::rounded;
 use crate::{Text, Value};
 use toml::Value as Toml;
 
-type Read<T> = Result<T, Text>;
+type ValueResult<T> = Result<T, Text>;
 
 /// The part of a value that a path leads to: `.colour`, `[1].power`.
-pub(super) fn part<'v>(value: &'v Toml, path: &str) -> Read<&'v Toml> {
+pub(super) fn part<'v>(value: &'v Toml, path: &str) -> ValueResult<&'v Toml> {
     if path.is_empty() {
         return Ok(value);
     }
     let (step, rest) = step(path);
     let found = match step {
-        Step::Index(index) => value.as_array().and_then(|list| list.get(index)),
-        Step::Member(name) => value.as_table().and_then(|table| table.get(name)),
+        PathStep::Index(index) => value.as_array().and_then(|list| list.get(index)),
+        PathStep::Member(name) => value.as_table().and_then(|table| table.get(name)),
     };
     match found {
         Some(found) => part(found, rest),
         None => Err(match step {
-            Step::Index(index) => both(
+            PathStep::Index(index) => both(
                 format!("there is no element {index}: write a list of all"),
                 format!("要素 {index} がありません。すべての要素のリストを書いてください"),
             ),
-            Step::Member(name) => both(
+            PathStep::Member(name) => both(
                 format!("there is no `{name} = …`: write a table of all members"),
                 format!("`{name} = …` がありません。すべてのメンバのテーブルを書いてください"),
             ),
@@ -35,23 +35,23 @@ pub(super) fn part<'v>(value: &'v Toml, path: &str) -> Read<&'v Toml> {
 }
 
 #[derive(Clone, Copy)]
-enum Step<'p> {
+enum PathStep<'p> {
     Index(usize),
     Member(&'p str),
 }
 
 /// The first step of a path, and the others.
-fn step(path: &str) -> (Step<'_>, &str) {
+fn step(path: &str) -> (PathStep<'_>, &str) {
     if let Some((index, rest)) = path.strip_prefix('[').and_then(|path| path.split_once(']')) {
-        return (Step::Index(index.parse().unwrap_or(usize::MAX)), rest);
+        return (PathStep::Index(index.parse().unwrap_or(usize::MAX)), rest);
     }
     let path = path.strip_prefix('.').unwrap_or(path);
     let end = path.find(['.', '[']).unwrap_or(path.len());
-    (Step::Member(&path[..end]), &path[end..])
+    (PathStep::Member(&path[..end]), &path[end..])
 }
 
 /// A number, a truth value, or a list of them, as a value of a type; a matrix by columns.
-pub(super) fn value(value: &Toml, kind: &Type) -> Read<Value> {
+pub(super) fn value(value: &Toml, kind: &Type) -> ValueResult<Value> {
     let scalar = kind.scalar().ok_or_else(|| {
         both("this has no value of its own: write its parts", "これ自体は値を持ちません。部分ごとに書いてください")
     })?;
@@ -67,7 +67,7 @@ pub(super) fn value(value: &Toml, kind: &Type) -> Read<Value> {
     Ok(rounded(Value::of(kind.clone(), numbers)))
 }
 
-fn check(numbers: &[f64], scalar: Scalar) -> Read<()> {
+fn check(numbers: &[f64], scalar: Scalar) -> ValueResult<()> {
     let fits = |number: &f64| match scalar {
         Scalar::Bool => [0.0, 1.0].contains(number),
         Scalar::Int => number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(number),
@@ -84,18 +84,18 @@ fn check(numbers: &[f64], scalar: Scalar) -> Read<()> {
     }
 }
 
-fn numbers(value: &Toml) -> Read<Vec<f64>> {
+fn numbers(value: &Toml) -> ValueResult<Vec<f64>> {
     Ok(match value {
         Toml::Integer(number) => vec![*number as f64],
         Toml::Float(number) => vec![*number],
         Toml::Boolean(holds) => vec![f64::from(u8::from(*holds))],
-        Toml::Array(list) => list.iter().map(numbers).collect::<Read<Vec<_>>>()?.concat(),
+        Toml::Array(list) => list.iter().map(numbers).collect::<ValueResult<Vec<_>>>()?.concat(),
         _ => return Err(both("write a number or a list of numbers", "数または数のリストを書いてください")),
     })
 }
 
 /// What probes may draw for the part that a path leads to; nothing where it is not said.
-pub(super) fn bounds(said: &Toml, path: &str, kind: &Type) -> Read<Option<Bounds>> {
+pub(super) fn bounds(said: &Toml, path: &str, kind: &Type) -> ValueResult<Option<Bounds>> {
     let within = || both("write `{ within = [least, greatest] }`", "`{ within = [最小, 最大] }` の形で書いてください");
     let Some(table) = said.as_table() else { return Err(within()) };
     if let Some(said) = table.get("within") {
@@ -117,8 +117,8 @@ pub(super) fn bounds(said: &Toml, path: &str, kind: &Type) -> Read<Option<Bounds
         path => step(path),
     };
     match step {
-        Step::Member(name) => table.get(name).map_or(Ok(None), |said| bounds(said, rest, kind)),
-        Step::Index(_) => bounds(said, rest, kind),
+        PathStep::Member(name) => table.get(name).map_or(Ok(None), |said| bounds(said, rest, kind)),
+        PathStep::Index(_) => bounds(said, rest, kind),
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a right answer is made of, so that it can stand in another program.
 
-use super::super::tree::{Place, Walk, operands, paths, walk, with};
+use super::super::tree::{ExpressionPlace, TreeWalk, operands, paths, walk, with};
 use super::super::{Operator, bare, calls, floats, is_literal, written};
 use super::{guess, of_name};
-use crate::interpreter::syntax::{Base, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
+use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
 use crate::interpreter::types::Type;
 use crate::interpreter::{is_builtin, parse, text};
 use std::collections::HashSet;
@@ -15,13 +15,13 @@ const LONGEST: usize = 300;
 #[derive(Debug, Default)]
 pub struct Ingredients {
     /// What `main` computes, each by what is declared outside of functions.
-    pub(super) values: Vec<Value>,
+    pub(super) values: Vec<Ingredient>,
     wrappers: Vec<Wrapper>,
     numbers: Vec<f64>,
 }
 
 #[derive(Debug)]
-pub(super) struct Value {
+pub(super) struct Ingredient {
     pub expression: Expression,
     pub kind: Type,
     name: String,
@@ -71,10 +71,10 @@ impl Ingredients {
             if let Item::Declaration(declaration) = item {
                 for variable in declaration.variables.iter().filter(|variable| variable.lengths.is_empty()) {
                     given.insert(Name::clone(&variable.name));
-                    let Base::Named(kind) = &declaration.kind.base else { continue };
+                    let BaseType::Named(kind) = &declaration.kind.base else { continue };
                     let (Some(kind), name) = (Type::named(kind), &variable.name) else { continue };
                     let expression = of_name(name, declaration.line);
-                    self.values.push(Value { expression, kind, name: name.to_string(), is_given: true });
+                    self.values.push(Ingredient { expression, kind, name: name.to_string(), is_given: true });
                 }
             }
         }
@@ -87,7 +87,7 @@ impl Ingredients {
             }
             for statement in function.body.iter().flatten() {
                 let StatementKind::Declaration(declaration) = &statement.kind else { continue };
-                let Base::Named(kind) = &declaration.kind.base else { continue };
+                let BaseType::Named(kind) = &declaration.kind.base else { continue };
                 for variable in &declaration.variables {
                     let (Some(value), Some(kind)) = (&variable.value, Type::named(kind)) else { continue };
                     let expression = inlined(value, &locals);
@@ -95,13 +95,13 @@ impl Ingredients {
                         continue;
                     }
                     locals.push((Name::clone(&variable.name), expression.clone()));
-                    self.values.push(Value { expression, kind, name: variable.name.to_string(), is_given: false });
+                    self.values.push(Ingredient { expression, kind, name: variable.name.to_string(), is_given: false });
                 }
             }
         }
         walk(
             &mut items,
-            &mut Walk {
+            &mut TreeWalk {
                 is_part: &|_| true,
                 bound: &mut |_, _| {},
                 statement: &mut |_, _| {},
@@ -110,7 +110,7 @@ impl Ingredients {
                     let typed: Vec<(Expression, Type)> =
                         typed.filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?))).collect();
                     for path in paths(own) {
-                        self.of_place(Place::of(own, &path).own, &typed, &given);
+                        self.of_place(ExpressionPlace::of(own, &path).own, &typed, &given);
                     }
                 },
             },
@@ -150,7 +150,7 @@ impl Ingredients {
     /// The changes at a place with what a right answer is made of. `is_whole`: it is all that a variable is given.
     pub(super) fn changes(
         &self,
-        place: &Place<'_>,
+        place: &ExpressionPlace<'_>,
         kind: &Type,
         is_whole: bool,
         theirs: &[(Expression, Type)],
@@ -251,7 +251,7 @@ fn inlined(expression: &Expression, locals: &[(Name, Expression)]) -> Expression
     let mut found = expression.clone();
     // The innermost first: what is put there is not gone through again.
     for path in paths(expression).into_iter().rev() {
-        if let ExpressionKind::Name(name) = &Place::of(expression, &path).own.kind
+        if let ExpressionKind::Name(name) = &ExpressionPlace::of(expression, &path).own.kind
             && let Some((_, value)) = locals.iter().rev().find(|(known, _)| known == name)
         {
             found = with(&found, &path, bracketed(value));

@@ -22,7 +22,7 @@ pub(super) fn read(name: &str, bytes: &[u8], folder: &Folder) -> Result<Mesh, Me
     let Some(scene) = scene else {
         return refused("has no scene: export it with one", "シーンがありません。シーンを含めて書き出してください");
     };
-    let mut parts = Parts { buffers: &buffers, vertices: Vec::new(), triangles: Vec::new() };
+    let mut parts = PrimitiveParts { buffers: &buffers, vertices: Vec::new(), triangles: Vec::new() };
     let mut nodes: Vec<(Node<'_>, DMat4, usize)> = scene.nodes().map(|node| (node, DMat4::IDENTITY, 0)).collect();
     // What comes first in the file is drawn first.
     nodes.reverse();
@@ -89,13 +89,13 @@ fn parsed(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), MeshError> {
 }
 
 /// What is collected from the primitives.
-struct Parts<'a> {
+struct PrimitiveParts<'a> {
     buffers: &'a Buffers,
     vertices: Vec<Vertex>,
     triangles: Vec<[u32; 3]>,
 }
 
-impl Parts<'_> {
+impl PrimitiveParts<'_> {
     /// Adds the triangles of a primitive.
     fn add(&mut self, primitive: &Primitive<'_>, world: DMat4) -> Result<(), MeshError> {
         let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(()) };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// One row of an assignment's grading table.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Grade {
+pub(super) struct MoodleGrade {
     pub name: String,
     pub group: Option<String>,
     pub grade: String,
@@ -15,7 +15,7 @@ pub(super) struct Grade {
 /// An assignment's grades, by the participants' numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Moodle {
-    pub grades: BTreeMap<u64, Grade>,
+    pub grades: BTreeMap<u64, MoodleGrade>,
     pub is_japanese: bool,
 }
 
@@ -23,7 +23,7 @@ impl Moodle {
     pub fn with(grades: &[(u64, &str, Option<&str>, &str)]) -> Self {
         let grade = |(number, name, group, comment): &(u64, &str, Option<&str>, &str)| {
             let group = group.map(str::to_owned);
-            (*number, Grade { name: (*name).into(), group, comment: (*comment).into(), ..Grade::default() })
+            (*number, MoodleGrade { name: (*name).into(), group, comment: (*comment).into(), ..MoodleGrade::default() })
         };
         Self { grades: grades.iter().map(grade).collect(), is_japanese: false }
     }
@@ -74,7 +74,7 @@ impl Moodle {
         for record in reader.records() {
             let record = record.expect("a row");
             let number = record[id].trim_start_matches(|c: char| !c.is_ascii_digit()).parse().expect("a number");
-            let row: &mut Grade = self.grades.get_mut(&number).expect("a participant");
+            let row: &mut MoodleGrade = self.grades.get_mut(&number).expect("a participant");
             (row.grade, row.comment) = (record[grade].into(), record[comment].into());
         }
     }

@@ -1,20 +1,20 @@
 //! The form of a homework's rules: dates, attempts, lateness, hints, who may hand in, what counts.
 
 use super::super::super::datetime;
-use super::super::super::frame::Frame;
+use super::super::super::frame::PageFrame;
 use crate::diagnose::Hints;
 use crate::report::text::number;
 use crate::service::clock::Millis;
 use crate::service::counting::Counting;
 use crate::service::course::Course;
 use crate::service::rules::{self, MINUTE};
-use crate::service::store::{Assignment, Audience, LateRules, LateSpan, word};
+use crate::service::store::{AssignmentSettings, Audience, LateRules, LateSpan, word};
 use serde::Deserialize;
 
 /// The form of the rules.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::service::pages) struct Rules {
+pub(in crate::service::pages) struct RulesForm {
     pub csrf: String,
     pub opens: String,
     pub closes: String,
@@ -40,9 +40,9 @@ pub(in crate::service::pages) struct LateFields {
     pub late_floor: String,
 }
 
-impl Rules {
+impl RulesForm {
     /// The form as it stands for these settings.
-    pub(super) fn of(settings: &Assignment, course: &Course) -> Self {
+    pub(super) fn of(settings: &AssignmentSettings, course: &Course) -> Self {
         let date = |at: Option<_>| at.map(|at| datetime::field(at, course.zone())).unwrap_or_default();
         Self {
             csrf: String::new(),
@@ -86,7 +86,7 @@ impl Rules {
     }
 
     /// The settings that the form asks for.
-    pub(super) fn read(&self, frame: &Frame, before: Assignment) -> Result<Assignment, String> {
+    pub(super) fn read(&self, frame: &PageFrame, before: AssignmentSettings) -> Result<AssignmentSettings, String> {
         let date = |field: &str| {
             datetime::parse(field, frame.course.zone()).map_err(|_| {
                 frame
@@ -114,7 +114,8 @@ impl Rules {
             "chosen" => Counting::Chosen,
             _ => Counting::Best,
         };
-        let read = Assignment { opens_at, closes_at, attempts, hints, audience, practice, late, counting, ..before };
+        let read =
+            AssignmentSettings { opens_at, closes_at, attempts, hints, audience, practice, late, counting, ..before };
         rules::check(&read).map_err(|wrong| wrong.get(frame.language).to_owned())?;
         Ok(read)
     }

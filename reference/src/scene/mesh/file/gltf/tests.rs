@@ -5,13 +5,13 @@ use serde_json::{Value, json};
 
 /// A file in the making.
 #[derive(Default)]
-struct Written {
+struct GltfBuilder {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
-impl Written {
+impl GltfBuilder {
     fn accessor(&mut self, bytes: &[u8], count: usize, kind: u32, dimensions: &str) -> usize {
         let (offset, length) = (self.bytes.len(), bytes.len());
         self.bytes.extend(bytes);
@@ -64,8 +64,8 @@ fn said(document: &Value, buffer: &[u8]) -> String {
 }
 
 /// A rectangle 2 wide and 1 high in the plane z = 0, with all that a vertex can have.
-fn rectangle() -> (Written, Value) {
-    let mut file = Written::default();
+fn rectangle() -> (GltfBuilder, Value) {
+    let mut file = GltfBuilder::default();
     let primitive = json!([{
         "attributes": {
             "POSITION": file.floats(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]]),
