@@ -190,24 +190,28 @@ impl<'a> Reader<'a> {
     /// A name, with what stands behind it: `light.position[0]`, `height`.
     fn named(&mut self, place: usize, at: &mut usize, end: usize) -> HostResult<HostExpression> {
         let meaning = self.meaning(place, at, end)?;
-        let has_index = self.sign(*at, end, &["["]).is_some();
-        let member = self.sign(*at, end, &["."]).and_then(|_| {
-            let name = self.tokens.get(*at + 1).filter(|_| *at + 1 < end)?.text;
-            ["x", "y", "z", "w"].iter().position(|own| *own == name)
-        });
-        let index = match (has_index, member) {
-            (true, _) => {
-                let close = closing(self.tokens, *at).filter(|close| *close < end).ok_or_else(|| self.not_read(*at))?;
-                let index = self.whole(*at + 1, close)?;
+        let text = |at: usize| self.tokens.get(at).filter(|_| at < end).map_or("", |token| token.text);
+        // `lp[1]`, `lp.at(1)`
+        let open = match [text(*at), text(*at + 1), text(*at + 2)] {
+            ["[", ..] => Some(*at),
+            [".", "at", "("] => Some(*at + 2),
+            _ => None,
+        };
+        let member = ["x", "y", "z", "w"].iter().position(|own| text(*at) == "." && *own == text(*at + 1));
+        let index = match (open, member) {
+            (Some(open), _) => {
+                let close = closing(self.tokens, open).filter(|close| *close < end);
+                let close = close.ok_or_else(|| self.not_read(open))?;
+                let index = self.whole(open + 1, close)?;
                 *at = close + 1;
                 let HostExpression::Int(index) = index else { return Err(self.not_read(place)) };
                 Some(usize::try_from(index).map_err(|_| self.not_read(place))?)
             }
-            (false, Some(member)) => {
+            (None, Some(member)) => {
                 *at += 2;
                 Some(member)
             }
-            (false, None) => None,
+            (None, None) => None,
         };
         match (meaning, index) {
             (NameMeaning::Value(value), None) => Ok(value),

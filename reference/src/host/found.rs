@@ -44,31 +44,29 @@ pub(super) fn array(wanted: &HostArray, tokens: &[HostToken<'_>]) -> Result<Foun
     let called = |name: &'_ str| all.iter().filter(|one| tokens[one.at].is(name)).collect::<Vec<_>>();
     // The last one: what stands above may be the one that was handed out.
     let found = [name, used_by].into_iter().find_map(|name| called(name).into_iter().rfind(is_whole));
-    let found = found.or_else(|| all.iter().rfind(is_whole));
-    let Some(found) = found else {
-        let Some(other) = called(name).pop() else {
-            return Err(UnreadableProgram {
-                line: None,
-                message: both(
-                    format!("There is no array `{name}` of {count} numbers in the program."),
-                    format!("プログラムに {count} 個の数の配列 `{name}` がありません。"),
-                ),
-                hint: Some(both(
-                    format!(
-                        "Write them where the file that was handed out has them: `const GLfloat {name}[] = {{ … }};`"
-                    ),
-                    format!("配布されたファイルと同じ形 `const GLfloat {name}[] = {{ … }};` で書いてください。"),
-                )),
-            });
-        };
-        let own = other.listed.as_ref().map_or(0, Vec::len);
-        return Err(UnreadableProgram::at(
-            tokens[other.at].line,
-            both(
-                format!("`{name}` has {own} numbers, and a matrix has {count}."),
-                format!("`{name}` の数は {own} 個ですが、行列の要素は {count} 個です。"),
+    let other = || all.iter().rfind(is_whole);
+    let is_read = |one: &&DeclaredArray| is_used(wanted, tokens, tokens[one.at].text).is_ok();
+    let found = found.or_else(|| other().filter(is_read));
+    // Where nothing else is used, one with too few numbers is the one that is meant: other things have sixteen as well.
+    let is_list = |one: &&DeclaredArray| one.listed.as_ref().is_some_and(|all| all.len() > 1);
+    if let (None, Some(short)) = (found, called(name).into_iter().rfind(is_list)) {
+        return Err(of_another_size(name, count, short, tokens));
+    }
+    let Some(found) = found.or_else(other) else {
+        if let Some(short) = called(name).pop() {
+            return Err(of_another_size(name, count, short, tokens));
+        }
+        return Err(UnreadableProgram {
+            line: None,
+            message: both(
+                format!("There is no array `{name}` of {count} numbers in the program."),
+                format!("プログラムに {count} 個の数の配列 `{name}` がありません。"),
             ),
-        ));
+            hint: Some(both(
+                format!("Write them where the file that was handed out has them: `const GLfloat {name}[] = {{ … }};`"),
+                format!("配布されたファイルと同じ形 `const GLfloat {name}[] = {{ … }};` で書いてください。"),
+            )),
+        });
     };
     let own = tokens[found.at].text;
     is_used(wanted, tokens, own)?;
@@ -103,6 +101,28 @@ pub(super) fn array(wanted: &HostArray, tokens: &[HostToken<'_>]) -> Result<Foun
     };
     let is_transposed = (0..tokens.len()).filter(|at| turns(*at)).count() == 1 && count.isqrt().pow(2) == count;
     Ok(FoundArray { first, last, values, is_transposed })
+}
+
+/// What is wrong with an array of too few or too many numbers, at the comma that is missing where there is one.
+fn of_another_size(name: &str, count: usize, declared: &DeclaredArray, tokens: &[HostToken<'_>]) -> UnreadableProgram {
+    let listed = declared.listed.as_deref().unwrap_or_default();
+    let own = listed.len();
+    let mut ends = listed.iter().filter_map(|all| {
+        all.clone().skip(1).find(|at| tokens[*at].line > tokens[*at - 1].line).map(|at| tokens[at - 1].line)
+    });
+    let is_short = own + 1 == count;
+    let missing = ends.next().filter(|_| is_short && ends.next().is_none());
+    let hint = missing.map(|line| {
+        both(
+            format!("There is no comma at the end of line {line}: the number goes on on the next line."),
+            format!("{line} 行目の終わりにコンマがないので、次の行まで 1 つの数の式とみなされます。"),
+        )
+    });
+    let message = both(
+        format!("`{name}` has {own} numbers, and a matrix has {count}."),
+        format!("`{name}` の数は {own} 個ですが、行列の要素は {count} 個です。"),
+    );
+    UnreadableProgram { hint, ..UnreadableProgram::at(missing.unwrap_or(tokens[declared.at].line), message) }
 }
 
 /// The array that is declared with the name at this place.

@@ -66,6 +66,10 @@ fn a_program_is_written_in_many_ways() {
             ["1.0", "2.0", "3.0", "4.0"],
         ),
         ("GLfloat shadow[] = { 1, 2, 3, 4 }; GgMatrix ms{ shadow };", ["1.0", "2.0", "3.0", "4.0"]),
+        (
+            "float m[] = { 9, 9 }; GLfloat shadow[] = { 1, 2, 3, 4 }; GgMatrix ms{ shadow };",
+            ["1.0", "2.0", "3.0", "4.0"],
+        ),
         ("GgMatrix ms{ 1, 2, 3, 4 };", ["1.0", "2.0", "3.0", "4.0"]),
         // Names, and what they stand for.
         (
@@ -84,6 +88,7 @@ fn a_program_is_written_in_many_ways() {
         ),
         ("float m[] = { light.position[0], light.position[1], 0, 0 };", ["(ex)", "(ey)", "0.0", "0.0"]),
         ("float m[] = { (GLfloat)4, static_cast<float>(lp[1]), GLfloat(2), float{3} };", ["4.0", "(ly)", "2.0", "3.0"]),
+        ("float m[] = { lp.at(0), -lp.at(1), lp.z, light.position.at(3) };", ["(lx)", "(-(ly))", "(lz)", "(ew)"]),
         // Whole numbers are divided as C++ does it.
         ("float m[] = { 1 / 4, 1.0f / 4, -1.0f / lp[1], 3 - 2 - 1 };", ["0.0", "0.25", "((-1.0) / (ly))", "0.0"]),
         ("float m[] = { 1, 2, 3, 4 }; GgMatrix ms{ GgMatrix(m).transpose() };", ["1.0", "3.0", "2.0", "4.0"]),
@@ -97,6 +102,10 @@ fn what_cannot_be_read_is_named_by_its_line() {
     for (program, line, part) in [
         ("int main() {}", None, "no array `m` of 4 numbers"),
         ("float m[] = { 1, 2, 3 };", Some(2), "has 3 numbers"),
+        // Not the light, which has as many numbers as a matrix.
+        ("L light{ { 1, 2 }, { 3, 4 } };\nfloat m[] = {\n1, 2\n-3, 4 };\nGgMatrix ms{ m };", Some(4), "has 3 numbers"),
+        ("L light{ { 1, 2 }, { 3, 4 } };\nfloat m[] = {\n1, 2, 3 };\nGgMatrix ms{ m };", Some(3), "has 3 numbers"),
+        ("float m[] = { 1, lp.at(4), 3, 4 };", Some(2), "no element 4"),
         ("float m[] = { 1, 2,\n 3, sin(lp[0]) };", Some(3), "`sin`"),
         ("float m[] = { 1, 2, 3, 4 5 };", Some(2), "`5`"),
         ("float m[] = { 1, 2, 3, lp };", Some(2), "`lp`"),
