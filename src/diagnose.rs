@@ -8,6 +8,7 @@ pub mod constants;
 mod fresh;
 mod hard_coded;
 mod inside;
+mod listed;
 mod locate;
 mod message;
 mod plain;

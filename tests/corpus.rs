@@ -27,7 +27,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("ggsample06", 1465),
     ("ggsample11-map", 66),
     ("ggsample11-pcf", 57),
-    ("ggsample11-projection", 55),
+    ("ggsample11-projection", 57),
     ("ggsample11-vsm", 57),
     ("gouraud-point-light", 176),
     ("interpolation", 63),

@@ -255,6 +255,9 @@ pub struct RubricLine {
     /// do, the line can be judged by itself.
     #[schemars(with = "Option<Variant>")]
     pub without: Option<Spanned<Variant>>,
+    /// Of a program of which numbers are read: those that it judges, as the homework's shader calls them.
+    #[serde(default)]
+    pub numbers: Vec<String>,
     /// What is said where it is right: `{frames}` and `{probes}` are how many there are.
     pub right: Option<Text>,
     /// The regions where its term stands alone, beside those of earlier lines.

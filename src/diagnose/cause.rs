@@ -2,6 +2,7 @@
 
 use super::constants::{self, ChangedConstant};
 use super::inside::{self, Finding, Repaired};
+use super::listed::Listed;
 use super::locate::{self, TracedProbes};
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_coded, plain};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
@@ -88,7 +89,10 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     if let Some(found) = explained_by(&constants, evidence, &samples) {
         return Cause::Known { constants, found };
     }
-    let shows_a_table = hard_coded::is_lookup(evidence.source, probes, evidence.samples);
+    // Numbers that a program lists are known one by one: nothing is looked up, and the course's own light hides what is wrong.
+    let is_listed = assignment.files.iter().any(|file| file.program.is_some());
+    let frames_agree = frames_agree && !is_listed;
+    let shows_a_table = !is_listed && hard_coded::is_lookup(evidence.source, probes, evidence.samples);
     let by_term = || {
         let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
         unexplained(evidence, &alternatives, &samples, terms)
@@ -132,6 +136,9 @@ fn unexplained(
     mut terms: Vec<TermJudgement>,
 ) -> Cause {
     let Evidence { assignment, probes, .. } = *evidence;
+    if let Some(listed) = Listed::of(evidence) {
+        return Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() };
+    }
     if let Some(parts) = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
         return Cause::Parts(parts);
     }
@@ -254,6 +261,9 @@ impl Cause {
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
         match self {
             _ if !self.is_refuted(evidence) => self,
+            _ if let Some(listed) = Listed::of(evidence) => {
+                Self::Unexplained { terms: listed.terms(evidence), findings: Vec::new() }
+            }
             Self::Known { .. } | Self::NearlyRight if addends::is_computed(evidence) => {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;

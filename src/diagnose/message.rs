@@ -5,6 +5,7 @@
 use super::cause::{NEARLY_RIGHT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
+use super::listed::Listed;
 use super::locate::{self, Located, MistakeOrigin, TracedProbes, Words, is_handed_out};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
@@ -70,7 +71,8 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
         parts.push(texts.look);
     }
     let mut filled: Vec<reference::Text> = parts.iter().map(|part| part.fill(&values)).collect();
-    filled.extend(sentence.map(|text| reference::Text { en: text.en, ja: text.ja }));
+    let numbers = facts.listed(&mistake.id, line).filter(|_| is_full).and_then(|listed| listed.sentence());
+    filled.extend(sentence.into_iter().chain(numbers).map(|text| reference::Text { en: text.en, ja: text.ja }));
     let join = |language: fn(&reference::Text) -> &String, space| {
         filled.iter().map(|part| language(part).as_str()).collect::<Vec<_>>().join(space)
     };
@@ -98,6 +100,10 @@ pub(super) struct Facts {
     names: Vec<(String, String)>,
     /// Where in the text the mistakes stand that nobody wrote down.
     findings: Vec<Finding>,
+    /// Of a program that lists numbers, those that each mistake is about, by id.
+    listed: Vec<(String, Listed)>,
+    /// All that are wrong.
+    wrong: Option<Listed>,
 }
 
 impl Facts {
@@ -111,7 +117,14 @@ impl Facts {
         let mut points = TracedProbes::new(evidence, &theirs);
         let only = (found.len() > 1).then(|| inside::only(evidence, &theirs)).flatten();
         let mut place = |index| locate::mistake(evidence, &theirs, &mut points, found, index, only.as_ref());
-        let places = found.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
+        let wrong = Listed::of(evidence);
+        let listed: Vec<(String, Listed)> = match &wrong {
+            Some(wrong) => found.iter().map(|found| (found.id.clone(), wrong.of_mistake(evidence, found))).collect(),
+            None => Vec::new(),
+        };
+        // What is known number by number need not be looked for.
+        let sought = if wrong.is_some() { &[] } else { found };
+        let places = sought.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
         let findings = match cause {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found } if constants.is_empty() && found.is_empty() => inside::find(evidence),
@@ -126,7 +139,7 @@ impl Facts {
             let symbol = definition.symbol.clone();
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
-        Self { places, names, findings }
+        Self { places, names, findings, listed, wrong }
     }
 
     /// The names of the handed-out file that the student's still has.
@@ -143,6 +156,12 @@ impl Facts {
     fn finding(&self, line: &RubricLine) -> Option<&Finding> {
         let own = self.findings.iter().find(|finding| finding.touches.contains(&line.judges));
         own.or(self.findings.first())
+    }
+
+    /// The wrong numbers of a program that a line of the rubric suffers from by a mistake.
+    fn listed(&self, id: &str, line: &RubricLine) -> Option<Listed> {
+        let own = self.listed.iter().find(|(known, _)| known == id).map(|(_, own)| own.clone());
+        own.or_else(|| Some(self.wrong.as_ref()?.of_line(line)))
     }
 
     fn place(&self, id: &str) -> Option<&Located> {
@@ -180,6 +199,11 @@ impl<'f> Blanks<'f> {
                 let of_line = |changed: &&ChangedConstant| super::belongs(evidence.assignment, &changed.name, line);
                 blanks.constant(constants.iter().find(of_line));
             }
+            (Cause::Unexplained { .. }, id)
+                if let Some(line) = facts.listed(id, line).and_then(|listed| listed.line()) =>
+            {
+                blanks.is_at(evidence, evidence.source, line);
+            }
             (Cause::Unexplained { terms, .. }, _) => {
                 let worst = terms.iter().find(|term| term.line == line.id).and_then(|term| term.worst);
                 let throws_away = evidence.source.words().any(|(_, word)| word == "discard");
@@ -204,7 +228,10 @@ impl<'f> Blanks<'f> {
             (Cause::Known { found, .. }, id) => {
                 let met = evidence.undefined.filter(|line| mistake.undefined_power && *line != NO_LINE);
                 let met = met.map(Located::at);
-                blanks.place(evidence, mistake, facts.place(id).cloned().or(met));
+                match facts.listed(id, line).and_then(|listed| listed.line()) {
+                    Some(line) => blanks.is_at(evidence, evidence.source, line),
+                    None => blanks.place(evidence, mistake, facts.place(id).cloned().or(met)),
+                }
                 let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);
                 blanks.parameter(parameter, evidence, mistake);
             }

@@ -198,6 +198,9 @@ fn rubric(lines: &mut [manifest::RubricLine], solution: &CheckedSolution<'_>) ->
             judges => solution.definition(judges, &|| place.clone())?,
         };
         line.judges = solution.name(judged).to_owned();
+        for number in &line.numbers {
+            solution.definition(number, &|| format!("{place}, `numbers`"))?;
+        }
         if !line.points.is_finite() || line.points <= 0.0 {
             return Err(error(
                 place,
