@@ -19,7 +19,7 @@ use std::sync::Arc;
 const SAMPLES: [(&str, usize); 29] = [
     ("blinn", 190),
     ("bumps", 8),
-    ("falloff-linear", 58),
+    ("falloff-linear", 60),
     ("falloff-pixar", 68),
     ("falloff-quadratic", 66),
     ("flat", 143),
@@ -39,7 +39,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("phong-shading", 154),
     ("rings", 10),
     ("schlick", 191),
-    ("several-lights", 178),
+    ("several-lights", 179),
     ("spot-directx", 88),
     ("spot-opengl", 80),
     ("spot-soft", 63),
