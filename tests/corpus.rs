@@ -37,7 +37,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("per-pixel", 11),
     ("phong", 190),
     ("phong-shading", 154),
-    ("rings", 10),
+    ("rings", 12),
     ("schlick", 191),
     ("several-lights", 179),
     ("spot-directx", 88),

@@ -190,6 +190,13 @@ impl Uniform {
         let none = || Value::of(self.kind.clone(), vec![f64::NAN; self.kind.slots().unwrap_or(0)]);
         self.feed.value(&self.kind, moment).unwrap_or_else(none)
     }
+
+    /// Whether it is another value in another window.
+    pub(crate) fn follows_window(&self, moment: &Moment) -> bool {
+        let [width, height] = moment.resolution;
+        let other = Moment { resolution: [2.0 * height, 3.0 * width], ..*moment };
+        matches!(self.feed, Feed::Expression(_)) && self.value(&other) != self.value(moment)
+    }
 }
 
 /// An output of the handed-in stage.

@@ -136,6 +136,6 @@ impl Assignment {
     }
 
     pub(crate) fn moment_of(&self, group: &ProbeGroup) -> Moment {
-        Moment { pass: group.pass, ..self.scene.moment(group.t, group.matrices) }
+        Moment { pass: group.pass, resolution: group.window, ..self.scene.moment(group.t, group.matrices) }
     }
 }

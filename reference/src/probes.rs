@@ -12,7 +12,7 @@ mod spots;
 use crate::assignment::{Feed, Uniform};
 use crate::equation::Reads;
 use crate::interpreter::Formula;
-use crate::scene::{Matrices, Vertex, perspective};
+use crate::scene::{Matrices, Moment, Vertex, perspective};
 use crate::{Assignment, Text, Value};
 use design::EyeSpace;
 pub(crate) use design::{Aim, Design, Normal};
@@ -30,6 +30,9 @@ const JUDGING: u64 = 1;
 
 /// How often a vertex is drawn for which a right answer is no number, before it is taken as it is.
 const TRIES: usize = 100;
+
+/// A window's sides vary by such factors.
+const WINDOW: RangeInclusive<f64> = 0.5..=1.5;
 
 /// So many cameras of the probes that are fresh in every grading: 80 vertices.
 const FRESH_GROUPS: usize = 4;
@@ -89,6 +92,8 @@ pub struct ProbeGroup {
     pub uniforms: Vec<Value>,
     /// View and projection of the pass, where there is one.
     pub pass: [DMat4; 2],
+    /// Width and height of the window in which its fragments lie, in pixels.
+    pub window: [f64; 2],
 }
 
 /// Probes under several cameras.
@@ -245,14 +250,32 @@ impl Assignment {
             matrices = self.in_the_world(random, t, &matrices);
         }
         let mut moment = self.scene.moment(t, matrices);
+        moment.resolution = self.random_window(random, &moment);
         if self.scene.pass.is_some() {
             moment.pass = self.random_pass(random, &matrices.model);
         }
         let value = |uniform: &Uniform| match &uniform.probe {
-            Some(bounds) => bounds.draw(|| random.between(0.0, 1.0)),
-            None => uniform.value(&moment),
+            Some(bounds) if !uniform.follows_window(&moment) => bounds.draw(|| random.between(0.0, 1.0)),
+            _ => uniform.value(&moment),
         };
-        ProbeGroup { matrices, t, uniforms: uniforms.iter().map(value).collect(), pass: moment.pass }
+        let uniforms = uniforms.iter().map(value).collect();
+        ProbeGroup { matrices, t, uniforms, pass: moment.pass, window: moment.resolution }
+    }
+
+    /// A window of another size, where a uniform that follows it may vary: fragments have to lie in the window that the program is
+    /// told of. What follows from it stays within its bounds; where no such window is found, it is the homework's own.
+    fn random_window(&self, random: &mut Random, moment: &Moment) -> [f64; 2] {
+        let bounded = self.interface.uniforms.iter().filter_map(|uniform| Some((uniform, uniform.probe.as_ref()?)));
+        let bounded: Vec<_> = bounded.filter(|(uniform, _)| uniform.follows_window(moment)).collect();
+        if bounded.is_empty() {
+            return moment.resolution;
+        }
+        let mut window = || moment.resolution.map(|side| (side * random.within(&WINDOW)).round());
+        let is_within = |window: &[f64; 2]| {
+            let there = Moment { resolution: *window, ..*moment };
+            bounded.iter().all(|(uniform, bounds)| bounds.hold(&uniform.value(&there)))
+        };
+        (0..TRIES).map(|_| window()).find(is_within).unwrap_or(moment.resolution)
     }
 
     /// The camera in front of the homework's own model, turned and shifted: where that is stretched, so is this.

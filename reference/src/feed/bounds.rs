@@ -30,6 +30,13 @@ impl Bounds {
         (fits(least) && fits(greatest) && kind.scalar().is_some()).then(|| Self { kind: kind.clone(), ranges })
     }
 
+    /// Whether a value lies within.
+    pub fn hold(&self, value: &Value) -> bool {
+        let numbers = value.numbers();
+        let is_within = |(number, (least, greatest)): (&f64, &(f64, f64))| (*least..=*greatest).contains(number);
+        numbers.len() == self.ranges.len() && numbers.iter().zip(&self.ranges).all(is_within)
+    }
+
     /// A value within; `random` gives numbers in [0, 1).
     pub fn draw(&self, mut random: impl FnMut() -> f64) -> Value {
         let is_whole = !self.kind.scalar().is_some_and(Scalar::is_floating);

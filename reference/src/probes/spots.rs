@@ -17,6 +17,7 @@ pub use across::{Crossings, EdgeDefect};
 use glam::{DQuat, DVec2, DVec3, DVec4};
 pub use pictured::Pictured;
 use rand_chacha::ChaCha8Rng;
+use seen::{seen_at, weights_at};
 use shown::{FragmentInputs, HandedAround, WAYS, mixed};
 pub use shown::{ProbeOutput, linear};
 
@@ -174,6 +175,9 @@ impl Assignment {
         let own = numbers.map(|number| mesh.vertices[number as usize]);
         let (low, high) = mesh.bounds();
         let aside = random.direction() * random.between(0.0, ASIDE) * (high - low).length();
+        // In what fills the window a texture coordinate is the pixel's share of it, and an answer may take the one for the other.
+        let is_moved = if mesh.fills_window { 0.0 } else { 1.0 };
+        let aside = aside * is_moved;
         let turned = DQuat::from_axis_angle(random.direction(), random.between(0.0, std::f64::consts::PI));
         // Texture coordinates stay within the picture where the triangle's are.
         let coordinates = own.map(|vertex| vertex.texture_coordinates);
@@ -183,7 +187,7 @@ impl Assignment {
             (low, high) if low >= 0.0 && high <= 1.0 => random.between(-low, 1.0 - high + f64::MIN_POSITIVE),
             _ => 0.0,
         };
-        let shift = DVec2::new(shift(low.x, high.x, random), shift(low.y, high.y, random));
+        let shift = DVec2::new(shift(low.x, high.x, random), shift(low.y, high.y, random)) * is_moved;
         let corners = own.map(|vertex| {
             let apart = DQuat::from_axis_angle(random.direction(), random.between(0.0, APART)) * turned;
             let moved = Vertex::new(vertex.position.truncate() + aside, apart * vertex.normal.truncate())
@@ -250,10 +254,10 @@ impl Assignment {
         let mut shares = Vec::new();
         for (number, (corners, weights, cull)) in some.into_iter().enumerate() {
             let ends = [0, 1, 2].map(|corner| positions[3 * number + corner]);
-            let Some((weights, place, is_front)) = self.seen_at(ends, weights, taken) else { continue };
+            let Some((weights, place, is_front)) = seen_at(ends, weights, drawn.window, taken) else { continue };
             let [x, y, ..] = place;
             // A triangle without an area has no fragments, and one that begins here has no neighbours before the eye.
-            let beside = [[x, y], [x + 1.0, y], [x, y + 1.0]].map(|at| self.weights_at(ends, at));
+            let beside = [[x, y], [x + 1.0, y], [x, y + 1.0]].map(|at| weights_at(ends, at, drawn.window));
             let [Some(_), Some(right), Some(above)] = beside else { continue };
             let weights_beside = [right, above];
             let is_left_out = matches!((cull, is_front), (Cull::Back, false) | (Cull::Front, true));

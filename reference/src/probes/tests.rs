@@ -174,6 +174,24 @@ fn thrown_away_fragments_are_among_the_probes() {
 }
 
 #[test]
+fn fragments_lie_in_the_window_that_the_program_is_told_of() {
+    let assignment = homework("rings");
+    let place = assignment.interface.uniforms.iter().position(|uniform| uniform.path == "iResolution").expect("there");
+    let probes = assignment.judging_probes();
+    for probe in &probes {
+        let group = &probes.groups[probe.group];
+        assert_eq!(group.uniforms[place].numbers()[..2], group.window);
+        let spot = probe.spot.as_deref().expect("a fragment");
+        let share = |axis: usize| spot.place[axis] / group.window[axis];
+        // The vertex stage hands on which share of the window a pixel is at.
+        let (_, handed) = spot.varyings.iter().find(|(name, _)| name == "share").expect("handed on");
+        assert!((0..2).all(|axis| (handed.numbers()[axis] - share(axis)).abs() < 1e-6), "{spot:?} {:?}", group.window);
+    }
+    let widths: std::collections::HashSet<u64> = probes.groups.iter().map(|group| group.window[0] as u64).collect();
+    assert!(widths.len() > 10 && widths.iter().all(|width| (200..=450).contains(width)), "{widths:?}");
+}
+
+#[test]
 fn what_varies_is_seen_by_the_probes() {
     // Half of the cameras' uniforms are drawn at random: four tones are no more usual than any other number.
     let assignment = homework("toon");

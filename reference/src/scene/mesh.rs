@@ -26,6 +26,8 @@ pub struct Mesh {
     pub vertices: Vec<Vertex>,
     /// Three vertices each, by number; the front is where they run against the clock.
     pub triangles: Vec<[u32; 3]>,
+    /// Whether it is the window, in clip space.
+    pub fills_window: bool,
     /// The corners of the box that holds all vertices.
     bounds: (DVec3, DVec3),
 }
@@ -110,7 +112,7 @@ impl Mesh {
         let points = vertices.iter().map(|vertex| vertex.position.truncate());
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let bounds = points.fold(start, |(low, high), point| (low.min(point), high.max(point)));
-        Ok(Self { vertices, triangles, bounds })
+        Ok(Self { vertices, triangles, fills_window: false, bounds })
     }
 }
 
@@ -244,7 +246,9 @@ impl Shape {
             Self::Cube(Sized3 { size }) => shapes::cube(*size),
             Self::Sphere(Sphere { radius, segments }) => shapes::sphere(*radius, *segments),
             Self::Torus(Torus { radius, tube, segments }) => shapes::torus([*radius, *tube], *segments),
-            Self::Fullscreen(Nothing {}) => shapes::quad([2.0, 2.0]),
+            Self::Fullscreen(Nothing {}) => {
+                shapes::quad([2.0, 2.0]).map(|window| Mesh { fills_window: true, ..window })
+            }
             Self::Vertices(listed) => listed.mesh(),
             Self::File(name) => file::read(name, folder).map_err(|wrong| wrong.in_file(name)),
         }

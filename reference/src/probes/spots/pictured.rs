@@ -1,6 +1,7 @@
 //! Probes at places of a picture, so that what is run there is what a person sees there.
 
 use super::FragmentChoice;
+use super::seen::weights_at;
 use crate::frames::VertexStage;
 use crate::probes::{Probe, ProbeGroup};
 use crate::scene::{Cull, Pose};
@@ -68,10 +69,11 @@ impl Assignment {
             let ends = numbers.map(|vertex| shape.vertices.positions[vertex]);
             let corners = numbers.map(|vertex| instances[setup.surface as usize].draw.mesh.vertices[vertex]);
             let middle = [f64::from(pixel[0]) + 0.5, f64::from(height - 1 - pixel[1]) + 0.5];
-            let weights = self.weights_at(ends, middle)?;
+            let window = [width, height].map(f64::from);
+            let weights = weights_at(ends, middle, window)?;
             let uniforms = shape.uniforms.clone();
             let pass = [DMat4::IDENTITY; 2];
-            let drawn = ProbeGroup { matrices: pose.matrices, t: pose.t, uniforms: uniforms.clone(), pass };
+            let drawn = ProbeGroup { matrices: pose.matrices, t: pose.t, uniforms: uniforms.clone(), pass, window };
             let located = self.located(&drawn, vec![(corners, weights, Cull::None)], FragmentChoice::AnySide)?;
             let probe = self.shown_in_place(0, &drawn, located, std::iter::once(DVec3::ZERO)).pop()?;
             let at = [(f64::from(pixel[0]) + 0.5) / f64::from(width), (f64::from(pixel[1]) + 0.5) / f64::from(height)];

@@ -1,0 +1,16 @@
+#version 330 core
+uniform vec3 iResolution;
+uniform float iTime;
+in vec2 share;
+out vec4 pixel;
+
+void main()
+{
+  vec2 p = (2.0 * share - 1.0) * vec2(iResolution.x / iResolution.y, 1.0);
+  float far = length(p);
+  vec3 tint = 0.5 + 0.5 * cos(iTime + far + vec3(0.0, 2.0, 4.0));
+  for (float ring = 0.3; ring < 1.0; ring += 0.3) tint *= smoothstep(0.0, 0.08, abs(far - ring));
+  if (p.y < -0.8) discard;
+  pixel = vec4(tint, 1.0);
+}
+
