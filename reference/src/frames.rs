@@ -138,8 +138,8 @@ impl Assignment {
     ) -> (Frame, bool) {
         let instances = self.scene.instances(pose);
         let mut frame = Frame::cleared(width, height, self.scene.background);
-        let (visible, scenery) = self.scenery([width, height], &instances, pipeline, stage);
-        let is_defined = scenery.shade(visible, &mut frame);
+        let (mut visible, scenery) = self.scenery([width, height], &instances, pipeline, stage);
+        let is_defined = scenery.shade(&mut visible, &mut frame);
         (frame, is_defined)
     }
 

@@ -1,6 +1,6 @@
 //! The colours of what is seen: the fragment stage, run for the pixels that a triangle covers.
 
-use crate::interpreter::{NotedLookup, Outputs, Program};
+use crate::interpreter::{NotedLookup, Outputs, Program, UndefinedCause};
 use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, scalars, slices};
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
@@ -53,20 +53,20 @@ enum Shaded {
 }
 
 impl Scenery<'_> {
-    /// Colours the pixels of a frame. Whether all colours are defined.
-    pub fn shade(&self, mut visible: Visible, frame: &mut Frame) -> bool {
+    /// Colours the pixels of a frame; what is visible then is what is seen through holes. Whether all colours are defined.
+    pub fn shade(&self, visible: &mut Visible, frame: &mut Frame) -> bool {
         if let Some(handed) = self.pipeline.copied.filter(|_| self.local.is_none()) {
-            self.hand_on(&visible, handed, frame);
-            frame.coverage = visible.coverage;
+            self.hand_on(visible, handed, frame);
+            frame.coverage.clone_from(&visible.coverage);
             return true;
         }
         let mut gone: HashMap<u32, Vec<u32>> = HashMap::new();
-        let mut pixels: Vec<u32> = self.covered(&visible);
+        let mut pixels: Vec<u32> = self.covered(visible);
         let mut sudden: Vec<u32> = Vec::new();
         let mut is_defined = true;
         for _ in 0..MOST_LAYERS {
-            let shaded = self.pixels(&visible, &pixels, [0.0, 0.0]);
-            sudden.extend(self.sudden(&visible, &pixels, &shaded));
+            let shaded = self.pixels(visible, &pixels, [0.0, 0.0]);
+            sudden.extend(self.sudden(visible, &pixels, &shaded));
             is_defined &= !shaded.iter().any(is_undefined);
             let mut discarded = Vec::new();
             for (pixel, shaded) in pixels.iter().zip(&shaded) {
@@ -85,7 +85,7 @@ impl Scenery<'_> {
             visible.reveal(&again);
             pixels = discarded.into_iter().filter(|pixel| visible.number(*pixel as usize).is_some()).collect();
         }
-        frame.coverage = visible.coverage;
+        frame.coverage.clone_from(&visible.coverage);
         sudden.into_iter().for_each(|pixel| frame.coverage[pixel as usize] = Coverage::Silhouette);
         is_defined
     }
@@ -188,6 +188,17 @@ impl Scenery<'_> {
         let outputs = self.outputs(visible, surface, &fragments, [0.0, 0.0], true);
         let all = outputs.into_iter().flat_map(|outputs| outputs.lookups);
         all.filter(|one| one.sample == place).collect()
+    }
+
+    /// Why a colour is undefined among those that are seen before anything is thrown away; none where all are defined.
+    pub fn undefined(&self, visible: &Visible) -> Option<UndefinedCause> {
+        let all = fragments(visible, &self.covered(visible), self.pipeline.needs_quads(&self.assignment.textures));
+        let surface = |fragment: &Fragment| visible.setups()[fragment.number as usize].surface;
+        all.chunk_by(|a, b| surface(a) == surface(b)).flat_map(|own| own.chunks(CHUNK)).find_map(|chunk| {
+            let outputs = self.outputs(visible, surface(&chunk[0]), chunk, [0.0, 0.0], false)?;
+            let is_seen = |at: usize| chunk[at].pixel.is_some() && !outputs.discarded[at];
+            outputs.outputs.get(self.pipeline.colour)?.first_undefined(is_seen)
+        })
     }
 
     /// What the fragment stage reads, as columns.

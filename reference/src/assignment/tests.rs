@@ -235,7 +235,13 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
 fn a_solution_that_is_undefined_is_refused() {
     // N·L is negative in some of the pictures.
     let error = broken_in("solution.vert", "float lambert = max(nl, 0.0);", "float lambert = pow(nl, 2.0);");
-    assert!(error.starts_with("solution.vert, at t = 0.") && error.contains("is undefined, or no number"), "{error}");
+    let text = assignment("ggsample06").expect("built in").files[0].solution.text.clone();
+    let line = text.lines().position(|line| line.contains("float lambert")).expect("there") + 1;
+    assert!(
+        error.starts_with(&format!("solution.vert, line {line}, at t = 0."))
+            && error.contains("is undefined, or no number"),
+        "{error}"
+    );
 }
 
 /// The homework with another answer that is right as well.

@@ -101,6 +101,13 @@ impl Column {
         self.undefined[scalar].get(sample).copied().flatten()
     }
 
+    /// Why the first sample is undefined that is, of those that are `asked` for.
+    pub fn first_undefined(&self, asked: impl Fn(usize) -> bool) -> Option<UndefinedCause> {
+        let causes = self.undefined.iter().flat_map(|scalar| scalar.iter().enumerate());
+        let mut causes = causes.filter_map(|(sample, cause)| Some((sample, (*cause)?)));
+        causes.find(|(sample, _)| asked(*sample)).map(|(_, cause)| cause)
+    }
+
     /// Appends a block's values.
     fn collect(&mut self, machine: &Machine<'_>, variable: &ProgramVariable) {
         for ((slot, values), undefined) in slots(variable).zip(&mut self.values).zip(&mut self.undefined) {

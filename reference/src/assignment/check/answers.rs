@@ -5,6 +5,7 @@ use crate::Assignment;
 use crate::assignment::{MANIFEST, both, error};
 use crate::equation::Reads;
 use crate::frames::VertexStage;
+use crate::interpreter::{Cause, Program, Stage};
 use crate::pipeline::{Pipeline, positions, scalars};
 use crate::scene::Pose;
 use std::collections::HashSet;
@@ -35,22 +36,28 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
     };
     let file = assignment.files.last().map_or(MANIFEST, |file| &file.solution.name);
     for pose in &poses {
-        let undefined = |name: &str| {
+        let undefined = |file: &str, cause: Option<Cause>| {
             let message = both(
                 "the colour or the position is undefined, or no number: look at divisions, roots, powers, branches, `normalize` of \
                  nothing, and `smoothstep` whose first edge is not the smaller one",
                 "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐、長さ 0 の `normalize`、1 つ目の端が小さくない `smoothstep` \
                  を確かめてください",
             );
-            Err(error(format!("{name}, at t = {}", pose.t), message))
+            let place = solution::place(file, cause.map_or(0, |cause| cause.line));
+            Err(error(format!("{place}, at t = {}", pose.t), message))
         };
-        if !assignment.is_defined(pose, &assignment.pipeline, own, poses.len()) {
-            return undefined(file);
+        if let Err(why) = assignment.is_defined(pose, &assignment.pipeline, own, poses.len()) {
+            let own = |stage| assignment.file_of(stage);
+            let (file, cause) = why.and_then(|(stage, cause)| Some((own(stage)?, Some(cause)))).unwrap_or((file, None));
+            return undefined(file, cause);
         }
         for answer in assignment.accepted() {
             let stage = VertexStage::Program(&answer.pipeline.vertex);
-            if !assignment.is_defined(pose, &answer.pipeline, stage, poses.len()) {
-                return undefined(&answer.name);
+            if let Err(why) = assignment.is_defined(pose, &answer.pipeline, stage, poses.len()) {
+                let of_answer =
+                    assignment.files.iter().find(|file| file.accepted.iter().any(|own| own.name == answer.name));
+                let own = why.filter(|(stage, _)| of_answer.is_some_and(|file| Stage::from(file.stage) == *stage));
+                return undefined(&answer.name, own.map(|(_, cause)| cause));
             }
         }
     }
@@ -58,34 +65,55 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
 }
 
 impl Assignment {
-    /// Whether what two stages compute for a picture is defined, as far as is looked at.
-    fn is_defined(&self, pose: &Pose, pipeline: &Pipeline, stage: VertexStage<'_>, pictures: usize) -> bool {
+    fn small_window(&self) -> [u32; 2] {
+        [self.scene.width, self.scene.height].map(|side| side.div_ceil(FRACTION))
+    }
+
+    /// The file of the stage, handed in or not.
+    fn file_of(&self, stage: Stage) -> Option<&str> {
+        let solutions = self.files.iter().map(|file| (file.stage, &file.solution.name));
+        let mut all = solutions.chain(self.fixed.iter().map(|fixed| (fixed.stage, &fixed.name)));
+        all.find(|(own, _)| Stage::from(*own) == stage).map(|(_, name)| name.as_str())
+    }
+
+    /// Whether what two stages compute for a picture is defined, as far as is looked at; if not, in which stage and why, where that
+    /// is known.
+    fn is_defined(
+        &self,
+        pose: &Pose,
+        pipeline: &Pipeline,
+        stage: VertexStage<'_>,
+        pictures: usize,
+    ) -> Result<(), Option<(Stage, Cause)>> {
         let instances = self.scene.instances(pose);
         let each = (VERTICES / (pictures * instances.len()).max(1)).max(3);
         for instance in &instances {
             let uniforms = self.uniform_values(&instance.moment);
             let vertices = &instance.draw.mesh.vertices;
             let some: Vec<_> = vertices.iter().step_by(vertices.len().div_ceil(each)).copied().collect();
+            let run = |program: &Program| self.run_vertices(program, &uniforms, &some);
             let is_defined = match stage {
                 VertexStage::Equation(variant, _) => some.iter().all(|vertex| {
                     let outcome = variant.evaluate(&uniforms, &self.attribute_values(vertex));
                     let mut outputs = self.equation.outputs.iter().flat_map(|(_, given)| outcome.numbers(*given));
                     outputs.all(|number| number.is_finite())
                 }),
-                VertexStage::Program(program) => self.run_vertices(program, &uniforms, &some).is_some_and(|outputs| {
+                VertexStage::Program(program) => run(program).is_some_and(|outputs| {
                     let handed = pipeline.varyings.iter().flat_map(|varying| scalars(&outputs, varying.output));
                     handed.flatten().all(f64::is_finite)
                         && positions(&outputs, some.len()).iter().all(|position| position.is_finite())
                 }),
             };
             if !is_defined {
-                return false;
+                let outputs = run(&pipeline.vertex);
+                let cause = outputs.and_then(|all| all.outputs.iter().find_map(|one| one.first_undefined(|_| true)));
+                return Err(cause.map(|cause| (Stage::Vertex, cause)));
             }
         }
-        if pipeline.copied.is_some() {
-            return true;
+        if pipeline.copied.is_some() || self.picture_of_size(self.small_window(), pose, pipeline, stage).1 {
+            return Ok(());
         }
-        let size = [self.scene.width, self.scene.height].map(|side| side.div_ceil(FRACTION));
-        self.picture_of_size(size, pose, pipeline, stage).1
+        let (visible, scenery) = self.scenery(self.small_window(), &instances, pipeline, stage);
+        Err(scenery.undefined(&visible).map(|cause| (Stage::Fragment, cause)))
     }
 }
