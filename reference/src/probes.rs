@@ -46,6 +46,8 @@ pub(crate) struct Probing {
     pub per_group: usize,
     /// By which angles those are chosen; without it they lie near the homework's own.
     pub aim: Option<Aim>,
+    /// Whether backs of triangles are probed as well as fronts.
+    pub takes_backs: bool,
 }
 
 /// What a right answer shows in some places.

@@ -150,6 +150,16 @@ fn a_dissolve_by_noise_becomes_a_homework() {
 }
 
 #[test]
+fn both_sides_of_a_surface_become_a_homework() {
+    let written = Written::from(&["leaf.frag"]);
+    assert!(!written.text("assignment.toml").contains("cull"), "the inside is seen through the holes");
+    written.tells("n = -n;", "");
+    let report = written.graded(&[("n = -n;", "")]);
+    let mismatched = &report["probes"]["mismatched"];
+    assert!(mismatched.as_u64().unwrap() > 20, "backs are probed: {mismatched}");
+}
+
+#[test]
 fn a_picture_of_a_page_that_shares_shaders_becomes_a_homework() {
     let written = Written::from(&["tunnel.frag"]);
     written.tells("10.0 / r + iTime", "10.0 / r");

@@ -82,7 +82,7 @@ pub(super) fn assignment(
     let advice = advice.collect::<CheckResult<Vec<_>>>()?;
     let textures: Arc<[Texture]> = textures.into();
     let equation = solution.finish(&m, &interface, &pipeline, &constants, Arc::clone(&textures))?;
-    let assignment = Assignment {
+    let mut assignment = Assignment {
         scene,
         files,
         id: m.id,
@@ -112,6 +112,7 @@ pub(super) fn assignment(
     };
     probing::lobe_is_known(&assignment)?;
     answers::are_defined(&assignment)?;
+    assignment.probing.takes_backs = assignment.shows_backs();
     Ok(assignment)
 }
 

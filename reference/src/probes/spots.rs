@@ -109,8 +109,8 @@ impl Assignment {
         for camera in 0..2 * CAMERAS {
             // Of a closed surface nobody sees the inside, so an answer may do there what it likes. The outside of a mesh whose
             // triangles all run with the clock is never found.
-            let taken = if camera < CAMERAS { FragmentChoice::Front } else { FragmentChoice::AnySide };
-            if taken == FragmentChoice::AnySide && !best.1.is_empty() {
+            let taken = if camera < CAMERAS { self.usual_sides() } else { FragmentChoice::AnySide };
+            if camera >= CAMERAS && !best.1.is_empty() {
                 break;
             }
             let drawn = self.group(random);
@@ -139,6 +139,11 @@ impl Assignment {
         (drawn, probes)
     }
 
+    /// The sides of triangles of which both are drawn.
+    fn usual_sides(&self) -> FragmentChoice {
+        if self.probing.takes_backs { FragmentChoice::AnySide } else { FragmentChoice::Front }
+    }
+
     /// Puts probes at which a variant that is to be revealed shows something else in the place of the last ones.
     fn reveal(&self, random: &mut Random, group: usize, drawn: &ProbeGroup, probes: &mut Vec<Probe>) {
         if group >= REVEALING_GROUPS {
@@ -149,7 +154,7 @@ impl Assignment {
             let mut found = Vec::new();
             for _ in 0..REVEALING_ROUNDS {
                 let some = (0..TRIANGLES_TO_REVEAL).map(|_| self.triangle(random)).collect();
-                let some = self.probed(group, drawn, some, FragmentChoice::Front).unwrap_or_default();
+                let some = self.probed(group, drawn, some, self.usual_sides()).unwrap_or_default();
                 let Some(shown) = self.shown_of_group(&other.pipeline, &drawn.uniforms, &some) else { continue };
                 let differs = |(probe, shown): &(Probe, ProbeOutput)| {
                     (probe.colour - shown.colour).abs().max_element() > REVEALED

@@ -79,7 +79,9 @@ pub(super) fn propose(plan: &mut FolderPlan, test: Option<&ShaderTest>) {
     let moves = moves(plan) || shape.more.iter().any(|line| line.starts_with("turn") || line.starts_with("model"));
     let is_window = std::ptr::eq(shape, &WINDOW);
     let mut lines = vec![format!("mesh = {} # see docs/assignment-toml.md for others", shape.mesh)];
-    lines.extend(shape.more.iter().map(|line| (*line).to_owned()));
+    // Who tells backs from fronts wants to see them.
+    let is_kept = |line: &&&str| !(line.starts_with("cull") && tells_sides(plan));
+    lines.extend(shape.more.iter().filter(is_kept).map(|line| (*line).to_owned()));
     lines.push(format!("eye = {}", shape.eye));
     lines.extend(
         ["target = [0, 0, 0]", "up = [0, 1, 0]", "fovy = 0.8 # radians", "near = 0.1", "far = 30"].map(str::to_owned),
@@ -92,6 +94,12 @@ pub(super) fn propose(plan: &mut FolderPlan, test: Option<&ShaderTest>) {
     let (en, ja) = shape.seen;
     let said = shape.mesh;
     plan.guessed(format!("scene: {}: mesh = {said}", en.to_lowercase()), format!("scene: {ja}: mesh = {said}"));
+}
+
+/// Whether a solution reads which side of a triangle is seen.
+fn tells_sides(plan: &FolderPlan) -> bool {
+    let mut inputs = plan.sources.iter().flat_map(|source| source.program.inputs());
+    inputs.any(|input| input.name == "gl_FrontFacing")
 }
 
 /// Whether a uniform changes with time.

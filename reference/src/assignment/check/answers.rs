@@ -5,8 +5,9 @@ use crate::Assignment;
 use crate::assignment::{MANIFEST, both, error};
 use crate::equation::Reads;
 use crate::frames::VertexStage;
-use crate::interpreter::{Cause, Program, Stage};
+use crate::interpreter::{Program, Stage, UndefinedCause};
 use crate::pipeline::{Pipeline, positions, scalars};
+use crate::rasteriser::Frame;
 use crate::scene::Pose;
 use std::collections::HashSet;
 
@@ -36,7 +37,7 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
     };
     let file = assignment.files.last().map_or(MANIFEST, |file| &file.solution.name);
     for pose in &poses {
-        let undefined = |file: &str, cause: Option<Cause>| {
+        let undefined = |file: &str, cause: Option<UndefinedCause>| {
             let message = both(
                 "the colour or the position is undefined, or no number: look at divisions, roots, powers, branches, `normalize` of \
                  nothing, and `smoothstep` whose first edge is not the smaller one",
@@ -65,6 +66,20 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
 }
 
 impl Assignment {
+    /// Whether the solution tells backs of triangles from fronts, and its pictures show both.
+    pub(super) fn shows_backs(&self) -> bool {
+        let is_told_apart = self.pipeline.fragment.inputs().iter().any(|input| input.name == "gl_FrontFacing");
+        let stage = VertexStage::Program(&self.pipeline.vertex);
+        let shows = |pose: &Pose| {
+            let [width, height] = self.small_window();
+            let instances = self.scene.instances(pose);
+            let (mut visible, scenery) = self.scenery([width, height], &instances, &self.pipeline, stage);
+            scenery.shade(&mut visible, &mut Frame::cleared(width, height, self.scene.background));
+            (0..visible.coverage.len()).any(|pixel| visible.at(pixel).is_some_and(|setup| !setup.is_front))
+        };
+        is_told_apart && self.scene.all_poses().iter().any(shows)
+    }
+
     fn small_window(&self) -> [u32; 2] {
         [self.scene.width, self.scene.height].map(|side| side.div_ceil(FRACTION))
     }
@@ -84,7 +99,7 @@ impl Assignment {
         pipeline: &Pipeline,
         stage: VertexStage<'_>,
         pictures: usize,
-    ) -> Result<(), Option<(Stage, Cause)>> {
+    ) -> Result<(), Option<(Stage, UndefinedCause)>> {
         let instances = self.scene.instances(pose);
         let each = (VERTICES / (pictures * instances.len()).max(1)).max(3);
         for instance in &instances {

@@ -27,7 +27,7 @@ pub(super) fn probing(
         return Err(error("probes", message));
     }
     let aim = (!entry.design.is_empty()).then(|| aim(entry, constants, solution)).transpose()?;
-    Ok(Probing { groups: entry.groups, per_group: entry.per_group, aim })
+    Ok(Probing { groups: entry.groups, per_group: entry.per_group, aim, takes_backs: false })
 }
 
 fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &CheckedSolution<'_>) -> CheckResult<Aim> {
