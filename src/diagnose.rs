@@ -27,6 +27,7 @@ pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
+use reference::equation::DISCARDED;
 use reference::probes::{Crossings, EdgeDefect, Pictured, Probe, ProbeSet};
 use reference::traced::TracedProgram;
 
@@ -227,6 +228,14 @@ fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
         && !evidence.fresh.refutes_each(is_elsewhere)
 }
 
+/// Whether every fragment is thrown away, and not by a right answer. What it is short of being right is worth nothing then: no part
+/// of it is seen.
+fn shows_nothing(evidence: &Evidence<'_>) -> bool {
+    let is_gone = |colour: glam::DVec3| colour == DISCARDED;
+    evidence.samples.iter().all(|sample| is_gone(sample.colour_f64().into()))
+        && evidence.probes.iter().any(|probe| !is_gone(probe.colour))
+}
+
 /// Judges one line of the rubric.
 fn judge(
     evidence: &Evidence<'_>,
@@ -236,7 +245,8 @@ fn judge(
     cause: &Cause,
     mistakes: &[String],
 ) -> RubricLine {
-    let keeps = |id: &&str| kept(evidence.assignment, line, shape, cause, id);
+    let is_nothing = shows_nothing(evidence) && !cause.is_written() && !evidence.assignment.judges_position(line);
+    let keeps = |id: &&str| if is_nothing { 0.0 } else { kept(evidence.assignment, line, shape, cause, id) };
     let mut culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(|id| keeps(id) < 1.0).collect();
     let kept: f64 = culprits.iter().map(keeps).product();
     // What is not there at all is not wrong in some way as well.

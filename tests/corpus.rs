@@ -33,7 +33,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("interpolation", 63),
     ("lambert", 131),
     ("lamp", 19),
-    ("maps", 83),
+    ("maps", 84),
     ("per-pixel", 11),
     ("phong", 190),
     ("phong-shading", 154),

@@ -11,6 +11,7 @@ use crate::report::{FrameResult, Hypothesis};
 use glam::DVec4;
 use reference::Assignment;
 use reference::assignment::RubricLine;
+use reference::derived::is_derived;
 use reference::equation::Reads;
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
@@ -292,6 +293,15 @@ impl Cause {
             Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
             Self::HardCoded | Self::Parts(_) | Self::Repaired(_) | Self::Unexplained { .. } => false,
         }
+    }
+
+    /// Whether the homework says what it is worth.
+    pub(super) fn is_written(&self) -> bool {
+        let found: &[FoundMistake] = match self {
+            Self::Known { found, .. } | Self::Parts(FeatureExplanation { found, .. }) => found,
+            _ => &[],
+        };
+        found.iter().any(|found| !is_derived(&found.id))
     }
 
     /// The equation that computes what the shader computes, where one is known.
