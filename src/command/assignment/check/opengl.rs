@@ -35,10 +35,12 @@ fn say_frames(said: CheckWording, renderer: &str, frames: &[FrameAgreement]) -> 
         let text = Text::new(
             format!(
                 "real OpenGL ({renderer}) draws {unlike} of {judged} pixels of frame {index} otherwise, by more than \
-                 {REFERENCE_TOLERANCE}/255"
+                 {REFERENCE_TOLERANCE}/255: look for values that are next to nothing or depend on neighbouring pixels; where a texture \
+                 decides them, drivers mix its texels with weights of 8 bits, so write `filter = \"nearest\"`, or give it more texels"
             ),
             format!(
-                "本物の OpenGL ({renderer}) では、画像 {index} の {judged} 画素中 {unlike} 画素が {REFERENCE_TOLERANCE}/255 を超えて異なります"
+                "本物の OpenGL ({renderer}) では、画像 {index} の {judged} 画素中 {unlike} 画素が {REFERENCE_TOLERANCE}/255 を超えて異なります。0 に近い値や、隣の画素との差で決まる値がないか確かめてください。テクスチャで決まる値なら、\
+                 ドライバーはテクセルを 8 ビットの重みで混ぜるので、`filter = \"nearest\"` と書くか、テクセルを増やしてください"
             ),
         );
         said.line(false, &text);
