@@ -1,8 +1,9 @@
 //! Other answers that are right as well: shaders of their own, which are run as they are.
 
+use crate::assignment::HandedIn;
 use crate::equation::Reads;
 use crate::frames::VertexStage;
-use crate::interpreter::{Column, Program};
+use crate::interpreter::{Column, Program, Stage};
 use crate::pipeline::{Pipeline, columns, slices};
 use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
@@ -39,6 +40,18 @@ impl Assignment {
     /// The answers that are right beside the solution.
     pub fn accepted(&self) -> impl Iterator<Item = &AcceptedAnswer> {
         self.files.iter().flat_map(|file| &file.accepted)
+    }
+
+    /// The solution with another program in the place of one of its files.
+    pub(crate) fn linked_with(&self, file: &HandedIn, program: Program, name: &str) -> Option<AcceptedAnswer> {
+        let own = Arc::new(program);
+        let right = &self.pipeline;
+        let [vertex, fragment] = match Stage::from(file.stage) {
+            Stage::Vertex => [&own, &right.fragment],
+            Stage::Fragment => [&right.vertex, &own],
+        };
+        let pipeline = Pipeline::link(vertex, fragment, None).ok()?;
+        Some(AcceptedAnswer { name: name.to_owned(), pipeline, reading: None })
     }
 
     /// The same probes with what an answer computes there.

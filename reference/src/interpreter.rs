@@ -54,7 +54,10 @@ mod types;
 #[cfg(test)]
 mod tests;
 
-pub use change::{FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, program_slips};
+pub use change::{
+    ChangedPart, FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, program_slips,
+    program_without_parts,
+};
 pub use code::{Interpolation, ProgramVariable};
 pub use compile::{DefinitionSlip, Draft};
 pub use nature::{Copied, Nature};

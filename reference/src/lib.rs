@@ -55,6 +55,7 @@ pub mod texture;
 pub mod traced;
 pub mod typeset;
 mod unjudged;
+pub mod unseen;
 mod value;
 
 /// Names the code of this crate: what other code computed has another name.

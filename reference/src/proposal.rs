@@ -4,12 +4,14 @@
 //! - `names`, `guess`: what names usually mean, and what values they usually have
 //! - `starter`: the solution without what students write
 //! - `uniforms`, `stages`, `scene`: what feeds the solution, and what is drawn
+//! - `reveal`: bounds of values so that all of the solution shows
 //! - `rubric`: parts of the solution that can be told apart, each tried
 //! - `writing`: `assignment.toml`
 //! - `shader_test`: piglit's tests as solutions
 
 mod guess;
 mod names;
+mod reveal;
 mod rubric;
 mod scene;
 mod shader_test;
@@ -157,7 +159,10 @@ fn propose_with(
     scene::propose(&mut plan, test);
     rubric::plain(&mut plan);
     let trouble = match Assignment::load(plan.folder()) {
-        Ok(_) => {
+        Ok(assignment) => {
+            if test.is_none() {
+                reveal::widen(&mut plan, &assignment);
+            }
             rubric::refine(&mut plan);
             None
         }

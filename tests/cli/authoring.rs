@@ -160,6 +160,30 @@ fn both_sides_of_a_surface_become_a_homework() {
 }
 
 #[test]
+fn a_part_that_shows_nowhere_is_told() {
+    let written = Written::from(&["leaf.frag"]);
+    assert!(
+        written.said.contains("`translucency`: within"),
+        "bounds in which all shows are proposed: {}",
+        written.said
+    );
+    let manifest = written.text("assignment.toml");
+    let (before, entry) = manifest.split_once("name = \"translucency\"").unwrap();
+    let (bounds, rest) = (entry.find("probe = ").unwrap(), entry.find("] }").unwrap() + 3);
+    let narrow = format!(
+        "{before}name = \"translucency\"{}probe = {{ within = [0.25, 1.0] }}{}",
+        &entry[..bounds],
+        &entry[rest..]
+    );
+    fs::write(written.folder().join("assignment.toml"), narrow).unwrap();
+    let checked = ggrade().args(["assignment", "check"]).arg(written.folder()).args(["--lang", "en"]).assert().code(0);
+    let said = String::from_utf8_lossy(&checked.get_output().stdout).into_owned();
+    let line = said.lines().find(|line| line.contains("solution.frag:")).unwrap_or_else(|| panic!("{said}"));
+    assert!(line.contains("`lit + (0.1 * translucency)` in place of `min(lit + (0.1 * translucency), 1.5)`"), "{line}");
+    assert!(line.contains("solution.frag:20:") && line.contains("with `translucency` = "), "{line}");
+}
+
+#[test]
 fn a_picture_of_a_page_that_shares_shaders_becomes_a_homework() {
     let written = Written::from(&["tunnel.frag"]);
     written.tells("10.0 / r + iTime", "10.0 / r");

@@ -3,15 +3,13 @@
 use super::{Derived, wording};
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
-use crate::assignment::{HandedIn, RubricLine};
+use crate::assignment::RubricLine;
 use crate::equation::Reads;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
 use crate::interpreter::{Operator, ProgramSlip, Stage, program_slips};
 use crate::mistake::{Condition, FoundMistake, Mistake};
-use crate::pipeline::Pipeline;
 use crate::probes::ProbeSet;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// Probes under so many cameras tell most programs apart.
 const FIRST: usize = 3;
@@ -31,8 +29,8 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
     for file in &assignment.files {
         let is_part = |name: &str| assignment.equation.reads() == Reads::Outputs || name != "main";
         let slips = program_slips(&file.solution.text, Stage::from(file.stage), &is_part).unwrap_or_default();
-        for mut slip in slips {
-            let Some(answer) = linked(assignment, file, &mut slip) else { continue };
+        for slip in slips {
+            let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
             let name = slip.name.clone().unwrap_or_else(|| "result".into());
             grouped.entry((slip.operator, name)).or_default().push((slip, answer));
         }
@@ -42,18 +40,6 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         Mistake { variants: answers, ..wording::of_program(assignment, operator, &name, &slips) }
     };
     grouped.into_iter().map(mistake).collect()
-}
-
-/// The solution with a slip in one of its files.
-fn linked(assignment: &Assignment, file: &HandedIn, slip: &mut ProgramSlip) -> Option<AcceptedAnswer> {
-    let own = Arc::new(slip.program.clone());
-    let right = &assignment.pipeline;
-    let [vertex, fragment] = match Stage::from(file.stage) {
-        Stage::Vertex => [&own, &right.fragment],
-        Stage::Fragment => [&right.vertex, &own],
-    };
-    let pipeline = Pipeline::link(vertex, fragment, None).ok()?;
-    Some(AcceptedAnswer { name: slip.text.clone(), pipeline, reading: None })
 }
 
 /// Adds mistakes to others, into those of the same name.

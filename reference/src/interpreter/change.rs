@@ -12,7 +12,7 @@ mod tree;
 mod wrappers;
 mod write;
 
-pub use programs::{ProgramSlip, program_slips};
+pub use programs::{ChangedPart, ProgramSlip, program_slips, program_without_parts};
 pub use repairs::{Ingredients, ProgramRepair, Repairable};
 pub use write::written;
 

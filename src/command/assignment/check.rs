@@ -4,6 +4,7 @@
 mod opengl;
 mod shows;
 mod texts;
+mod unseen;
 
 use super::list;
 use crate::cli::CheckArguments;

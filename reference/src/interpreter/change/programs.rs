@@ -1,6 +1,6 @@
 //! The slips of a program that is no list of definitions: each as a program of its own.
 
-use super::tree::{TreeWalk, TypedNames, walk};
+use super::tree::{self, TreeWalk, TypedNames, walk};
 use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::types::{Scalar, Type};
@@ -17,8 +17,21 @@ pub struct ProgramSlip {
     pub is_bound_by_zero: bool,
     /// What is written there.
     pub text: String,
+    /// The part of the source that it concerns.
+    pub part: ChangedPart,
     /// The program.
     pub program: Program,
+}
+
+/// A part of a source, and what a slip makes of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ChangedPart {
+    /// The first and the last line of the source that it stands on, from 1.
+    pub lines: (u32, u32),
+    /// What stands there.
+    pub own: String,
+    /// What would stand there; nothing of what is left out altogether.
+    pub instead: Option<String>,
 }
 
 /// Most slips of a program.
@@ -27,11 +40,22 @@ const MOST: usize = 1_200;
 /// Where a slip is, and what stands there then.
 enum PlacedSlip {
     /// The expression with this number, in the order of a walk.
-    Expression(usize, Option<Name>, Change),
+    Expression(usize, Option<Name>, Change, ChangedPart),
     /// What the loop with this number goes on by.
     Bound(usize, Change),
     /// The statement with this number is left out.
-    Statement(usize, Option<Name>),
+    Statement(usize, Option<Name>, ChangedPart),
+    /// The condition of the branch that is the statement with this number always holds, or never.
+    Branch(usize, bool, ChangedPart),
+}
+
+impl PlacedSlip {
+    fn operator(&self) -> Operator {
+        match self {
+            Self::Expression(_, _, change, _) | Self::Bound(_, change) => change.operator,
+            Self::Statement(..) | Self::Branch(..) => Operator::StatementLeftOut,
+        }
+    }
 }
 
 /// The slips of a program in those of its functions that `is_part` names, as far as they are programs. The plainer ones come first.
@@ -39,27 +63,44 @@ enum PlacedSlip {
 /// # Errors
 /// The program is none.
 pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool) -> Result<Vec<ProgramSlip>, Refusal> {
+    slips_of(source, stage, is_part, &|slip| !matches!(slip, PlacedSlip::Branch(..)))
+}
+
+/// The program without each of its parts: a statement, a branch, an operand, a function around a value.
+///
+/// # Errors
+/// The program is none.
+pub fn program_without_parts(source: &str, stage: Stage) -> Result<Vec<ProgramSlip>, Refusal> {
+    slips_of(source, stage, &|_| true, &|slip| slip.operator() <= Operator::StatementLeftOut)
+}
+
+fn slips_of(
+    source: &str,
+    stage: Stage,
+    is_part: &dyn Fn(&str) -> bool,
+    is_wanted: &dyn Fn(&PlacedSlip) -> bool,
+) -> Result<Vec<ProgramSlip>, Refusal> {
     let preprocessed = text::preprocess(source)?;
     let items = parse::parse(&preprocessed.tokens)?;
     let mut slips = found(&items, is_part);
-    slips.sort_by_key(|slip| match slip {
-        PlacedSlip::Expression(_, _, change) | PlacedSlip::Bound(_, change) => change.operator,
-        PlacedSlip::Statement(..) => Operator::StatementLeftOut,
-    });
+    slips.retain(is_wanted);
+    slips.sort_by_key(PlacedSlip::operator);
     slips.truncate(MOST);
     let compiled = |slip: &PlacedSlip| {
         let code = compile::compile(&with(&items, slip, is_part), preprocessed.version, stage).ok()?;
         let program = Program::of(code);
-        let (name, change) = match slip {
-            PlacedSlip::Expression(_, name, change) => (name.as_ref(), Some(change)),
-            PlacedSlip::Bound(_, change) => (None, Some(change)),
-            PlacedSlip::Statement(_, name) => (name.as_ref(), None),
+        let (name, change, part) = match slip {
+            PlacedSlip::Expression(_, name, change, part) => (name.as_ref(), Some(change), Some(part)),
+            PlacedSlip::Bound(_, change) => (None, Some(change), None),
+            PlacedSlip::Statement(_, name, part) => (name.as_ref(), None, Some(part)),
+            PlacedSlip::Branch(_, _, part) => (None, None, Some(part)),
         };
         Some(ProgramSlip {
-            operator: change.map_or(Operator::StatementLeftOut, |change| change.operator),
+            operator: slip.operator(),
             name: name.map(|name| name.to_string()),
             is_bound_by_zero: change.is_some_and(|change| change.is_bound_by_zero),
             text: change.map(|change| written(&change.expression)).unwrap_or_default(),
+            part: part.cloned().unwrap_or_default(),
             program,
         })
     };
@@ -86,13 +127,29 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
             },
             statement: &mut |own, _| {
                 if let Some(name) = left_out(own) {
-                    of_statements.push(PlacedSlip::Statement(statement, name));
+                    of_statements.push(PlacedSlip::Statement(statement, name, part_of(own)));
+                }
+                if let StatementKind::If(condition, _, no) = &own.kind {
+                    let part = |holds: bool| ChangedPart {
+                        lines: (condition.line, condition.line),
+                        own: written(condition),
+                        instead: Some(holds.to_string()),
+                    };
+                    // Without another branch the statement may be left out, see above.
+                    let ways = if no.is_some() { &[true, false][..] } else { &[true] };
+                    of_statements.extend(ways.iter().map(|holds| PlacedSlip::Branch(statement, *holds, part(*holds))));
                 }
                 statement += 1;
             },
             expression: &mut |own, name, names| {
-                let own = changes_of(own, names).into_iter();
-                slips.extend(own.map(|change| PlacedSlip::Expression(expression, name.cloned(), change)));
+                let changes = changes_of(own, names).into_iter();
+                slips.extend(changes.map(|change| {
+                    let [before, after] =
+                        [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
+                    let lines = (before.line, before.line);
+                    let part = ChangedPart { lines, own: written(before), instead: Some(written(after)) };
+                    PlacedSlip::Expression(expression, name.cloned(), change, part)
+                }));
                 expression += 1;
             },
         },
@@ -111,6 +168,16 @@ fn changes_of(own: &Expression, names: &TypedNames) -> Vec<Change> {
 
 pub(super) fn of_name(name: &Name, line: u32) -> Expression {
     Expression { line, changes: false, kind: ExpressionKind::Name(Name::clone(name)) }
+}
+
+/// A statement, as it is told.
+fn part_of(statement: &Statement) -> ChangedPart {
+    let own = match &statement.kind {
+        StatementKind::Expression(expression) => format!("{};", written(expression)),
+        StatementKind::If(condition, ..) => format!("if ({}) …", written(condition)),
+        _ => "discard;".to_owned(),
+    };
+    ChangedPart { lines: (statement.line, tree::last_line(statement)), own, instead: None }
 }
 
 /// Whether a statement may be left out, and the variable that then has no other value.
@@ -145,13 +212,19 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
                 bound += 1;
             },
             statement: &mut |own, _| {
-                if matches!(slip, PlacedSlip::Statement(at, _) if *at == statement) {
-                    own.kind = StatementKind::Empty;
+                match slip {
+                    PlacedSlip::Statement(at, ..) if *at == statement => own.kind = StatementKind::Empty,
+                    PlacedSlip::Branch(at, holds, _) if *at == statement => {
+                        if let StatementKind::If(condition, ..) = &mut own.kind {
+                            condition.kind = ExpressionKind::Bool(*holds);
+                        }
+                    }
+                    _ => {}
                 }
                 statement += 1;
             },
             expression: &mut |own, _, _| {
-                if let PlacedSlip::Expression(at, _, change) = slip
+                if let PlacedSlip::Expression(at, _, change, _) = slip
                     && *at == expression
                 {
                     *own = change.expression.clone();

@@ -121,6 +121,22 @@ pub fn walk(items: &mut [Item], walk: &mut TreeWalk<'_>) {
     }
 }
 
+/// The last line that something of a statement stands on.
+pub(super) fn last_line(statement: &Statement) -> u32 {
+    let (mut of_expressions, mut of_statements) = (statement.line, statement.line);
+    let mut all = TreeWalk {
+        is_part: &|_| true,
+        statement: &mut |own, _| of_statements = of_statements.max(own.line),
+        expression: &mut |own, _, _| {
+            let lines = paths(own).iter().map(|path| ExpressionPlace::of(own, path).own.line).max();
+            of_expressions = of_expressions.max(lines.unwrap_or(0));
+        },
+        bound: &mut |_, _| {},
+    };
+    of_statement(&mut statement.clone(), &mut all, &mut Vec::new());
+    of_expressions.max(of_statements)
+}
+
 fn of_function(function: &mut Function, walk: &mut TreeWalk<'_>, names: &mut Vec<(Name, Name)>) {
     for parameter in &function.parameters {
         if let BaseType::Named(kind) = &parameter.kind.base {

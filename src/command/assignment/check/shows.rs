@@ -1,6 +1,6 @@
 //! Where the features of the rubric and the mistakes of a folder show.
 
-use super::{Album, CheckWording};
+use super::{Album, CheckWording, unseen};
 use crate::compare::PIXEL_TOLERANCE;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -20,6 +20,7 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment, album: &Album<'_>
     for mistake in assignment.mistakes.iter().filter(|mistake| mistake.ways() > 0) {
         say_mistake(said, assignment, mistake, &probes, &right, album)?;
     }
+    unseen::say(said, assignment, &probes, &right);
     Ok(say_alike(said, &alternatives))
 }
 
@@ -107,7 +108,7 @@ fn place(probes: &ProbeSet, shows: usize, frames: Option<&[Frame]>, right: &[Fra
 }
 
 /// Whether a picture differs from the right one, edges aside.
-fn is_seen(own: &Frame, right: &Frame) -> bool {
+pub(super) fn is_seen(own: &Frame, right: &Frame) -> bool {
     let lies = own.coverage.iter().zip(&right.coverage);
     own.pixels.iter().zip(&right.pixels).zip(lies).any(|((own, right), lies)| {
         let is_edge = *lies.0 == Coverage::Silhouette || *lies.1 == Coverage::Silhouette;

@@ -1,0 +1,78 @@
+//! Which parts of the solution show nowhere.
+
+use super::CheckWording;
+use super::shows::is_seen;
+use crate::language::Text;
+use reference::Assignment;
+use reference::interpreter::ChangedPart;
+use reference::probes::ProbeSet;
+use reference::rasteriser::Frame;
+use reference::unseen::{Revealing, UnseenPart};
+
+/// So many parts are named.
+const MOST: usize = 12;
+
+/// Names the parts of the solution without which all probes and all pictures are the same, and what would show them.
+pub(super) fn say(said: CheckWording, assignment: &Assignment, probes: &ProbeSet, right: &[Frame]) {
+    let unseen = assignment.unseen_parts(probes);
+    let unseen: Vec<&UnseenPart> = unseen.iter().filter(|one| !assignment.is_pictured(one, right, &is_seen)).collect();
+    let (named, more) = unseen.split_at(unseen.len().min(MOST));
+    for (one, revealing) in named.iter().zip(assignment.revealing(named, probes)) {
+        said.note(&text(one, revealing.as_ref()));
+    }
+    if !more.is_empty() {
+        let more = more.len();
+        said.note(&Text::new(
+            format!("{more} more parts of the solution show nowhere"),
+            format!("ほかに {more} か所も、どこにも現れません"),
+        ));
+    }
+}
+
+fn text(unseen: &UnseenPart, revealing: Option<&Revealing>) -> Text {
+    let UnseenPart { file, part: ChangedPart { lines: (line, _), own, instead }, .. } = unseen;
+    let what = match instead {
+        Some(instead) => {
+            Text::new(format!("`{instead}` in place of `{own}` shows"), format!("`{own}` を `{instead}` にしても"))
+        }
+        None => Text::new(format!("leaving out `{own}` shows"), format!("`{own}` を省いても")),
+    };
+    let hint = match revealing {
+        Some(Revealing { uniform, value }) => {
+            let value = numbers(value.numbers());
+            Text::new(
+                format!(
+                    "It would show with `{uniform}` = {value}: let its `probe = {{ within = … }}` in assignment.toml reach that far, or give it \
+                     that `value`"
+                ),
+                format!(
+                    "`{uniform}` が {value} なら現れます。assignment.toml の `probe = {{ within = … }}` をそこまで広げるか、`value` をその値にしてください"
+                ),
+            )
+        }
+        None => Text::new(
+            "Give what it is computed from other values, or add a second [[scene]] with another mesh, camera or texture in which it \
+             shows; or leave it out of the solution",
+            "計算のもとになる値を変えるか、それが現れるメッシュ、カメラ、テクスチャの [[scene]] を追加してください。不要なら解答から省いてください",
+        ),
+    };
+    Text::new(
+        format!(
+            "{file}:{line}: {} at no probe and in no frame, so an answer like that has full marks. {}",
+            what.en, hint.en
+        ),
+        format!(
+            "{file}:{line}: {}、検査点にも画像にも違いが出ないので、そう書いた答えも満点になります。{}",
+            what.ja, hint.ja
+        ),
+    )
+}
+
+/// Numbers as `assignment.toml` has them.
+fn numbers(numbers: &[f64]) -> String {
+    let number = |number: &f64| format!("{:?}", (number * 1e3).round() / 1e3);
+    match numbers {
+        [one] => number(one),
+        all => format!("[{}]", all.iter().map(number).collect::<Vec<_>>().join(", ")),
+    }
+}
