@@ -20,18 +20,22 @@ mod visitor;
 
 pub(super) use accounts::vouched_for;
 pub use accounts::{check_may_invite, people};
-pub use codes::{code_needed, personal_code};
+pub use codes::{code_needed, personal_code, personal_link};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
 pub(super) use cookies::{has_launch, set_launch, set_sign_in};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
 pub(super) use join::become_student;
-pub use join::{check_course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code};
+pub use join::{
+    check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
+};
 pub use login::{LoginForm, login, logout, open_for};
 pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use secrets::{hex, same};
 pub(super) use staff::PASSWORD_SETTING;
 pub(crate) use staff::SHORTEST_PASSWORD;
-pub use staff::{add_staff, check_may_manage, choose_password, invite, invited, let_in, member_of, set_staff};
+pub use staff::{
+    add_staff, check_may_manage, choose_password, invitation_link, invite, invited, let_in, member_of, set_staff,
+};
 pub use teacher::{LecturerPage, Teacher, TeacherPage};
 pub(super) use teacher::{bearer, is_teachers_program};
 pub use tokens::{LONGEST_DAYS, WantedToken, end_token, make_token, tokens_for};

@@ -8,9 +8,9 @@ use crate::language::Language;
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::course::Course;
-use crate::service::courses::{self, public_address};
+use crate::service::courses;
 use crate::service::errors::Problem;
-use crate::service::identity::{Teacher, course_secret, renew_course_secret};
+use crate::service::identity::{Teacher, course_link, renew_course_secret};
 use crate::service::store::StaffRole;
 use axum::Json;
 use axum::extract::State as Shared;
@@ -155,7 +155,7 @@ async fn course_json(service: &Service, headers: &HeaderMap) -> Result<CourseJso
         title: course.title,
         pseudonyms: service.store.has_pseudonyms().await?,
         is_archived: service.store.archived_at().await?.is_some(),
-        link: format!("{}/join/{}", public_address(service, headers), course_secret(service).await?),
+        link: course_link(service, headers).await?,
     })
 }
 

@@ -7,7 +7,7 @@ use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, new_id};
-use crate::service::lti::{self, contexts, memberships, registration};
+use crate::service::lti::{contexts, memberships, registration};
 use crate::service::store::{Platform, StaffRole};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
@@ -211,7 +211,7 @@ pub(super) async fn add(
 )]
 pub(super) async fn register(caller: Caller, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Administrator)?;
-    let link = format!("{}/lti/register/{}", lti::address(&service), registration::new_link(&service).await?);
+    let link = registration::new_link(&service).await?;
     Ok(Detail::of("link").on((StatusCode::CREATED, Json(RegistrationJson { link })).into_response()))
 }
 

@@ -4,9 +4,8 @@ use super::body::other;
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::acts::Detail;
-use crate::service::courses::public_address;
 use crate::service::errors::Problem;
-use crate::service::identity::{Teacher, course_secret, normal_number, personal_code};
+use crate::service::identity::{Teacher, course_link, normal_number, personal_code, personal_link};
 use crate::service::store::{StaffRole, StudentRecord};
 use crate::service::{Service, roster};
 use axum::Json;
@@ -96,14 +95,9 @@ pub(super) async fn set(
     Ok(Detail::of(lines.len().to_string()).on(Json(json(&service).await?).into_response()))
 }
 
-/// The first part of every link that fills in a code.
-async fn join(service: &Service, headers: &HeaderMap) -> Result<String, Problem> {
-    Ok(format!("{}/join/{}", public_address(service, headers), course_secret(service).await?))
-}
-
-fn code(service: &Service, join: &str, student: StudentRecord) -> CodeJson {
+fn code(service: &Service, course_link: &str, student: StudentRecord) -> CodeJson {
     let code = personal_code(service, &student);
-    let link = format!("{join}?number={}&code={code}", student.number);
+    let link = personal_link(course_link, &student, &code);
     CodeJson { number: student.number, name: student.name, code, link }
 }
 
@@ -118,9 +112,9 @@ pub(super) async fn codes(
     Shared(service): Shared<Service>,
 ) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Lecturer)?;
-    let join = join(&service, &headers).await?;
+    let link = course_link(&service, &headers).await?;
     let students = service.store.with_codes().await?;
-    let codes = students.into_iter().map(|student| code(&service, &join, student)).collect();
+    let codes = students.into_iter().map(|student| code(&service, &link, student)).collect();
     Ok(([(header::CACHE_CONTROL, "no-store")], Json(CodesJson { codes })).into_response())
 }
 
@@ -143,6 +137,6 @@ pub(super) async fn renew(
     service.store.renew_code(&student.id).await?;
     let student = service.store.student_by_id(&student.id).await?.ok_or_else(Problem::not_found)?;
     let detail = Detail::about(&student.id);
-    let json = code(&service, &join(&service, &caller.1).await?, student);
+    let json = code(&service, &course_link(&service, &caller.1).await?, student);
     Ok(detail.on(Json(json).into_response()))
 }

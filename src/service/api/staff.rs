@@ -5,14 +5,13 @@ use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
-use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Teacher, check_may_manage};
 use crate::service::store::{StaffMember, StaffRole, word};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -87,10 +86,6 @@ fn no_administrator(role: StaffRole) -> Result<(), Problem> {
     ))
 }
 
-fn link(service: &Service, headers: &HeaderMap, secret: &str) -> String {
-    format!("{}/teacher/welcome/{secret}", public_address(service, headers))
-}
-
 /// Everybody who teaches in the course
 #[utoipa::path(
     get, operation_id = "list_staff", path = "/api/v1/staff", tag = "courses", security(("teacher" = [])),
@@ -121,7 +116,7 @@ pub(super) async fn add(
     check_may_manage(&caller.0, wish.role)?;
     let (member, secret) = identity::let_in(&service, &caller.0, (&wish.login, &wish.name), wish.role).await?;
     let detail = Detail::of(format!("{} {}", member.login, word(&member.role)));
-    let link = secret.map(|secret| link(&service, &caller.1, &secret));
+    let link = secret.map(|secret| identity::invitation_link(&service, &caller.1, &secret));
     Ok(detail.on((StatusCode::CREATED, Json(json(member, link))).into_response()))
 }
 
@@ -174,6 +169,6 @@ pub(super) async fn invite(
     no_administrator(if member.has_password { StaffRole::Administrator } else { member.role })?;
     identity::check_may_invite(&service, &caller.0).await?;
     let secret = identity::invite(&service, &member).await?;
-    let link = link(&service, &caller.1, &secret);
+    let link = identity::invitation_link(&service, &caller.1, &secret);
     Ok(Detail::of(format!("{} link", member.login)).on(Json(json(member, Some(link))).into_response()))
 }

@@ -28,6 +28,11 @@ pub fn personal_code(service: &Service, student: &StudentRecord) -> String {
     format!("{}-{}", &letters[..HALF], &letters[HALF..])
 }
 
+/// The course link with a student's number and code filled in.
+pub fn personal_link(course_link: &str, student: &StudentRecord, code: &str) -> String {
+    format!("{course_link}?number={}&code={code}", student.number)
+}
+
 /// Whether somebody typed this student's code, however they wrote it.
 pub(super) fn is_code_of(service: &Service, student: &StudentRecord, typed: &str) -> bool {
     let code = personal_code(service, student);

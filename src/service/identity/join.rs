@@ -4,9 +4,11 @@ use super::codes::{code_needed, is_code_of, wrong_code};
 use super::secrets::same;
 use super::{Identity, Visitor, new_token};
 use crate::service::Service;
+use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{Proof, StudentRecord};
+use axum::http::HeaderMap;
 
 /// Name of the setting that holds the secret of the course link.
 const SETTING: &str = "course_secret";
@@ -17,6 +19,11 @@ const LONGEST_NUMBER: usize = 32;
 /// The secret of the course link, `/join/{secret}`.
 pub async fn course_secret(service: &Service) -> Result<String, Problem> {
     Ok(service.store.setting_or(SETTING, &new_token()[..32]).await?)
+}
+
+/// The course link, for whoever asks.
+pub async fn course_link(service: &Service, headers: &HeaderMap) -> Result<String, Problem> {
+    Ok(format!("{}/join/{}", public_address(service, headers), course_secret(service).await?))
 }
 
 /// A new secret; the old link opens nothing any more.

@@ -8,8 +8,10 @@ use super::secrets::hash_password;
 use super::{Teacher, new_id, new_token, token_hash};
 use crate::service::Service;
 use crate::service::clock::{Millis, millis};
+use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::store::{StaffMember, StaffRole};
+use axum::http::HeaderMap;
 use std::time::Duration;
 
 /// Name of the setting that holds the hash of the service's password.
@@ -105,6 +107,11 @@ pub async fn invite(service: &Service, member: &StaffMember) -> Result<String, P
     let secret = new_token()[..32].to_owned();
     service.accounts().invite(&member.id, &token_hash(&secret), service.clock.now() + invitation()).await?;
     Ok(secret)
+}
+
+/// The link by which somebody chooses a password.
+pub fn invitation_link(service: &Service, headers: &HeaderMap, secret: &str) -> String {
+    format!("{}/teacher/welcome/{secret}", public_address(service, headers))
 }
 
 fn invitation() -> Millis {

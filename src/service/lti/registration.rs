@@ -35,7 +35,7 @@ pub struct RegistrationQuery {
     registration_token: Option<String>,
 }
 
-/// A new link: its last part. It works once, for a day. Without a public address a platform would not find this service.
+/// A new link. It works once, for a day. Without a public address a platform would not find this service.
 pub async fn new_link(service: &Service) -> Result<String, Problem> {
     if service.config.public_url.is_none() {
         return Err(Problem::unprocessable(
@@ -48,7 +48,7 @@ pub async fn new_link(service: &Service) -> Result<String, Problem> {
     let kept = Kept { hash: token_hash(&secret), until: service.clock.now() + millis(HOLDS) };
     let json = serde_json::to_string(&kept).map_err(|error| Problem::internal(&error))?;
     service.store.set_setting(SETTING, &json).await?;
-    Ok(secret)
+    Ok(format!("{}/lti/register/{secret}", address(service)))
 }
 
 /// Registers this service with the platform that opened the link, and the platform here.

@@ -6,10 +6,9 @@ use super::Tab;
 use crate::batch::formats::plain::cell;
 use crate::service::Service;
 use crate::service::acts::Detail;
-use crate::service::courses::public_address;
 use crate::service::download;
 use crate::service::errors::Problem;
-use crate::service::identity::{LecturerPage, course_secret, personal_code};
+use crate::service::identity::{LecturerPage, course_link, personal_code, personal_link};
 use crate::service::store::StudentRecord;
 use askama::Template;
 use axum::Form;
@@ -85,14 +84,14 @@ pub(in crate::service::pages) async fn file(
     frame: PageFrame,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
-    let join = format!("{}/join/{}", public_address(&service, &headers), course_secret(&service).await?);
+    let course_link = course_link(&service, &headers).await?;
     let heading = match frame.tag() {
         "ja" => ["学籍番号", "氏名", "個人コード", "リンク"],
         _ => ["Student number", "Name", "Personal code", "Link"],
     };
     let row = |student: StudentRecord| {
         let code = personal_code(&service, &student);
-        let link = format!("{join}?number={}&code={code}", student.number);
+        let link = personal_link(&course_link, &student, &code);
         [cell(&student.number), cell(&student.name), code, link]
     };
     let rows = service.store.with_codes().await?.into_iter().map(row);

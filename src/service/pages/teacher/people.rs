@@ -5,7 +5,6 @@ use super::super::shown;
 use super::{Tab, refused, said_of};
 use crate::service::Service;
 use crate::service::acts::Detail;
-use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher, check_may_manage};
 use crate::service::store::{StaffMember, StaffRole};
@@ -167,7 +166,7 @@ pub(in crate::service::pages) async fn add(
             if is_first && teacher.is_shared() {
                 return Ok(detail.on(Redirect::to(&format!("/teacher/welcome/{secret}")).into_response()));
             }
-            let link = Some((member.login, welcome(&service, &headers, &secret)));
+            let link = Some((member.login, identity::invitation_link(&service, &headers, &secret)));
             Ok(detail.on(view(&service, frame, &teacher, PeopleNotice { link, ..PeopleNotice::default() }).await?))
         }
         Err(problem) => {
@@ -175,11 +174,6 @@ pub(in crate::service::pages) async fn add(
             Ok(refused(view(&service, frame, &teacher, said).await?, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }
-}
-
-/// The address at which somebody chooses a password.
-fn welcome(service: &Service, headers: &HeaderMap, secret: &str) -> String {
-    format!("{}/teacher/welcome/{secret}", public_address(service, headers))
 }
 
 /// `POST /teacher/people/{id}`: another link, another role, closing and opening an account.
@@ -199,7 +193,7 @@ pub(in crate::service::pages) async fn change(
         ("link", _) => {
             identity::check_may_invite(&service, &teacher).await?;
             let secret = identity::invite(&service, &member).await?;
-            let link = Some((member.login, welcome(&service, &headers, &secret)));
+            let link = Some((member.login, identity::invitation_link(&service, &headers, &secret)));
             let page = view(&service, frame, &teacher, PeopleNotice { link, ..PeopleNotice::default() }).await?;
             return Ok(detail.on(page));
         }

@@ -210,7 +210,7 @@ async fn carried_out(
     }
     match wish.wish.as_str() {
         "link" => {
-            let link = format!("{}/lti/register/{}", lti::address(service), registration::new_link(service).await?);
+            let link = registration::new_link(service).await?;
             return Ok(Some(PlatformsNotice { link: Some(link), ..PlatformsNotice::default() }));
         }
         "approve" => service.store.note_deployment(&platform().await?.id, &wish.deployment, true).await?,

@@ -12,7 +12,6 @@ use crate::language::Language;
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::course::{Course, zone_names};
-use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher};
 use askama::Template;
@@ -115,7 +114,7 @@ pub(super) async fn view(
             has_course: teacher.has_course(),
             course: typed.course.unwrap_or_else(|| CourseFields::of(&frame.course)),
             zones: zone_names(),
-            link: format!("{}/join/{}", public_address(state, headers), identity::course_secret(state).await?),
+            link: identity::course_link(state, headers).await?,
             students: state.store.students().await?.iter().filter(|student| student.on_roster != 0).count(),
             deletions: deletions.into_iter().map(|gone| (frame.moment(gone.at), gone.said(frame.language))).collect(),
             frame,
